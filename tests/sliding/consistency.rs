@@ -8,8 +8,8 @@ use withy::beams::{Mesh, kink_length};
 use withy::geometry::{Curve, Passage, PiecewisePolynomial, Vec2, cross, interpolate};
 use withy::integrators::{Constraints, Mechanism, Stage};
 use withy::joints::{
-    Conserving, Contact, ContactUnknowns, Exact, Held, Kink, KinkMotion, Kinked, Relaxed, Released,
-    SLIDING_RULES, SlidingLaw, Unit, jump_of_sliding,
+    Conserving, Contact, ContactUnknowns, Exact, Held, Kink, KinkMotion, KinkState, Kinked,
+    Relaxed, Released, SLIDING_RULES, SlidingLaw, Unit,
 };
 use withy::linalg::BorderedMatrix;
 use withy::model::{Model, TrackEnd, TrackLimit};
@@ -292,7 +292,7 @@ fn a_contact_on_a_kinked_axis_keeps_momenta_and_energy_with_that_of_the_kink() {
             assert!(largest < 1e-13, "{}: no solution, {largest:.1e}", state.name);
             let (force, moment, work) = balance(&state, contact, passage);
             let kink = contact.kink.unwrap();
-            let (jump, speed) = jump_of_sliding(contact).unwrap();
+            let KinkState { jump, speed } = Kinked.kink_at_end(contact);
             let energy = |g: f64, p: Vec2, v: f64| {
                 0.5 * g * p.norm_squared() * kink.compliance * (1.0 + kink.motion.slowness * v * v)
             };

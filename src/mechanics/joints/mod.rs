@@ -10,6 +10,6 @@ pub use release::{Hold, Release, Trigger};
 pub use slider::{EndAction, Slider, StartVelocities};
 pub use sliding::{
     CONTACT_UNKNOWNS, Conserving, Contact, ContactUnknowns, Equation, Exact, Held, Kink,
-    KinkMotion, Kinked, Leaning, Relaxed, Released, Resting, RuleClaims, RuleEntry, SLIDING_RULES,
-    SlidingLaw, SlidingRule, Unit, WayVector, jump_of_held, jump_of_sliding,
+    KinkMotion, KinkState, Kinked, Leaning, Relaxed, Released, Resting, RuleClaims, RuleEntry,
+    SLIDING_RULES, SlidingLaw, SlidingRule, Unit, WayVector,
 };

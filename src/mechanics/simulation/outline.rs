@@ -56,7 +56,7 @@ impl Outline {
                 corners: Vec::new(),
             })
         };
-        let first = scene.beams.len() + scene.particles.len();
+        let first = scene.first_rigid_body();
         let bodies = (first..).zip(&scene.rigid_bodies);
         let bodies = bodies.filter(|(_, body)| body.links().next().is_some());
         let bodies = bodies.map(|(index, body)| Ok(Self::of_rigid_body(index, body)));

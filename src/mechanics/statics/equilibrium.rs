@@ -1,7 +1,7 @@
 //! A scene at rest under its loads.
 
 use super::tracer::{Hold, Tracer};
-use super::{Control, Loading, Path, PathPoint, StaticsError};
+use super::{Control, InTime, Loading, Path, PathPoint, StaticsError};
 use crate::beams::{Place, Section, SectionForces, Station};
 use crate::elementary::square;
 use crate::geometry::Vec2;
@@ -195,10 +195,11 @@ fn check_needs_no_time(scene: &Scene) -> Result<(), StaticsError> {
     let is_rate = |drive: &&Drive| {
         drive.motions().any(|(_, motion)| matches!(motion, PrescribedMotion::Rate(_)))
     };
-    let drive = scene.drives.iter().find(is_rate).map(|drive| (&drive.name, "a speed"));
+    let drive = scene.drives.iter().find(is_rate).map(|drive| (&drive.name, InTime::Speed));
     let load = scene.loads().find(|load| load.schedule.is_sampled());
-    match drive.or(load.map(|load| (load.title.as_ref().unwrap_or(&load.name), "a controller"))) {
-        Some((name, how)) => Err(StaticsError::InTime { name: name.clone(), how }),
+    match drive.or(load.map(|load| (load.title.as_ref().unwrap_or(&load.name), InTime::Controller)))
+    {
+        Some((name, by)) => Err(StaticsError::InTime { name: name.clone(), by }),
         None => Ok(()),
     }
 }

@@ -1,8 +1,28 @@
 //! Why no equilibrium was found.
 
+use std::fmt;
+
 use crate::loads::LoadError;
 use crate::model::ModelError;
 use crate::newton::NewtonError;
+
+/// What says something of a drive or a load only where time passes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum InTime {
+    /// A speed that is given to a drive.
+    Speed,
+    /// A controller, which answers to what it senses in time.
+    Controller,
+}
+
+impl fmt::Display for InTime {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Speed => "a speed",
+            Self::Controller => "a controller",
+        })
+    }
+}
 
 /// An equilibrium that was not found.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -25,12 +45,12 @@ pub enum StaticsError {
         time: f64,
     },
     /// Something that only time makes what it is.
-    #[error("'{name}' is given by {how}, which says nothing at rest, where no time passes")]
+    #[error("'{name}' is given by {by}, which says nothing at rest, where no time passes")]
     InTime {
         /// The name of the drive or the load.
         name: String,
-        /// What gives it, in words.
-        how: &'static str,
+        /// What gives it.
+        by: InTime,
     },
     /// A given motion where the load factor is found by the way along a path.
     #[error(

@@ -10,6 +10,6 @@ mod tracer;
 mod trial;
 
 pub use equilibrium::{Equilibrium, Stability};
-pub use error::{Miss, StaticsError};
+pub use error::{InTime, Miss, StaticsError};
 pub use loading::{ArcLength, Control, Loading};
 pub use path::{Path, PathPoint};

@@ -98,23 +98,11 @@ pub(super) fn damping(call: &Call, options: &Options) -> Result<DampingLaw, Scri
         let hint = "give a negative and a positive one: [-10, 10]";
         return Err(call.error(told).hint(hint).at(Place::Key("rates".into())));
     }
-    let force = |rate: f64| {
-        let value = call.invoke(&function, [Dynamic::from(rate)])?;
-        as_number(&value).filter(|force| force.is_finite()).ok_or_else(|| {
-            let told = format!("the damping gives no finite number at the rate {rate}");
-            call.error(told).at(Place::Key("damping".into()))
-        })
-    };
+    let force = force_of(call, &function, ("damping", "rate"));
     let law = DampingLaw::sampled((rates.x, rates.y), force)?;
-    if let DampingLaw::Curve(curve) = &law
-        && let Some((error, largest)) = curve.missed()
-    {
-        let [error, largest] = [error, largest].map(|force| significant(force, 3));
-        let told = format!(
-            "the damping jumps or swings too fast: the finest polygon is off by {error}, its largest force being {largest}"
-        );
+    if let DampingLaw::Curve(curve) = &law {
         let hint = "make a jump a short ramp, as tanh(rate / 0.01) of dry friction";
-        return Err(call.error(told).hint(hint).at(Place::Key("damping".into())));
+        expect_smooth(call, curve, ("damping", hint))?;
     }
     Ok(law)
 }
@@ -140,23 +128,40 @@ fn sampled(call: &Call, options: &Options, ease: &str) -> Result<Law, ScriptErro
         let hint = "give the smaller elongation first";
         return Err(call.error(told).hint(hint).at(Place::Key("range".into())));
     }
-    let force = |elongation: f64| {
-        let value = call.invoke(&function, [Dynamic::from(elongation)])?;
-        as_number(&value).filter(|force| force.is_finite()).ok_or_else(|| {
-            let told = format!("the law gives no finite number at the elongation {elongation}");
-            call.error(told).at(Place::Key("law".into()))
-        })
-    };
+    let force = force_of(call, &function, ("law", "elongation"));
     let law = RestoringLaw::sampled((range.x, range.y), force)?;
-    if let Some((error, largest)) = law.missed() {
-        let [error, largest] = [error, largest].map(|force| significant(force, 3));
-        let told = format!(
-            "the law jumps or swings too fast: the finest polygon is off by {error}, its largest force being {largest}"
-        );
-        return Err(call.error(told).hint("make a jump a short ramp").at(Place::Key("law".into())));
-    }
+    expect_smooth(call, &law, ("law", "make a jump a short ramp"))?;
     Ok(match options.number_if_given(ease) {
         Some(natural) => (Some(law.shifted(natural)), Origin::Zero),
         None => (Some(law), Origin::AsBuilt),
     })
+}
+
+/// The force that a function of the script gives under a key, over what it is a function of.
+fn force_of<'a>(
+    call: &'a Call,
+    function: &'a FnPtr,
+    (key, over): (&'static str, &'static str),
+) -> impl FnMut(f64) -> Result<f64, ScriptError> + 'a {
+    move |at| {
+        let value = call.invoke(function, [Dynamic::from(at)])?;
+        as_number(&value).filter(|force| force.is_finite()).ok_or_else(|| {
+            let told = format!("the {key} gives no finite number at the {over} {at}");
+            call.error(told).at(Place::Key(key.into()))
+        })
+    }
+}
+
+/// Refuses a function that its finest polygon does not follow; the hint says what to write instead.
+fn expect_smooth(
+    call: &Call,
+    polygon: &RestoringLaw,
+    (key, hint): (&'static str, &'static str),
+) -> Result<(), ScriptError> {
+    let Some((error, largest)) = polygon.missed() else { return Ok(()) };
+    let [error, largest] = [error, largest].map(|force| significant(force, 3));
+    let told = format!(
+        "the {key} jumps or swings too fast: the finest polygon is off by {error}, its largest force being {largest}"
+    );
+    Err(call.error(told).hint(hint).at(Place::Key(key.into())))
 }

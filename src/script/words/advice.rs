@@ -7,7 +7,7 @@ use crate::integrators::StepError;
 use crate::loads::LoadError;
 use crate::model::{Approach, ModelError, SliderError, Turning};
 use crate::simulation::{ArchiveError, SimulationError};
-use crate::statics::{Miss, StaticsError};
+use crate::statics::{InTime, Miss, StaticsError};
 
 /// What to do about an error, or about the first of its causes that there is advice on.
 pub fn on(error: &(dyn Error + 'static)) -> Option<String> {
@@ -76,7 +76,7 @@ fn on_statics(error: &StaticsError) -> Option<String> {
         StaticsError::NoLoad { .. } => {
             "loads are taken as they are at one time: choose it with the option time".into()
         }
-        StaticsError::InTime { how: "a speed", .. } => {
+        StaticsError::InTime { by: InTime::Speed, .. } => {
             "give the place at rest: x, y or angle, as a number or a function of time that is taken at the option time".into()
         }
         StaticsError::InTime { .. } => {

@@ -64,6 +64,15 @@ pub struct Kink {
     pub motion: KinkMotion,
 }
 
+/// The kink of a master at the end of a step.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct KinkState {
+    /// The jump of the tangent, as the force `p = GA a` that makes it where the kink does not move [force].
+    pub jump: Vec2,
+    /// The speed `v` along the undeformed axis of the master [length/time].
+    pub speed: f64,
+}
+
 /// How a kink moves along its master in a step: with a speed `v` along the undeformed axis it has the kinetic energy `½ ρA g |a|² v²`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct KinkMotion {
@@ -207,6 +216,21 @@ impl Contact<'_> {
             by_unknowns: ContactUnknowns { way: -point.by_way.dot(&axis), ..NONE },
             ..Equation::new(gap.dot(&axis), Unit::Length)
         })
+    }
+
+    /// The equations of a gap that is closed at the end of the step where a force kinks the axis: `x_s1 = Σ B_i(ξ1) x_i1 + g1 p1/GA`, for a force `p1` that follows
+    /// `factor` times the contact force; those of [`closed`](Self::closed) without a kink.
+    pub(super) fn closed_on_kink(&self, force: Vec2, factor: f64) -> [Equation; 2] {
+        let mut equations = self.closed();
+        if let Some(kink) = &self.kink {
+            let offset = force * kink.compliance;
+            for (equation, axis) in equations.iter_mut().zip(AXES) {
+                equation.value -= kink.along.end * offset.dot(&axis);
+                equation.by_unknowns.force -= axis * (factor * kink.compliance * kink.along.end);
+                equation.by_unknowns.way -= kink.along.slope * offset.dot(&axis);
+            }
+        }
+        equations
     }
 
     /// The equations `η = 0` of a contact without a couple.

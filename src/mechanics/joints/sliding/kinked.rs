@@ -1,9 +1,8 @@
 //! The rule that keeps energy, both momenta and the gap to the kinked axis.
 
 use super::jet::{ContactJets, Jet, JetVector};
-use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, SlidingLaw, Unit};
+use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, KinkState, SlidingLaw, Unit};
 use crate::elementary::square;
-use crate::geometry::Vec2;
 
 /// The conserving law of sliding: the gap is closed at the end of every step, and energy, linear and angular momentum are kept, for any
 /// step.
@@ -33,6 +32,12 @@ impl SlidingLaw for Kinked {
         let [gap_x, gap_y] = gap.vanish(Unit::Length);
         let [couple_x, couple_y] = (balanced * (1.0 / square(contact.length))).vanish(Unit::Force);
         [gap_x, gap_y, couple_x, couple_y, (along * (1.0 / contact.length)).vanishes(Unit::Force)]
+    }
+
+    fn kink_at_end(&self, contact: &Contact<'_>) -> KinkState {
+        let Some(kink) = &contact.kink else { return KinkState::default() };
+        let step = KinkInStep::of(&ContactJets::of(contact), kink);
+        KinkState { jump: step.jump.value(), speed: step.speed.value }
     }
 }
 
@@ -86,11 +91,4 @@ impl KinkInStep {
         let mean_force = (before + jump) * softening * 0.5;
         Self { length, stretch, arm, speed, jump, mean_force, inertia }
     }
-}
-
-/// The force `p1 = GA a1` that stands for the jump of the tangent of the master at the end of a step in which the slave slides [force], and the speed `v1` with
-/// which the kink moves along the master then [length/time]; none of a contact without a kink.
-pub fn jump_of_sliding(contact: &Contact<'_>) -> Option<(Vec2, f64)> {
-    let step = KinkInStep::of(&ContactJets::of(contact), contact.kink.as_ref()?);
-    Some((step.jump.value(), step.speed.value))
 }

@@ -17,11 +17,13 @@ mod resting;
 mod rule;
 
 pub use conserving::Conserving;
-pub use contact::{CONTACT_UNKNOWNS, Contact, ContactUnknowns, Kink, KinkMotion, WayVector};
+pub use contact::{
+    CONTACT_UNKNOWNS, Contact, ContactUnknowns, Kink, KinkMotion, KinkState, WayVector,
+};
 pub use equation::{Equation, Unit};
 pub use exact::Exact;
-pub use held::{Held, jump_of_held};
-pub use kinked::{Kinked, jump_of_sliding};
+pub use held::Held;
+pub use kinked::Kinked;
 pub use law::SlidingLaw;
 pub use relaxed::Relaxed;
 pub use released::Released;

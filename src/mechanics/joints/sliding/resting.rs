@@ -2,7 +2,6 @@
 //!
 //! The contact of a movement from one place at rest to another is that of a way of length zero at its end, `ξ1`, on the master as it is there.
 
-use super::contact::AXES;
 use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw};
 use crate::geometry::Vec2;
 
@@ -25,7 +24,7 @@ pub struct Leaning {
 
 impl SlidingLaw for Resting {
     fn equations(&self, contact: &Contact<'_>) -> [Equation; CONTACT_UNKNOWNS] {
-        let [gap_x, gap_y] = closed_at_rest(contact);
+        let [gap_x, gap_y] = contact.closed_on_kink(contact.unknowns.force, 1.0);
         let [couple_x, couple_y] = contact.no_couple();
         [gap_x, gap_y, couple_x, couple_y, not_driven(contact)]
     }
@@ -33,26 +32,12 @@ impl SlidingLaw for Resting {
 
 impl SlidingLaw for Leaning {
     fn equations(&self, contact: &Contact<'_>) -> [Equation; CONTACT_UNKNOWNS] {
-        let [gap_x, gap_y] = closed_at_rest(contact);
+        let [gap_x, gap_y] = contact.closed_on_kink(contact.unknowns.force, 1.0);
         let [couple_x, couple_y] = contact.no_couple();
         let mut arrived = contact.no_way();
         arrived.value -= contact.length * self.way;
         [gap_x, gap_y, couple_x, couple_y, arrived]
     }
-}
-
-/// `x_s = Σ B_i(ξ) x_i + g(ξ) λ/GA`
-fn closed_at_rest(contact: &Contact<'_>) -> [Equation; 2] {
-    let mut equations = contact.closed();
-    if let Some(kink) = contact.kink {
-        let offset = contact.unknowns.force * kink.compliance;
-        for (equation, axis) in equations.iter_mut().zip(AXES) {
-            equation.value -= kink.along.end * offset.dot(&axis);
-            equation.by_unknowns.force -= axis * (kink.compliance * kink.along.end);
-            equation.by_unknowns.way -= kink.along.slope * offset.dot(&axis);
-        }
-    }
-    equations
 }
 
 /// `(λ·x'(ξ) + ½ g'(ξ) |λ|²/GA)/ℓ = 0`: no displacement of the slave along the master does work.

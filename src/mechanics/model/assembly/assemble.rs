@@ -102,7 +102,7 @@ impl<'a> Assembly<'a> {
                     let (length, mesh) = (beam.axis.length(), &assembly.meshes[index]);
                     discretise(points, length, mesh, &beam.section).map_err(wrap)?
                 }
-                None => match index.checked_sub(scene.beams.len() + scene.particles.len()) {
+                None => match index.checked_sub(scene.first_rigid_body()) {
                     None => Box::new(RigidPoints::particle(points[0])),
                     Some(body) => {
                         Box::new(RigidPoints::rigid(points, scene.rigid_bodies[body].angle))
@@ -179,7 +179,7 @@ impl<'a> Assembly<'a> {
 
     /// The points of rigid bodies, each held to the centre of its body where it is drawn, and the points on inclined rollers.
     fn links(&self, numbering: &Numbering) -> Links {
-        let first = self.scene.beams.len() + self.scene.particles.len();
+        let first = self.scene.first_rigid_body();
         let link = |&LinkPlace { body, point, force }: &LinkPlace| {
             let points = self.bodies[body].control_points();
             let angle = self.scene.rigid_bodies[body - first].angle;

@@ -12,7 +12,7 @@ impl Model {
     /// with the body.
     pub(super) fn check_movements_held(&self, scene: &Scene) -> Result<(), ModelError> {
         let inertia = self.diagonal_of_inertia();
-        let first = scene.beams.len() + scene.particles.len();
+        let first = scene.first_rigid_body();
         for (index, body) in scene.rigid_bodies.iter().enumerate() {
             let own = &self.bodies()[first + index].degrees_of_freedom;
             let is_shared = |degree: usize| {

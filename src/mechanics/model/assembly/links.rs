@@ -51,7 +51,7 @@ impl Model {
                 Err(ModelError::AlreadyTied { joint: joint.name.clone(), place, how })
             }
             (Some(worst), _) if is_undetermined(of(worst.unknowns)) => {
-                let first = scene.beams.len() + scene.particles.len();
+                let first = scene.first_rigid_body();
                 let body = scene.rigid_bodies[worst.body - first].name.clone();
                 Err(ModelError::HeldTwice { body })
             }

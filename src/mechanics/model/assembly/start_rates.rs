@@ -86,7 +86,7 @@ impl Assembly<'_> {
             let length = beam.axis.length();
             self.share_rigid_motion(index, length, &beam.motion, degrees, &mut shared, begun)?;
         }
-        let first = self.scene.beams.len() + self.scene.particles.len();
+        let first = self.scene.first_rigid_body();
         for (index, body) in (first..).zip(&self.scene.rigid_bodies) {
             let degrees = &numbering.degrees_of_freedom[index];
             // One without points is as large as anything: what it shares is its centre.
@@ -177,7 +177,7 @@ impl Assembly<'_> {
 
     /// A beam or a rigid body in words, by its index in the model.
     fn name_of(&self, index: usize) -> String {
-        let first = self.scene.beams.len() + self.scene.particles.len();
+        let first = self.scene.first_rigid_body();
         match self.scene.beams.get(index) {
             Some(beam) => format!("beam '{}'", beam.name),
             None => format!("body '{}'", self.scene.rigid_bodies[index - first].name),

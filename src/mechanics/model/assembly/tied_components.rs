@@ -71,14 +71,14 @@ impl TiedComponents {
 
     /// Particles do not turn.
     fn tie_particles(&mut self, scene: &Scene) {
-        for body in scene.beams.len()..scene.beams.len() + scene.particles.len() {
+        for body in scene.beams.len()..scene.first_rigid_body() {
             self.ties.tie(GROUND, self.component((body, 0), Component::Rotation));
         }
     }
 
     /// The points of a rigid body turn with it; one at the centre is the centre.
     fn tie_rigid_bodies(&mut self, scene: &Scene) {
-        let first = scene.beams.len() + scene.particles.len();
+        let first = scene.first_rigid_body();
         for (body, definition) in (first..).zip(&scene.rigid_bodies) {
             for point in 1..=definition.points.len() {
                 let is_off_centre = definition.links().any(|other| other == point);

@@ -97,7 +97,7 @@ impl Description for Spring {
         {
             return refused("damping", constant, "zero or a positive finite number");
         }
-        self.check_polygon("damping", self.damping.corners())?;
+        self.check_damping(self.damping.corners())?;
         if let Some((rate, force)) = self.damping.feeds() {
             return Err(ModelError::FeedingDamper { damper: self.object(), rate, force });
         }
@@ -117,13 +117,12 @@ impl Description for Spring {
                 if points.len() < 2 {
                     return refused("table", points.len() as f64, "at least two points");
                 }
-                let falls = points.windows(2).position(|pair| pair[1].0 <= pair[0].0);
-                if let Some(before) = falls {
-                    let (index, elongation) = (before + 1, points[before + 1].0);
-                    let (object, before) = (self.object(), points[before].0);
+                if let Some(index) = falling_behind(points) {
+                    let (elongation, before) = (points[index].0, points[index - 1].0);
+                    let object = self.object();
                     return Err(ModelError::TableOrder { object, index, elongation, before });
                 }
-                self.check_polygon("table", points)?;
+                self.check_finite("table", points)?;
             }
             None if !self.damping.acts() => {
                 return refused("damping", 0.0, "a positive number where there is no stiffness");
@@ -190,24 +189,34 @@ impl Description for Spring {
     }
 }
 
+/// The index of the first point of a polygon that is not behind the one before.
+fn falling_behind(points: &[(f64, f64)]) -> Option<usize> {
+    points.windows(2).position(|pair| pair[1].0 <= pair[0].0).map(|before| before + 1)
+}
+
 impl Spring {
-    /// Refuses the points of a table, called so, that make no polygon; where there are none, there is no table.
-    fn check_polygon(&self, name: &'static str, points: &[(f64, f64)]) -> Result<(), ModelError> {
+    /// Refuses points of a law of damping that make no polygon; where there are none, there is no polygon.
+    fn check_damping(&self, points: &[(f64, f64)]) -> Result<(), ModelError> {
+        let name = "damping";
         let refused =
-            |value, allowed| Err(ModelError::Value { object: self.object(), name, value, allowed });
-        if let Some(wrong) = points.iter().flat_map(|(q, f)| [q, f]).find(|x| !x.is_finite()) {
-            return refused(*wrong, "finite numbers");
-        }
+            |value, allowed| ModelError::Value { object: self.object(), name, value, allowed };
+        self.check_finite(name, points)?;
         if points.len() == 1 {
-            return refused(1.0, "at least two points");
+            return Err(refused(1.0, "at least two points"));
         }
-        match points.windows(2).find(|pair| pair[1].0 <= pair[0].0) {
-            Some(pair) if name == "damping" => {
-                refused(pair[1].0, "rates that rise from point to point")
-            }
-            Some(pair) => refused(pair[1].0, "elongations that rise from point to point"),
+        match falling_behind(points) {
+            Some(index) => Err(refused(points[index].0, "rates that rise from point to point")),
             None => Ok(()),
         }
+    }
+
+    /// Refuses numbers of a polygon, called so, that are not finite.
+    fn check_finite(&self, name: &'static str, points: &[(f64, f64)]) -> Result<(), ModelError> {
+        let wrong = points.iter().flat_map(|(q, f)| [q, f]).find(|x| !x.is_finite());
+        wrong.map_or(Ok(()), |wrong| {
+            let (object, allowed) = (self.object(), "finite numbers");
+            Err(ModelError::Value { object, name, value: *wrong, allowed })
+        })
     }
 
     /// Refuses one whose ends cannot move against each other: neighbours that are one station, or nothing but ground.

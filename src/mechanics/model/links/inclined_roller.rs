@@ -68,16 +68,10 @@ impl InclinedRoller {
         self.force
     }
 
-    fn component_across(&self, bodies: &Bodies, values: &[f64]) -> f64 {
+    /// The values that belong to the movements of the point along both axes; none of those that are supported.
+    fn values_at(&self, bodies: &Bodies, values: &[f64]) -> Vec2 {
         let [x, y] = self.degrees(bodies).map(|at| values.get(at).copied().unwrap_or(0.0));
-        self.across.dot(&Vec2::new(x, y))
-    }
-
-    fn multiplier_in(&self, acting: ForceUnknowns, found: f64) -> f64 {
-        match acting {
-            ForceUnknowns::Step(duration) => found / duration,
-            ForceUnknowns::AtRest => self.force + found,
-        }
+        Vec2::new(x, y)
     }
 
     /// Adds the force of an iterate to a residual, and in the place of its unknown how far the point leaves the line.
@@ -89,11 +83,11 @@ impl InclinedRoller {
         out: &mut [f64],
     ) -> ForceSummary {
         let Some(unknown) = self.unknown else { return ForceSummary::default() };
-        let force = self.multiplier_in(acting, values[unknown]);
+        let force = acting.force(self.force, values[unknown]);
         self.transmit(bodies, force, out);
-        out[unknown] += self.component_across(bodies, values);
-        let movements = self.degrees(bodies).map(|at| values.get(at).copied().unwrap_or(0.0));
-        self.moved = larger(movements[0].abs(), movements[1].abs());
+        let moved = self.values_at(bodies, values);
+        out[unknown] += self.across.dot(&moved);
+        self.moved = larger(moved.x.abs(), moved.y.abs());
         ForceSummary { force: force.abs(), ..ForceSummary::default() }
     }
 
@@ -105,11 +99,7 @@ impl InclinedRoller {
         movements: usize,
         tangent: &mut BandedMatrix,
     ) {
-        let share = match acting {
-            ForceUnknowns::Step(duration) => 1.0 / duration,
-            ForceUnknowns::AtRest => 1.0,
-        };
-        self.couple(bodies, share, movements, tangent);
+        self.couple(bodies, acting.share(), movements, tangent);
     }
 
     /// Couples force and movements in the manner of a matrix of inertia: an impulse of the force and rates.
@@ -163,13 +153,13 @@ impl InclinedRoller {
 
     /// The velocity of the point across its line, by rates of all movements [length/time].
     pub fn velocity_violation(&self, bodies: &Bodies, rates: &[f64]) -> f64 {
-        self.component_across(bodies, rates)
+        self.across.dot(&self.values_at(bodies, rates))
     }
 
     /// Accepts the unknowns of a step or a movement.
     pub fn advance(&mut self, acting: ForceUnknowns, values: &[f64]) {
         if let Some(unknown) = self.unknown {
-            self.force = self.multiplier_in(acting, values[unknown]);
+            self.force = acting.force(self.force, values[unknown]);
         }
     }
 

@@ -8,6 +8,8 @@
 //! `χ J ā = a1 - a0` whatever the increment, so that the point is in its place at every end of a step. With tangent-scaled increments and `τ = ½` the work
 //! `λ·Δx_b + (ā × λ) Δω - λ·Δx_p` of the force vanishes; with `τ = ½` so do the sums of forces and of moments in the mean configuration.
 
+use std::ops::{Add, Div};
+
 use crate::beams::{ForceSummary, Rotation, RotationIncrement, SpanAtRest};
 use crate::geometry::{Vec2, cross, larger, perpendicular};
 use crate::linalg::BandedMatrix;
@@ -20,6 +22,27 @@ pub enum ForceUnknowns {
     Step(f64),
     /// In a movement between two places at rest: the change of the force.
     AtRest,
+}
+
+impl ForceUnknowns {
+    /// The force for such an unknown, where the last one was that [force].
+    pub fn force<F>(self, last: F, unknown: F) -> F
+    where
+        F: Add<Output = F> + Div<f64, Output = F>,
+    {
+        match self {
+            Self::Step(duration) => unknown / duration,
+            Self::AtRest => last + unknown,
+        }
+    }
+
+    /// The derivative of the force by the unknown [1/time, -].
+    pub fn share(self) -> f64 {
+        match self {
+            Self::Step(duration) => 1.0 / duration,
+            Self::AtRest => 1.0,
+        }
+    }
 }
 
 /// How a method takes the arms of rigid links.
@@ -108,10 +131,7 @@ impl RigidLink {
         let end = self.rotation.turned(rotations, increment).to_space(self.arm);
         let found = Vec2::new(values[self.unknowns[0]], values[self.unknowns[1]]);
         let rate = rotations.rate(increment);
-        let (force, share) = match unknown {
-            ForceUnknowns::Step(duration) => (found / duration, 1.0 / duration),
-            ForceUnknowns::AtRest => (self.force + found, 1.0),
-        };
+        let (force, share) = (unknown.force(self.force, found), unknown.share());
         Iterated {
             start,
             end,

@@ -178,7 +178,7 @@ impl Model {
         if kinds.is_empty() {
             return Part::left_out("supports", "everything is free: no reactions");
         }
-        let first_rigid = scene.beams.len() + scene.particles.len();
+        let first_rigid = scene.first_rigid_body();
         let of_particles = |body: usize| (scene.beams.len()..first_rigid).contains(&body);
         let turns = |component| component == Component::Rotation;
         let held =

@@ -45,7 +45,7 @@ impl Sensing {
                 Ok(Reading::Body(scene.beams.len() + particle, quantity.value))
             }
             Probe::Body(BodyIndex::Rigid(body, _), quantity) => {
-                let first = scene.beams.len() + scene.particles.len();
+                let first = scene.first_rigid_body();
                 Ok(Reading::Body(first + body, quantity.value))
             }
             Probe::Joint(joint, quantity) => {

@@ -329,7 +329,7 @@ impl Scene {
             }
             BodyIndex::Particle(particle) => Ok(Place::of_particle(self.beams.len() + particle)),
             BodyIndex::Rigid(body, point) => {
-                let first = self.beams.len() + self.particles.len();
+                let first = self.first_rigid_body();
                 Ok(Place::of_point(first + body, point, self.rigid_bodies[body].angle))
             }
         }

@@ -7,6 +7,11 @@ use crate::model::elements::PointMass;
 use crate::model::words::{finite, refusal};
 
 impl Scene {
+    /// The number of the first rigid body among all bodies: beams come first, then particles.
+    pub fn first_rigid_body(&self) -> usize {
+        self.beams.len() + self.particles.len()
+    }
+
     /// Adds a rigid body with a mass [mass] and an inertia about its centre of mass [mass·length²] to the scene and returns its index.
     ///
     /// One of both may be zero: what has no inertia against a movement must be held in it by something else.

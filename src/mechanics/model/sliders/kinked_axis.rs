@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::beams::Section;
 use crate::geometry::{Passage, PiecewisePolynomial, Vec2};
-use crate::joints::{Kink, KinkMotion};
+use crate::joints::{Kink, KinkMotion, KinkState};
 
 /// Where the kink length is less than this part of the master, a contact force moves nothing.
 const RIGID: f64 = 1e-14;
@@ -97,7 +97,7 @@ impl KinkedAxis {
 
     /// Takes jump, as a force [force], and speed [length/time] at the end of a step with such a mean contact force `λ` [force], at which the axis has
     /// [arrived](Self::arrive); where the axis does not give way, nothing tells the force from the mean of the step.
-    pub fn advance(&mut self, mean: Vec2, (jump, speed): (Vec2, f64)) {
+    pub fn advance(&mut self, mean: Vec2, KinkState { jump, speed }: KinkState) {
         self.jump = if self.gives() { jump } else { mean };
         self.speed = speed;
     }

@@ -5,8 +5,8 @@ use super::{Bar, Connection, KinkedAxis, SliderState, Track, TrackEnd};
 use crate::geometry::{Passage, Vec2, larger};
 use crate::integrators::{Ending, Interval, StepError};
 use crate::joints::{
-    CONTACT_UNKNOWNS, Contact, ContactUnknowns, EndAction, Held, Kink, Released, Slider,
-    SlidingLaw, SlidingRule, Unit, jump_of_held, jump_of_sliding,
+    CONTACT_UNKNOWNS, Contact, ContactUnknowns, EndAction, Held, KinkState, Released, Slider,
+    SlidingLaw, SlidingRule, Unit,
 };
 use crate::linalg::Border;
 use crate::model::bodies::Body;
@@ -53,8 +53,8 @@ pub struct Sliding {
     bars: (Bar, Option<Bar>),
     /// The axis of the master as the contact force kinks it, where the rule knows of that.
     kinked_axis: Option<KinkedAxis>,
-    /// The jump of that axis at the end of the step, as a force [force], and the speed with which it moves along [length/time].
-    kink_at_end: (Vec2, f64),
+    /// The kink of that axis at the end of the step.
+    kink_at_end: KinkState,
     /// The length of the master for a parameter of one [length].
     length: f64,
     /// Where it is at the start of the step.
@@ -79,7 +79,13 @@ pub struct Sliding {
 const NEVER: f64 = f64::MAX;
 
 /// A stop that pulls by less than this part of its contact force does not pull.
-pub(super) const PULL: f64 = 1e-9;
+const PULL: f64 = 1e-9;
+
+/// Whether a stop would have to pull under a contact force [force], by what it pushes times the tangent [force·length] of a master of such a length for a
+/// parameter of one [length].
+pub(super) fn would_pull(push: f64, force: f64, length: f64) -> bool {
+    push < -PULL * force * length
+}
 
 impl Sliding {
     /// A slider at a parameter of the mesh of its master.
@@ -115,7 +121,7 @@ impl Sliding {
             track,
             bars,
             kinked_axis,
-            kink_at_end: (Vec2::zeros(), 0.0),
+            kink_at_end: KinkState::default(),
             here: passage.clone(),
             passage,
             before: Vec::with_capacity(functions),
@@ -367,12 +373,8 @@ impl Sliding {
         if self.kinked_axis.is_none() {
             return;
         }
-        let is_sliding = self.is_sliding();
-        let contact = self.take(bodies, increments, unknowns);
-        let held = |kink: &Kink| (jump_of_held(contact.unknowns.force, kink.before), 0.0);
-        let kink =
-            if is_sliding { jump_of_sliding(&contact) } else { contact.kink.as_ref().map(held) };
-        self.kink_at_end = kink.unwrap_or_default();
+        let law = self.law();
+        self.kink_at_end = law.kink_at_end(&self.take(bodies, increments, unknowns));
     }
 
     /// Lets the slider accept a step; the bodies are at its end already.

@@ -1,7 +1,7 @@
 //! A slider at rest: its contact between two equilibria, what it leans on, and how it resists small movements.
 
 use super::passing::{AtRest, Passing};
-use super::{PULL, Sliding};
+use super::{Sliding, would_pull};
 use crate::beams::SpanAtRest;
 use crate::geometry::Vec2;
 use crate::joints::{
@@ -89,7 +89,7 @@ impl Sliding {
     pub fn is_pulled(&mut self, bodies: &[Body], movements: &[f64], unknowns: &[f64]) -> bool {
         let SliderState::Held(end) = self.state else { return false };
         let contact = self.take_at_rest(bodies, movements, unknowns);
-        contact.push(end.outward()) < -PULL * contact.unknowns.force.norm() * contact.length
+        would_pull(contact.push(end.outward()), contact.unknowns.force.norm(), contact.length)
     }
 
     /// Leaves the slider where a movement between two places at rest has led it; the bodies are there already.

@@ -1,6 +1,6 @@
 //! A slider and the stops at the ends of its master: blows, what a stop stores, leaning and leaving.
 
-use super::{PULL, Sliding};
+use super::{Sliding, would_pull};
 use crate::integrators::Ending;
 use crate::model::bodies::Body;
 use crate::model::sliders::{Blow, SliderState, TrackEnd};
@@ -34,8 +34,8 @@ impl Sliding {
     /// Notes whether the stop on which the slider leans has had to pull in a step of such an ending that was found; not within a step.
     pub fn note_pull(&mut self, ending: Ending) {
         let leans = matches!(self.state, SliderState::Held(_)) && !self.clings;
-        let least = -PULL * self.pressing * self.length;
-        self.is_pulled = leans && ending == Ending::OfStep && self.push < least;
+        self.is_pulled =
+            leans && ending == Ending::OfStep && would_pull(self.push, self.pressing, self.length);
     }
 
     /// Notes that the slider struck an end of its master in steps that are so many times as long as the blow [-].
