@@ -41,6 +41,7 @@ mod tables;
 mod tapers;
 mod text;
 mod time_travel;
+mod tracks;
 mod vectors;
 mod viewers;
 
@@ -77,6 +78,7 @@ pub const TABLES: &[&Table] = &[
     &time_travel::TABLE,
     &saving::TABLE,
     &sliding::TABLE,
+    &tracks::TABLE,
     &releases::TABLE,
     &histories::TABLE,
     &statistics::TABLE,

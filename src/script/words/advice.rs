@@ -5,7 +5,7 @@ use std::error::Error;
 use crate::beams::BeamError;
 use crate::integrators::StepError;
 use crate::loads::LoadError;
-use crate::model::{Approach, ModelError, SliderError, Turning};
+use crate::model::{Approach, ModelError, SliderError, TrackError, Turning};
 use crate::simulation::{ArchiveError, SimulationError};
 use crate::statics::{InTime, Miss, StaticsError};
 
@@ -103,6 +103,7 @@ fn on_statics(error: &StaticsError) -> Option<String> {
 fn on_model(error: &ModelError) -> Option<String> {
     let advice = match error {
         ModelError::Slider(error) => return on_slider(error),
+        ModelError::Track(error) => return on_track(error),
         ModelError::Empty { .. } => {
             "add one with scene.beam(#{ axis: …, section: … }) or scene.particle([x, y], mass)"
         }
@@ -146,7 +147,23 @@ fn on_slider(error: &SliderError) -> Option<String> {
             "start it with the velocity of the beam there and whatever it has along the beam, or give the slider the option \
              velocities: \"project\", which takes the nearest velocities that fit"
         }
+        SliderError::KinkedOnTrack(_) => "take conserving()",
         _ => return None,
+    };
+    Some(advice.into())
+}
+
+fn on_track(error: &TrackError) -> Option<String> {
+    let advice = match error {
+        TrackError::Apart { .. } => {
+            "give the beams in the order in which the track leads along them; each may be drawn from either end"
+        }
+        TrackError::Open { .. } => "leave out closed: true, or add the beams that lead back",
+        TrackError::Loose { .. } => {
+            "join them before the track is made: scene.rigid(…) with both ends, or scene.hinge(…)"
+        }
+        TrackError::Empty { .. } => "give at least one beam: scene.track([a, b])",
+        TrackError::Again { .. } => return None,
     };
     Some(advice.into())
 }

@@ -1,6 +1,6 @@
 //! What can be wrong with a scene.
 
-use super::SliderError;
+use super::{SliderError, TrackError};
 use crate::beams::BeamError;
 use crate::geometry::GeometryError;
 use crate::loads::LoadError;
@@ -295,6 +295,9 @@ pub enum ModelError {
     /// A sliding joint that is impossible.
     #[error(transparent)]
     Slider(Box<SliderError>),
+    /// A track that is impossible.
+    #[error(transparent)]
+    Track(#[from] TrackError),
     /// A number of a scene that is out of its range.
     #[error("{object}: {name} is {value}, but must be {allowed}")]
     Value {
