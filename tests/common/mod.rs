@@ -14,6 +14,7 @@ pub mod roller_scenes;
 pub mod scenes;
 pub mod sliding;
 pub mod sliding_scenes;
+pub mod tracks;
 pub mod wild_scenes;
 
 use withy::beams::{Mesh, Quadrature};

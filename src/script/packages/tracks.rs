@@ -134,7 +134,9 @@ fn track(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let added = scene.scene().borrow_mut().add_track(name, &beams, course);
     let index = added.map_err(|error| {
         let place = match &error {
-            ModelError::Track(TrackError::Open { .. }) => Place::Key("closed".into()),
+            ModelError::Track(error) if matches!(**error, TrackError::Open { .. }) => {
+                Place::Key("closed".into())
+            }
             ModelError::Track(_) => Place::Argument(0),
             _ => Place::Key("name".into()),
         };

@@ -109,9 +109,9 @@ impl Model {
     /// Turns the relative velocities of sliders round corners.
     fn turn(&mut self, corners: &[Corner], dt: f64) -> Result<(), LinearError> {
         let passes = |slider: usize| corners.iter().any(|corner| corner.slider == slider);
-        let turned = corners.iter().flat_map(|Corner { slider, .. }| {
-            [(*slider, Vec2::x()), (*slider, Vec2::y())]
-        });
+        let turned = corners
+            .iter()
+            .flat_map(|Corner { slider, .. }| [(*slider, Vec2::x()), (*slider, Vec2::y())]);
         let others = self.sliders.directions(&self.bodies);
         let others = others.into_iter().filter(|(slider, _)| !passes(*slider));
         let directions: Vec<Direction> = turned.chain(others).collect();

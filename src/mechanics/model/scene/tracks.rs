@@ -85,7 +85,8 @@ impl Scene {
     /// How often sliders may come to lean on stops or seams and leave them in the search for one equilibrium.
     pub fn most_settlings(&self) -> usize {
         let on_tracks = self.sliders.iter().filter(|slider| slider.track.is_some());
-        2 * self.sliders.len() + 2 * on_tracks.map(|slider| self.masters(slider).len()).sum::<usize>()
+        2 * self.sliders.len()
+            + 2 * on_tracks.map(|slider| self.masters(slider).len()).sum::<usize>()
     }
 
     /// Adds a track from a file.

@@ -110,7 +110,8 @@ impl Route {
             end: if leads_on { next.leaves_at().opposite() } else { next.leaves_at() },
             turns,
         };
-        let (here, there) = (self.present().end_point(bodies, end), next.end_point(bodies, seam.end));
+        let (here, there) =
+            (self.present().end_point(bodies, end), next.end_point(bodies, seam.end));
         let tolerance = SAME * (next.rail.length() + here.norm());
         ((there - here).norm() <= tolerance).then_some(seam)
     }

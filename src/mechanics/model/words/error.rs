@@ -297,7 +297,7 @@ pub enum ModelError {
     Slider(Box<SliderError>),
     /// A track that is impossible.
     #[error(transparent)]
-    Track(#[from] TrackError),
+    Track(Box<TrackError>),
     /// A number of a scene that is out of its range.
     #[error("{object}: {name} is {value}, but must be {allowed}")]
     Value {
@@ -375,6 +375,12 @@ pub fn finite(object: &str, name: &'static str, values: &[f64]) -> Result<(), Mo
             Err(ModelError::Value { object: object.to_owned(), name, value, allowed })
         }
         None => Ok(()),
+    }
+}
+
+impl From<TrackError> for ModelError {
+    fn from(error: TrackError) -> Self {
+        Self::Track(Box::new(error))
     }
 }
 

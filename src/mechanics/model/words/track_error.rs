@@ -10,7 +10,9 @@ pub enum TrackError {
         track: String,
     },
     /// A track that leads along a beam twice.
-    #[error("track '{track}': beam '{beam}' is in it twice; a track leads along each of its beams once")]
+    #[error(
+        "track '{track}': beam '{beam}' is in it twice; a track leads along each of its beams once"
+    )]
     Again {
         /// The name of the track.
         track: String,
@@ -36,7 +38,9 @@ pub enum TrackError {
         end: String,
     },
     /// A closed track whose last beam does not come back to where the first one begins.
-    #[error("track '{track}' is closed, but it leads to {here}, {gap:.3e} from {start}, where it begins")]
+    #[error(
+        "track '{track}' is closed, but it leads to {here}, {gap:.3e} from {start}, where it begins"
+    )]
     Open {
         /// The name of the track.
         track: String,

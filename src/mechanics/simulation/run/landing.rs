@@ -293,9 +293,8 @@ impl Simulation {
         let since = self.time() - CHATTER as f64 * dt;
         let own = self.progress.arrivals.iter().rev();
         let own = own.filter(|arrival| arrival.limit.slider == limit.slider);
-        let passed = own.take_while(|arrival| {
-            arrival.kind == ArrivalKind::Passed && arrival.time >= since
-        });
+        let passed =
+            own.take_while(|arrival| arrival.kind == ArrivalKind::Passed && arrival.time >= since);
         let place = |arrival: &Arrival| (arrival.limit.end, arrival.beam);
         let places: Vec<_> = passed.map(place).take(2 * CHATTER).collect();
         let here = (limit.end, Some(self.model.slider_beam(limit.slider)));

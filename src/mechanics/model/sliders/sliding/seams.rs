@@ -74,12 +74,7 @@ impl Sliding {
 
     /// How much a seam on which the slider leans keeps it from the beam on the other side with such a force on its master, times the tangent there, after
     /// movements by such increments [force·length]; zero where it leans on none.
-    pub(super) fn push_beyond_seam(
-        &self,
-        bodies: &[Body],
-        increments: &[f64],
-        force: Vec2,
-    ) -> f64 {
+    pub(super) fn push_beyond_seam(&self, bodies: &[Body], increments: &[f64], force: Vec2) -> f64 {
         let SliderState::Held(end) = self.state else { return 0.0 };
         let Some(route) = &self.route else { return 0.0 };
         route.seam(bodies, end).map_or(0.0, |seam| {
