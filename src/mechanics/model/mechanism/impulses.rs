@@ -49,7 +49,8 @@ pub struct Impulses {
 impl Impulses {
     /// Adds what is left of the balance, times a factor, and the impulses of inclined rollers, which are unknowns of the model.
     fn sum_up(&mut self, factor: f64, rollers: &[InclinedRoller], unknowns: &[f64]) {
-        let (present, across) = self.present.split_at_mut(self.present.len() - rollers.len());
+        let movements = self.present.len() - rollers.len();
+        let (present, across) = self.present.split_at_mut(movements);
         present.iter_mut().zip(&self.left).for_each(|(sum, left)| *sum += factor * left);
         for (sum, roller) in across.iter_mut().zip(rollers) {
             *sum += roller.unknown.map_or(0.0, |at| unknowns[at]);
