@@ -11,6 +11,6 @@ mod track;
 pub use all::Sliders;
 pub use blow::{Bar, Blow};
 pub use connection::Connection;
-pub use kinked_axis::KinkedAxis;
+pub use kinked_axis::{KinkedAxis, TooFast};
 pub use sliding::{AtRest, InStep, Passing, Sliding};
 pub use track::{SliderState, Track, TrackEnd, TrackLimit};
