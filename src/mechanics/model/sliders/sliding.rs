@@ -1,6 +1,6 @@
 //! Sliders of the model: where they are, and what they add to the equations of a step.
 
-use super::{Bar, Connection, KinkedAxis, Rail, Route, SliderState, TrackEnd};
+use super::{Bar, Connection, KinkedAxis, Rail, Route, SliderState, TooFast, TrackEnd};
 use crate::geometry::{Passage, Vec2, larger};
 use crate::integrators::{Ending, Interval, StepError};
 use crate::joints::{
@@ -226,7 +226,7 @@ impl Sliding {
         let rate = self.rate(bodies, rates);
         let begun =
             self.kinked_axis.as_mut().map(|axis| axis.begin_step(interval.duration(), rate));
-        begun.unwrap_or(Ok(())).map_err(|[speed, wave, limit]| StepError::FastAsWaves {
+        begun.unwrap_or(Ok(())).map_err(|TooFast { speed, wave, limit }| StepError::FastAsWaves {
             interval,
             slider: self.name.clone(),
             speed,
