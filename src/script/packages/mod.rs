@@ -25,6 +25,7 @@ mod precision_studies;
 mod reading_options;
 mod recording;
 mod releases;
+mod samples;
 mod saving;
 mod scenes;
 mod schedules;
@@ -37,6 +38,8 @@ mod springs;
 mod stability_studies;
 mod statistics;
 mod step_sizes;
+mod sweep_pictures;
+mod sweeps;
 mod tables;
 mod tapers;
 mod text;
@@ -92,6 +95,9 @@ pub const TABLES: &[&Table] = &[
     &cost_studies::TABLE,
     &precision_studies::TABLE,
     &convergence_studies::TABLE,
+    &samples::TABLE,
+    &sweeps::TABLE,
+    &sweep_pictures::TABLE,
     &reading_options::TABLE,
     &help::TABLE,
 ];
