@@ -5,6 +5,7 @@ pub mod body_scenes;
 pub mod corpus;
 pub mod fingerprint;
 pub mod fixed_way;
+pub mod machine_scenes;
 pub mod notepad;
 pub mod probe;
 pub mod rails;

@@ -22,7 +22,8 @@ pub const TABLE: Table = Table {
     doc: "A support holds movements of a station, a drive gives them as functions of time. What is given is no unknown: place and angle are \
           exact at the end of every step, however long, and what it takes is the reaction. A drive does work: E - W + D, p - ∫F dt and L - ∫M dt stay at \
           rounding with it. The history has work.NAME of every drive and of every load with a name, NAME.torque of a motor, and NAME.x, NAME.y and NAME.angle \
-          of what moves a station: its force along each, and its moment, mean of each step.",
+          of what moves a station: its force along each, and its moment, mean of each step; a moment is the one whose work is with the angle that the section turns by, \
+          exact however far that is.",
     types: &[],
     setup: super::scenes::ROD,
     constants: &[],

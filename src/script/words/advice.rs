@@ -91,6 +91,11 @@ fn on_statics(error: &StaticsError) -> Option<String> {
         StaticsError::Loose { .. } => {
             format!("hold it with scene.clamp(…) or scene.hinge(…), or {AT_REST}")
         }
+        StaticsError::Lost { reached: 0.0, .. } => {
+            "take more load_steps; what is not at ease as drawn, as a spring of another length, pulls before any load is on: draw it nearer to its rest, or let it be at ease and move \
+             its end by scene.move; where the structure snaps through, follow it with control: arc_length()"
+                .into()
+        }
         StaticsError::Lost { .. } => {
             "take more load_steps; where the structure snaps through, follow it with control: arc_length(), or stop before with load_factor".into()
         }
@@ -112,7 +117,8 @@ fn on_model(error: &ModelError) -> Option<String> {
             "name it in the points of scene.body(…); its centre is body.centre"
         }
         ModelError::StartVelocity { .. } => {
-            "what turns about a place starts with spin: 2, about: [x, y]; what is joined to it with the velocity that it has there"
+            "what turns about a place starts with spin: 2, about: [x, y]; what is joined to it with the velocity that it has there; where a body in motion is joined to a beam \
+             at rest, give the node between them the velocity of that point of the body: scene.velocity(beam.end, [vx, vy])"
         }
         ModelError::Inertialess { .. } => {
             "give it one, scene.body(#{ …, inertia: 0.1 }), or hold its angle: scene.support(body.centre, #{ angle: true })"

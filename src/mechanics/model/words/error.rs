@@ -187,16 +187,12 @@ pub enum ModelError {
         how: String,
     },
     /// A damper whose law pushes at some rate, or at rest.
-    #[error(
-        "{damper}: at the rate {rate} its damping gives the force {force}, which drives what it should damp; give a force with the sign of the rate, 0 at rest"
-    )]
+    #[error("{damper}: {feeding}")]
     FeedingDamper {
         /// The damper whose law pushes, in words.
         damper: String,
-        /// The rate at which it does [length/time, rad/time].
-        rate: f64,
-        /// The force that it gives there [force, force·length].
-        force: f64,
+        /// Where it does, and what should be given, in words.
+        feeding: String,
     },
     /// Something that would hold what a drive moves.
     #[error(
