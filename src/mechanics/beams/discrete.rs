@@ -145,22 +145,18 @@ impl<const N: usize, S: Sections> DiscreteBeam<N, S> {
         rates: &[Movement],
         forces: &mut [Movement],
     ) {
-        let Range { start, end } = points;
-        let mut add = |to: usize, inertia: Movement, rate: Movement| {
-            for ((force, inertia), rate) in forces[to - start].iter_mut().zip(inertia).zip(rate) {
-                *force += inertia * rate;
+        for (point, force) in points.zip(forces) {
+            let mut add = |inertia: Movement, rate: &Movement| {
+                for ((force, inertia), rate) in force.iter_mut().zip(inertia).zip(rate) {
+                    *force += inertia * rate;
+                }
+            };
+            let before = point.saturating_sub(N - 1)..point;
+            for (other, rate) in before.clone().zip(&rates[before]) {
+                add(self.gram[other][point - other].inertia(factor, &self.section), rate);
             }
-        };
-        let first = start.saturating_sub(N - 1);
-        for (a, row) in (first..end).zip(&self.gram[first..]) {
-            for (b, entry) in (a..rates.len()).zip(row) {
-                let inertia = entry.inertia(factor, &self.section);
-                if a >= start {
-                    add(a, inertia, rates[b]);
-                }
-                if b > a && b >= start && b < end {
-                    add(b, inertia, rates[a]);
-                }
+            for (entry, rate) in self.gram[point].iter().zip(&rates[point..]) {
+                add(entry.inertia(factor, &self.section), rate);
             }
         }
     }
@@ -302,21 +298,17 @@ impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
         &self,
         factor: f64,
         points: Range<usize>,
-        tangent: &mut dyn FnMut(usize, usize, Movement),
+        tangent: &mut dyn FnMut(usize, usize, &[Movement]),
     ) {
-        let first = points.start.saturating_sub(N - 1);
-        for (a, row) in (first..).zip(&self.gram[first..points.end]) {
-            // Functions that share no span may stand far apart in the numbering of the tangent.
-            let coupled = (a..self.gram.len()).zip(row).filter(|(_, entry)| entry.length() != 0.0);
-            for (b, entry) in coupled {
-                let inertia = entry.inertia(factor, &self.section);
-                if a >= points.start {
-                    tangent(a, b, inertia);
-                }
-                if b > a && points.contains(&b) {
-                    tangent(b, a, inertia);
-                }
+        for point in points {
+            let first = point.saturating_sub(N - 1);
+            let mut row = [Movement::default(); N];
+            for (inertia, other) in row.iter_mut().zip(first..point) {
+                *inertia = self.gram[other][point - other].inertia(factor, &self.section);
             }
+            tangent(point, first, &row[..point - first]);
+            row = self.gram[point].map(|entry| entry.inertia(factor, &self.section));
+            tangent(point, point, &row[..N.min(self.gram.len() - point)]);
         }
     }
 

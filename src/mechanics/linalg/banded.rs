@@ -3,6 +3,8 @@
 //! Rows are stored one after another, with room for the fill-in that row exchanges cause, so that elimination is a
 //! sequence of short vector updates (Golub & Van Loan, Matrix Computations, 4th ed., section 4.3.5).
 
+use std::ops::Range;
+
 use pulp::Arch;
 
 use super::elimination::{Elimination, PANEL, SMALLEST_REACH};
@@ -79,6 +81,12 @@ impl Storage {
     #[inline(always)]
     pub(super) fn stride(&self) -> usize {
         3 * self.reach + PANEL
+    }
+
+    /// Whether the pivot of one of these columns came from another row.
+    #[inline(always)]
+    pub(super) fn is_exchanged(&self, mut columns: Range<usize>) -> bool {
+        columns.any(|column| self.pivots[column] != column)
     }
 
     fn clear(&mut self) {

@@ -9,6 +9,7 @@ mod bordered;
 mod complementarity;
 mod elimination;
 mod error;
+mod fixed_band;
 mod full_border;
 mod local_border;
 mod ordering;

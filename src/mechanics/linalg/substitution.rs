@@ -6,6 +6,7 @@ use pulp::{Simd, WithSimd};
 
 use super::banded::Storage;
 use super::elimination::PANEL;
+use super::fixed_band;
 
 /// Forward and backward substitution with the factors of a banded matrix: replaces a right-hand side by the solution.
 pub(super) struct Substitution<'a> {
@@ -20,9 +21,9 @@ impl WithSimd for Substitution<'_> {
     fn with_simd<S: Simd>(self, _: S) {
         let Self { factors, x } = self;
         match factors.reach {
-            5 => substitute(factors, 5, x, |column| column + 5),
-            8 => substitute(factors, 8, x, |column| column + 8),
-            11 => substitute(factors, 11, x, |column| column + 11),
+            6 => substitute_fixed::<6, 22>(factors, x),
+            8 => substitute_fixed::<8, 28>(factors, x),
+            11 => substitute_fixed::<11, 37>(factors, x),
             reach => substitute(factors, reach, x, |column| column + reach),
         }
     }
@@ -64,50 +65,101 @@ impl<const W: usize> WithSimd for StripSubstitution<'_, W> {
 /// `reach` is that of the factors; the multipliers of a column end in the row that `end` tells.
 #[inline(always)]
 fn substitute(factors: &Storage, reach: usize, x: &mut [f64], end: impl Fn(usize) -> usize) {
-    let (size, stride, centre) = (factors.size, 3 * reach + PANEL, reach + PANEL - 1);
-    let rows = factors.rows.as_slice();
+    for first in (0..factors.size).step_by(PANEL) {
+        substitute_panel(factors, reach, x, first, &end);
+    }
+    for row in (0..factors.size).rev() {
+        substitute_row(factors, reach, x, row);
+    }
+}
+
+/// The same where the half-bandwidth is known to the compiler.
+#[inline(always)]
+fn substitute_fixed<const REACH: usize, const STRIDE: usize>(factors: &Storage, x: &mut [f64]) {
+    let (size, end) = (factors.size, |column| column + REACH);
+    let (rows, _) = factors.rows.as_chunks::<STRIDE>();
     for first in (0..size).step_by(PANEL) {
-        let columns = first..(first + PANEL).min(size);
-        let is_exchanged = columns.clone().any(|column| factors.pivots[column] != column);
-        if is_exchanged || columns.len() < PANEL {
-            for column in columns {
-                x.swap(column, factors.pivots[column]);
-                let value = x[column];
-                let multipliers = rows[column * stride + centre..].iter().step_by(stride - 1);
-                let below = end(column) - column;
-                for (entry, multiplier) in
-                    x[column + 1..].iter_mut().take(below).zip(multipliers.skip(1))
-                {
-                    *entry -= multiplier * value;
-                }
-            }
+        if factors.is_exchanged(first..(first + PANEL).min(size)) {
+            substitute_panel(factors, REACH, x, first, &end);
             continue;
         }
-        let below = end(first + PANEL - 1) + 1 - (first + PANEL);
-        let panel = &rows[first * stride..][..(PANEL + below) * stride];
-        let (row1, row2) = (&panel[stride + centre - 1..], &panel[2 * stride + centre - 2..]);
-        let (known, unknown) = x[first..].split_at_mut(PANEL);
-        let x0 = known[0];
-        let x1 = known[1] - row1[0] * x0;
-        let x2 = known[2] - row2[0] * x0 - row2[1] * x1;
-        (known[1], known[2]) = (x1, x2);
-        let rows_below = panel[PANEL * stride..].chunks_exact(stride);
-        for (index, (row, entry)) in rows_below.zip(unknown.iter_mut().take(below)).enumerate() {
-            let multipliers = &row[reach - 1 - index..][..PANEL];
-            *entry = *entry - multipliers[0] * x0 - multipliers[1] * x1 - multipliers[2] * x2;
+        let (panel, below) = rows[first..].split_first_chunk().expect("rows of a panel");
+        let below = below.first_chunk().expect("rows below it, or of the identity behind the last");
+        let (known, unknown) = x[first..].split_at_mut(PANEL.min(size - first));
+        match (known.first_chunk_mut(), unknown.first_chunk_mut()) {
+            (Some(known), Some(unknown)) => {
+                fixed_band::substitute_forward::<REACH, STRIDE>(panel, below, known, unknown);
+            }
+            _ => substitute_panel(factors, REACH, x, first, &end),
         }
     }
     for row in (0..size).rev() {
-        let last = factors.last_columns[row].min(size - 1);
-        let diagonal = row * stride + centre;
-        let upper = &rows[diagonal..][..=last - row];
-        let known = &x[row..=last];
-        x[row] = if known.len() == reach + 1 {
-            back_substitute(&upper[..=reach], &known[..=reach])
-        } else {
-            back_substitute(upper, known)
-        };
+        match x[row + 1..].first_chunk() {
+            Some(behind) if factors.last_columns[row] == row + REACH => {
+                x[row] =
+                    fixed_band::substitute_backward::<REACH, STRIDE>(&rows[row], x[row], behind);
+            }
+            _ => substitute_row(factors, REACH, x, row),
+        }
     }
+}
+
+/// Forward substitution with a panel of columns.
+#[inline(always)]
+fn substitute_panel(
+    factors: &Storage,
+    reach: usize,
+    x: &mut [f64],
+    first: usize,
+    end: &impl Fn(usize) -> usize,
+) {
+    let (size, stride, centre) = (factors.size, 3 * reach + PANEL, reach + PANEL - 1);
+    let rows = factors.rows.as_slice();
+    let columns = first..(first + PANEL).min(size);
+    if columns.len() < PANEL || factors.is_exchanged(columns.clone()) {
+        for column in columns {
+            x.swap(column, factors.pivots[column]);
+            let value = x[column];
+            let multipliers = rows[column * stride + centre..].iter().step_by(stride - 1);
+            let below = end(column) - column;
+            for (entry, multiplier) in
+                x[column + 1..].iter_mut().take(below).zip(multipliers.skip(1))
+            {
+                *entry -= multiplier * value;
+            }
+        }
+        return;
+    }
+    let below = end(first + PANEL - 1) + 1 - (first + PANEL);
+    let panel = &rows[first * stride..][..(PANEL + below) * stride];
+    let (known, unknown) = x[first..].split_at_mut(PANEL);
+    let Some(known) = known.first_chunk_mut::<PANEL>() else { return };
+    for index in 1..PANEL {
+        for column in 0..index {
+            known[index] -= panel[index * stride + centre - index + column] * known[column];
+        }
+    }
+    let rows_below = panel[PANEL * stride..].chunks_exact(stride);
+    for (index, (row, entry)) in rows_below.zip(unknown.iter_mut().take(below)).enumerate() {
+        let multipliers = &row[reach - 1 - index..][..PANEL];
+        for (multiplier, known) in multipliers.iter().zip(&*known) {
+            *entry -= multiplier * known;
+        }
+    }
+}
+
+/// Backward substitution: the unknown of a row.
+#[inline(always)]
+fn substitute_row(factors: &Storage, reach: usize, x: &mut [f64], row: usize) {
+    let (stride, centre) = (3 * reach + PANEL, reach + PANEL - 1);
+    let last = factors.last_columns[row].min(factors.size - 1);
+    let upper = &factors.rows[row * stride + centre..][..=last - row];
+    let known = &x[row..=last];
+    x[row] = if known.len() == reach + 1 {
+        back_substitute(&upper[..=reach], &known[..=reach])
+    } else {
+        back_substitute(upper, known)
+    };
 }
 
 /// The unknown of a row, the first of those that stand in it.

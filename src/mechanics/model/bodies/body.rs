@@ -16,6 +16,8 @@ pub struct Body {
     pub degrees_of_freedom: Vec<[usize; 3]>,
     /// For each span that moves consecutive unknowns only: the first of them.
     consecutive: Vec<Option<usize>>,
+    /// For each control point whether all that share a span with it move consecutive unknowns.
+    in_order: Vec<bool>,
     unknowns: usize,
     /// The first control point and the first row of each part that is worked on at the same time, but for the first part.
     parts: Vec<(usize, usize)>,
@@ -34,6 +36,7 @@ impl Body {
             dynamics,
             degrees_of_freedom: Vec::new(),
             consecutive: Vec::new(),
+            in_order: Vec::new(),
             unknowns,
             parts: Vec::new(),
             moved: zeros.clone(),
@@ -46,15 +49,19 @@ impl Body {
     /// Gives the movements of the body's control points other places among the degrees of freedom, of which so many are unknown.
     pub fn renumber(&mut self, degrees_of_freedom: Vec<[usize; 3]>, unknowns: usize) {
         let order = self.dynamics.order();
-        let is_consecutive = |first: usize| {
-            let span = degrees_of_freedom[first..first + order].as_flattened();
-            let steps = span.windows(2).all(|pair| pair[1] == pair[0] + 1);
-            (steps && span.iter().all(|&at| at < unknowns)).then(|| span[0])
+        let are_consecutive = |points: Range<usize>| {
+            let points = degrees_of_freedom[points].as_flattened();
+            let steps = points.windows(2).all(|pair| pair[1] == pair[0] + 1);
+            (steps && points.iter().all(|&at| at < unknowns)).then(|| points[0])
         };
-        let mut consecutive = vec![None; degrees_of_freedom.len()];
+        let count = degrees_of_freedom.len();
+        let mut consecutive = vec![None; count];
         for first in self.dynamics.span_starts() {
-            consecutive[first] = is_consecutive(first);
+            consecutive[first] = are_consecutive(first..first + order);
         }
+        let neighbours = |point: usize| (point + 1).saturating_sub(order)..count.min(point + order);
+        let in_order = (0..count).map(|point| are_consecutive(neighbours(point)).is_some());
+        self.in_order = in_order.collect();
         (self.degrees_of_freedom, self.unknowns) = (degrees_of_freedom, unknowns);
         self.consecutive = consecutive;
         if !self.parts.is_empty() {
@@ -159,8 +166,9 @@ impl Body {
         tangent: &mut BandedMatrix,
     ) {
         self.gather(increments);
-        let Self { dynamics, degrees_of_freedom, consecutive, moved, forces, parts, unknowns } =
-            self;
+        let Self {
+            dynamics, degrees_of_freedom, consecutive, moved, forces, parts, unknowns, ..
+        } = self;
         let (order, unknowns) = (dynamics.order(), *unknowns);
         let places = Places { degrees_of_freedom, consecutive, order, unknowns };
         let mut add = |tangents: &mut [BlockSink<'_>]| {
@@ -209,22 +217,45 @@ impl Body {
         factor: f64,
         add: &mut impl FnMut(usize, usize, f64),
     ) {
-        self.dynamics.add_inertia_tangent(factor, points, &mut |a, b, inertia| {
-            for ((&row, &column), value) in
-                self.degrees_of_freedom[a].iter().zip(&self.degrees_of_freedom[b]).zip(inertia)
-            {
+        self.dynamics.add_inertia_tangent(factor, points, &mut |point, first, inertia| {
+            self.entries_of(point, first, inertia, add);
+        });
+    }
+
+    /// Gives the entries of a row of control points in the inertia to `add`: row, column and value.
+    fn entries_of(
+        &self,
+        point: usize,
+        first: usize,
+        inertia: &[Movement],
+        add: &mut impl FnMut(usize, usize, f64),
+    ) {
+        let rows = &self.degrees_of_freedom[point];
+        for (columns, inertia) in self.degrees_of_freedom[first..].iter().zip(inertia) {
+            // Functions that share no span may stand far apart in the numbering of the tangent.
+            if *inertia == Movement::default() {
+                continue;
+            }
+            for ((&row, &column), value) in rows.iter().zip(columns).zip(inertia) {
                 if row < self.unknowns && column < self.unknowns {
-                    add(row, column, value);
+                    add(row, column, *value);
                 }
             }
-        });
+        }
     }
 
     /// Adds `factor · M` of this body to the tangent.
     pub fn add_inertia_tangent(&self, factor: f64, tangent: &mut BandedMatrix) {
         let add = |points, mut rows: BandRows<'_>| {
-            self.inertia_entries_of(points, factor, &mut |row, column, value| {
-                rows.add(row, column, value);
+            self.dynamics.add_inertia_tangent(factor, points, &mut |point, first, inertia| {
+                if self.in_order[point] {
+                    let place = |point: usize| self.degrees_of_freedom[point][0];
+                    rows.add_diagonal_blocks(place(point), place(first), inertia);
+                } else {
+                    self.entries_of(point, first, inertia, &mut |row, column, value| {
+                        rows.add(row, column, value);
+                    });
+                }
             });
         };
         let points = self.degrees_of_freedom.len();
