@@ -146,17 +146,25 @@ impl<const N: usize, S: Sections> DiscreteBeam<N, S> {
         forces: &mut [Movement],
     ) {
         for (point, force) in points.zip(forces) {
-            let mut add = |inertia: Movement, rate: &Movement| {
+            let mut add = |entry: S::MassIntegral, rate: &Movement| {
+                let inertia = entry.inertia(factor, &self.section);
                 for ((force, inertia), rate) in force.iter_mut().zip(inertia).zip(rate) {
                     *force += inertia * rate;
                 }
             };
-            let before = point.saturating_sub(N - 1)..point;
-            for (other, rate) in before.clone().zip(&rates[before]) {
-                add(self.gram[other][point - other].inertia(factor, &self.section), rate);
-            }
-            for (entry, rate) in self.gram[point].iter().zip(&rates[point..]) {
-                add(entry.inertia(factor, &self.section), rate);
+            // Where all neighbours are there, the compiler knows how many.
+            if let Some(first) = (point + 1).checked_sub(N)
+                && let Some(gram) = self.gram[first..].first_chunk::<N>()
+                && let Some(before) = rates[first..].first_chunk::<N>()
+                && let Some(behind) = rates[point..].first_chunk::<N>()
+            {
+                (0..N - 1).for_each(|other| add(gram[other][N - 1 - other], &before[other]));
+                (0..N).for_each(|other| add(gram[N - 1][other], &behind[other]));
+            } else {
+                let before = point.saturating_sub(N - 1)..point;
+                before.for_each(|other| add(self.gram[other][point - other], &rates[other]));
+                let behind = self.gram[point].iter().zip(&rates[point..]);
+                behind.for_each(|(entry, rate)| add(*entry, rate));
             }
         }
     }
@@ -266,7 +274,7 @@ impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
 
     fn add_mismatch_forces(&mut self, weight: f64, forces: &mut [Movement]) {
         let Self { section, spans, parts, .. } = self;
-        parts.sum(spans, forces, &mut [(); MOST_PARTS], |(), spans, first, forces| {
+        parts.sum_lightly(spans, forces, |spans, first, forces| {
             for span in spans {
                 let forces = window_mut(forces, span.first - first);
                 span.add_mismatch_forces(section, weight, forces);

@@ -50,7 +50,7 @@ pub type BlockSink<'a> = &'a mut (dyn FnMut(usize, &[f64]) + Send);
 /// A beam on its basis, or a body of points: reference quantities, state at the start of a step, and the iterate of the step.
 ///
 /// Movements, rates and forces are indexed by control point.
-pub trait BodyDynamics: Sync {
+pub trait BodyDynamics: Send + Sync {
     /// The number of basis functions that are not zero on a span of this body, degree + 1.
     fn order(&self) -> usize;
 

@@ -21,6 +21,11 @@ impl BandRows<'_> {
         self.rows.clone()
     }
 
+    /// The same rows, lent for a while.
+    pub fn reborrow(&mut self) -> BandRows<'_> {
+        BandRows { rows: self.rows.clone(), entries: self.entries, ..*self }
+    }
+
     /// These rows of a banded matrix in two parts: those before `row`, and those from it on.
     pub fn split_at(self, row: usize) -> (Self, Self) {
         let Self { rows, entries, stride, centre, half_bandwidth } = self;

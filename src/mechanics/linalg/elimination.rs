@@ -10,7 +10,7 @@
 
 use pulp::{Simd, WithSimd};
 
-use super::banded::Storage;
+use super::storage::Rows;
 use super::{LinearError, fixed_band};
 
 /// Numbers that vector instructions treat at once.
@@ -27,22 +27,22 @@ pub(super) const SMALLEST_REACH: usize = PANEL + LANES - 2;
 pub(super) const LARGEST_MULTIPLIER: f64 = 8.0;
 
 /// Gauss's elimination with row exchanges, which replaces a banded matrix by its factors, panel by panel.
-pub(super) struct Elimination<'a>(pub(super) &'a mut Storage);
+pub(super) struct Elimination<'a>(pub(super) Rows<'a>);
 
 impl WithSimd for Elimination<'_> {
     type Output = Result<(), LinearError>;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+    fn with_simd<S: Simd>(mut self, simd: S) -> Self::Output {
         // The half-bandwidths of beams of degree 1 to 3 are known to the compiler.
         match self.0.reach {
-            6 => eliminate(simd, self.0, 6, eliminate_fixed::<S, 6, 8, 22>),
-            8 => eliminate(simd, self.0, 8, eliminate_fixed::<S, 8, 8, 28>),
-            11 => eliminate(simd, self.0, 11, eliminate_fixed::<S, 11, 12, 37>),
+            6 => eliminate(simd, &mut self.0, 6, eliminate_fixed::<S, 6, 8, 22>),
+            8 => eliminate(simd, &mut self.0, 8, eliminate_fixed::<S, 8, 8, 28>),
+            11 => eliminate(simd, &mut self.0, 11, eliminate_fixed::<S, 11, 12, 37>),
             reach => {
                 // Behind the last column with an entry there are zeros.
                 let width = reach.next_multiple_of(LANES);
-                eliminate(simd, self.0, reach, |simd, storage, first| {
+                eliminate(simd, &mut self.0, reach, |simd, storage, first| {
                     eliminate_panel(simd, storage, first, [reach, reach], width)
                 })
             }
@@ -52,21 +52,21 @@ impl WithSimd for Elimination<'_> {
 
 /// The same where the entries of a matrix end at a profile: for each index the last row with an entry in the column, which is the last column with
 /// one in the row. It never falls, and goes on for a panel behind the last row.
-pub(super) struct ProfileElimination<'a>(pub(super) &'a mut Storage, pub(super) &'a [usize]);
+pub(super) struct ProfileElimination<'a>(pub(super) Rows<'a>, pub(super) &'a [usize]);
 
 impl WithSimd for ProfileElimination<'_> {
     type Output = Result<(), LinearError>;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        eliminate_in_profile(simd, self.0, self.1)
+    fn with_simd<S: Simd>(mut self, simd: S) -> Self::Output {
+        eliminate_in_profile(simd, &mut self.0, self.1)
     }
 }
 
 #[inline(always)]
 fn eliminate_fixed<S: Simd, const REACH: usize, const WIDTH: usize, const STRIDE: usize>(
     simd: S,
-    storage: &mut Storage,
+    storage: &mut Rows<'_>,
     first: usize,
 ) -> bool {
     let (rows, _) = storage.rows.as_chunks_mut::<STRIDE>();
@@ -77,13 +77,13 @@ fn eliminate_fixed<S: Simd, const REACH: usize, const WIDTH: usize, const STRIDE
 #[inline(always)]
 fn eliminate<S: Simd>(
     simd: S,
-    storage: &mut Storage,
+    storage: &mut Rows<'_>,
     reach: usize,
-    eliminate_plain: impl Fn(S, &mut Storage, usize) -> bool,
+    eliminate_plain: impl Fn(S, &mut Rows<'_>, usize) -> bool,
 ) -> Result<(), LinearError> {
     // The last column in which a row above has an entry.
     let mut filled = 0;
-    for first in (0..storage.size).step_by(PANEL) {
+    for first in (0..storage.columns).step_by(PANEL) {
         let next = first + PANEL;
         let width = filled.max(next - 1 + reach) + 1 - next;
         let is_eliminated = if width == reach {
@@ -91,7 +91,7 @@ fn eliminate<S: Simd>(
         } else {
             eliminate_panel(simd, storage, first, [reach, reach], width)
         };
-        let columns = first..next.min(storage.size);
+        let columns = first..next.min(storage.columns);
         if is_eliminated {
             for column in columns {
                 filled = filled.max(column + reach);
@@ -110,12 +110,12 @@ fn eliminate<S: Simd>(
 #[inline(always)]
 fn eliminate_in_profile<S: Simd>(
     simd: S,
-    storage: &mut Storage,
+    storage: &mut Rows<'_>,
     ends: &[usize],
 ) -> Result<(), LinearError> {
     let reach = storage.reach;
     let mut filled = 0;
-    for first in (0..storage.size).step_by(PANEL) {
+    for first in (0..storage.columns).step_by(PANEL) {
         let next = first + PANEL;
         let below = ends[next - 1] + 1 - next;
         let width = filled.max(ends[next - 1]) + 1 - next;
@@ -131,7 +131,7 @@ fn eliminate_in_profile<S: Simd>(
                 eliminate_panel(simd, storage, first, [reach, below], width)
             }
         };
-        for column in first..next.min(storage.size) {
+        for column in first..next.min(storage.columns) {
             if is_eliminated {
                 filled = filled.max(ends[column]);
                 storage.pivots[column] = column;
@@ -182,7 +182,7 @@ impl PanelFactors {
 #[inline(always)]
 fn eliminate_panel<S: Simd>(
     simd: S,
-    storage: &mut Storage,
+    storage: &mut Rows<'_>,
     first: usize,
     [reach, below]: [usize; 2],
     width: usize,
@@ -264,13 +264,13 @@ pub(super) fn subtract<S: Simd, const COUNT: usize>(
 /// Eliminates one column with the largest of its entries as pivot; returns the last column in which a row has an entry now. Entries of a column, and
 /// of a row, end where `end` has it.
 fn eliminate_column(
-    storage: &mut Storage,
+    storage: &mut Rows<'_>,
     column: usize,
     filled: usize,
     end: impl Fn(usize) -> usize,
 ) -> Result<usize, LinearError> {
-    let (size, stride, reach) = (storage.size, storage.stride(), storage.reach);
-    let rows = &mut storage.rows;
+    let (size, reach) = (storage.size, storage.reach);
+    let (stride, rows) = (3 * reach + PANEL, &mut *storage.rows);
     let last_row = end(column).min(size - 1);
     let diagonal = column * stride + reach + PANEL - 1;
     let (mut pivot_row, mut magnitude) = (column, rows[diagonal].abs());

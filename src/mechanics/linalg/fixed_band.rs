@@ -22,8 +22,12 @@ pub(super) fn eliminate_panel<
     rows: &mut [[f64; STRIDE]],
 ) -> bool {
     let centre = REACH + PANEL - 1;
-    let Some((panel, rows_below)) = rows.split_first_chunk_mut::<PANEL>() else { return false };
-    let Some(rows_below) = rows_below.first_chunk_mut::<REACH>() else { return false };
+    let Some((panel, rows_below)) = rows.split_first_chunk_mut::<PANEL>() else {
+        return false;
+    };
+    let Some(rows_below) = rows_below.first_chunk_mut::<REACH>() else {
+        return false;
+    };
     let heads =
         std::array::from_fn(|row| std::array::from_fn(|column| panel[row][centre - row + column]));
     let PanelFactors { factors, inverses, is_stable } = PanelFactors::of(heads);

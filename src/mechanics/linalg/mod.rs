@@ -16,10 +16,12 @@ mod ordering;
 mod precise_band;
 mod profile;
 mod sparse;
+mod storage;
 mod strips;
 mod substitution;
 mod symmetric_factors;
 mod together;
+mod two_ended;
 mod twofold;
 
 pub use band_rows::BandRows;
