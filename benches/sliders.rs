@@ -45,6 +45,7 @@ fn slide(scene: &mut Scene, slave: Station, master: usize, arc_length: f64) {
         name: format!("slider{}", scene.sliders.len()),
         slave,
         master,
+        track: None,
         arc_length,
         rule: SlidingRule::Kinked,
         ends: EndAction::Bounce,

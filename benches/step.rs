@@ -73,6 +73,7 @@ fn beaded_beam(spans: usize, beads: usize) -> Model {
             name: format!("slider{bead}"),
             slave,
             master: 0,
+            track: None,
             arc_length,
             rule: SlidingRule::Conserving,
             ends: EndAction::Bounce,

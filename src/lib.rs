@@ -3,7 +3,7 @@
 //! Layers, each using only those to its right:
 //!
 //! ```text
-//! main → cli → repl, exercises → script → output, analysis → mechanics: simulation → … → model → …
+//! main → cli → repl, exercises → script → output, analysis → sampling, mechanics: simulation → … → model → …
 //! ```
 //!
 //! The mechanics is a crate of its own, so that a change of the language does not build it anew; its layers are named here as they are there. At the bottom
@@ -24,4 +24,5 @@ pub mod folders;
 pub mod output;
 pub mod panics;
 pub mod repl;
+pub mod sampling;
 pub mod script;

@@ -93,6 +93,7 @@ fn bead(scene: &mut Scene) -> Result<(), ModelError> {
         name: scene.free_name("slider"),
         slave,
         master: 0,
+        track: None,
         arc_length,
         rule: SlidingRule::default(),
         ends: EndAction::Release,

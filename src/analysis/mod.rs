@@ -20,8 +20,10 @@ mod pareto;
 mod patience;
 mod precision;
 mod rivals;
+mod row_journal;
 mod sheet;
 mod stability;
+mod sweep;
 mod timing;
 mod trial;
 mod truth;
@@ -44,8 +46,12 @@ pub use pareto::pareto_front;
 pub use patience::{Patience, is_out_of_patience};
 pub use precision::{Precision, PrecisionRow};
 pub use rivals::{Rival, RivalError, machines};
+pub use row_journal::{RowEntry, RowJournal, read_rows, remove_rows};
 pub use sheet::{Sheet, SheetError};
 pub use stability::Verdict;
+pub use sweep::{
+    Arrangement, Choice, Sweep, SweepColumn, SweepDesign, SweepResults, SweptParameter, SweptValues,
+};
 pub use timing::Timing;
 pub use trial::Trial;
 pub use truth::{Deviation, Readings, Truth, TruthError};

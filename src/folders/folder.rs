@@ -112,13 +112,23 @@ impl Folder {
     /// # Errors
     /// When there is none, it is a link, a pipe, a device or a folder, or larger.
     pub fn read(&self, name: &Path, most: u64) -> io::Result<Vec<u8>> {
+        reading::read(self.open_file(name)?, most)
+    }
+
+    /// Opens an ordinary file below this folder to read it piece by piece. No link is followed on the way.
+    ///
+    /// # Errors
+    /// When there is none, or it is a link, a pipe, a device or a folder.
+    pub fn open_file(&self, name: &Path) -> io::Result<fs::File> {
         let (folder, name) = self.parent_of(name, Self::enter)?;
         let about = folder.0.symlink_metadata(name)?;
         if about.is_symlink() {
             return Err(io::Error::other("it is a link, and links are not followed here"));
         }
         reading::expect_ordinary(about.is_file())?;
-        reading::read(folder.0.open_with(name, &reading::options(FollowSymlinks::No))?, most)
+        let file = folder.0.open_with(name, &reading::options(FollowSymlinks::No))?;
+        reading::expect_ordinary(file.metadata()?.is_file())?;
+        Ok(file.into_std())
     }
 
     /// Whether there is anything of this name below this folder, a link that leads nowhere included.
@@ -132,10 +142,7 @@ impl Folder {
     /// # Errors
     /// When there is none, or it cannot be opened.
     pub fn is_let_go(&self, name: &Path) -> io::Result<bool> {
-        let (folder, name) = self.parent_of(name, Self::enter)?;
-        let file = folder.0.open_with(name, &reading::options(FollowSymlinks::No))?;
-        reading::expect_ordinary(file.metadata()?.is_file())?;
-        Ok(file.into_std().try_lock().is_ok())
+        Ok(self.open_file(name)?.try_lock().is_ok())
     }
 
     /// Makes a file that was not there before, and opens it for writing; folders on the way are made.
@@ -172,6 +179,18 @@ impl Folder {
     /// # Errors
     /// When it cannot be written, or a folder, a pipe or a device has its name; nothing has changed then.
     pub fn write_whole(&self, name: &Path, bytes: &[u8]) -> io::Result<()> {
+        self.write_whole_by(name, |file| file.write_all(bytes))
+    }
+
+    /// Writes a file as [`write_whole`](Self::write_whole) does, piece by piece: whatever `write` puts into it.
+    ///
+    /// # Errors
+    /// As there; also those of `write`.
+    pub fn write_whole_by(
+        &self,
+        name: &Path,
+        write: impl FnOnce(&mut fs::File) -> io::Result<()>,
+    ) -> io::Result<()> {
         let (folder, name) = self.parent_of(name, Self::enter_or_make)?;
         if let Ok(about) = folder.0.symlink_metadata(name)
             && !about.is_symlink()
@@ -179,7 +198,7 @@ impl Folder {
             reading::expect_ordinary(about.is_file())?;
         }
         let (mut file, partial) = folder.create_partial(name)?;
-        let written = file.write_all(bytes).and_then(|()| file.sync_all());
+        let written = write(&mut file).and_then(|()| file.sync_all());
         drop(file);
         let written = written.and_then(|()| folder.0.rename(&partial, &folder.0, name));
         if written.is_err() {

@@ -12,5 +12,5 @@ mod scratch;
 pub use entries::Entry;
 pub use folder::{Folder, is_plain};
 pub use reading::{read_file, read_text};
-pub use record::Record;
+pub use record::{Imprint, Imprinting, Record};
 pub use scratch::Scratch;

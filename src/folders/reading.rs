@@ -5,7 +5,7 @@ use std::path::Path;
 
 use cap_fs_ext::{FollowSymlinks, OpenOptionsFollowExt, OpenOptionsSyncExt};
 use cap_std::ambient_authority;
-use cap_std::fs::{File, Metadata, OpenOptions};
+use cap_std::fs::{File, OpenOptions};
 
 /// Options that open a file for reading without ever waiting for somebody who writes.
 pub(super) fn options(follow: FollowSymlinks) -> OpenOptions {
@@ -23,7 +23,7 @@ pub fn read_file(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     expect_ordinary(std::fs::metadata(path)?.is_file())?;
     let options = options(FollowSymlinks::Yes);
     let file = File::open_ambient_with(path, &options, ambient_authority())?;
-    read(file, most)
+    read(file.into_std(), most)
 }
 
 /// The whole text of a file that a person has named, of at most `most` bytes of UTF-8; links are followed.
@@ -36,13 +36,13 @@ pub fn read_text(path: &Path, most: u64) -> io::Result<String> {
 }
 
 /// The whole of an open file, if it is an ordinary one of at most `most` bytes.
-pub(super) fn read(file: File, most: u64) -> io::Result<Vec<u8>> {
-    let about: Metadata = file.metadata()?;
+pub(super) fn read(file: std::fs::File, most: u64) -> io::Result<Vec<u8>> {
+    let about = file.metadata()?;
     expect_ordinary(about.is_file())?;
     expect_length(about.len(), most)?;
     let mut bytes = Vec::new();
     // The length may be a lie, as that of the files of /proc.
-    file.into_std().take(most.saturating_add(1)).read_to_end(&mut bytes)?;
+    file.take(most.saturating_add(1)).read_to_end(&mut bytes)?;
     expect_length(bytes.len() as u64, most)?;
     Ok(bytes)
 }

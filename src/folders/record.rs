@@ -1,7 +1,7 @@
 //! What was written into a folder by this program, so that files of somebody else, or with changes of his, are told from them.
 
 use std::collections::BTreeMap;
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
 use std::path::Path;
 
 use super::Folder;
@@ -10,13 +10,75 @@ use super::Folder;
 const FILE: &str = ".withy-written";
 /// The largest record that is read [bytes]: without it, files count as somebody else's and are kept.
 const LARGEST: u64 = 16 << 20;
-/// The largest file that is compared [bytes].
-const LARGEST_COMPARED: u64 = 4 << 30;
+/// How much of a file is looked at at once [bytes].
+const PIECE: usize = 1 << 16;
+
+/// By what the content of a file is known again.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Imprint {
+    /// The CRC-32 of the content.
+    pub checksum: u32,
+    /// The length of the content [bytes].
+    pub length: u64,
+}
+
+impl Imprint {
+    /// The imprint of some bytes.
+    pub fn of_bytes(bytes: &[u8]) -> Self {
+        Self { checksum: crc32fast::hash(bytes), length: bytes.len() as u64 }
+    }
+
+    /// The imprint of all that can be read, piece by piece.
+    fn of(mut content: impl Read) -> io::Result<Self> {
+        let (mut hasher, mut length, mut piece) = (crc32fast::Hasher::new(), 0, vec![0; PIECE]);
+        loop {
+            match content.read(&mut piece)? {
+                0 => return Ok(Self { checksum: hasher.finalize(), length }),
+                count => {
+                    hasher.update(&piece[..count]);
+                    length += count as u64;
+                }
+            }
+        }
+    }
+}
+
+/// Writes bytes on, and keeps their imprint.
+pub struct Imprinting<W> {
+    inner: W,
+    hasher: crc32fast::Hasher,
+    length: u64,
+}
+
+impl<W: Write> Imprinting<W> {
+    /// Begins to write.
+    pub fn new(inner: W) -> Self {
+        Self { inner, hasher: crc32fast::Hasher::new(), length: 0 }
+    }
+
+    /// The imprint of all that was written.
+    pub fn imprint(&self) -> Imprint {
+        Imprint { checksum: self.hasher.clone().finalize(), length: self.length }
+    }
+}
+
+impl<W: Write> Write for Imprinting<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let count = self.inner.write(bytes)?;
+        self.hasher.update(&bytes[..count]);
+        self.length += count as u64;
+        Ok(count)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.inner.flush()
+    }
+}
 
 /// Checksums and lengths of the files that this program has written into a folder, by name.
 #[derive(Debug, Default)]
 pub struct Record {
-    files: BTreeMap<String, (u32, u64)>,
+    files: BTreeMap<String, Imprint>,
 }
 
 impl Record {
@@ -34,32 +96,29 @@ impl Record {
         if !folder.has(path) {
             return true;
         }
-        let Some((checksum, length)) = self.files.get(name) else { return false };
-        folder.read(path, LARGEST_COMPARED).is_ok_and(|bytes| {
-            bytes.len() as u64 == *length && crc32fast::hash(&bytes) == *checksum
-        })
+        let Some(known) = self.files.get(name) else { return false };
+        folder.open_file(path).and_then(Imprint::of).is_ok_and(|found| found == *known)
     }
 
     /// Notes, and writes down at once, that this program wrote a file of this name into the folder.
     ///
     /// # Errors
     /// When the record cannot be written.
-    pub fn note(&mut self, folder: &Folder, name: &str, bytes: &[u8]) -> io::Result<()> {
-        let entry = (crc32fast::hash(bytes), bytes.len() as u64);
-        if name.contains(['\n', '\r']) || self.files.insert(name.into(), entry) == Some(entry) {
+    pub fn note(&mut self, folder: &Folder, name: &str, written: Imprint) -> io::Result<()> {
+        if name.contains(['\n', '\r']) || self.files.insert(name.into(), written) == Some(written) {
             return Ok(());
         }
-        let line = format!("{:08x} {} {name}\n", entry.0, entry.1);
+        let line = format!("{:08x} {} {name}\n", written.checksum, written.length);
         folder.append(Path::new(FILE))?.write_all(line.as_bytes())
     }
 }
 
 /// `checksum length name`; later lines hold.
-fn entry(line: &str) -> Option<(String, (u32, u64))> {
+fn entry(line: &str) -> Option<(String, Imprint)> {
     let (checksum, rest) = line.split_once(' ')?;
     let (length, name) = rest.split_once(' ')?;
     let checksum = u32::from_str_radix(checksum, 16).ok()?;
-    Some((name.to_owned(), (checksum, length.parse().ok()?)))
+    Some((name.to_owned(), Imprint { checksum, length: length.parse().ok()? }))
 }
 
 #[cfg(test)]
@@ -75,10 +134,10 @@ mod tests {
         assert!(record.may_replace(&folder, "a b"));
         write(b"one");
         assert!(!record.may_replace(&folder, "a b"), "nobody has said whose it is");
-        record.note(&folder, "a b", b"one").unwrap();
+        record.note(&folder, "a b", Imprint::of_bytes(b"one")).unwrap();
         assert!(record.may_replace(&folder, "a b"));
         write(b"two");
-        record.note(&folder, "a b", b"two").unwrap();
+        record.note(&folder, "a b", Imprint::of_bytes(b"two")).unwrap();
         assert!(Record::of(&folder).may_replace(&folder, "a b"), "the last line holds");
         write(b"2wo");
         assert!(!Record::of(&folder).may_replace(&folder, "a b"));

@@ -1,7 +1,7 @@
 //! Tables, files and pictures from plain data. Nothing here knows what a simulation is.
 //!
 //! ```text
-//! chart, heat_map, bars, motion, strips, field → page → scenery → plane, symbol → frame, hatching, legend, colour_bar → axis, curve, stroke, marker → canvas → figure
+//! chart, heat_map, level_map, bars, motion, strips, field → page → scenery → plane, symbol → frame, hatching, legend, colour_bar → axis, curve, stroke, marker → canvas → figure
 //! → svg, png → files
 //! chart, heat_map → terminal → axis, curve
 //! motion → animation → figure
@@ -32,6 +32,7 @@ mod frame;
 mod hatching;
 mod heat_map;
 mod legend;
+mod level_map;
 mod link;
 mod marker;
 mod motion;
@@ -71,6 +72,7 @@ pub use figure::{Figure, PictureKind};
 pub use files::write_whole;
 pub use frame::Margins;
 pub use heat_map::{HeatCell, HeatMap};
+pub use level_map::{LevelAxis, LevelMap};
 pub use marker::Marker;
 pub use motion::{MotionPicture, Snapshot};
 pub use npz::{NpzArchive, NpzArray};

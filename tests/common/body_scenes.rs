@@ -138,6 +138,7 @@ pub fn carriage(mesh: &Mesh, rule: SlidingRule) -> Scene {
             name: scene.free_name("slider"),
             slave: point(body, number),
             master: rail,
+            track: None,
             arc_length,
             rule,
             ends: EndAction::Bounce,

@@ -5,6 +5,7 @@ pub mod body_scenes;
 pub mod corpus;
 pub mod fingerprint;
 pub mod fixed_way;
+pub mod machine_scenes;
 pub mod notepad;
 pub mod probe;
 pub mod rails;
@@ -14,6 +15,7 @@ pub mod roller_scenes;
 pub mod scenes;
 pub mod sliding;
 pub mod sliding_scenes;
+pub mod tracks;
 pub mod wild_scenes;
 
 use withy::beams::{Mesh, Quadrature};

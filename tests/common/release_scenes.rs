@@ -70,6 +70,7 @@ pub fn bead(mesh: &Mesh) -> Scene {
         name: "slider1".to_owned(),
         slave,
         master: beam,
+        track: None,
         arc_length: 1.0,
         rule: SlidingRule::Conserving,
         ends: EndAction::Stop,

@@ -390,6 +390,16 @@ pub fn absorbed(mesh: &Mesh) -> Scene {
     add(turn, Some(linear(2.0, 0.1)), absorber(&[(-0.4, -0.3), (0.4, 0.3), (1.0, 0.3)]));
     let across = SpringKind::Way(vec![Anchor::Station(start), Anchor::Station(tip)]);
     add(across, Some(linear(6.0, 0.2)), absorber(&[(-1.0, 0.0), (0.0, 0.0), (1.0, 1.5)]));
+    // Functions, which are polygons from here on.
+    let over = SpringKind::Way(vec![
+        Anchor::Ground(at(2.0, 3.0)),
+        Anchor::Station(end),
+        Anchor::Ground(at(3.0, 3.0)),
+    ]);
+    let hardening = |e: f64| Ok::<f64, ()>(8.0 * e + 3.0 * e * e * e);
+    let fluid = |rate: f64| Ok::<f64, ()>(0.3 * rate * rate.abs());
+    let law = RestoringLaw::sampled((-1.5, 1.5), hardening).unwrap();
+    add(over, Some(law), DampingLaw::sampled((-2.0, 2.0), fluid).unwrap());
     scene
 }
 
@@ -436,7 +446,7 @@ pub fn tapered(mesh: &Mesh) -> Scene {
     scene
 }
 
-/// Every scene on a mesh.
+/// Every scene on a mesh whose forces are smooth, without rigid bodies off their centres and inclined rollers, which `body_scenes::all` has.
 pub fn all(mesh: &Mesh) -> Vec<Scene> {
     vec![
         spaghetti(mesh, 1e4),
@@ -455,5 +465,6 @@ pub fn all(mesh: &Mesh) -> Vec<Scene> {
         driven(mesh),
         tapered(mesh),
         super::release_scenes::chain(mesh),
+        super::machine_scenes::bushed(mesh),
     ]
 }

@@ -31,6 +31,7 @@ pub fn slider(slave: Station, master: usize, arc_length: f64, rule: SlidingRule)
         name: "slider1".to_owned(),
         slave,
         master,
+        track: None,
         arc_length,
         rule,
         ends: EndAction::Stop,

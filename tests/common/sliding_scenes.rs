@@ -9,7 +9,7 @@ use super::sliding::{
 };
 use withy::beams::{Mesh, Station};
 use withy::geometry::{Curve, Vec2, perpendicular};
-use withy::joints::{EndAction, JointKind, Partner, Slider, SlidingRule, StartVelocities};
+use withy::joints::{Course, EndAction, JointKind, Partner, Slider, SlidingRule, StartVelocities};
 use withy::loads::{Frame, LoadKind, Schedule};
 use withy::model::{PointMass, Scene, StartMotion, StationVelocity};
 
@@ -172,6 +172,35 @@ pub fn crowd(mesh: &Mesh, rule: SlidingRule) -> Scene {
     scene
 }
 
+/// Two beads on a closed track of three beams that flies and turns: one corner is stiff, one a hinge, one of the beams is drawn the other way round. Of
+/// rules that are for one beam the conserving one is taken.
+pub fn triangle(mesh: &Mesh, rule: SlidingRule) -> Scene {
+    let rule = if rule == SlidingRule::Kinked { SlidingRule::Conserving } else { rule };
+    let mut scene = Scene::new("triangle");
+    let corners = [at(0.0, 0.0), at(2.0, 0.3), at(0.8, 1.5)];
+    let motion = StartMotion { velocity: at(0.2, -0.1), spin: 0.4, about: Some(corners[0]) };
+    for [from, to] in [[0, 1], [2, 1], [2, 0]] {
+        let axis = line(corners[from], corners[to]);
+        let beam = add_beam(&mut scene, axis, mesh, paper_section(300.0));
+        scene.beams[beam].motion = motion;
+    }
+    let ends = [0, 1, 2].map(|beam| end_of(&mut scene, beam));
+    let starts = [0, 1, 2].map(|beam| scene.station(beam, 0.0).unwrap());
+    for (kind, one, other) in [
+        (JointKind::Rigid, ends[0], ends[1]),
+        (JointKind::Hinge, starts[1], starts[2]),
+        (JointKind::Rigid, ends[2], starts[0]),
+    ] {
+        scene.join(kind, one, Partner::Station(other)).unwrap();
+    }
+    let track = scene.add_track("track".to_owned(), &[0, 1, 2], Course::Closed).unwrap();
+    for (master, along, mass, speed) in [(0, 0.8, 0.2, 2.5), (1, 0.4, 0.1, -1.0)] {
+        bead(&mut scene, master, along, mass, speed, rule);
+        scene.sliders.last_mut().unwrap().track = Some(track);
+    }
+    scene
+}
+
 /// A rope that is drawn through as many points held by the ground, in a field of gravity.
 pub fn eyelets(spans: usize, eyelets: usize) -> Scene {
     let mut scene = Scene::new("eyelets");
@@ -237,6 +266,7 @@ pub fn all(mesh: &Mesh, rule: SlidingRule) -> Vec<Scene> {
         eyelet(mesh, rule),
         pinned_cross(mesh, rule),
         crowd(mesh, rule),
+        triangle(mesh, rule),
     ];
     for slider in scenes.iter_mut().flat_map(|scene| &mut scene.sliders) {
         slider.ends = EndAction::Bounce;

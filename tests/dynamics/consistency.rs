@@ -80,7 +80,7 @@ fn corrected_section_forces_miss_the_strain_by_the_square_of_the_correction() {
                 let mut out = vec![0.0; model.degrees_of_freedom()];
                 model.add_forces(stage, &u, 1.0, &mut out)
             };
-            let order = (missed(1e-2) / missed(1e-3)).log10();
+            let order = (missed(1e-3) / missed(1e-4)).log10();
             assert!(order > 1.9, "{name}, {stage:?}: order {order}");
         }
     });

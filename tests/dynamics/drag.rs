@@ -2,10 +2,12 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::common::{at, orders, scenes, simulate};
-use withy::beams::{Mesh, Section};
+use withy::beams::{Mesh, Section, Station};
 use withy::geometry::{Curve, Vec2};
 use withy::integrators::{EnergyClaim, INTEGRATORS, Method};
-use withy::model::{Drag, Dragged, ParticleDefinition, Scene, SpeedLaw, StartMotion};
+use withy::model::{
+    Drag, Dragged, ParticleDefinition, Scene, SpeedLaw, StartMotion, StationVelocity,
+};
 use withy::simulation::{Invariant, Simulation};
 
 const GRAVITY: f64 = 9.81;
@@ -80,6 +82,38 @@ fn a_stone_goes_with_the_wind_which_gives_what_the_air_takes_and_more() {
     for (name, invariant) in Invariant::ALL {
         let drift = simulation.history().drift(invariant);
         assert!(drift < 1e-13, "{name}: {drift:.1e}");
+    }
+}
+
+/// Drag from nothing to as good as a rigid medium, with a wind or without: no step fails, nothing drifts, and the rule that the step is says where the stone is.
+#[test]
+fn drag_of_any_strength_keeps_the_ledger_in_as_many_steps() {
+    let (mass, dt, steps) = (0.5, 0.01, 100);
+    for wind in [Vec2::zeros(), at(3.0, 1.0)] {
+        for linear in [1e-6, 1.0, 1e4, 1e6, 1e8, 1e10, 1e12] {
+            let mut scene = stone(SpeedLaw { linear, quadratic: 0.0 }, wind);
+            scene.gravity = Vec2::zeros();
+            let start = at(-2.0, 4.0);
+            let station = Station::on_particle(0);
+            scene.velocities.push(StationVelocity { station, velocity: start, spin: None });
+            let label = format!("c = {linear:e}, wind {wind}");
+            let simulation = simulate(scene, Method::EnergyMomentum, dt, dt * f64::from(steps));
+            let work = simulation.counts();
+            assert_eq!((work.steps, work.retries), (100, 0), "{label}");
+            let history = simulation.history();
+            for (name, invariant) in Invariant::ALL {
+                let drift = history.drift(invariant);
+                assert!(drift < 1e-13, "{name}, {label}: {drift:.1e}");
+            }
+            // m (v1 - v0)/Δt = -c (½ (v0 + v1) - w), so v - w falls by one factor a step.
+            let twice = 2.0 * mass / dt;
+            let factor = (twice - linear) / (twice + linear);
+            let all: f64 = (0..steps).map(|step| factor.powi(step)).sum();
+            let travelled =
+                (start - wind) * (0.5 * dt * (1.0 + factor) * all) + wind * (dt * f64::from(steps));
+            let missed = (place(&simulation) - at(2.0, 5.0) - travelled).norm();
+            assert!(missed < 1e-13, "{label}: {missed:.1e}");
+        }
     }
 }
 

@@ -3,13 +3,17 @@
 
 use std::rc::Rc;
 
+use crate::common::body_scenes::{add_body, hinge, point};
 use crate::common::scenes::{add_beam, drive, line};
 use crate::common::{at, orders, sci, simulate};
 use withy::beams::{Mesh, Section, Station};
 use withy::integrators::{EnergyClaim, INTEGRATORS, Method};
 use withy::joints::{Component, Components, JointKind, Partner};
 use withy::loads::{LoadKind, PrescribedMotion, Schedule};
-use withy::model::{ModelError, ParticleDefinition, Scene, StartMotion};
+use withy::model::{
+    Anchor, ModelError, Origin, ParticleDefinition, RestoringLaw, Scene, Spring, SpringKind,
+    StartMotion,
+};
 use withy::simulation::{Invariant, Simulation};
 
 fn function(of: impl Fn(f64) -> f64 + 'static) -> Schedule {
@@ -228,4 +232,42 @@ fn work_is_kept_by_name_and_adds_up() {
     let sum = last("work.move1") + last("work.wind");
     assert!((sum - last("work")).abs() < 1e-12 * last("work").abs(), "{sum}");
     assert!(last("wind.force") == 0.0 && last("move1.angle").abs() > 0.1);
+}
+
+/// What a motor is said to give works on the angle that it turns by: with a damper and an inertia that is `c ω + I α`, whatever the step.
+#[test]
+fn the_torque_of_a_motor_is_exact_however_far_it_turns_in_a_step() {
+    let (inertia, damping, stiffness) = (0.2, 0.5, 0.3);
+    let angle = |t: f64| 2.0 * t + 5.0 * t * t;
+    for dt in [0.1, 0.01] {
+        let mut scene = Scene::new("rotor");
+        let rotor = point(add_body(&mut scene, at(1.0, 2.0), 0.0, (1.0, inertia), &[]), 0);
+        hinge(&mut scene, rotor, None);
+        drive(
+            &mut scene,
+            rotor,
+            &[(Component::Rotation, PrescribedMotion::Place(function(angle)))],
+        );
+        let kind = SpringKind::Torsion([Anchor::Ground(at(0.0, 0.0)), Anchor::Station(rotor)]);
+        let law = Some(RestoringLaw::Linear { stiffness, natural: 0.0 });
+        let (name, origin, damping_law) = ("brake".to_owned(), Origin::Zero, damping.into());
+        scene.add_spring(Spring { name, kind, law, origin, damping: damping_law }).unwrap();
+        let simulation = simulate(scene, Method::EnergyMomentum, dt, 1.0);
+        let history = simulation.history();
+        let (times, told) = (history.column("t").unwrap(), history.column("move1.angle").unwrap());
+        let mut work = 0.0;
+        for (pair, told) in times.windows(2).zip(&told[1..]) {
+            let [before, after] = [angle(pair[0]), angle(pair[1])];
+            let mean_spin = (after - before) / (pair[1] - pair[0]);
+            let expected =
+                inertia * 10.0 + damping * mean_spin + stiffness * 0.5 * (before + after);
+            assert!((told - expected).abs() < 1e-10 * expected, "{told} {expected}");
+            work += told * (after - before);
+        }
+        let kept = *history.column("work.move1").unwrap().last().unwrap();
+        assert!((work - kept).abs() < 1e-11 * kept, "{work} {kept}");
+        for (name, invariant) in Invariant::ALL {
+            assert!(history.drift(invariant) < 1e-13, "{name}");
+        }
+    }
 }

@@ -4,10 +4,14 @@
 use crate::common::{
     assert_energy_never_grows, at, body_scenes, energies, meshes, run, scenes, settings, simulate,
 };
-use withy::beams::Mesh;
+use withy::beams::{Mesh, SectionVariation};
+use withy::geometry::Vec2;
 use withy::integrators::{EnergyClaim, INTEGRATORS, Interval, Method};
-use withy::loads::{LoadKind, Schedule};
-use withy::model::Model;
+use withy::joints::JointKind;
+use withy::loads::{LoadKind, PrescribedMotion, Schedule};
+use withy::model::{
+    DampingLaw, Dragged, DriveKind, Element, Model, Origin, RestoringLaw, Scene, Spring, SpringKind,
+};
 use withy::newton::Tolerance;
 use withy::simulation::{History, Invariant, Simulation, SimulationError};
 
@@ -203,4 +207,65 @@ fn a_restored_state_goes_on_bit_for_bit_as_it_did() {
             assert_eq!(model.state(), later, "{}, {}", entry.name, scene.name);
         }
     }
+}
+
+/// What these tests, and those of files, of ways back, of consistency and of memory, run through: whatever a machine may be made of.
+#[test]
+fn common_scenes_have_every_element_of_a_machine() {
+    let mesh = smooth(4);
+    let all: Vec<Scene> = scenes::all(&mesh).into_iter().chain(body_scenes::all(&mesh)).collect();
+    let springs = || all.iter().flat_map(Scene::springs);
+    let (laws, damping) = (|| springs().map(|one| &one.law), || springs().map(|one| &one.damping));
+    let curve = |law: &DampingLaw, is_of: fn(&RestoringLaw) -> bool| match law {
+        DampingLaw::Curve(curve) => is_of(curve),
+        DampingLaw::Linear(_) => false,
+    };
+    let is_table = |law: &RestoringLaw| matches!(law, RestoringLaw::Table { .. });
+    let is_sampled = |law: &RestoringLaw| matches!(law, RestoringLaw::Sampled { .. });
+    let central = |one: &Spring| {
+        let at_ease = matches!(one.law, Some(RestoringLaw::Linear { natural: 0.0, .. }));
+        at_ease && one.damping.acts() && one.origin == Origin::Zero
+    };
+    let joints = || all.iter().flat_map(|scene| &scene.joints).map(|joint| joint.kind);
+    let drives = || all.iter().flat_map(|scene| &scene.drives);
+    let motions = || drives().flat_map(|drive| drive.motions.iter().flatten());
+    let drags = || all.iter().flat_map(Scene::drags);
+    let elements = || all.iter().flat_map(|scene| &scene.elements);
+    let found = [
+        ("a linear spring", laws().flatten().any(|law| matches!(law, RestoringLaw::Linear { .. }))),
+        ("a table", laws().flatten().any(is_table)),
+        ("a function", laws().flatten().any(is_sampled)),
+        ("a damper alone", laws().any(Option::is_none)),
+        ("a damped spring without length", springs().any(central)),
+        ("a damper by a table", damping().any(|law| curve(law, is_table))),
+        ("a damper by a function", damping().any(|law| curve(law, is_sampled))),
+        ("a torsion spring", springs().any(|one| matches!(one.kind, SpringKind::Torsion(_)))),
+        ("a tendon", springs().any(|one| one.anchors().len() > 2)),
+        ("drag of a beam", drags().any(|drag| matches!(drag.on, Dragged::Beam { .. }))),
+        ("drag of a point", drags().any(|drag| matches!(drag.on, Dragged::Point { .. }))),
+        ("wind", drags().any(|drag| drag.wind != Vec2::zeros())),
+        ("a damped material", elements().any(|one| matches!(one, Element::Damping(_)))),
+        ("a taper", {
+            let mut beams = all.iter().flat_map(|scene| &scene.beams);
+            beams.any(|beam| !matches!(beam.section, SectionVariation::Uniform(_)))
+        }),
+        ("a motor", drives().any(|drive| drive.kind == DriveKind::Motor)),
+        ("a move", drives().any(|drive| drive.kind == DriveKind::Move)),
+        ("a place", motions().any(|motion| matches!(motion, PrescribedMotion::Place(_)))),
+        ("a speed", motions().any(|motion| matches!(motion, PrescribedMotion::Rate(_)))),
+        ("a torque", {
+            let mut loads = all.iter().flat_map(Scene::loads);
+            loads.any(|load| matches!(load.kind, LoadKind::Moment { .. }))
+        }),
+        ("a roller", joints().any(|kind| matches!(kind, JointKind::Support(_)))),
+        ("an inclined roller", joints().any(|kind| matches!(kind, JointKind::InclinedRoller(_)))),
+        ("an inclined guide", joints().any(|kind| matches!(kind, JointKind::InclinedGuide(_)))),
+        ("a body with points", {
+            let mut bodies = all.iter().flat_map(|scene| &scene.rigid_bodies);
+            bodies.any(|body| !body.points.is_empty())
+        }),
+        ("a release", all.iter().any(|scene| !scene.releases.is_empty())),
+    ];
+    let missing: Vec<&str> = found.iter().filter(|(_, is)| !is).map(|(what, _)| *what).collect();
+    assert!(missing.is_empty(), "no scene has {}", missing.join(", "));
 }

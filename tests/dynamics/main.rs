@@ -26,6 +26,7 @@ mod rollers;
 mod same_bits;
 mod saving;
 mod sensors;
+mod small_ways;
 mod springs;
 mod tapers;
 mod unused_features;

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::common::body_scenes::{add_body, hinge, point};
+use crate::common::roller_scenes::unit;
 use crate::common::scenes::{add_beam, drive, end_of, line, rod, start_of};
 use crate::common::{
     at, body_scenes, orders, run, scenes, sci, settings, simulate, sliding_scenes,
@@ -77,6 +78,8 @@ fn pushed() -> Vec<(Scene, Station)> {
         two_beams(JointKind::Rigid, JointKind::Rigid),
         two_beams(JointKind::Rigid, JointKind::Hinge),
         two_beams(roller, JointKind::Rigid),
+        two_beams(JointKind::InclinedRoller(unit(0.6)), JointKind::Rigid),
+        two_beams(JointKind::InclinedGuide(unit(-1.1)), JointKind::Hinge),
         pinned_bodies(),
         driven(),
     ];

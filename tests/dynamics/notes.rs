@@ -155,6 +155,7 @@ fn ring(stiffness: f64, mass: f64, speed: f64) -> Scene {
         name: "ring".into(),
         slave,
         master: 0,
+        track: None,
         arc_length: 0.8,
         rule: SlidingRule::Conserving,
         ends: EndAction::Bounce,

@@ -3,6 +3,7 @@
 
 use crate::common::body_scenes::{add_body, hinge, point};
 use crate::common::probe::{STEP, condensed, differences, settle, tangent};
+use crate::common::scenes::{add_beam, end_of, line, rod, start_of};
 use crate::common::{Random, at, body_scenes, meshes, run, scenes, settings, simulate};
 use withy::beams::{Mesh, Station};
 use withy::geometry::{Vec2, cross};
@@ -10,7 +11,7 @@ use withy::integrators::{EnergyClaim, INTEGRATORS, Mechanism, Method, Stage};
 use withy::joints::{EndAction, JointKind, Partner, SlidingRule};
 use withy::model::{
     Anchor, Model, ModelError, Origin, PointMass, RestoringLaw, Scene, Spring, SpringKind,
-    StationVelocity,
+    StartMotion, StationVelocity,
 };
 use withy::simulation::{Invariant, Simulation};
 
@@ -265,4 +266,33 @@ fn a_slider_on_a_point_may_leave_its_beam() {
         one != withy::model::SliderState::Sliding || other != withy::model::SliderState::Sliding
     );
     assert!(simulation.history().drift(Invariant::Energy) < 1e-11);
+}
+
+/// A beam at rest that a body in motion takes along at its end: the node there is told to have the velocity of that point of the body, and no other.
+#[test]
+fn a_body_in_motion_takes_the_end_of_a_beam_at_rest_along() {
+    let struck = |node: Vec2| {
+        let mut scene = Scene::new("vault");
+        let axis = line(at(0.0, 0.0), at(4.0, 2.0));
+        let beam = add_beam(&mut scene, axis, &smooth(8), rod());
+        let (start, end) = (start_of(&mut scene, beam), end_of(&mut scene, beam));
+        hinge(&mut scene, start, None);
+        let body = add_body(&mut scene, at(4.0, 1.0), 0.0, (8.0, 1.0), &[at(0.0, 1.0)]);
+        scene.rigid_bodies[body].motion =
+            StartMotion { velocity: at(-3.0, 1.0), spin: 0.5, about: None };
+        hinge(&mut scene, end, Some(point(body, 1)));
+        let velocity = StationVelocity { station: end, velocity: node, spin: None };
+        scene.velocities.push(velocity);
+        scene
+    };
+    let error = Model::assemble(&struck(at(-3.0, 1.0))).err().unwrap();
+    assert!(matches!(error, ModelError::StartVelocity { .. }), "{error}");
+    let simulation = simulate(struck(at(-3.5, 1.0)), Method::EnergyMomentum, 0.005, 0.5);
+    let begun = simulation.history().samples()[0].measures;
+    // The body, and the node of the beam, which counts little.
+    assert!((begun.energy.kinetic - (40.0 + 0.125)).abs() < 2.0, "{}", begun.energy.kinetic);
+    for (name, invariant) in Invariant::ALL {
+        let drift = simulation.history().drift(invariant);
+        assert!(drift < 1e-12, "{name}: {drift:.1e}");
+    }
 }

@@ -119,7 +119,7 @@ fn what_the_documents_run_is_there() {
 
 /// Figures of the README, each with the command that is told beside it.
 const MEASURED: &[(&str, &str)] = &[
-    ("times faster than the best EXUDYN runs", "`python3 benches/compare_exudyn.py`"),
+    ("times faster than the best EXUDYN runs", "`python3 benches/exudyn/pairs.py`"),
     ("no cell of the stability map", "`withy study scripts/studies/stability.rhai`"),
     ("ns per unknown", "`cargo bench --bench step`"),
 ];

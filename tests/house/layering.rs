@@ -26,6 +26,7 @@ const BRANCHES: &[(&str, &[&str])] = &[
     ("integrators", &["newton", "linalg", "elementary"]),
     ("newton", &["linalg", "elementary"]),
     ("linalg", &["elementary"]),
+    ("sampling", &["elementary"]),
     ("elementary", &[]),
     ("folders", &[]),
     ("panics", &[]),

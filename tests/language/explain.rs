@@ -48,6 +48,7 @@ fn with_bead() -> Scene {
         name: "ring".into(),
         slave,
         master: 0,
+        track: None,
         arc_length: 0.5,
         rule: SlidingRule::Conserving,
         ends: EndAction::Stop,

@@ -12,4 +12,5 @@ mod repl_pipe;
 mod repl_terminal;
 mod scripts;
 mod studies;
+mod sweeps;
 mod viewers;

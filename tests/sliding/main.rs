@@ -14,4 +14,5 @@ mod many;
 mod orders;
 mod relaxed;
 mod together;
+mod tracks;
 mod wild;

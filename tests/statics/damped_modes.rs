@@ -141,3 +141,62 @@ fn what_is_not_damped_is_what_it_is_without() {
     let large = scenes::cantilever(&Mesh::bspline(100, 3, 2).unwrap(), scenes::rod());
     assert!(matches!(damped(&large, 1), Err(VibrationError::LargeDamped { .. })));
 }
+
+/// All roots of all modes of a beam of a material with equal relaxation times, from fine meshes and beyond critical damping: the slow ones crowd at `1/τ`, and each is
+/// told to eight digits.
+#[test]
+fn strongly_damped_fine_meshes_have_the_slow_rates_of_their_modes() {
+    for (spans, tau) in [(12, 1.0), (24, 100.0), (70, 1.0), (70, 1e4)] {
+        let mesh = Mesh::bspline(spans, 3, 2).unwrap();
+        let mut scene = scenes::cantilever(&mesh, scenes::rod());
+        let still = Model::assemble(&scene).unwrap();
+        let all = match Modes::of(&still, 1000, &mut || true) {
+            Err(VibrationError::Count { available, .. }) => available,
+            other => panic!("{other:?}"),
+        };
+        let modes = Modes::of(&still, all, &mut || true).unwrap();
+        scene.add_damping(0, Relaxation { axial: tau, shear: tau, bending: tau }).unwrap();
+        // The roots of λ² + τω² λ + ω², the small one without a difference.
+        let mut sizes: Vec<f64> = Vec::new();
+        for mode in modes.all() {
+            let omega = mode.angular_frequency();
+            let ratio = 0.5 * tau * omega;
+            match ratio > 1.0 {
+                true => {
+                    let sum = ratio + (ratio * ratio - 1.0).sqrt();
+                    sizes.extend([omega / sum, omega * sum]);
+                }
+                false => sizes.push(omega),
+            }
+        }
+        sizes.sort_by(f64::total_cmp);
+        for (found, expected) in damped(&scene, 5).unwrap().iter().zip(sizes) {
+            close(found.decay_rate.hypot(found.angular_frequency), expected, 1e-8);
+        }
+    }
+}
+
+/// What a strong dashpot lets creep back: its force over the stiffness that the beam has there.
+#[test]
+fn a_beam_creeps_back_against_a_strong_dashpot() {
+    let section = scenes::rod();
+    let length: f64 = 2.0;
+    let compliance =
+        length.powi(3) / (3.0 * section.bending_stiffness) + length / section.shear_stiffness;
+    for damping in [1e4, 1e8, 1e12] {
+        let mut scene = Scene::new("stay");
+        let mesh = Mesh::bspline(40, 3, 2).unwrap();
+        let beam = scenes::add_beam(
+            &mut scene,
+            scenes::line(at(0.0, 0.0), at(length, 0.0)),
+            &mesh,
+            section,
+        );
+        let (start, end) = (Station::on_beam(beam, 0.0), Station::on_beam(beam, length));
+        scene.join(JointKind::Rigid, start, Partner::Ground).unwrap();
+        connect(&mut scene, [Anchor::Ground(at(length, 3.0)), Anchor::Station(end)], 0.0, damping);
+        let found = damped(&scene, 1).unwrap()[0];
+        close(found.decay_rate, 1.0 / (damping * compliance), 1e-6);
+        assert_eq!(found.angular_frequency, 0.0);
+    }
+}

@@ -118,7 +118,46 @@ pub struct Joint {
     pub partner: Partner,
 }
 
+/// The line on which something may move.
+enum Line {
+    Horizontal,
+    Vertical,
+    /// Along a unit vector [-].
+    Inclined(Vec2),
+}
+
+impl Line {
+    /// The line along a direction of any length; none where it is zero.
+    fn along(direction: Vec2) -> Option<Self> {
+        match (direction.x == 0.0, direction.y == 0.0) {
+            (true, true) => None,
+            (false, true) => Some(Self::Horizontal),
+            (true, false) => Some(Self::Vertical),
+            // Of numbers that are very large or small the squares are not.
+            (false, false) => Some(Self::Inclined((direction / direction.amax()).normalize())),
+        }
+    }
+}
+
 impl JointKind {
+    /// A roller that lets a station move along a direction and turn: a support where the direction is an axis. None where it is zero.
+    pub fn roller(along: Vec2) -> Option<Self> {
+        Some(match Line::along(along)? {
+            Line::Horizontal => Self::Support(Components::Y),
+            Line::Vertical => Self::Support(Components::X),
+            Line::Inclined(along) => Self::InclinedRoller(along),
+        })
+    }
+
+    /// A guide that lets a station move along a direction, and not turn: a support where the direction is an axis. None where it is zero.
+    pub fn guide(along: Vec2) -> Option<Self> {
+        Some(match Line::along(along)? {
+            Line::Horizontal => Self::Support(Components::YRotation),
+            Line::Vertical => Self::Support(Components::XRotation),
+            Line::Inclined(along) => Self::InclinedGuide(along),
+        })
+    }
+
     /// The components of movement that a joint of this kind ties; that across an inclined roller is none of them.
     pub fn components(self) -> &'static [Component] {
         match self {

@@ -4,6 +4,7 @@ mod joint;
 mod release;
 mod slider;
 mod sliding;
+mod track;
 
 pub use joint::{Component, Components, Joint, JointKind, Partner};
 pub use release::{Hold, Release, Trigger};
@@ -13,3 +14,4 @@ pub use sliding::{
     KinkMotion, KinkState, Kinked, Leaning, Relaxed, Released, Resting, RuleClaims, RuleEntry,
     SLIDING_RULES, SlidingLaw, SlidingRule, Unit, WayVector,
 };
+pub use track::{Course, Heading, Leg, Track};

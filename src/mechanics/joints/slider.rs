@@ -12,13 +12,15 @@ pub struct Slider {
     pub name: String,
     /// The slave of the slider: the point that slides.
     pub slave: Station,
-    /// The index of the master of the slider: the beam on which it slides.
+    /// The index of the master of the slider: the beam on which it slides, or starts to slide where that is one of a track.
     pub master: usize,
+    /// The index of the track along which the slider passes from beam to beam, if it does.
+    pub track: Option<usize>,
     /// The arc length at which the slider starts on its master, as drawn [length].
     pub arc_length: f64,
     /// The law by which a step keeps the slider on its master.
     pub rule: SlidingRule,
-    /// What happens when the slider reaches an end of its master.
+    /// What happens when the slider reaches an end of its master, or of its track.
     pub ends: EndAction,
     /// How much of the speed with which the slider strikes an end it has when it leaves, from 0 to 1, where it bounces [-].
     pub restitution: f64,

@@ -2,6 +2,7 @@
 
 mod acceleration;
 mod blows;
+mod corners;
 mod culprit;
 mod energies;
 mod given;

@@ -30,5 +30,5 @@ pub use scene::{
 };
 pub use sliders::{Blow, SliderState, TrackEnd, TrackLimit};
 pub use words::{
-    Approach, ModelError, SliderError, SliderParts, Turning, refusal as refusal_of_name,
+    Approach, ModelError, SliderError, SliderParts, TrackError, Turning, refusal as refusal_of_name,
 };

@@ -15,6 +15,8 @@ pub enum ArrivalKind {
     Rested,
     /// The slider left its master at the end.
     Released,
+    /// The slider passed a seam of its track, from one beam to the next.
+    Passed,
 }
 
 /// The arrival of a slider at the end of its master.
@@ -24,6 +26,8 @@ pub struct Arrival {
     pub time: f64,
     /// The slider that arrived, and the end of its master.
     pub limit: TrackLimit,
+    /// The beam of that end, by its index, for a slider on a track.
+    pub beam: Option<usize>,
     /// What happened to the slider at the end.
     pub kind: ArrivalKind,
 }
@@ -36,20 +40,23 @@ impl ArrivalKind {
             Self::Bounced => "bounced",
             Self::Rested => "rested",
             Self::Released => "released",
+            Self::Passed => "passed",
         }
     }
 }
 
 impl Arrival {
-    /// The arrival in words: `slider 'ring' bounced off the end of its beam at t = 1.5`.
-    pub fn describe(&self, slider: &str) -> String {
+    /// The arrival in words: `slider 'ring' bounced off the end of its beam at t = 1.5`; the beam is named where the slider is on a track.
+    pub fn describe(&self, slider: &str, beam: Option<&str>) -> String {
         let end = self.limit.end.name();
+        let beam = beam.map_or_else(|| "its beam".to_owned(), |name| format!("beam '{name}'"));
         let did = match self.kind {
             ArrivalKind::Stopped => "reached",
             ArrivalKind::Bounced => "bounced off",
             ArrivalKind::Rested => "came to rest against",
             ArrivalKind::Released => "left over",
+            ArrivalKind::Passed => "passed",
         };
-        format!("slider '{slider}' {did} the {end} of its beam at t = {}", self.time)
+        format!("slider '{slider}' {did} the {end} of {beam} at t = {}", self.time)
     }
 }

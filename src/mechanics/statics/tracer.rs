@@ -265,7 +265,7 @@ impl<'s> Tracer<'s> {
     /// Sliders may come to lean on stops, or leave them; each time all begins anew.
     pub(super) fn balance_from(&mut self, factor: f64, rate: f64) -> Result<usize, Miss> {
         let mut iterations = 0;
-        for _ in 0..=2 * self.scene.sliders.len() {
+        for _ in 0..=self.scene.most_settlings() {
             self.model.stay(&mut self.unknowns);
             self.model.begin_movement();
             let balance = Balance { model: &mut self.model, length: self.length };

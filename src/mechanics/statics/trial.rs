@@ -48,7 +48,7 @@ impl Trial {
         scene: &Scene,
     ) -> Result<usize, Miss> {
         let mut iterations = 0;
-        for _ in 0..=2 * scene.sliders.len() {
+        for _ in 0..=scene.most_settlings() {
             let last = self.normal.len();
             model.stay(&mut self.unknowns[..last]);
             self.unknowns[last] = from;

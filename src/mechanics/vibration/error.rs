@@ -48,6 +48,11 @@ pub enum VibrationError {
         "something in the scene moves without inertia, or slides, and may creep in ways that its modes do not tell: give it inertia; damping_ratios of modes are right to first order in the damping"
     )]
     LightDamped,
+    /// Damped modes that are not found.
+    #[error(
+        "the damped modes of the scene are not found: its damping and its stiffness are too far apart; take a coarser mesh or less damping; damping_ratios of modes are right to first order in the damping"
+    )]
+    Damping,
     /// Modes of which rounding hides some.
     #[error(
         "rounding hides mode {modes}, counted from 0: its residual is {residual:.1e}, more than 1e-6; of modes below it there are {modes}: ask for no more, take a coarser mesh, or make the largest stiffness or the smallest inertia less extreme"

@@ -11,6 +11,7 @@ use rhai::{
 
 use super::parse::parse;
 use crate::script::library;
+use crate::script::rows::sources::Sources;
 use crate::script::source::program::{LARGEST_SCRIPT, Program};
 use crate::script::state::files::{InputFolder, InputFolders};
 use crate::script::words::error::ScriptError;
@@ -100,6 +101,7 @@ impl FolderResolver {
         content: Vec<u8>,
         position: Position,
     ) -> Result<Shared<Module>, Box<EvalAltResult>> {
+        Sources::of(engine).note_text(&file.display().to_string(), &content);
         let program = Program::from_bytes(file, content).map_err(|refused| {
             let refusal = ScriptError::new(refused.told);
             refusal.into_engine(position)

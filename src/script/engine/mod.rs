@@ -6,5 +6,6 @@ mod imports;
 pub mod parse;
 pub mod runner;
 pub mod stack;
+pub mod workers;
 
 pub use build::build;

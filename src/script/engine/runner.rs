@@ -96,7 +96,8 @@ fn may_go_back(program: &Program) -> bool {
 fn run_here(program: &Program, catalog: &Catalog, settings: Settings) -> Outcome {
     let needed = if may_go_back(program) { SNAPSHOTS } else { 0 };
     let snapshots = settings.snapshots.max(needed);
-    let settings = Settings { snapshots, folder: program.folder.clone(), ..settings };
+    let (folder, whole) = (program.folder.clone(), Some(program.clone()));
+    let settings = Settings { snapshots, folder, program: whole, ..settings };
     let host = match Host::open(catalog.clone(), settings) {
         Ok(host) => host,
         Err(diagnostic) => return Outcome::refused(diagnostic),

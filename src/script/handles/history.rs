@@ -65,9 +65,16 @@ impl HistoryHandle {
             return Ok(name);
         }
         let got = call.show(given);
+        let is_sensor = simulation.scene().clone().record(&name).is_ok();
+        let hint = match is_sensor {
+            true => format!(
+                "it is a sensor, which is a column where it is recorded: scene.record(\"{name}\") before scene.start(…)"
+            ),
+            false => column_hint(history, &name),
+        };
         Err(call
             .error(format!("the history of '{}' has no column {got}", self.of.name()))
-            .hint(column_hint(history, &name))
+            .hint(hint)
             .at(Place::Argument(argument)))
     }
 

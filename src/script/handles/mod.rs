@@ -13,3 +13,4 @@ pub mod section;
 pub mod simulation;
 pub mod station;
 pub mod step_size;
+pub mod track;

@@ -2,6 +2,7 @@
 
 use rhai::{Array, Dynamic};
 
+use crate::elementary::{exp, ln};
 use crate::script::rows::call::Call;
 use crate::script::rows::parameter::{Parameter, number, numbers, whole};
 use crate::script::rows::returns::Returns;
@@ -26,6 +27,14 @@ pub const TABLE: Table = Table {
         .example(
             "check(linspace(0, 1, 3) == [0, 0.5, 1]);\nfor t in linspace(0, 2, 5) { print(t); }",
         ),
+        function(
+            "logspace",
+            &[number("from").positive(), number("to").positive(), whole("count").between(2.0, 1e6)],
+            logspace,
+        )
+        .returns(Returns::NUMBERS)
+        .summary("Positive numbers at equal ratios, both ends included.")
+        .example("let ten = logspace(0.01, 100, 5);\ncheck(ten[0] == 0.01 && ten[4] == 100);\ncheck_close(ten[2], 1, 1e-14);"),
         function("sum", &[VALUES], |call| Ok(call.numbers("values")?.iter().sum::<f64>().into()))
             .returns(Returns::NUMBER)
             .summary("The sum of the numbers.")
@@ -56,6 +65,17 @@ fn linspace(call: &mut Call) -> Result<Dynamic, ScriptError> {
         let x = (from * before + to * after) / last;
         // Near the largest number the products are infinite, and the shares are not.
         if x.is_finite() { x } else { from * (before / last) + to * (after / last) }
+    };
+    Ok((0..count).map(|i| Dynamic::from(at(i))).collect::<Array>().into())
+}
+
+fn logspace(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let (from, to, count) = (call.number("from")?, call.number("to")?, call.count("count")?);
+    let (low, high, last) = (ln(from), ln(to), count - 1);
+    let at = |i: usize| match i {
+        0 => from,
+        i if i == last => to,
+        i => exp((low * (last - i) as f64 + high * i as f64) / last as f64),
     };
     Ok((0..count).map(|i| Dynamic::from(at(i))).collect::<Array>().into())
 }

@@ -82,11 +82,14 @@ fn drag(call: &mut Call) -> Result<Dynamic, ScriptError> {
 }
 
 fn of_beam(call: &Call, beam: usize, options: &Options) -> Result<Dragged, ScriptError> {
-    refuse(
+    let advice = "a beam is dragged across and along its axis: give normal and tangent";
+    refuse(call, options, &["linear"], advice)?;
+    let ways = ["normal", "tangent", "quadratic"];
+    expect_one(
         call,
         options,
-        &["linear"],
-        "a beam is dragged across and along its axis: give normal and tangent",
+        &ways,
+        "give normal, tangent, or quadratic: #{ normal: …, tangent: … }",
     )?;
     if call_number(options, "quadratic").is_some() {
         let told = "quadratic is a number, and a beam is dragged across and along its axis";
@@ -104,6 +107,7 @@ fn of_beam(call: &Call, beam: usize, options: &Options) -> Result<Dragged, Scrip
 fn of_point(call: &Call, scene: &SceneHandle, options: &Options) -> Result<Dragged, ScriptError> {
     let advice = "a point has no axis: give linear, quadratic or both";
     refuse(call, options, &["normal", "tangent"], advice)?;
+    expect_one(call, options, &["linear", "quadratic"], "give linear, quadratic or both")?;
     if options.get_if::<Options>("quadratic").is_some() {
         let told = "quadratic is given by directions, and a point has none";
         let hint = "give quadratic: a number";
@@ -120,6 +124,20 @@ fn of_point(call: &Call, scene: &SceneHandle, options: &Options) -> Result<Dragg
 /// The number that is given for an option that may be something else.
 fn call_number(options: &Options, name: &str) -> Option<f64> {
     options.get_if::<f64>(name)
+}
+
+/// Asks for one of some options at least.
+fn expect_one(
+    call: &Call,
+    options: &Options,
+    ways: &[&str],
+    hint: &str,
+) -> Result<(), ScriptError> {
+    if ways.iter().any(|key| options.has(key)) {
+        return Ok(());
+    }
+    let told = "how strongly it is dragged is missing";
+    Err(call.error(told).hint(hint).at(Place::Argument(1)))
 }
 
 /// Refuses options that mean nothing for what is dragged.

@@ -4,7 +4,6 @@ use rhai::{Dynamic, ImmutableString};
 
 use super::scenes::{JOINT, SCENE, STATION, newest_joint};
 use super::schedules::{SCHEDULE_KINDS, controlled_schedule_of, schedule_of};
-use crate::geometry::Vec2;
 use crate::joints::{Component, Components, JointKind, Partner};
 use crate::loads::{LoadKind, PrescribedMotion};
 use crate::model::{Drive, DriveKind, ModelError};
@@ -23,7 +22,8 @@ pub const TABLE: Table = Table {
     doc: "A support holds movements of a station, a drive gives them as functions of time. What is given is no unknown: place and angle are \
           exact at the end of every step, however long, and what it takes is the reaction. A drive does work: E - W + D, p - ∫F dt and L - ∫M dt stay at \
           rounding with it. The history has work.NAME of every drive and of every load with a name, NAME.torque of a motor, and NAME.x, NAME.y and NAME.angle \
-          of what moves a station: its force along each, and its moment, mean of each step.",
+          of what moves a station: its force along each, and its moment, mean of each step; a moment is the one whose work is with the angle that the section turns by, \
+          exact however far that is.",
     types: &[],
     setup: super::scenes::ROD,
     constants: &[],
@@ -108,7 +108,11 @@ fn support(call: &mut Call) -> Result<Dynamic, ScriptError> {
                     format!("along says which of x and y is held, and {odd} is given besides");
                 return Err(call.error(told).at(Place::Key(odd.into())));
             }
-            Some(roller(call, options.point("along")?, is_held("angle"))?)
+            let kind = if is_held("angle") { JointKind::guide } else { JointKind::roller };
+            let told = "along has no direction: it is [0, 0]";
+            let hint = "write along: [1, 1], or the direction of the line on which it may move";
+            let refused = || call.error(told).hint(hint).at(Place::Key("along".into()));
+            Some(kind(options.point("along")?).ok_or_else(refused)?)
         }
         false => Components::among(|at| is_held(at.name())).map(JointKind::Support),
     };
@@ -120,29 +124,6 @@ fn support(call: &mut Call) -> Result<Dynamic, ScriptError> {
     };
     scene.borrow_mut().join(held, station, Partner::Ground)?;
     newest_joint(call)
-}
-
-/// What holds a station across a direction, along which it stays free, and its angle besides if that is wanted.
-fn roller(call: &Call, along: Vec2, holds_angle: bool) -> Result<JointKind, ScriptError> {
-    let across = match (along.x == 0.0, along.y == 0.0) {
-        (false, true) => Component::Y,
-        (true, false) => Component::X,
-        (true, true) => {
-            let told = "along has no direction: it is [0, 0]";
-            let hint = "write along: [1, 1], or the direction of the line on which it may move";
-            return Err(call.error(told).hint(hint).at(Place::Key("along".into())));
-        }
-        (false, false) => {
-            // Of numbers that are very large or small the squares are not.
-            let along = (along / along.amax()).normalize();
-            return Ok(match holds_angle {
-                true => JointKind::InclinedGuide(along),
-                false => JointKind::InclinedRoller(along),
-            });
-        }
-    };
-    let held = Components::among(|at| at == across || at == Component::Rotation && holds_angle);
-    Ok(held.map_or(JointKind::Hinge, JointKind::Support))
 }
 
 fn drive(call: &mut Call) -> Result<Dynamic, ScriptError> {

@@ -10,7 +10,7 @@ use super::simulations::{START, begin, followed};
 use super::sliding::{SliderHandle, WHICH};
 use super::vectors::VECTOR;
 use crate::beams::Place;
-use crate::model::{Model, SliderState};
+use crate::model::Model;
 use crate::output::significant;
 use crate::script::handles::equilibrium::EquilibriumHandle;
 use crate::script::handles::scene::SceneHandle;
@@ -101,7 +101,7 @@ pub const TABLE: Table = Table {
             asked(call, |model, slider| model.slider_position(slider).into())
         })
         .returns(Returns::NUMBER)
-        .summary("Where a slider rests on its beam: 0 at the start, 1 at the end, by length as drawn.")
+        .summary("Where a slider rests on its beam or track: 0 at the start, 1 at the end, by length as drawn.")
         .example(SLID)
         .see(&["contact_force", "leans_on"]),
         method(EQUILIBRIUM, "contact_force", &[WHICH], |call| {
@@ -112,13 +112,10 @@ pub const TABLE: Table = Table {
         .example(SLID)
         .see(&["slider_position"]),
         method(EQUILIBRIUM, "leans_on", &[WHICH], |call| {
-            asked(call, |model, slider| match model.slider_state(slider) {
-                SliderState::Held(end) => end.name().into(),
-                SliderState::Sliding | SliderState::Released => "".into(),
-            })
+            asked(call, |model, slider| model.slider_leans_on(slider).unwrap_or_default().into())
         })
         .returns(Returns::TEXT.note(", empty for one that hangs free of the ends"))
-        .summary("The end of its beam on whose stop a slider leans: \"start\" or \"end\".")
+        .summary("The end of its beam or track on whose stop a slider leans, \"start\" or \"end\", or a \"seam\" of its track.")
         .doc("A stop pushes and never pulls. Sliders with ends: \"stop\" and ends: \"bounce\" lean; one with ends: \"release\" has left there, and has no rest.")
         .example(SLID)
         .see(&["slider_position"]),

@@ -4,18 +4,21 @@ use rhai::Dynamic;
 
 use super::recording::{Missing, expect_near, tell_another_run};
 use super::simulations::{SIMULATION, SPINNING};
+use super::sweeps::SWEEP_TABLE;
 use super::tables::{TABULAR, table};
 use crate::output::{Heading, vtk_collection};
 use crate::script::handles::simulation::{SimulationHandle, Visited};
 use crate::script::looks::arrays::archive;
 use crate::script::looks::grids::Grids;
 use crate::script::rows::call::Call;
+use crate::script::rows::kind::Kind;
 use crate::script::rows::options::Options;
 use crate::script::rows::parameter::{
-    Parameter, boolean, choice, number, object, options, text, whole,
+    Parameter, boolean, choice, either, number, object, options, text, whole,
 };
 use crate::script::rows::table::{Table, function};
 use crate::script::state::settings::Mode;
+use crate::script::studies::sweeps::table::SweepTable;
 use crate::script::words::error::{Place, ScriptError};
 use crate::script::words::numbers::format_number;
 
@@ -41,11 +44,12 @@ pub const TABLE: Table = Table {
             )
             .example("sim.run_to(2);\nwrite_vtk(sim, \"spin.pvd\", #{ every: 0.5 });\nwrite_vtk(sim, \"shape.pvd\", #{ frames: 3, fields: \"shape\" });")
             .see(&["write_npz", "plot_motion", "save"]),
-        function("write_npz", &[OF, NPZ_FILE], write_npz)
+        function("write_npz", &[ARRAYED, NPZ_FILE], write_npz)
             .summary("Writes everything that is recorded as arrays for NumPy.")
             .doc(
                 "`t` has the times of the configurations; `points.NAME` the control points (or nodes) of a beam, by time, point and coordinate, or the \
-                 places of a particle, by time and coordinate; `history.COLUMN` each column of the history, whose own times are `history.t`. Doubles, every bit kept.",
+                 places of a particle, by time and coordinate; `history.COLUMN` each column of the history, whose own times are `history.t`. Of the table of a sweep there is an array for each parameter and result of numbers, not-a-number \
+                 where a row failed. Doubles, every bit kept.",
             )
             .example("sim.run_to(1);\nwrite_npz(sim, \"spin.npz\");")
             .see(&["write_vtk", "write_states", "write_csv"]),
@@ -71,6 +75,8 @@ pub const TABLE: Table = Table {
     ],
 };
 
+const ARRAYED: Parameter = either("of", &[Kind::Object(SIMULATION), Kind::Object(SWEEP_TABLE)])
+    .doc("a simulation, or the table of a sweep");
 const OF: Parameter = object("of", SIMULATION);
 const VTK_FILE: Parameter = text("file").doc("its name in the output folder, which ends in .pvd");
 const NPZ_FILE: Parameter = text("file").doc("its name in the output folder, which ends in .npz");
@@ -247,8 +253,11 @@ fn frames(
 
 fn write_npz(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let file = named(call, ".npz")?;
-    let of = call.get::<SimulationHandle>("of")?;
-    let bytes = archive(&of.simulation()).to_bytes()?;
+    let archive = match call.get_if::<SweepTable>("of") {
+        Some(sweep) => sweep.archive(),
+        None => archive(&call.get::<SimulationHandle>("of")?.simulation()),
+    };
+    let bytes = archive.to_bytes()?;
     call.context().write_file(&file, &bytes)?;
     Ok(Dynamic::UNIT)
 }

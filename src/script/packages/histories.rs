@@ -75,6 +75,17 @@ pub const TABLE: Table = Table {
         .returns(Returns::WHOLE)
         .summary("The number of rows; the start is one.")
         .example("sim.step(4);\ncheck(sim.history.rows == 5);"),
+        property(HISTORY, "columns", |call| {
+            let history = call.receiver::<HistoryHandle>()?;
+            let names = history.read(|history| {
+                history.columns().map(|(name, _)| Dynamic::from(name.to_owned())).collect::<Array>()
+            });
+            Ok(names.into())
+        })
+        .returns(Returns::ARRAY)
+        .summary("The names of its columns: those of every history, then those that the scene adds, by its springs, drives, sliders and what it records.")
+        .example("check(sim.history.columns.contains(\"energy\"));")
+        .see(&["column", "record"]),
     ],
 };
 

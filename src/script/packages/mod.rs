@@ -25,6 +25,7 @@ mod precision_studies;
 mod reading_options;
 mod recording;
 mod releases;
+mod samples;
 mod saving;
 mod scenes;
 mod schedules;
@@ -37,10 +38,13 @@ mod springs;
 mod stability_studies;
 mod statistics;
 mod step_sizes;
+mod sweep_pictures;
+mod sweeps;
 mod tables;
 mod tapers;
 mod text;
 mod time_travel;
+mod tracks;
 mod vectors;
 mod viewers;
 
@@ -77,6 +81,7 @@ pub const TABLES: &[&Table] = &[
     &time_travel::TABLE,
     &saving::TABLE,
     &sliding::TABLE,
+    &tracks::TABLE,
     &releases::TABLE,
     &histories::TABLE,
     &statistics::TABLE,
@@ -92,6 +97,9 @@ pub const TABLES: &[&Table] = &[
     &cost_studies::TABLE,
     &precision_studies::TABLE,
     &convergence_studies::TABLE,
+    &samples::TABLE,
+    &sweeps::TABLE,
+    &sweep_pictures::TABLE,
     &reading_options::TABLE,
     &help::TABLE,
 ];

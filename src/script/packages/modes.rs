@@ -7,6 +7,7 @@ use rhai::{Array, Dynamic, INT, Map};
 use super::scenes::{SCENE, STATION};
 use super::simulations::SIMULATION;
 use super::vectors::VECTOR;
+use crate::geometry::Vec2;
 use crate::model::{Model, Scene};
 use crate::output::{Cell, Table as TextTable, significant};
 use crate::script::handles::scene::SceneHandle;
@@ -35,7 +36,7 @@ pub const TABLE: Table = Table {
             let model = Model::assemble(&scene)?;
             expect_room(call, &model)?;
             let modes = look(call, |count, goes_on| Modes::of(&model, count, goes_on))?;
-            Ok(Dynamic::from(ModesHandle::new(handle, &scene, modes)))
+            Ok(Dynamic::from(ModesHandle::drawn(handle, &scene, modes)))
         })
         .returns(Returns::object(MODES))
         .summary("The lowest natural frequencies and shapes of the scene as it is drawn.")
@@ -156,12 +157,27 @@ struct Held {
     of: SceneHandle,
     scene: Scene,
     modes: Modes,
+    about: About,
+}
+
+/// The configuration about which something vibrates.
+#[derive(Clone, Copy, PartialEq)]
+enum About {
+    /// That of the scene as drawn, in which no load has done anything yet.
+    Drawn,
+    /// One in which loads act, at rest or in motion.
+    Loaded,
 }
 
 impl ModesHandle {
-    /// A handle on modes of a scene as it was built.
+    /// A handle on modes about an equilibrium or a present configuration of a scene as it was built.
     pub fn new(of: SceneHandle, scene: &Scene, modes: Modes) -> Self {
-        Self(Rc::new(Held { of, scene: scene.clone(), modes }))
+        Self(Rc::new(Held { of, scene: scene.clone(), modes, about: About::Loaded }))
+    }
+
+    /// A handle on modes of a scene as drawn.
+    fn drawn(of: SceneHandle, scene: &Scene, modes: Modes) -> Self {
+        Self(Rc::new(Held { of, scene: scene.clone(), modes, about: About::Drawn }))
     }
 
     /// The scene that has the modes, as it was built, and the modes of the handle.
@@ -199,7 +215,13 @@ impl Scripted for ModesHandle {
             let number = Cell::Number(number.to_string());
             table.row([number, shown(mode.angular_frequency()), period, Cell::Text(remark)]);
         }
-        table.to_string().trim_end().to_owned()
+        let mut shown = table.to_string().trim_end().to_owned();
+        let Held { scene, about, .. } = &*self.0;
+        let acts = scene.loads().next().is_some() || scene.gravity != Vec2::zeros();
+        if *about == About::Drawn && acts {
+            shown += "\nof the scene as drawn: what its loads and its weight change, as of a pendulum, is in scene.equilibrium().modes(n)";
+        }
+        shown
     }
 }
 

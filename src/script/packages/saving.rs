@@ -9,6 +9,7 @@ use super::scenes::STATION;
 use super::simulations::{SIMULATION, SPINNING};
 use super::sliding::SLIDER;
 use super::sliding::SliderHandle;
+use super::tracks::TRACK;
 use crate::beams::Station;
 use crate::script::handles::beam::BeamHandle;
 use crate::script::handles::notes::Notes;
@@ -16,6 +17,7 @@ use crate::script::handles::rigid_body::RigidBodyHandle;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::simulation::SimulationHandle;
 use crate::script::handles::station::StationHandle;
+use crate::script::handles::track::TrackHandle;
 use crate::script::rows::call::Call;
 use crate::script::rows::parameter::{Parameter, array, text};
 use crate::script::rows::returns::{Returns, ValueKind};
@@ -102,6 +104,15 @@ pub const TABLE: Table = Table {
         .summary("The slider of that name.")
         .example("scene.slider(scene.particle([1, 0], 1), rod, #{ name: \"ring\" });\nprint(scene.slider_named(\"ring\"));")
         .see(&["slider", "scene"]),
+        method(SCENE, "track_named", &[NAME], |call| {
+            let scene = call.receiver::<SceneHandle>()?;
+            let index = find(call, "track", |held| held.tracks.iter().map(|track| &track.name).collect())?;
+            Ok(Dynamic::from(TrackHandle { scene, index }))
+        })
+        .returns(Returns::object(TRACK))
+        .summary("The track of that name.")
+        .example("scene.track([rod], #{ name: \"course\" });\nprint(scene.track_named(\"course\"));")
+        .see(&["track", "scene"]),
     ],
 };
 

@@ -135,7 +135,8 @@ pub const TABLE: Table = Table {
             Ok(Dynamic::UNIT)
         })
         .summary("Gives the node at a station, and it alone, a velocity to start with.")
-        .doc("A beam as a whole is given a velocity where it is made: scene.beam(#{ …, velocity: [1, 0], spin: 2 }).")
+        .doc("A beam as a whole is given a velocity where it is made: scene.beam(#{ …, velocity: [1, 0], spin: 2 }). A body in motion that is joined to a beam at rest takes the node there \
+              along: give that the velocity of the point of the body.")
         .example("scene.velocity(rod.end, [0, -1]);")
         .see(&["beam"]),
         method(SCENE, "gravity", &[point("acceleration").unit("length/time²")], |call| {

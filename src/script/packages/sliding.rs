@@ -4,19 +4,20 @@ use rhai::{Array, Dynamic, Map};
 
 use super::scenes::{BEAM, SCENE, STATION};
 use super::simulations::SIMULATION;
+use super::tracks::{Guide, TRACK};
 use super::vectors::VECTOR;
-use crate::beams::Station;
 use crate::joints::{EndAction, Slider, SlidingRule, StartVelocities};
 use crate::model::{Model, ModelError, Scene, SliderError};
 use crate::output::significant;
-use crate::script::handles::beam::BeamHandle;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::simulation::SimulationHandle;
 use crate::script::handles::station::here;
 use crate::script::looks::details;
 use crate::script::rows::call::Call;
-use crate::script::rows::kind::{Details, Scripted, Type};
-use crate::script::rows::parameter::{Parameter, Presence, choice, number, object, options, text};
+use crate::script::rows::kind::{Details, Kind, Scripted, Type};
+use crate::script::rows::parameter::{
+    Parameter, Presence, choice, either, number, object, options, text,
+};
 use crate::script::rows::returns::{Returns, ValueKind};
 use crate::script::rows::table::{Row, Table, function, method, property};
 use crate::script::words::error::{Place, ScriptError};
@@ -56,9 +57,9 @@ pub const TABLE: Table = Table {
             .summary("For comparison: the slave is on the beam in the mean of a step; the gap drifts, and a step may have no solution.")
             .doc("With energy_momentum(): keeps energy, linear momentum and angular momentum to rounding. Sibileau & Muñoz, equations 11 to 14.")
             .see(&["conserving", "exact"]),
-        method(SCENE, "slider", &[object("station", STATION), object("beam", BEAM), options("options", SLIDER_KEYS).optional()], slider)
+        method(SCENE, "slider", &[object("station", STATION), ON, options("options", SLIDER_KEYS).optional()], slider)
             .returns(Returns::object(SLIDER))
-            .summary("Lets a station, a place on another beam or a particle, slide along a beam.")
+            .summary("Lets a station, a place on another beam or a particle, slide along a beam or a track.")
             .doc(
                 "The joint must close at the start: the station lies on the beam as drawn, at `at`, to six digits, and is moved \
                  onto it exactly. Where the beam ends, the run \
@@ -76,7 +77,7 @@ pub const TABLE: Table = Table {
                  let runner = scene.slider(hook.start, rod, #{ at: 0.5, rule: conserving(), ends: \"bounce\" });\n\
                  print(runner);",
             )
-            .see(&["particle", "conserving", "contact_force"]),
+            .see(&["particle", "track", "conserving", "contact_force"]),
         property(SLIDER, "name", |call| Ok(call.receiver::<SliderHandle>()?.name().into()))
             .returns(Returns::TEXT)
             .summary("Its name.")
@@ -98,10 +99,10 @@ pub const TABLE: Table = Table {
             asked(call, |model, slider| model.slider_position(slider).into())
         })
         .returns(Returns::NUMBER)
-        .summary("Where a slider is on its beam: 0 at the start, 1 at the end, by length as drawn.")
+        .summary("Where a slider is on its beam or track: 0 at the start, 1 at the end, by length as drawn.")
         .doc(
             "Times the length of the beam as drawn it is slider_arc_length, whose rate is slider_speed: in the history NAME.speed is \
-             the rate of NAME.position times that length.",
+             the rate of NAME.position times that length. Round a closed track it counts on: 2.5 is half-way round for the third time, -0.5 half-way back.",
         )
         .example("check_close(sim.slider_position(ring), 0.25, 1e-12);")
         .see(&["slider_arc_length", "slider_speed"]),
@@ -109,7 +110,7 @@ pub const TABLE: Table = Table {
             asked(call, |model, slider| model.slider_arc_length(slider).into())
         })
         .returns(Returns::NUMBER.unit("length"))
-        .summary("How far a slider is from the start of its beam, by length as drawn; slider_speed is its rate.")
+        .summary("How far a slider is from the start of its beam or track, by length as drawn and with all turns of a closed track; slider_speed is its rate.")
         .example(
             "check_close(sim.slider_arc_length(ring), 0.5, 1e-12);\n\
              check_close(sim.slider_arc_length(ring) / rod.length, sim.slider_position(ring), 1e-12);",
@@ -119,7 +120,7 @@ pub const TABLE: Table = Table {
             asked(call, |model, slider| model.slider_speed(slider).into())
         })
         .returns(Returns::NUMBER.unit("length/time"))
-        .summary("How fast a slider moves along its beam as drawn, positive towards the end.")
+        .summary("How fast a slider moves along its beam or track as drawn, positive towards the end.")
         .example("check_close(sim.slider_speed(ring), 1, 1e-12);")
         .see(&["slider_arc_length", "slider_position"]),
         property(SIMULATION, "ended", |call| Ok(call.receiver::<SimulationHandle>()?.simulation().has_ended().into()))
@@ -137,10 +138,11 @@ pub const TABLE: Table = Table {
         .see(&["ended", "events"]),
         property(SIMULATION, "events", events)
             .returns(Returns::array_of(&ValueKind::Map).note(" #{ t, slider, end, what }"))
-            .summary("When sliders reached ends of their beams so far, and what happened there.")
+            .summary("When sliders reached ends of their beams and seams of their tracks so far, and what happened there.")
             .doc(
                 "slider is its name; end is \"start\" or \"end\"; what is \"stopped\", \"bounced\", \"rested\" (it leans on the \
-                 end until that would have to pull: in a blow that steps resolve, or until it is drawn away) or \"released\".",
+                 end until that would have to pull: in a blow that steps resolve, or until it is drawn away), \"released\" or, on a track, \"passed\": to the next beam. On a track \
+                 the map has the name of the beam as well, at one of whose ends that was: beam.",
             )
             .example("sim.run_to(5);\nfor event in sim.events {\n    print(`${event.slider} ${event.what} at ${event.end}, t = ${event.t}`);\n}")
             .see(&["ended", "slider"]),
@@ -152,6 +154,7 @@ const RULE: Type = Type::of::<SlidingRule>();
 /// The slider type.
 pub(super) const SLIDER: Type = Type::of::<SliderHandle>();
 
+const ON: Parameter = either("beam", &[Kind::Object(BEAM), Kind::Object(TRACK)]);
 pub(super) const WHICH: Parameter = object("slider", SLIDER);
 const ENDS: [(&str, EndAction); 3] =
     [("stop", EndAction::Stop), ("bounce", EndAction::Bounce), ("release", EndAction::Release)];
@@ -160,11 +163,11 @@ const VELOCITIES: [(&str, StartVelocities); 2] =
 const SLIDER_KEYS: &[Parameter] = &[
     number("at")
         .between(0.0, 1.0)
-        .doc("where it starts, as a part of the length of the beam as drawn; the nearest place unless given")
+        .doc("where it starts, as a part of the length of the beam or the track as drawn; the nearest place unless given")
         .optional(),
     object("rule", RULE).doc("conserving() unless given").optional(),
     choice("ends", &[ENDS[0].0, ENDS[1].0, ENDS[2].0])
-        .doc("what happens where the beam ends: the run stops, the slider bounces off an elastic stop, or it flies free")
+        .doc("what happens where the beam or the track ends: the run stops, the slider bounces off an elastic stop, or it flies free")
         .or(Presence::Text("stop")),
     number("restitution")
         .between(0.0, 1.0)
@@ -216,13 +219,12 @@ impl Scripted for SliderHandle {
     fn show(&self) -> String {
         let scene = self.scene.scene().borrow();
         let slider = &scene.sliders[self.index];
-        let master = &scene.beams[slider.master];
+        let (guide, part) = details::guide_of(&scene, slider);
         format!(
-            "slider '{}': {} on beam '{}' at {} of its length, {} rule",
+            "slider '{}': {} on {guide} at {} of its length, {} rule",
             slider.name,
             scene.describe(&slider.slave),
-            master.name,
-            significant(slider.arc_length / master.axis.length(), 7),
+            significant(part, 7),
             slider.rule.entry().name
         )
     }
@@ -255,7 +257,7 @@ const fn rule(name: &'static str, body: crate::script::rows::table::Body) -> Row
 fn slider(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (slave, scene) = here(call, "station")?;
     let handle = call.receiver::<SceneHandle>()?;
-    let master = call.get::<BeamHandle>("beam")?.own(&handle)?;
+    let guide = Guide::of(call, "beam", &handle)?;
     let options = call.options_or_defaults("options")?;
     let at = options.number_if_given("at");
     let name = options.text_if_given("name")?;
@@ -266,11 +268,13 @@ fn slider(call: &mut Call) -> Result<Dynamic, ScriptError> {
         return Err(ScriptError::new(told).at(Place::Key("restitution".into())));
     }
     let restitution = restitution.unwrap_or(1.0);
+    let (master, arc_length) = guide.start(&scene.borrow(), slave, at)?;
     let definition = Slider {
         name: name.unwrap_or_else(|| scene.borrow().free_name("slider")),
         slave,
         master,
-        arc_length: start(&scene.borrow(), slave, master, at)?,
+        track: guide.track(),
+        arc_length,
         rule: options.get_if("rule").unwrap_or_default(),
         ends,
         restitution,
@@ -279,14 +283,6 @@ fn slider(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let added = scene.borrow_mut().add_slider(definition);
     let index = added.map_err(|error| blame(error, at.is_some()))?;
     Ok(Dynamic::from(SliderHandle { scene: handle, index }))
-}
-
-/// The arc length at which a slider starts: where it is said, or at the nearest place.
-fn start(scene: &Scene, slave: Station, master: usize, at: Option<f64>) -> Result<f64, ModelError> {
-    match at {
-        Some(part) => Ok(part * scene.beams[master].axis.length()),
-        None => scene.nearest_arc_length(master, &slave),
-    }
 }
 
 /// The value that one of the words of a choice stands for; a row lets no other words through.
@@ -329,6 +325,9 @@ fn events(call: &mut Call) -> Result<Dynamic, ScriptError> {
         ];
         let mut map: Map = words.into_iter().map(|(key, word)| (key.into(), word.into())).collect();
         map.insert("t".into(), arrival.time.into());
+        if let Some(beam) = arrival.beam {
+            map.insert("beam".into(), simulation.scene().beams[beam].name.clone().into());
+        }
         Dynamic::from(map)
     };
     Ok(Dynamic::from(simulation.arrivals().iter().map(event).collect::<Array>()))

@@ -47,7 +47,8 @@ pub const TABLE: Table = Table {
         .returns(Returns::object(SPRING))
         .summary("A spring between two stations, or a station and a point of the ground; a damper may act beside it.")
         .doc("It pulls with stiffness · (distance - length), and with damping · the rate of the distance. A spring as stiff as a rod takes no more \
-              iterations than a soft one. Where the distance is zero it has no direction and no force. A law is asked when the spring is made, at so many elongations \
+              iterations than a soft one. Where the distance is zero it has no direction and no force; without length at ease, length: 0, it needs none. A damper acts at any \
+              length, also where the spring is slack. A law is asked when the spring is made, at so many elongations \
               of its range that the polygon through them is right to 1e-7 of the largest force: its energy is known exactly, and files keep it. Printed, the spring \
               tells how far it is off; a law that 20 000 points do not meet, as one that jumps, is refused.")
         .example("let s1 = scene.spring(rod.end, bead, #{ stiffness: 100, length: 0.5, damping: 0.5 });\n\

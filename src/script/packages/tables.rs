@@ -1,4 +1,4 @@
-//! Tables of what scripts hold: histories, and arrays of maps as studies give them.
+//! Tables of what scripts hold: histories, sweeps, and arrays of maps as studies give them.
 
 use std::collections::BTreeSet;
 
@@ -6,6 +6,7 @@ use rhai::{Array, Dynamic, Map};
 
 use super::histories::HISTORY;
 use super::simulations::SIMULATION;
+use super::sweeps::SWEEP_TABLE;
 use crate::output::{DataColumn, DataTable, DataValues};
 use crate::script::handles::history::HistoryHandle;
 use crate::script::handles::simulation::SimulationHandle;
@@ -13,13 +14,14 @@ use crate::script::looks::arrays;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::Kind;
 use crate::script::rows::parameter::{Parameter, either};
+use crate::script::studies::sweeps::table::SweepTable;
 use crate::script::words::error::{Place, ScriptError};
 use crate::script::words::numbers::as_number;
 
 /// What a table can be made of.
 pub(super) const TABULAR: Parameter =
-    either("of", &[Kind::Object(SIMULATION), Kind::Object(HISTORY), Kind::Array])
-        .doc("a simulation or history, or an array of maps such as the cells of a stability map");
+    either("of", &[Kind::Object(SIMULATION), Kind::Object(HISTORY), Kind::Object(SWEEP_TABLE), Kind::Array])
+        .doc("a simulation or history, the table of a sweep, or an array of maps such as the cells of a stability map");
 
 /// The table of what the call gives: a row for each row of a history, or for each map.
 pub(super) fn table(call: &Call) -> Result<DataTable, ScriptError> {
@@ -32,6 +34,9 @@ pub(super) fn table(call: &Call) -> Result<DataTable, ScriptError> {
             true => Err(history.no_rows(call)),
             false => Ok(history.read(arrays::table)),
         };
+    }
+    if let Some(sweep) = of.clone().try_cast::<SweepTable>() {
+        return Ok(sweep.data());
     }
     let rows = of.try_cast::<Array>().unwrap_or_default().into_iter();
     let rows: Option<Vec<Map>> = rows.map(Dynamic::try_cast::<Map>).collect();

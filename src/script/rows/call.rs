@@ -2,7 +2,7 @@
 
 use std::ops::Deref;
 
-use rhai::{AST, Dynamic, FnPtr, NativeCallContext};
+use rhai::{AST, Dynamic, Engine, FnPtr, Module, NativeCallContext, ScriptFuncDef, Shared};
 
 use super::accept::accept_described;
 use super::arguments::Arguments;
@@ -98,6 +98,41 @@ impl<'c, 'r> Call<'c, 'r> {
             functions.find(|known| known.name == function.fn_name()).map(|known| known.params.len())
         });
         known.map(|parameters| parameters.saturating_sub(function.curry().len()))
+    }
+
+    /// The definition of a script function, if it is one of the running file.
+    pub fn definition(&self, function: &FnPtr) -> Option<Shared<ScriptFuncDef>> {
+        let libraries = &self.native.global_runtime_state().lib;
+        let parameters = self.arguments_of(function)? + function.curry().len();
+        let defined = |library: &Shared<Module>| {
+            library.get_script_fn(function.fn_name(), parameters).cloned()
+        };
+        libraries.iter().find_map(defined)
+    }
+
+    /// What a script function does, as a syntax tree without anything else in it; an empty one where it is not one of the running file.
+    pub fn body(&self, function: &FnPtr) -> AST {
+        let libraries = &self.native.global_runtime_state().lib;
+        let parameters = self.arguments_of(function).unwrap_or(0) + function.curry().len();
+        let has = |library: &&Shared<Module>| {
+            library.get_script_fn(function.fn_name(), parameters).is_some()
+        };
+        let library = libraries.iter().find(has).map(|found| AST::new_from_module(found.clone()));
+        library.unwrap_or_default().clone_functions_only_filtered(|_, _, _, name, count| {
+            name == function.fn_name() && count == parameters
+        })
+    }
+
+    /// The script function of this name with so many parameters, captured ones included, without captured values.
+    pub fn function_named(&self, name: &str, parameters: usize) -> Option<FnPtr> {
+        let libraries = &self.native.global_runtime_state().lib;
+        let found = libraries.iter().find_map(|of| of.get_script_fn(name, parameters).cloned());
+        found.map(FnPtr::from)
+    }
+
+    /// The engine of the run.
+    pub fn engine(&self) -> &Engine {
+        self.native.engine()
     }
 
     /// Refuses a script function that takes another number of arguments; `shape` shows the right one.

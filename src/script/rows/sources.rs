@@ -2,7 +2,7 @@
 //! called by natives, and tells only errors the line of a call.
 
 use std::cell::{Cell, RefCell};
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::rc::Rc;
 
 use rhai::{AST, Engine};
@@ -22,6 +22,8 @@ pub const FOLDER: &str = "std/";
 pub struct Sources {
     functions: Rc<RefCell<HashMap<String, HashSet<String>>>>,
     entered_at: Rc<Cell<Option<usize>>>,
+    /// The checksums of files that were imported.
+    imported: Rc<RefCell<BTreeMap<String, u32>>>,
     catalog: Option<Rc<Catalog>>,
     reader: Reader,
 }
@@ -73,6 +75,19 @@ impl Sources {
     /// What stopped the reading of the last text before its end, if something did.
     pub fn reading_stopped(&self) -> Option<Stop> {
         self.reader.stopped()
+    }
+
+    /// Notes the text of a file that was imported.
+    pub fn note_text(&self, file: &str, content: &[u8]) {
+        self.imported.borrow_mut().insert(file.to_owned(), crc32fast::hash(content));
+    }
+
+    /// A number made of the texts of all files that were imported so far.
+    pub fn imprint(&self) -> u64 {
+        let imported = self.imported.borrow();
+        imported.values().fold(imported.len() as u64, |sum, one| {
+            sum.rotate_left(7).wrapping_mul(0x100_0000_01b3) ^ u64::from(*one)
+        })
     }
 
     /// Notes the functions and closures of a file.

@@ -1,5 +1,7 @@
 //! What all native calls of one run share: where output goes, what was checked, whether to go on.
 
+mod written;
+
 use std::cell::{Cell, RefCell};
 use std::collections::HashSet;
 use std::io::{self, Write};
@@ -10,18 +12,16 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use rhai::{Dynamic, Engine};
 
-use super::files::{OutputFolder, Written};
+use super::files::OutputFolder;
 use super::journals::Journals;
 use super::limits::{INTERRUPT_HEARD, Meter};
 use super::settings::{Mode, Settings, StudyWishes};
+use crate::script::source::program::Program;
 use crate::script::words::checks::Checks;
 use crate::script::words::error::ScriptError;
 use crate::script::words::progress::Progress;
 use crate::script::words::reports::{Reporter, Reports};
 use crate::script::words::stop::{MEGABYTE, Stop};
-
-/// A file that is read takes a few times its length: the bytes, and what is made of them.
-const TIMES_ITS_LENGTH: u64 = 4;
 
 /// A function that tells why a value of a native type cannot be used now, if the value is busy.
 pub type Busy = fn(&Dynamic) -> Option<String>;
@@ -41,6 +41,8 @@ struct Shared {
     studies: StudyWishes,
     journals: Journals,
     output: OutputFolder,
+    program: Option<Program>,
+    refuses_files: Option<&'static str>,
     checks: RefCell<Checks>,
     reports: Reports,
     /// The names of studies so far.
@@ -69,6 +71,8 @@ impl Context {
             studies: settings.studies,
             journals: Journals::default(),
             output: OutputFolder::new(settings.out, settings.folder, settings.mode),
+            program: settings.program,
+            refuses_files: settings.refuses_files,
             checks: RefCell::default(),
             reports: Reports::default(),
             study_names: RefCell::default(),
@@ -90,6 +94,11 @@ impl Context {
     /// The folder for files that the script writes.
     pub fn output(&self) -> &OutputFolder {
         &self.0.output
+    }
+
+    /// The script of the run; none where there is no whole one, as at the prompt.
+    pub fn program(&self) -> Option<&Program> {
+        self.0.program.as_ref()
     }
 
     /// What shows how far a simulation of the run is.
@@ -229,51 +238,6 @@ impl Context {
         }
     }
 
-    /// Writes a file of the output folder. What stood there and was not written by this program is kept, and that is told.
-    ///
-    /// # Errors
-    /// When it cannot be written, or the run may write no more.
-    pub fn write_file(&self, name: &str, content: &[u8]) -> Result<PathBuf, ScriptError> {
-        self.account_for(content)?;
-        self.output().write(name, content).map(|written| self.tell_kept(written))
-    }
-
-    /// Writes a file that the script may [read](Self::read_file) again, which a dry build then can too. What stood there is kept as for other files.
-    ///
-    /// # Errors
-    /// When it cannot be written, or the run may write no more.
-    pub fn write_to_read(&self, name: &str, content: Vec<u8>) -> Result<PathBuf, ScriptError> {
-        self.account_for(&content)?;
-        self.output().write_to_read(name, content).map(|written| self.tell_kept(written))
-    }
-
-    /// Reads a file of the output folder or of the script's own folder, as far as there is memory for it.
-    ///
-    /// # Errors
-    /// When there is none, or it is no ordinary file of such a length.
-    pub fn read_file(&self, name: &str) -> Result<Vec<u8>, ScriptError> {
-        let room = self.meter().limits().memory.map(|bytes| bytes / TIMES_ITS_LENGTH);
-        self.output().read(name, room)
-    }
-
-    fn account_for(&self, content: &[u8]) -> Result<(), ScriptError> {
-        match self.mode() == Mode::DryBuild || self.meter().allows_a_file(content.len() as u64) {
-            true => Ok(()),
-            false => self.proceed(),
-        }
-    }
-
-    fn tell_kept(&self, written: Written) -> PathBuf {
-        if let Some(kept) = written.kept {
-            self.tell(&format!(
-                "note: '{}' was there already, and not as withy has written it: it is kept as '{}'",
-                written.path.display(),
-                kept.display()
-            ));
-        }
-        written.path
-    }
-
     /// Changes the record of the checks of the run.
     pub fn with_checks<T>(&self, change: impl FnOnce(&mut Checks) -> T) -> T {
         change(&mut self.0.checks.borrow_mut())
@@ -359,11 +323,6 @@ impl Context {
             }
         }
         note.inspect(|note| self.tell(note));
-    }
-
-    /// What would be lost is little, and is written even where the run may write no more.
-    fn write_remains(&self, name: &str, content: &[u8]) -> Result<PathBuf, ScriptError> {
-        self.output().write(name, content).map(|written| self.tell_kept(written))
     }
 
     /// Lets go of the simulations that the report would tell of, and of the names of studies: a session has no report, and the

@@ -3,11 +3,11 @@
 
 use std::cell::{OnceCell, RefCell};
 use std::collections::HashMap;
-use std::io::{self, ErrorKind};
+use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 use super::settings::Mode;
-use crate::folders::{Folder, Record, is_plain};
+use crate::folders::{Folder, Imprinting, Record, is_plain};
 use crate::output::OutputError;
 use crate::script::words::error::ScriptError;
 
@@ -53,11 +53,23 @@ impl OutputFolder {
     /// # Errors
     /// When the name leads out of the folder, or something cannot be written.
     pub fn write(&self, name: &str, content: &[u8]) -> Result<Written, ScriptError> {
+        self.write_by(name, |file| file.write_all(content))
+    }
+
+    /// Writes the file `name` of the output folder piece by piece: whatever `write` puts into it. A dry build only checks the name.
+    ///
+    /// # Errors
+    /// When the name leads out of the folder, or something cannot be written.
+    pub fn write_by(
+        &self,
+        name: &str,
+        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<Written, ScriptError> {
         let path = self.path_of(name)?;
         if self.mode == Mode::DryBuild {
             return Ok(Written { path, kept: None });
         }
-        let kept = self.put(name, content).map_err(|source| {
+        let kept = self.put(name, write).map_err(|source| {
             self.refused(match source.kind() {
                 ErrorKind::InvalidInput => OutputError::NotAFile { path: path.clone() },
                 _ => OutputError::Write { path: path.clone(), source },
@@ -71,7 +83,11 @@ impl OutputFolder {
     }
 
     /// Opens the folder anew for each file: somebody may have moved it away while a session waited.
-    fn put(&self, name: &str, content: &[u8]) -> io::Result<Option<PathBuf>> {
+    fn put(
+        &self,
+        name: &str,
+        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> io::Result<Option<PathBuf>> {
         let folder = Folder::make(&self.folder)?;
         let record = self.record.get_or_init(|| RefCell::new(Record::of(&folder)));
         let mut record = record.borrow_mut();
@@ -80,8 +96,15 @@ impl OutputFolder {
             true => None,
             false => Some(folder.keep_as(path, |number| kept_name(path, number))?),
         };
-        folder.write_whole(path, content)?;
-        record.note(&folder, name, content)?;
+        let mut written = None;
+        folder.write_whole_by(path, |file| {
+            let mut file = Imprinting::new(BufWriter::new(file));
+            write(&mut file)?;
+            file.flush()?;
+            written = Some(file.imprint());
+            Ok(())
+        })?;
+        written.map_or(Ok(()), |written| record.note(&folder, name, written))?;
         Ok(kept.map(|kept| self.folder.join(kept)))
     }
 

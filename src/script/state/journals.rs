@@ -2,19 +2,22 @@
 //! behind its first study, does not repeat what that found.
 
 use std::cell::{Cell, RefCell};
-use std::path::PathBuf;
+use std::io;
+use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use super::settings::JournalWish;
-use crate::analysis::{Journal, JournalError};
+use crate::analysis::{Journal, JournalError, RowEntry, RowJournal, read_rows, remove_rows};
 use crate::script::words::error::ScriptError;
 
 /// The journals of a run: what is kept of its studies.
 #[derive(Default)]
 pub struct Journals {
     open: RefCell<Vec<Journal>>,
+    /// Journals of sweeps, which are kept open by these.
+    of_rows: RefCell<Vec<PathBuf>>,
     /// Cases that were found in them or written into them.
     kept: Cell<usize>,
 }
@@ -69,6 +72,45 @@ impl Journals {
         Ok(bytes)
     }
 
+    /// Opens the journal of a sweep as the run wants it, if it wants one; `recall` is given what it knows, where it is about the same sweep, which `about`
+    /// tells.
+    ///
+    /// # Errors
+    /// When it cannot be read or written.
+    pub fn open_rows(
+        &self,
+        path: PathBuf,
+        wish: JournalWish,
+        about: RowEntry,
+        mut recall: impl FnMut(RowEntry),
+    ) -> Result<Option<RowKeeper>, ScriptError> {
+        let (mut is_same, mut known) = (false, 0);
+        let whole = match wish {
+            JournalWish::Without => return Ok(None),
+            JournalWish::Anew => 0,
+            JournalWish::GoOn => read_rows::<io::Error>(&path, |entry| {
+                is_same = is_same || entry == about;
+                if is_same {
+                    known +=
+                        usize::from(matches!(entry, RowEntry::Found(..) | RowEntry::Failed(..)));
+                    recall(entry);
+                }
+                Ok(())
+            })
+            .map_err(|error| refused_rows(&path, &error))?,
+        };
+        let whole = if is_same { whole } else { 0 };
+        let opened = RowJournal::append(&path, whole);
+        let journal = opened.map_err(|error| refused_rows(&path, &error))?;
+        self.of_rows.borrow_mut().push(path.clone());
+        self.kept.set(self.kept.get() + known);
+        let mut keeper = RowKeeper { path, journal };
+        if !is_same {
+            keeper.put(&about)?;
+        }
+        Ok(Some(keeper))
+    }
+
     /// How many finished cases of this run are kept for the next one.
     pub fn kept(&self) -> usize {
         self.kept.get()
@@ -80,8 +122,59 @@ impl Journals {
     /// When a file cannot be removed.
     pub fn finish(&self) -> Result<(), ScriptError> {
         self.kept.set(0);
+        for path in self.of_rows.take() {
+            remove_rows(&path).map_err(|error| refused_rows(&path, &error))?;
+        }
         self.open.take().into_iter().try_for_each(Journal::finish).map_err(refused)
     }
+}
+
+/// The journal of a sweep at work.
+#[derive(Debug)]
+pub struct RowKeeper {
+    path: PathBuf,
+    journal: RowJournal,
+}
+
+impl RowKeeper {
+    /// Writes down an entry of one of the journals of a run; gives the bytes that it takes.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn write(&mut self, journals: &Journals, entry: &RowEntry) -> Result<u64, ScriptError> {
+        if matches!(entry, RowEntry::Found(..) | RowEntry::Failed(..)) {
+            journals.kept.set(journals.kept.get() + 1);
+        }
+        self.put(entry)
+    }
+
+    fn put(&mut self, entry: &RowEntry) -> Result<u64, ScriptError> {
+        self.journal.write(entry).map_err(|error| refused_rows(&self.path, &error))
+    }
+
+    /// Lets what was written last reach the disk, now and then.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn beat(&mut self) -> Result<(), ScriptError> {
+        self.journal.beat().map_err(|error| refused_rows(&self.path, &error))
+    }
+
+    /// Lets what was written reach the disk.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn flush(&mut self) -> Result<(), ScriptError> {
+        self.journal.flush().map_err(|error| refused_rows(&self.path, &error))
+    }
+}
+
+fn refused_rows(path: &Path, error: &io::Error) -> ScriptError {
+    ScriptError::new(format!(
+        "the journal '{}' of the sweep cannot be kept: {error}",
+        path.display()
+    ))
+    .hint("choose another folder with --out DIR, or begin anew with --fresh")
 }
 
 fn refused(error: JournalError) -> ScriptError {

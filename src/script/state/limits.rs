@@ -153,6 +153,11 @@ impl Meter {
         self.steps.set(self.steps.get().saturating_add(steps as u64));
     }
 
+    /// The steps of simulations so far, failed tries included.
+    pub fn steps(&self) -> u64 {
+        self.steps.get()
+    }
+
     /// Whether one more step is allowed; if not, the limit counts as passed.
     pub fn allows_a_step(&self) -> bool {
         let allowed = self.limits.steps.is_none_or(|limit| self.steps.get() < limit);

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use super::limits::{LastResort, Limits};
+use crate::script::source::program::Program;
 use crate::script::words::progress::{NoProgress, Progress};
 
 /// Whether simulations of a run really run.
@@ -41,6 +42,10 @@ pub struct Settings {
     pub studies: StudyWishes,
     /// What ends the whole program when a limit of the run is passed and nothing hears of it.
     pub last_resort: Option<LastResort>,
+    /// The script of the run, which engines of other threads read too; none where there is no whole one, as at the prompt.
+    pub program: Option<Program>,
+    /// Why the run may write no files, if it may not.
+    pub refuses_files: Option<&'static str>,
 }
 
 /// How the studies of a run are made.
@@ -79,6 +84,8 @@ impl Settings {
             progress: Box::new(NoProgress),
             studies: StudyWishes::default(),
             last_resort: None,
+            program: None,
+            refuses_files: None,
         }
     }
 }

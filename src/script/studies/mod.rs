@@ -16,3 +16,4 @@ pub mod precision_comparison;
 pub mod precision_rows;
 pub mod reference;
 pub mod stability;
+pub mod sweeps;

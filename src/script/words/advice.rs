@@ -5,7 +5,7 @@ use std::error::Error;
 use crate::beams::BeamError;
 use crate::integrators::StepError;
 use crate::loads::LoadError;
-use crate::model::{Approach, ModelError, SliderError, Turning};
+use crate::model::{Approach, ModelError, SliderError, TrackError, Turning};
 use crate::simulation::{ArchiveError, SimulationError};
 use crate::statics::{InTime, Miss, StaticsError};
 
@@ -91,6 +91,11 @@ fn on_statics(error: &StaticsError) -> Option<String> {
         StaticsError::Loose { .. } => {
             format!("hold it with scene.clamp(…) or scene.hinge(…), or {AT_REST}")
         }
+        StaticsError::Lost { reached: 0.0, .. } => {
+            "take more load_steps; what is not at ease as drawn, as a spring of another length, pulls before any load is on: draw it nearer to its rest, or let it be at ease and move \
+             its end by scene.move; where the structure snaps through, follow it with control: arc_length()"
+                .into()
+        }
         StaticsError::Lost { .. } => {
             "take more load_steps; where the structure snaps through, follow it with control: arc_length(), or stop before with load_factor".into()
         }
@@ -103,6 +108,7 @@ fn on_statics(error: &StaticsError) -> Option<String> {
 fn on_model(error: &ModelError) -> Option<String> {
     let advice = match error {
         ModelError::Slider(error) => return on_slider(error),
+        ModelError::Track(error) => return on_track(error),
         ModelError::Empty { .. } => {
             "add one with scene.beam(#{ axis: …, section: … }) or scene.particle([x, y], mass)"
         }
@@ -111,7 +117,8 @@ fn on_model(error: &ModelError) -> Option<String> {
             "name it in the points of scene.body(…); its centre is body.centre"
         }
         ModelError::StartVelocity { .. } => {
-            "what turns about a place starts with spin: 2, about: [x, y]; what is joined to it with the velocity that it has there"
+            "what turns about a place starts with spin: 2, about: [x, y]; what is joined to it with the velocity that it has there; where a body in motion is joined to a beam \
+             at rest, give the node between them the velocity of that point of the body: scene.velocity(beam.end, [vx, vy])"
         }
         ModelError::Inertialess { .. } => {
             "give it one, scene.body(#{ …, inertia: 0.1 }), or hold its angle: scene.support(body.centre, #{ angle: true })"
@@ -146,7 +153,23 @@ fn on_slider(error: &SliderError) -> Option<String> {
             "start it with the velocity of the beam there and whatever it has along the beam, or give the slider the option \
              velocities: \"project\", which takes the nearest velocities that fit"
         }
+        SliderError::KinkedOnTrack(_) => "take conserving()",
         _ => return None,
+    };
+    Some(advice.into())
+}
+
+fn on_track(error: &TrackError) -> Option<String> {
+    let advice = match error {
+        TrackError::Apart { .. } => {
+            "give the beams in the order in which the track leads along them; each may be drawn from either end"
+        }
+        TrackError::Open { .. } => "leave out closed: true, or add the beams that lead back",
+        TrackError::Loose { .. } => {
+            "join them before the track is made: scene.rigid(…) with both ends, or scene.hinge(…)"
+        }
+        TrackError::Empty { .. } => "give at least one beam: scene.track([a, b])",
+        TrackError::Again { .. } => return None,
     };
     Some(advice.into())
 }

@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use crate::beams::{Station, kink_length};
 use crate::geometry::{Passage, PiecewisePolynomial, Span};
-use crate::joints::{Slider, SlidingRule, StartVelocities};
+use crate::joints::{Leg, Slider, SlidingRule, StartVelocities, Track};
 use crate::model::elements::Site;
-use crate::model::sliders::{Bar, Connection, KinkedAxis, Sliding, Track};
+use crate::model::sliders::{Bar, Connection, KinkedAxis, Rail, Route, RouteLeg, Sliding};
 use crate::model::words::SliderError;
 use crate::model::{BeamDefinition, Model, ModelError, Scene};
 
@@ -21,34 +21,63 @@ impl Assembly<'_> {
         let mut sliders: Vec<Sliding> = Vec::new();
         let mut kink_lengths = vec![None; self.scene.beams.len()];
         let mut passages: Vec<Option<Passage>> = vec![None; self.scene.beams.len()];
+        let mut routes: Vec<Option<Arc<[RouteLeg]>>> = vec![None; self.scene.tracks.len()];
         for (index, slider) in self.scene.sliders.iter().enumerate() {
             let place = self.place(&slider.slave)?;
             let slave = (place.body, place.nearest_control_point());
             let [x, ..] = numbering.degrees_of_freedom[slave.0][slave.1];
-            let of_master = &numbering.degrees_of_freedom[slider.master];
+            let masters = self.scene.masters(slider);
+            let of_master = |beam: &usize| &numbering.degrees_of_freedom[*beam];
             let is_unknown = x < numbering.unknowns;
-            if is_unknown && of_master.iter().any(|degrees| degrees[0] == x) {
+            if is_unknown && masters.iter().flat_map(of_master).any(|degrees| degrees[0] == x) {
                 return Err(SliderError::Tied(self.scene.parts(slider)).into());
             }
             let is_twice = |other: &Sliding| {
-                let Connection { master, slave: (body, point), .. } = other.connection;
-                master == slider.master && numbering.degrees_of_freedom[body][point][0] == x
+                let Connection { index, slave: (body, point), .. } = other.connection;
+                let others = self.scene.masters(&self.scene.sliders[index]);
+                let is_on = others.iter().any(|master| masters.contains(master));
+                is_on && numbering.degrees_of_freedom[body][point][0] == x
             };
             if is_unknown && sliders.iter().any(is_twice) {
                 return Err(SliderError::Twice(self.scene.parts(slider)).into());
             }
             let connection = Connection { master: slider.master, slave, index };
-            let (beam, basis) =
-                (&self.scene.beams[slider.master], self.mesh(slider.master).basis());
-            let track = Track::new(beam.axis.clone(), basis.domain());
+            let beam = &self.scene.beams[slider.master];
             let bars = (bar(beam), self.scene.beams.get(slave.0).map(bar));
             let parameter = self.slider_parameter(slider)?;
-            let passage = &mut passages[slider.master];
-            let passage = passage.get_or_insert_with(|| Passage::new(basis.clone())).clone();
+            let rail = self.rail(slider.master);
+            let passage = self.passage(slider.master, &mut passages);
             let axis = self.kinked_axis(slider, &mut kink_lengths)?;
-            sliders.push(Sliding::new(slider, connection, passage, parameter, track, bars, axis));
+            let mut new = Sliding::new(slider, connection, passage, parameter, rail, bars, axis);
+            if let Some(track) = slider.track {
+                let Track { legs, course, .. } = &self.scene.tracks[track];
+                let route = &mut routes[track];
+                let route = route.get_or_insert_with(|| self.route(legs, &mut passages)).clone();
+                let own = legs.iter().position(|leg| leg.beam == slider.master).unwrap_or(0);
+                new.follow(Route::new(route, *course, own));
+            }
+            sliders.push(new);
         }
         Ok(sliders)
+    }
+
+    fn rail(&self, beam: usize) -> Rail {
+        Rail::new(self.scene.beams[beam].axis.clone(), self.mesh(beam).basis().domain())
+    }
+
+    /// The functions of a beam along ways, of which `found` has those that are known.
+    fn passage(&self, beam: usize, found: &mut [Option<Passage>]) -> Passage {
+        let basis = || Passage::new(self.mesh(beam).basis().clone());
+        found[beam].get_or_insert_with(basis).clone()
+    }
+
+    /// The beams of a track as sliders find them.
+    fn route(&self, legs: &[Leg], passages: &mut [Option<Passage>]) -> Arc<[RouteLeg]> {
+        let leg = |&Leg { beam, heading }: &Leg| {
+            let passage = self.passage(beam, passages);
+            RouteLeg::new(beam, heading, self.rail(beam), passage, bar(&self.scene.beams[beam]))
+        };
+        legs.iter().map(leg).collect()
     }
 
     /// The axis of a slider's master as the contact force kinks it, if the rule knows of that and the mesh of the master is smooth; kink

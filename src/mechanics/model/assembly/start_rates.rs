@@ -24,9 +24,10 @@ fn given_there(rate: f64) -> String {
     format!("its motion is given there, and begins with {rate}")
 }
 
-/// The rate of each unknown, with the beam or the rigid body that has given it.
+/// The rate of each unknown, with the beam or the rigid body that has given it; and that which is asked for at a node, if one is.
 struct Shared {
     rates: Vec<Option<(usize, f64)>>,
+    asked: Vec<Option<f64>>,
 }
 
 /// The rates with which prescribed movements begin, behind the unknown ones.
@@ -80,7 +81,8 @@ impl Assembly<'_> {
         prescribed: &[f64],
     ) -> Result<Vec<f64>, ModelError> {
         let begun = Beginnings { unknowns: numbering.unknowns, rates: prescribed, constraints };
-        let mut shared = Shared { rates: vec![None; numbering.unknowns] };
+        let asked = self.asked_rates(numbering)?;
+        let mut shared = Shared { rates: vec![None; numbering.unknowns], asked };
         for (index, beam) in self.scene.beams.iter().enumerate() {
             let degrees = &numbering.degrees_of_freedom[index];
             let length = beam.axis.length();
@@ -159,6 +161,19 @@ impl Assembly<'_> {
                     }
                     continue;
                 }
+                if let Some(asked) = shared.asked.get(at).copied().flatten() {
+                    // A node of a beam has it, whatever the beam does; a rigid body cannot do otherwise there.
+                    let is_rigid = degrees_of_freedom.len() > 1 && index >= self.scene.beams.len();
+                    if is_rigid && (rate - asked).abs() > SAME_START * size.max(asked.abs()) {
+                        return Err(ModelError::StartVelocity {
+                            body: self.name_of(index),
+                            place: format!("joint ({component})"),
+                            velocity: rate,
+                            other: format!("the node there is given {asked}"),
+                        });
+                    }
+                    continue;
+                }
                 if let Some(other) = shared.take(at, index, rate, size) {
                     let other = other.map_or(GROUND.to_owned(), |(other, rate)| {
                         format!("{}, joined there, has {rate}", self.name_of(other))
@@ -173,6 +188,25 @@ impl Assembly<'_> {
             }
         }
         Ok(())
+    }
+
+    /// The rates that are asked for at single nodes, for each unknown.
+    fn asked_rates(&self, numbering: &Numbering) -> Result<Vec<Option<f64>>, ModelError> {
+        let mut asked = vec![None; numbering.unknowns];
+        for StationVelocity { station, velocity, spin } in &self.scene.velocities {
+            if let BodyIndex::Rigid(..) = station.body {
+                continue;
+            }
+            let place = self.place(station)?;
+            let degrees = numbering.degrees_of_freedom[place.body][place.nearest_control_point()];
+            for (at, value) in degrees.into_iter().zip([Some(velocity.x), Some(velocity.y), *spin])
+            {
+                if let (Some(rate), Some(value)) = (asked.get_mut(at), value) {
+                    *rate = Some(value);
+                }
+            }
+        }
+        Ok(asked)
     }
 
     /// A beam or a rigid body in words, by its index in the model.

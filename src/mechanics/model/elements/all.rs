@@ -19,6 +19,8 @@ pub struct Elements {
     forces: Vec<Box<dyn ForceElement>>,
     /// In the order of the scene.
     resistances: Vec<Box<dyn Resistance>>,
+    /// How far the force of that was from its configuration which was farthest in the last iterate, and its number.
+    farthest: (f64, usize),
 }
 
 impl Elements {
@@ -33,7 +35,7 @@ impl Elements {
             }
         }
         weight.iter_mut().for_each(|weight| masses.iter().for_each(|mass| weight.add(mass)));
-        Self { masses, weight, forces, resistances }
+        Self { masses, weight, forces, resistances, farthest: (0.0, 0) }
     }
 
     /// The mass of all point masses of the model [mass].
@@ -73,16 +75,19 @@ impl Elements {
         }
     }
 
-    /// Prepares all elements for a step.
+    /// Prepares all elements for a step that begins with such rates of the unknowns.
     ///
     /// # Errors
     /// When an element has no finite value: its name, and why.
     pub fn begin_step(
         &mut self,
-        interval: Interval,
-        stages: &[Stage],
+        (interval, stages): (Interval, &[Stage]),
+        bodies: &[Body],
+        rates: &[f64],
     ) -> Result<(), (String, LoadError)> {
-        self.resistances.iter_mut().for_each(|resistance| resistance.begin_step(interval));
+        for resistance in &mut self.resistances {
+            resistance.begin_step(interval, bodies, rates);
+        }
         self.forces.iter_mut().try_for_each(|force| {
             force.begin_step(interval, stages).map_err(|error| (force.name().to_owned(), error))
         })
@@ -163,9 +168,21 @@ impl Elements {
 
     /// Adds what resists movements, with its forces as they are; the largest that was met.
     pub fn add_resistance(&mut self, at: Iterate<'_>, out: &mut [f64], summary: &mut ForceSummary) {
-        for resistance in &mut self.resistances {
-            summary.join(&resistance.add_forces(at, out));
+        self.farthest = (0.0, 0);
+        for (index, resistance) in self.resistances.iter_mut().enumerate() {
+            let own = resistance.add_forces(at, out);
+            if own.strain_mismatch.is_nan() || own.strain_mismatch > self.farthest.0 {
+                self.farthest = (own.strain_mismatch, index);
+            }
+            summary.join(&own);
         }
+    }
+
+    /// What resists with a force that was farthest from its configuration in the last iterate, by name, and how far that was; none where all fit.
+    pub fn farthest(&self) -> Option<(&str, f64)> {
+        let (missing, index) = self.farthest;
+        let resistance = self.resistances.get(index)?;
+        (missing != 0.0).then(|| (resistance.name(), missing))
     }
 
     /// Adds what resists movements, condensed, and its derivative by the increments; there are so many unknowns.

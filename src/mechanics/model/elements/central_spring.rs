@@ -4,6 +4,7 @@
 
 use super::damping_law::DampingLaw;
 use super::elongation::{Elongation, Terminal};
+use super::radial_damper::RadialDamper;
 use super::resistance::{Resistance, Stretched};
 use super::restoring::RestoringLaw;
 use super::spring_damper::SpringDamper;
@@ -17,7 +18,7 @@ use crate::model::bodies::Body;
 /// A spring along x and one along y, which are one; and a damper along the way, if there is one.
 pub struct CentralSpring {
     along: [SpringDamper; 2],
-    damper: Option<SpringDamper>,
+    damper: Option<RadialDamper>,
 }
 
 impl CentralSpring {
@@ -31,24 +32,25 @@ impl CentralSpring {
         damping: DampingLaw,
     ) -> Self {
         let law = RestoringLaw::Linear { stiffness, natural: 0.0 };
-        let named = |elongation, law, damping| {
-            SpringDamper::new(name.to_owned(), elongation, grounds.to_vec(), law, damping)
-        };
         let along = [0, 1].map(|component| {
             let elongation = Elongation::component(terminals.clone(), at, component);
-            named(elongation, Some(law.clone()), DampingLaw::default())
+            let (law, none) = ((law.clone(), 0.0), DampingLaw::default());
+            SpringDamper::new(name.to_owned(), elongation, grounds.to_vec(), Some(law), none)
         });
-        let way = || Elongation::way(terminals.to_vec(), &at);
-        let damper = damping.acts().then(|| named(way(), None, damping));
+        let damper = damping
+            .acts()
+            .then(|| RadialDamper::new(name.to_owned(), terminals, at, grounds, damping));
         Self { along, damper }
     }
 
-    fn parts(&self) -> impl Iterator<Item = &SpringDamper> {
-        self.along.iter().chain(&self.damper)
+    fn parts(&self) -> impl Iterator<Item = &dyn Resistance> {
+        let along = self.along.iter().map(|part| part as &dyn Resistance);
+        along.chain(self.damper.iter().map(|part| part as &dyn Resistance))
     }
 
-    fn parts_mut(&mut self) -> impl Iterator<Item = &mut SpringDamper> {
-        self.along.iter_mut().chain(&mut self.damper)
+    fn parts_mut(&mut self) -> impl Iterator<Item = &mut dyn Resistance> {
+        let along = self.along.iter_mut().map(|part| part as &mut dyn Resistance);
+        along.chain(self.damper.iter_mut().map(|part| part as &mut dyn Resistance))
     }
 
     fn both(&self, number: impl Fn(Stretched) -> f64) -> f64 {
@@ -62,12 +64,12 @@ impl Resistance for CentralSpring {
         self.along[0].name()
     }
 
-    fn begin_step(&mut self, interval: Interval) {
-        self.parts_mut().for_each(|part| part.begin_step(interval));
+    fn begin_step(&mut self, interval: Interval, bodies: &[Body], rates: &[f64]) {
+        self.parts_mut().for_each(|part| part.begin_step(interval, bodies, rates));
     }
 
     fn begin_movement(&mut self) {
-        self.parts_mut().for_each(Resistance::begin_movement);
+        self.parts_mut().for_each(|part| part.begin_movement());
     }
 
     fn add_forces(&mut self, at: Iterate<'_>, out: &mut [f64]) -> ForceSummary {
@@ -105,11 +107,11 @@ impl Resistance for CentralSpring {
     }
 
     fn stored(&self) -> f64 {
-        self.parts().map(Resistance::stored).sum()
+        self.parts().map(|part| part.stored()).sum()
     }
 
     fn dissipated(&self) -> f64 {
-        self.parts().map(Resistance::dissipated).sum()
+        self.parts().map(|part| part.dissipated()).sum()
     }
 
     fn stretched(&self) -> Option<Stretched> {
@@ -132,15 +134,15 @@ impl Resistance for CentralSpring {
     }
 
     fn let_go(&mut self) {
-        self.parts_mut().for_each(Resistance::let_go);
+        self.parts_mut().for_each(|part| part.let_go());
     }
 
     fn detach(&mut self) {
-        self.parts_mut().for_each(Resistance::detach);
+        self.parts_mut().for_each(|part| part.detach());
     }
 
     fn attach(&mut self) {
-        self.parts_mut().for_each(Resistance::attach);
+        self.parts_mut().for_each(|part| part.attach());
     }
 
     fn save(&self, state: &mut Vec<f64>) {

@@ -6,6 +6,9 @@ const FEW: f64 = 3.0;
 /// A touch that changes the rate by less than this part of it is no bounce.
 const TURNED: f64 = 0.5;
 
+/// A touch by less than this part of a length or angle is one of rounding.
+const TOUCH: f64 = 1e-12;
+
 /// A bounce on a spring that steps did not resolve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ShortBounce {
@@ -24,11 +27,18 @@ pub struct ContactWatch {
     entry: f64,
     /// The largest force since then [force, force·length].
     force: f64,
+    /// A force that rounding of the length or angle makes: bounces with less are none [force, force·length].
+    noise: f64,
     /// The hardest bounce that steps did not resolve; none so far.
     unresolved: Option<ShortBounce>,
 }
 
 impl ContactWatch {
+    /// Watches a spring of such a largest stiffness, whose length or angle has such an extent.
+    pub fn new(largest_stiffness: f64, extent: f64) -> Self {
+        Self { noise: TOUCH * largest_stiffness * extent, ..Self::default() }
+    }
+
     /// Takes in a step with such a rate and force, and the rate of the step before; whether the spring was slack at its start, and is at its end.
     pub fn add(&mut self, [was_slack, is_slack]: [bool; 2], [before, rate]: [f64; 2], force: f64) {
         if was_slack && is_slack {
@@ -45,7 +55,7 @@ impl ContactWatch {
         }
         let is_bounce = self.entry != 0.0 && (rate - self.entry).abs() > TURNED * self.entry.abs();
         let is_hardest = self.unresolved.is_none_or(|bounce| self.force > bounce.force);
-        if is_bounce && self.steps <= FEW && is_hardest {
+        if is_bounce && self.steps <= FEW && is_hardest && self.force > self.noise {
             self.unresolved = Some(ShortBounce { steps: self.steps, force: self.force });
         }
         self.steps = 0.0;
@@ -68,5 +78,24 @@ impl ContactWatch {
         (self.steps, self.entry, self.force) = (next(), next(), next());
         let (steps, force) = (next(), next());
         self.unresolved = (steps > 0.0).then_some(ShortBounce { steps, force });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Slack, one step in touch, slack again with the rate turned round.
+    fn bounced(force: f64) -> ContactWatch {
+        let mut watch = ContactWatch::new(1e4, 2.0);
+        watch.add([true, false], [1.0, 1.0], force);
+        watch.add([false, true], [1.0, -1.0], force);
+        watch
+    }
+
+    #[test]
+    fn a_bounce_of_rounding_is_none() {
+        assert_eq!(bounced(3e-8).short_bounce(), Some(ShortBounce { steps: 2.0, force: 3e-8 }));
+        assert_eq!(bounced(1e-8).short_bounce(), None);
     }
 }

@@ -1,5 +1,7 @@
 //! Laws of damping: a force over the rate of an elongation, which takes energy and never gives any.
 
+use std::fmt;
+
 use serde::{Deserialize, Serialize};
 
 use super::restoring::RestoringLaw;
@@ -26,6 +28,42 @@ impl Default for DampingLaw {
 impl From<f64> for DampingLaw {
     fn from(constant: f64) -> Self {
         Self::Linear(constant)
+    }
+}
+
+/// Where a law of damping drives what it should damp.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Feeding {
+    /// At a rate of the law [length/time, rad/time], with a force [force, force·length].
+    At {
+        /// The rate.
+        rate: f64,
+        /// The force there.
+        force: f64,
+    },
+    /// Beyond one of its ends, where it goes on straight and falls.
+    Beyond {
+        /// The rate at that end.
+        end: f64,
+        /// The rate from which on it drives.
+        from: f64,
+    },
+}
+
+impl fmt::Display for Feeding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::At { rate, force } => write!(
+                f,
+                "at the rate {rate} its damping gives the force {force}, which drives what it should damp; give a force with the sign of the rate, 0 at \
+                 rest"
+            ),
+            Self::Beyond { end, from } => write!(
+                f,
+                "beyond the rate {end}, with which its damping ends, that goes on straight and falls, so that from {from} on it drives what it should \
+                 damp; let it end where it does not fall: a table with two points of one force, a function over such rates"
+            ),
+        }
     }
 }
 
@@ -67,21 +105,26 @@ impl DampingLaw {
         *self != Self::Linear(0.0)
     }
 
-    /// A rate at which a polygon does not resist, or pushes at rest, with the force there; none where it dissipates at every rate, also beyond its ends.
-    pub fn feeds(&self) -> Option<(f64, f64)> {
+    /// Where a polygon does not resist, or pushes at rest; none where it dissipates at every rate, also beyond its ends.
+    pub fn feeds(&self) -> Option<Feeding> {
         let corners = self.corners();
         let (Some(first), Some(last)) = (corners.first(), corners.last()) else { return None };
         let largest = corners.iter().map(|(_, force)| force.abs()).fold(0.0, larger);
         let feeds = |(rate, force): (f64, f64)| force * rate.signum() < -ROUNDING * largest;
         let at_rest = self.force(0.0);
         if at_rest.abs() > ROUNDING * largest {
-            return Some((0.0, at_rest));
+            return Some(Feeding::At { rate: 0.0, force: at_rest });
+        }
+        let mut moving = corners.iter().copied().filter(|(rate, _)| *rate != 0.0);
+        if let Some((rate, force)) = moving.find(|at| feeds(*at)) {
+            return Some(Feeding::At { rate, force });
         }
         // So far beyond the ends that a line which falls has turned its sign.
         let reach = |end: f64| 1e6 * (end.abs() + (last.0 - first.0));
-        let beyond = [first.0 - reach(first.0), last.0 + reach(last.0)];
-        let beyond = beyond.map(|rate| (rate, self.force(rate)));
-        corners.iter().copied().filter(|(rate, _)| *rate != 0.0).chain(beyond).find(|at| feeds(*at))
+        let beyond = [(first, first.0 - reach(first.0)), (last, last.0 + reach(last.0))];
+        let (end, rate) = beyond.into_iter().find(|(_, rate)| feeds((*rate, self.force(*rate))))?;
+        let slope = (self.force(rate) - end.1) / (rate - end.0);
+        Some(Feeding::Beyond { end: end.0, from: end.0 - end.1 / slope })
     }
 
     /// The same law with a corner at rest, where its force is none to the last bit.
@@ -113,6 +156,23 @@ impl DampingLaw {
             Self::Linear(constant) => *constant,
             Self::Curve(curve) => curve.slope(rate),
         }
+    }
+
+    /// The force of a law at a rate, and its slope; where Newton's method is told of the impedance of what a force acts on, those of the straight piece of a
+    /// polygon that the line of that impedance through rate and force meets, which may be another one than that at the rate: between two steep pieces it
+    /// would go to and fro.
+    pub fn aimed(&self, rate: f64, force: f64, impedance: Option<f64>) -> (f64, f64) {
+        let at_rate = (self.force(rate), self.slope(rate));
+        let (Some(impedance), corners) = (impedance, self.corners()) else { return at_rate };
+        let above = |at: f64| self.force(at) - force + impedance * (at - rate);
+        let Some(passed) = corners.iter().position(|(at, _)| above(*at) >= 0.0) else {
+            return at_rate;
+        };
+        // A rate inside of the piece before that corner.
+        let Some(before) = passed.checked_sub(1) else { return at_rate };
+        let inside = 0.5 * (corners[before].0 + corners[passed].0);
+        let slope = self.slope(inside);
+        (self.force(inside) + slope * (rate - inside), slope)
     }
 
     /// What small vibration meets: the slope at rest, the mean of both sides of it where they differ [force·time/length, force·length·time/rad].
@@ -152,10 +212,11 @@ mod tests {
         for law in resisting {
             assert_eq!(law.feeds(), None, "{law:?}");
         }
-        assert_eq!(table(&[(-1.0, 1.0), (0.0, 0.0), (1.0, 1.0)]).feeds(), Some((-1.0, 1.0)));
-        assert_eq!(table(&[(-1.0, -1.0), (1.0, 3.0)]).feeds(), Some((0.0, 1.0)));
+        let at = |rate: f64, force: f64| Some(Feeding::At { rate, force });
+        assert_eq!(table(&[(-1.0, 1.0), (0.0, 0.0), (1.0, 1.0)]).feeds(), at(-1.0, 1.0));
+        assert_eq!(table(&[(-1.0, -1.0), (1.0, 3.0)]).feeds(), at(0.0, 1.0));
         let falling = table(&[(-1.0, -1.0), (0.0, 0.0), (1.0, 1.0), (2.0, 0.5)]);
-        assert!(falling.feeds().is_some_and(|(rate, force)| rate > 2.0 && force < 0.0));
+        assert_eq!(falling.feeds(), Some(Feeding::Beyond { end: 2.0, from: 3.0 }));
     }
 
     #[test]

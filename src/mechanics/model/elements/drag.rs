@@ -2,8 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::drag_forces::{DragForces, DragPoint};
+use super::drag_forces::DragForces;
 use super::drag_law::{DragLaw, SpeedLaw};
+use super::drag_point::DragPoint;
 use super::element::{Assembled, Description, Setting, Site};
 use crate::beams::Station;
 use crate::geometry::{GaussRule, Vec2};
@@ -117,14 +118,9 @@ fn points_of_beam(site: &dyn Site, beam: usize) -> Result<Vec<DragPoint>, ModelE
         for (xi, weight) in rule.iter_on(span.start, span.end) {
             let values = basis.evaluate_in(&span, xi);
             let speed = values.combine(1, controls).norm();
-            points.push(DragPoint {
-                body: beam,
-                first: span.first,
-                shape: values.values().to_vec(),
-                slope: values.slopes().iter().map(|slope| slope / speed).collect(),
-                weight: weight * speed,
-                last_velocity: Vec2::zeros(),
-            });
+            let slope = values.slopes().iter().map(|slope| slope / speed).collect();
+            let shape = values.values().to_vec();
+            points.push(DragPoint::new((beam, span.first), shape, slope, weight * speed));
         }
     }
     Ok(points)

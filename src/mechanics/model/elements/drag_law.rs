@@ -41,20 +41,27 @@ pub enum DragLaw {
     },
 }
 
-/// The force of a point of the body on the medium, with its derivatives.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// The force of a point of the body on the medium by its components across a line, along `n = J t`, and along it, with their derivatives.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Resisted {
-    /// `G` [force, or force/length].
+    /// `(G·n, G·t)` [force, or force/length].
     pub force: Vec2,
-    /// The derivative `∂G/∂v` of the force by the velocity, column by column.
+    /// The derivative of either component by the velocity.
     pub by_velocity: [Vec2; 2],
-    /// The derivative of `G` by the angle of the line.
+    /// The derivatives of the components by the angle of the line.
     pub by_turn: Vec2,
+}
+
+/// The vector in space that has these components across and along a line with a unit tangent.
+pub fn in_space(t: Vec2, components: Vec2) -> Vec2 {
+    perpendicular(t) * components.x + t * components.y
 }
 
 impl DragLaw {
     /// What resists a velocity relative to the medium, where the line has a unit tangent; that of a point does not count.
     pub fn resist(&self, velocity: Vec2, t: Vec2) -> Resisted {
+        let n = perpendicular(t);
+        let (across, along) = (n.dot(&velocity), t.dot(&velocity));
         match self {
             Self::Point(law) => {
                 let speed = velocity.norm();
@@ -62,26 +69,28 @@ impl DragLaw {
                 // k v ⊗ v/|v|
                 let bend = if speed > 0.0 { velocity * (law.quadratic / speed) } else { velocity };
                 Resisted {
-                    force: velocity * factor,
-                    by_velocity: [
-                        Vec2::new(factor, 0.0) + bend * velocity.x,
-                        Vec2::new(0.0, factor) + bend * velocity.y,
-                    ],
-                    by_turn: Vec2::zeros(),
+                    force: Vec2::new(across, along) * factor,
+                    by_velocity: [n * factor + bend * across, t * factor + bend * along],
+                    by_turn: Vec2::new(-along, across) * factor,
                 }
             }
             Self::Line { normal, tangent } => {
-                let n = perpendicular(t);
-                let (across, along) = (n.dot(&velocity), t.dot(&velocity));
-                let (force_n, force_t) = (normal.force(across), tangent.force(along));
                 let (slope_n, slope_t) = (normal.slope(across), tangent.slope(along));
-                let column = |axis: usize| n * (slope_n * n[axis]) + t * (slope_t * t[axis]);
                 Resisted {
-                    force: n * force_n + t * force_t,
-                    by_velocity: [column(0), column(1)],
-                    by_turn: n * (force_t - slope_n * along) + t * (slope_t * across - force_n),
+                    force: Vec2::new(normal.force(across), tangent.force(along)),
+                    by_velocity: [n * slope_n, t * slope_t],
+                    by_turn: Vec2::new(-slope_n * along, slope_t * across),
                 }
             }
+        }
+    }
+
+    /// What the components of the force are relative to where velocities are differences of velocities of such a size.
+    pub fn scale(&self, speed: f64) -> Vec2 {
+        let of = |law: &SpeedLaw| law.slope(speed) * speed;
+        match self {
+            Self::Point(law) => Vec2::repeat(of(law)),
+            Self::Line { normal, tangent } => Vec2::new(of(normal), of(tangent)),
         }
     }
 
@@ -123,17 +132,24 @@ mod tests {
             (SpeedLaw { linear: 0.3, quadratic: 2.0 }, SpeedLaw { linear: 0.1, quadratic: 0.4 });
         for law in [DragLaw::Point(normal), DragLaw::Line { normal, tangent }] {
             for (angle, velocity) in [(0.3, Vec2::new(1.0, -2.0)), (2.5, Vec2::new(-0.4, 0.2))] {
-                let h = 1e-6;
-                let found = law.resist(velocity, unit(angle));
-                assert!(found.force.dot(&velocity) > 0.0);
-                let force = |v: Vec2, angle: f64| law.resist(v, unit(angle)).force;
-                for (axis, by) in [Vec2::x(), Vec2::y()].into_iter().zip(found.by_velocity) {
+                let (h, t) = (1e-6, unit(angle));
+                let found = law.resist(velocity, t);
+                assert!(in_space(t, found.force).dot(&velocity) > 0.0);
+                let force = |v: Vec2, angle: f64| {
+                    let t = unit(angle);
+                    in_space(t, law.resist(v, t).force)
+                };
+                for axis in [Vec2::x(), Vec2::y()] {
+                    let by = found.by_velocity.map(|by| by.dot(&axis));
                     let (more, less) = (velocity + axis * h, velocity - axis * h);
                     let expected = (force(more, angle) - force(less, angle)) / (2.0 * h);
+                    let by = in_space(t, Vec2::new(by[0], by[1]));
                     assert!((by - expected).norm() < 1e-8, "{law:?}: {by} {expected}");
                 }
                 let turned = force(velocity, angle + h) - force(velocity, angle - h);
-                assert!((found.by_turn - turned / (2.0 * h)).norm() < 1e-8, "{law:?}");
+                // Components change, and so does the line that they stand on.
+                let by = found.by_turn + Vec2::new(found.force.y, -found.force.x);
+                assert!((in_space(t, by) - turned / (2.0 * h)).norm() < 1e-8, "{law:?}");
             }
         }
     }
@@ -142,6 +158,7 @@ mod tests {
     fn what_does_not_move_is_not_dragged() {
         let law = DragLaw::Point(SpeedLaw { linear: 0.3, quadratic: 2.0 });
         let found = law.resist(Vec2::zeros(), Vec2::x());
-        assert_eq!((found.force, found.by_velocity[0].x), (Vec2::zeros(), 0.3));
+        assert_eq!((found.force, found.by_velocity[0].x), (Vec2::zeros(), 0.0));
+        assert_eq!(found.by_velocity[1].x, 0.3);
     }
 }

@@ -5,7 +5,8 @@
 //! ```
 //!
 //! `e` and `r` are secants: a force along them does exactly the work `F Δℓ`, `M Δθ`, and is opposite at both ends. Differences of
-//! places are advanced by increments, so that they do not depend on how far from the origin everything has moved.
+//! places are advanced by increments, so that they do not depend on how far from the origin everything has moved; and so is the elongation itself, as
+//! what it has grown by since the start: a length less one at ease would carry the rounding of the length, which may be millions of times as large.
 
 use super::{Iterate, collocation};
 use crate::beams::{Movement, Place, RotationIncrement};
@@ -30,10 +31,10 @@ pub enum Terminal {
 enum Measure {
     /// Those of the place: the differences `d₀` from each terminal to the next [length].
     Way(Vec<Vec2>),
-    /// The rotation of its section: the angle `q₀` [rad].
-    Angle(f64),
-    /// One component of the way between two terminals, by its number, x or y: the difference at the start [length].
-    Component(f64, usize),
+    /// The rotation of its section.
+    Angle,
+    /// One component of the way between two terminals, by its number, x or y.
+    Component(usize),
 }
 
 /// A length or an angle between terminals at the start of a step, and how it changes in an iterate.
@@ -44,6 +45,10 @@ enum Measure {
 pub struct Elongation {
     measure: Measure,
     terminals: Vec<Terminal>,
+    /// What is measured in the scene as it was built [length, rad].
+    drawn: f64,
+    /// By how much it has grown since, up to the start of the step [length, rad].
+    grown: f64,
     /// The movements in the iterate, a number for each coordinate.
     moved: Vec<f64>,
     /// The change `Δq` of what is measured in the step [length, rad].
@@ -63,26 +68,29 @@ pub struct Elongation {
 impl Elongation {
     /// The length of a way over terminals, which are at these places at the start.
     pub fn way(terminals: Vec<Terminal>, at: &[Vec2]) -> Self {
-        let parts = at.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        Self::new(Measure::Way(parts), terminals, 2)
+        let parts: Vec<Vec2> = at.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let length = parts.iter().map(Vec2::norm).sum();
+        Self::new(Measure::Way(parts), length, terminals, 2)
     }
 
     /// One component, x or y, of the way between two terminals, which are at these places at the start.
     pub fn component(terminals: [Terminal; 2], [from, to]: [Vec2; 2], component: usize) -> Self {
         let start = (to - from)[component];
-        Self::new(Measure::Component(start, component), terminals.into(), 2)
+        Self::new(Measure::Component(component), start, terminals.into(), 2)
     }
 
     /// The angle from the first terminal to the second one, which is this one at the start [rad].
     pub fn angle(terminals: [Terminal; 2], angle: f64) -> Self {
-        Self::new(Measure::Angle(angle), terminals.into(), 1)
+        Self::new(Measure::Angle, angle, terminals.into(), 1)
     }
 
-    fn new(measure: Measure, terminals: Vec<Terminal>, components: usize) -> Self {
+    fn new(measure: Measure, drawn: f64, terminals: Vec<Terminal>, components: usize) -> Self {
         let coordinates = components * terminals.len();
         Self {
             measure,
             terminals,
+            drawn,
+            grown: 0.0,
             moved: vec![0.0; coordinates],
             change: 0.0,
             secant: vec![0.0; coordinates],
@@ -95,15 +103,22 @@ impl Elongation {
 
     /// Whether it is the angle between two sections.
     pub fn is_angle(&self) -> bool {
-        matches!(self.measure, Measure::Angle(_))
+        matches!(self.measure, Measure::Angle)
     }
 
     /// `q` at the start of the step [length, rad].
     pub fn value(&self) -> f64 {
-        match &self.measure {
-            Measure::Way(parts) => parts.iter().map(Vec2::norm).sum(),
-            Measure::Angle(start) | Measure::Component(start, _) => *start,
-        }
+        self.drawn + self.grown
+    }
+
+    /// `q` in the scene as it was built [length, rad].
+    pub fn drawn(&self) -> f64 {
+        self.drawn
+    }
+
+    /// By how much `q` has grown from the scene as it was built to the start of the step, right to its own rounding [length, rad].
+    pub fn grown(&self) -> f64 {
+        self.grown
     }
 
     /// What rounding of it is relative to, in an iterate: the largest length or angle that it is a difference of [length, rad].
@@ -111,7 +126,7 @@ impl Elongation {
         let after = (self.value() + self.change).abs();
         match self.measure {
             Measure::Way(_) => after,
-            Measure::Angle(_) => larger(1.0, after),
+            Measure::Angle => larger(1.0, after),
             // It is advanced by movements that may be larger by far.
             Measure::Component(..) => self.moved.iter().fold(after, |size, by| size.max(by.abs())),
         }
@@ -126,7 +141,7 @@ impl Elongation {
     pub fn coordinates(&self) -> impl Iterator<Item = Option<(&Place, usize)>> {
         let components = match self.measure {
             Measure::Way(_) | Measure::Component(..) => 0..2,
-            Measure::Angle(_) => 2..3,
+            Measure::Angle => 2..3,
         };
         self.terminals.iter().flat_map(move |terminal| {
             components.clone().map(move |component| match terminal {
@@ -199,7 +214,7 @@ impl Elongation {
     fn gather(&mut self, of_place: impl Fn(&Place) -> [f64; 3]) {
         let (first, count) = match self.measure {
             Measure::Way(_) | Measure::Component(..) => (0, 2),
-            Measure::Angle(_) => (2, 1),
+            Measure::Angle => (2, 1),
         };
         for (moved, terminal) in self.moved.chunks_exact_mut(count).zip(&self.terminals) {
             match terminal {
@@ -237,7 +252,7 @@ impl Elongation {
                     }
                 }
             }
-            Measure::Component(_, component) => {
+            Measure::Component(component) => {
                 let [from, to] = [*component, 2 + *component];
                 *change = moved[to] - moved[from];
                 for row in [secant, slope] {
@@ -245,7 +260,7 @@ impl Elongation {
                     [row[from], row[to]] = [-1.0, 1.0];
                 }
             }
-            Measure::Angle(_) => {
+            Measure::Angle => {
                 let [a, b] = [moved[0], moved[1]];
                 let turn = RelativeTurn::new(a, b, rotations);
                 *change = turn.ratio * (b - a);
@@ -267,18 +282,11 @@ impl Elongation {
             }
             sum
         });
-        match &mut self.measure {
-            Measure::Way(parts) => {
-                for (part, ends) in parts.iter_mut().zip(self.moved.windows(4).step_by(2)) {
-                    *part += Vec2::new(ends[2] - ends[0], ends[3] - ends[1]);
-                }
-            }
-            Measure::Component(at, component) => {
-                *at += self.moved[2 + *component] - self.moved[*component];
-            }
-            Measure::Angle(angle) => {
-                let [a, b] = [self.moved[0], self.moved[1]];
-                *angle += RelativeTurn::new(a, b, rotations).ratio * (b - a);
+        self.compare(rotations);
+        self.grown += self.change;
+        if let Measure::Way(parts) = &mut self.measure {
+            for (part, ends) in parts.iter_mut().zip(self.moved.windows(4).step_by(2)) {
+                *part += Vec2::new(ends[2] - ends[0], ends[3] - ends[1]);
             }
         }
     }
@@ -304,18 +312,16 @@ impl Elongation {
     }
 
     pub fn save(&self, state: &mut Vec<f64>) {
-        match &self.measure {
-            Measure::Way(parts) => state.extend(parts.iter().flat_map(|part| [part.x, part.y])),
-            Measure::Angle(at) | Measure::Component(at, _) => state.push(*at),
+        state.push(self.grown);
+        if let Measure::Way(parts) = &self.measure {
+            state.extend(parts.iter().flat_map(|part| [part.x, part.y]));
         }
     }
 
     pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
-        match &mut self.measure {
-            Measure::Way(parts) => {
-                parts.iter_mut().for_each(|part| *part = Vec2::new(next(), next()));
-            }
-            Measure::Angle(at) | Measure::Component(at, _) => *at = next(),
+        self.grown = next();
+        if let Measure::Way(parts) = &mut self.measure {
+            parts.iter_mut().for_each(|part| *part = Vec2::new(next(), next()));
         }
     }
 }

@@ -13,7 +13,19 @@ pub struct HiddenForce {
     pub mismatch: f64,
     /// The derivative by `Δq` of what the configuration asks for.
     pub stiffness: f64,
+    /// Where the iteration of the step has been.
+    search: Search,
 }
+
+/// Where the iteration of a step has been: how often it was linearised, and the rate and the force at which it was last.
+#[derive(Debug, Clone, Copy, Default)]
+struct Search {
+    linearised: u32,
+    at: (f64, f64),
+}
+
+/// So many linearisations find what has no corners, and most of what has.
+const PATIENCE: u32 = 4;
 
 /// What a configuration asks of a force: the force, and its derivative by `Δq`.
 #[derive(Debug, Clone, Copy, Default)]
@@ -29,6 +41,20 @@ impl HiddenForce {
         let size =
             larger(target.stiffness.abs() * extent, larger(target.force.abs(), self.force.abs()));
         if self.mismatch == 0.0 { 0.0 } else { self.mismatch.abs() / size }
+    }
+
+    /// Begins a step with the force of the last one.
+    pub fn begin_step(&mut self) {
+        self.force = self.last;
+        self.search = Search::default();
+    }
+
+    /// How much the force falls where the rate rises, by all that it acts on, as the last two iterates tell: where the search goes on for long, and not before.
+    pub fn impedance(&mut self, rate: f64) -> Option<f64> {
+        let Search { linearised, at: (rate_before, force_before) } = self.search;
+        self.search = Search { linearised: linearised + 1, at: (rate, self.force) };
+        let impedance = (force_before - self.force) / (rate - rate_before);
+        (linearised >= PATIENCE && impedance > 0.0 && impedance.is_finite()).then_some(impedance)
     }
 
     /// Keeps what a configuration asks for, with its derivative, until the correction that follows.

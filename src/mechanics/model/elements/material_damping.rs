@@ -88,7 +88,7 @@ impl Resistance for DampedMaterial {
         &self.name
     }
 
-    fn begin_step(&mut self, interval: Interval) {
+    fn begin_step(&mut self, interval: Interval, _bodies: &[Body], _rates: &[f64]) {
         self.pace.begin(interval.duration());
         self.dashpots.begin_step();
     }

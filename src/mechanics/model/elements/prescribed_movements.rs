@@ -49,7 +49,7 @@ struct Present {
     /// The sharpest bend within a step so far, and that of the present step.
     bend: Bend,
     bend_in_step: Bend,
-    /// Mean of the last step [force, force·length].
+    /// Mean of the last step; a moment is that which belongs to the angle [force, force·length].
     reaction: f64,
     /// `M Δv` of the step that is being accepted [force·time, force·length·time].
     struck: f64,
@@ -72,8 +72,14 @@ pub struct DriveState<'a> {
     pub work: f64,
     /// The force on the station, mean of the last step [force].
     pub force: Vec2,
-    /// The moment on the station, mean of the last step [force·length].
+    /// The moment on the station, mean of the last step: what its work is with the angle that the section turned by [force·length].
     pub moment: f64,
+}
+
+/// `Δω/Δθ` of an increment of rotation, whatever it stands for: what a moment that works on increments is times, as one that works on angles.
+fn per_angle(increment: f64, rotations: RotationIncrement) -> f64 {
+    let angle = rotations.angle(increment);
+    if angle == 0.0 { 1.0 } else { increment / angle }
 }
 
 /// The movements of a model that are prescribed, in the order of their degrees of freedom.
@@ -269,7 +275,7 @@ impl PrescribedMovements {
         &mut self,
         bodies: &[Body],
         residual: &[f64],
-        duration: f64,
+        (duration, rotations): (f64, RotationIncrement),
         mean: impl Fn(usize) -> f64,
     ) -> Exchange {
         let mut sum = Exchange::default();
@@ -290,7 +296,13 @@ impl PrescribedMovements {
                 (cross(middle, force) + moment) * duration + cross(aside, present.momentum);
             sum += Exchange::of(work, force * duration, angular);
             self.drives[movement.drive].work += work;
-            present.reaction = reaction;
+            present.reaction = match component {
+                Component::Rotation => {
+                    let inertia = present.struck / duration;
+                    (reaction - inertia) * per_angle(moved, rotations) + inertia
+                }
+                _ => reaction,
+            };
             if present.bend_in_step.size() > present.bend.size() {
                 present.bend = present.bend_in_step;
             }

@@ -27,8 +27,8 @@ pub trait Resistance {
     /// What it is called in messages and columns.
     fn name(&self) -> &str;
 
-    /// Prepares a step: forces start from those of the last one.
-    fn begin_step(&mut self, interval: Interval);
+    /// Prepares a step that begins with such rates of the unknowns: forces start from those of the last one.
+    fn begin_step(&mut self, interval: Interval, bodies: &[Body], rates: &[f64]);
 
     /// Prepares a movement that takes no time, in which nothing is damped.
     fn begin_movement(&mut self);

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::geometry::larger;
+
 /// A restoring force over an elongation `q`, a length or an angle.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum RestoringLaw {
@@ -55,6 +57,17 @@ impl RestoringLaw {
                 let [(q0, f0), (q1, f1)] = segment(points, q);
                 (f1 - f0) / (q1 - q0)
             }
+        }
+    }
+
+    /// The largest stiffness of the law, whatever its sign [force/length, force·length/rad].
+    pub fn largest_slope(&self) -> f64 {
+        match self {
+            Self::Linear { stiffness, .. } => stiffness.abs(),
+            Self::Table { points } | Self::Sampled { points, .. } => points
+                .windows(2)
+                .map(|pair| ((pair[1].1 - pair[0].1) / (pair[1].0 - pair[0].0)).abs())
+                .fold(0.0, larger),
         }
     }
 

@@ -6,6 +6,7 @@ use super::central_spring::CentralSpring;
 use super::damping_law::DampingLaw;
 use super::element::{Assembled, Description, Setting, Site};
 use super::elongation::{Elongation, Terminal};
+use super::radial_damper::RadialDamper;
 use super::restoring::RestoringLaw;
 use super::spring_damper::SpringDamper;
 use crate::beams::{BodyIndex, Station};
@@ -98,8 +99,9 @@ impl Description for Spring {
             return refused("damping", constant, "zero or a positive finite number");
         }
         self.check_damping(self.damping.corners())?;
-        if let Some((rate, force)) = self.damping.feeds() {
-            return Err(ModelError::FeedingDamper { damper: self.object(), rate, force });
+        if let Some(feeding) = self.damping.feeds() {
+            let (damper, feeding) = (self.object(), feeding.to_string());
+            return Err(ModelError::FeedingDamper { damper, feeding });
         }
         match &self.law {
             Some(RestoringLaw::Linear { stiffness, natural }) => {
@@ -169,6 +171,15 @@ impl Description for Spring {
                 self.damping.with_rest(),
             ))));
         }
+        if let (None, SpringKind::Way(_), [from, to]) = (&self.law, &self.kind, &terminals[..]) {
+            return Ok(Assembled::Resistance(Box::new(RadialDamper::new(
+                self.name.clone(),
+                [from.clone(), to.clone()],
+                [at[0], at[1]],
+                &grounds,
+                self.damping.with_rest(),
+            ))));
+        }
         let elongation = match (&self.kind, terminals.as_slice()) {
             (SpringKind::Torsion(_), [from, to]) => {
                 Elongation::angle([from.clone(), to.clone()], angles[1] - angles[0])
@@ -177,13 +188,13 @@ impl Description for Spring {
         };
         let origin = match self.origin {
             Origin::Zero => 0.0,
-            Origin::AsBuilt => elongation.value(),
+            Origin::AsBuilt => elongation.drawn(),
         };
         Ok(Assembled::Resistance(Box::new(SpringDamper::new(
             self.name.clone(),
             elongation,
             grounds,
-            self.law.as_ref().map(|law| law.shifted(origin)),
+            self.law.clone().map(|law| (law, origin)),
             self.damping.with_rest(),
         ))))
     }

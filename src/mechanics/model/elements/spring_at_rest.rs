@@ -14,7 +14,7 @@ pub fn law_at_rest(
 ) -> (Vec<usize>, SpanAtRest) {
     let mut elongation = elongation.clone();
     elongation.rest();
-    let (value, mut degrees) = (elongation.value(), Vec::new());
+    let (value, mut degrees) = (elongation.grown(), Vec::new());
     let by_degree = |row: &[f64]| {
         let mut found = Vec::new();
         for (coordinate, by) in elongation.coordinates().zip(row) {

@@ -31,7 +31,10 @@ pub struct SpringDamper {
     linearised: [Vec<f64>; 3],
     /// Where each terminal that is the ground is [length].
     grounds: Vec<Option<Vec2>>,
+    /// Over what the elongation has grown by since the scene was built.
     law: Option<RestoringLaw>,
+    /// The law in words, over elongations as they are counted in the scene.
+    words: Option<String>,
     /// `d(q̇)`.
     damping: DampingLaw,
     /// Law and damping that it had before it let go: one that has let go has neither.
@@ -52,21 +55,26 @@ pub struct SpringDamper {
 }
 
 impl SpringDamper {
-    /// A spring with a law, a damper with one, or both, along an elongation.
+    /// A spring with a law and what its elongations are counted from, a damper with one, or both, along an elongation.
     pub fn new(
         name: String,
         elongation: Elongation,
         grounds: Vec<Option<Vec2>>,
-        law: Option<RestoringLaw>,
+        law: Option<(RestoringLaw, f64)>,
         damping: DampingLaw,
     ) -> Self {
         let coordinates = elongation.secant.len();
+        let words = law.as_ref().map(|(law, origin)| law.shifted(*origin).describe());
+        let law = law.map(|(law, origin)| law.shifted(origin - elongation.drawn()));
+        let stiffness = law.as_ref().map_or(0.0, RestoringLaw::largest_slope);
+        let extent = elongation.extent();
         let mut new = Self {
             name,
             elongation,
             linearised: [(); 3].map(|()| vec![0.0; coordinates]),
             grounds,
             law,
+            words,
             damping,
             released: None,
             spring: HiddenForce::default(),
@@ -77,7 +85,7 @@ impl SpringDamper {
             carried: vec![0.0; coordinates],
             current: vec![0.0; coordinates],
             dissipated: 0.0,
-            contact: ContactWatch::default(),
+            contact: ContactWatch::new(stiffness, extent),
         };
         new.spring.last = new.restoring_at_start();
         new
@@ -134,10 +142,10 @@ impl Resistance for SpringDamper {
         &self.name
     }
 
-    fn begin_step(&mut self, interval: Interval) {
+    fn begin_step(&mut self, interval: Interval, _bodies: &[Body], _rates: &[f64]) {
         self.duration = interval.duration();
-        self.spring.force = self.spring.last;
-        self.damper.force = self.damper.last;
+        self.spring.begin_step();
+        self.damper.begin_step();
         [&mut self.carried, &mut self.current].into_iter().for_each(|all| all.fill(0.0));
     }
 
@@ -175,7 +183,7 @@ impl Resistance for SpringDamper {
         tangent: &mut BandedMatrix,
     ) {
         self.take(at);
-        let (restoring, damping) = (self.restoring(at.stage), self.damping(at));
+        let (restoring, damping) = (self.restoring(at.stage), self.aimed_damping(at));
         self.spring.linearise(restoring);
         self.damper.linearise(damping);
         let Self { elongation, linearised: [secant, slope, lag], .. } = self;
@@ -258,7 +266,7 @@ impl Resistance for SpringDamper {
     }
 
     fn stored(&self) -> f64 {
-        self.law.as_ref().map_or(0.0, |law| law.energy(self.elongation.value()))
+        self.law.as_ref().map_or(0.0, |law| law.energy(self.elongation.grown()))
     }
 
     fn dissipated(&self) -> f64 {
@@ -266,9 +274,9 @@ impl Resistance for SpringDamper {
     }
 
     fn stretched(&self) -> Option<Stretched> {
-        let (force, elongation) = (self.spring.last + self.damper.last, self.elongation.value());
-        let stiffness = self.law.as_ref().map_or(0.0, |law| law.slope(elongation));
-        Some(Stretched { elongation, force, stiffness })
+        let force = self.spring.last + self.damper.last;
+        let stiffness = self.law.as_ref().map_or(0.0, |law| law.slope(self.elongation.grown()));
+        Some(Stretched { elongation: self.elongation.value(), force, stiffness })
     }
 
     fn add_forces_now(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]) {
@@ -338,7 +346,7 @@ impl Resistance for SpringDamper {
         if self.released.is_some() {
             return "has let go: no force".to_owned();
         }
-        let law = self.law.as_ref().map(RestoringLaw::describe);
+        let law = self.words.clone();
         let parts: Vec<String> = law.into_iter().chain(self.damping.describe()).collect();
         format!("{}; its force is an unknown of its own, outside the matrix", parts.join(", "))
     }

@@ -17,6 +17,16 @@ impl Model {
         self.slider(slider).state
     }
 
+    /// On what a slider leans, if it does: the `start` or the `end` of its master or its track, or a `seam` of that.
+    pub fn slider_leans_on(&self, slider: usize) -> Option<&'static str> {
+        self.slider(slider).leans_on(self.bodies())
+    }
+
+    /// The beam on which a slider is at present, by the indices of both.
+    pub fn slider_beam(&self, slider: usize) -> usize {
+        self.slider(slider).connection.master
+    }
+
     /// The most spans of its master that a slider passed in a step so far [-].
     pub fn most_spans(&self, slider: usize) -> f64 {
         self.slider(slider).most_spans
@@ -35,17 +45,17 @@ impl Model {
         self.slider(slider).contact_force()
     }
 
-    /// The place of a slider along its master as drawn: 0 at its start, 1 at its end [-].
+    /// The place of a slider along its master or its track as drawn: 0 at its start, 1 at its end; round a closed track it counts on [-].
     pub fn slider_position(&self, slider: usize) -> f64 {
         self.slider(slider).position()
     }
 
-    /// How far a slider is from the start of its master, as drawn [length].
+    /// How far a slider is from the start of its master or its track, as drawn; turns of a closed track count [length].
     pub fn slider_arc_length(&self, slider: usize) -> f64 {
         self.slider(slider).arc_length()
     }
 
-    /// How much of its master, as drawn, a slider passes in a unit of time, positive towards the master's end [length/time].
+    /// How much of its master or its track, as drawn, a slider passes in a unit of time, positive towards the end of that [length/time].
     ///
     /// The speed is that of the present velocities; zero for a slider that is held or released.
     pub fn slider_speed(&self, slider: usize) -> f64 {

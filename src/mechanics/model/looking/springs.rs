@@ -43,11 +43,12 @@ impl Model {
         all.filter(|(_, stiffness)| *stiffness > 0.0).max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// What has dissipated most, by name.
-    pub fn most_damping(&self) -> Option<&str> {
-        let all = self.elements().resistances().map(|one| (one.dissipated(), one.name()));
-        let (taken, name) = all.max_by(|a, b| a.0.total_cmp(&b.0))?;
-        (taken > 0.0).then_some(name)
+    /// What has dissipated most, or was given most by the wind, by name, and how much that is [energy].
+    pub fn most_damping(&self) -> Option<(&str, f64)> {
+        let turned_over =
+            |one: &dyn Resistance| one.dissipated() + one.wind_work().map_or(0.0, f64::abs);
+        let all = self.elements().resistances().map(|one| (one.name(), turned_over(one)));
+        all.filter(|(_, energy)| *energy > 0.0).max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
     /// What else has dissipated since the start, in the order of the scene: damping of materials, drag, blows of sliders that lose by them [energy].

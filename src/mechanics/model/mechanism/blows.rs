@@ -15,7 +15,7 @@ use crate::model::sliders::{Blow, SliderState, TrackLimit};
 const TOGETHER: f64 = 1e-12;
 
 /// What vibrates faster than in so many steps is rigid for a blow.
-const RIGID: f64 = 4.0;
+pub(super) const RIGID: f64 = 4.0;
 
 /// The largest part of a blow that a step may be to resolve it [-].
 pub const RESOLVED_BLOW: f64 = 0.125;
@@ -33,17 +33,19 @@ struct Hit {
     law: Law,
 }
 
-/// Who strikes an end of its master, and who comes to lean on it.
+/// Who strikes an end of its master, who comes to lean on it, and who passes it.
 #[derive(Debug, Clone, Default)]
 pub struct Arriving {
     /// The limits at which sliders strike and bounce.
     pub strike: Vec<TrackLimit>,
     /// The limits on which sliders come to lean.
     pub lean: Vec<TrackLimit>,
+    /// The limits beyond which sliders go on along their tracks.
+    pub pass: Vec<TrackLimit>,
 }
 
 impl Arriving {
-    /// Whether nobody does.
+    /// Whether nobody strikes or leans.
     pub fn is_empty(&self) -> bool {
         self.strike.is_empty() && self.lean.is_empty()
     }
@@ -131,6 +133,7 @@ impl Model {
             let leaves = *law == Law::Leans && *impulse == 0.0 && slave - master > tolerance;
             let slider = &mut self.sliders[direction.0];
             slider.is_pulled = leaves && !slider.clings;
+            slider.leaves_beyond = false;
         }
         self.leave_stops()
     }
@@ -154,6 +157,9 @@ impl Model {
         let leaving: Vec<usize> = (0..self.sliders.len()).filter(leaving).collect();
         if leaving.is_empty() {
             return Ok(());
+        }
+        for slider in &leaving {
+            self.sliders[*slider].change_sides(&self.bodies);
         }
         if leaving.iter().any(|slider| self.sliders[*slider].stored > 0.0) {
             self.give_back().map_err(|_| self.sliders.overdetermined())?;

@@ -17,9 +17,17 @@ impl Model {
     /// What is worst where a residual was left, of that part of its imbalance which is: where strains do not match, that is where forces do not.
     pub(super) fn worst_of(&self, part: Part, residual: &[f64]) -> Option<Culprit> {
         match part {
-            Part::Force | Part::Strain => self.worst_balance(residual),
+            Part::Strain => self.worst_strain().or_else(|| self.worst_balance(residual)),
+            Part::Force => self.worst_balance(residual),
             Part::Constraint => self.worst_violation(residual),
         }
+    }
+
+    /// What resists with a force that fits its configuration less than any section force does.
+    fn worst_strain(&self) -> Option<Culprit> {
+        let (name, missing) = self.elements.farthest()?;
+        let is_worst = missing.is_nan() || missing >= self.step.summary.strain_mismatch;
+        is_worst.then(|| Culprit::Named(format!("'{name}'")))
     }
 
     fn worst_balance(&self, residual: &[f64]) -> Option<Culprit> {

@@ -98,6 +98,13 @@ pub(super) struct Impulses {
 }
 
 impl Encounter {
+    /// The velocities half-way between before and after the impact, without impulses of contacts [length/time].
+    pub(super) fn half_way(&self) -> Vec<f64> {
+        let Self { answers, before, change, .. } = self;
+        let by_links = answers.iter().map(|answer| answer.velocity(change));
+        before.iter().zip(by_links).map(|(w, by_links)| w + 0.5 * by_links).collect()
+    }
+
     /// The impulses by a law for each direction.
     pub(super) fn impulses(&self, laws: &[Law]) -> Result<Impulses, LinearError> {
         let Self { answers, response, before, change, .. } = self;

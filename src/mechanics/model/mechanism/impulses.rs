@@ -14,6 +14,7 @@ use super::{Given, Model};
 use crate::geometry::Vec2;
 use crate::integrators::{Inertia, Solution, Stage};
 use crate::model::elements::Exchange;
+use crate::model::links::InclinedRoller;
 use crate::model::sliders::InStep;
 
 /// What a model has exchanged with its surroundings, and what joints and supports gave to each control point.
@@ -46,6 +47,16 @@ pub struct Impulses {
 }
 
 impl Impulses {
+    /// Adds what is left of the balance, times a factor, and the impulses of inclined rollers, which are unknowns of the model.
+    fn sum_up(&mut self, factor: f64, rollers: &[InclinedRoller], unknowns: &[f64]) {
+        let movements = self.present.len() - rollers.len();
+        let (present, across) = self.present.split_at_mut(movements);
+        present.iter_mut().zip(&self.left).for_each(|(sum, left)| *sum += factor * left);
+        for (sum, roller) in across.iter_mut().zip(rollers) {
+            *sum += roller.unknown.map_or(0.0, |at| unknowns[at]);
+        }
+    }
+
     /// Appends the impulses.
     fn save(&self, numbers: &mut Vec<f64>) {
         numbers.extend(self.last.iter().chain(&self.present));
@@ -142,13 +153,7 @@ impl Model {
             roller.transmit(&self.bodies, impulse / duration, left);
         }
         self.exchange_numbers(&mut impulses);
-        let Impulses { present, left, .. } = &mut *impulses;
-        let movements = present.len() - self.links.all_rollers().len();
-        let (present, across) = present.split_at_mut(movements);
-        present.iter_mut().zip(left).for_each(|(sum, left)| *sum += duration * *left);
-        for (sum, roller) in across.iter_mut().zip(self.links.all_rollers()) {
-            *sum += roller.unknown.map_or(0.0, |at| increments[at]);
-        }
+        impulses.sum_up(duration, self.links.all_rollers(), increments);
         self.exchanged.impulses = Some(impulses);
     }
 
@@ -171,13 +176,7 @@ impl Model {
             self.sliders[slider].transmit(&self.bodies, -impulse, &mut impulses.left);
         }
         self.bodies.exchange_numbers(&mut impulses.numbers);
-        let Impulses { present, left, .. } = &mut *impulses;
-        let movements = present.len() - self.links.all_rollers().len();
-        let (present, across) = present.split_at_mut(movements);
-        present.iter_mut().zip(left).for_each(|(sum, left)| *sum += *left);
-        for (sum, roller) in across.iter_mut().zip(self.links.all_rollers()) {
-            *sum += roller.unknown.map_or(0.0, |at| change[at]);
-        }
+        impulses.sum_up(1.0, self.links.all_rollers(), change);
         self.exchanged.impulses = Some(impulses);
     }
 

@@ -6,7 +6,7 @@ use super::Model;
 use crate::integrators::Checkpoint;
 use crate::model::ModelError;
 use crate::model::motion::Trend;
-use crate::model::sliders::{SliderState, Sliding};
+use crate::model::sliders::SliderState;
 
 /// The state of a [`Model`], to be taken back by the same one: everything that its motion from there on depends on, and the sums of work
 /// and impulse so far.
@@ -96,7 +96,7 @@ impl Model {
             return Err(refused("a number of it is not finite"));
         }
         // The numbers of the sliders stand last.
-        let of_sliders = &numbers[numbers.len() - Sliding::SAVED * self.sliders.len()..];
+        let of_sliders = &numbers[numbers.len() - self.sliders.saved()..];
         if !self.sliders.fit(of_sliders) {
             return Err(refused("a slider is beside its beam"));
         }

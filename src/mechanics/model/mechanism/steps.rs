@@ -105,10 +105,11 @@ impl Model {
     /// What the drives gave in a step that ends with such rates.
     fn exchange_of_drives(&mut self, rates: &[f64], residual: &[f64]) -> Exchange {
         let duration = self.step.interval.duration();
+        let in_step = (duration, self.step.rotations);
         let before = &self.motion.rates;
         let mean = |at: usize| 0.5 * (before[at] + rates[at]);
         let movements = self.supports.prescribed_mut();
-        let sum = movements.exchange(&self.bodies, residual, duration, mean);
+        let sum = movements.exchange(&self.bodies, residual, in_step, mean);
         if duration < 0.0 { sum.taken_back() } else { sum }
     }
 }
@@ -252,7 +253,7 @@ impl Mechanism for Model {
         movements.begin_step(interval, rotations, &motion.rates).map_err(refused)?;
         links.begin_step(interval.duration());
         sliders.begin_step(bodies, &motion.rates, interval)?;
-        elements.begin_step(interval, stages).map_err(refused)?;
+        elements.begin_step((interval, stages), bodies, &motion.rates).map_err(refused)?;
         bodies.begin_step();
         let knows_accelerations = motion.accelerations.known().is_some();
         step.begin(interval, knows_accelerations && elements.may_jump_at(interval.start));

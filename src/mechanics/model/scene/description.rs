@@ -7,7 +7,7 @@ use super::ties::check_ties;
 use super::{BeamDefinition, ParticleDefinition, RigidBodyDefinition, Sensor, StationVelocity};
 use crate::beams::{BodyIndex, Mesh, Place, Station};
 use crate::geometry::Vec2;
-use crate::joints::{Joint, JointKind, Partner, Release, Slider};
+use crate::joints::{Joint, JointKind, Partner, Release, Slider, Track};
 use crate::loads::{Load, Schedule};
 use crate::model::ModelError;
 use crate::model::elements::{Drive, Element, MaterialDamping, PointMass, Setting, Spring};
@@ -29,6 +29,8 @@ pub struct Scene {
     pub stations: Vec<Station>,
     /// The joints of the scene: supports and joints between beams.
     pub joints: Vec<Joint>,
+    /// The tracks of the scene, along which sliders pass from beam to beam.
+    pub tracks: Vec<Track>,
     /// The sliding joints of the scene.
     pub sliders: Vec<Slider>,
     /// The motions that are given to stations, in the order in which they were added.
@@ -128,6 +130,7 @@ impl Scene {
             rigid_bodies: Vec::new(),
             stations: Vec::new(),
             joints: Vec::new(),
+            tracks: Vec::new(),
             sliders: Vec::new(),
             drives: Vec::new(),
             releases: Vec::new(),
@@ -187,7 +190,8 @@ impl Scene {
         let loads = self.loads().filter_map(|load| Some(("load", load.title.as_ref()?)));
         let drags = self.drags().map(|drag| ("drag", &drag.name));
         let bodies = self.rigid_bodies.iter().map(|body| ("body", &body.name));
-        let all = beams.chain(particles).chain(bodies).chain(sliders).chain(springs);
+        let tracks = self.tracks.iter().map(|track| ("track", &track.name));
+        let all = beams.chain(particles).chain(bodies).chain(tracks).chain(sliders).chain(springs);
         all.chain(drags).chain(drives).chain(loads)
     }
 

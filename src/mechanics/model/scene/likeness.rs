@@ -9,7 +9,7 @@ use crate::model::Element;
 const TOLERANCE: f64 = 1e-9;
 
 impl Scene {
-    /// Whether another scene has the same beams, particles, rigid bodies, joints, sliders, masses, velocities and loads, in the same order. Names do
+    /// Whether another scene has the same beams, particles, rigid bodies, joints, tracks, sliders, masses, velocities and loads, in the same order. Names do
     /// not count, nor do places that are only looked at. Functions from outside, as in schedules, cannot be compared: a scene
     /// with one of them is like no other.
     pub fn is_like(&self, other: &Self) -> bool {
@@ -26,6 +26,7 @@ impl Scene {
         let names = (plain.beams.iter_mut().map(|beam| &mut beam.name))
             .chain(plain.particles.iter_mut().map(|particle| &mut particle.name))
             .chain(plain.rigid_bodies.iter_mut().map(|body| &mut body.name))
+            .chain(plain.tracks.iter_mut().map(|track| &mut track.name))
             .chain(plain.sliders.iter_mut().map(|slider| &mut slider.name))
             .chain(plain.drives.iter_mut().map(|drive| &mut drive.name))
             .chain(plain.elements.iter_mut().filter_map(Element::name_mut));

@@ -12,6 +12,7 @@ mod sensors;
 mod sliders;
 mod stored;
 mod ties;
+mod tracks;
 
 pub use definitions::{
     BeamDefinition, ParticleDefinition, RigidBodyDefinition, StartMotion, StationVelocity,

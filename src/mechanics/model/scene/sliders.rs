@@ -4,7 +4,7 @@ use super::Scene;
 use super::ties::same_place;
 use crate::beams::Station;
 use crate::geometry::nearest;
-use crate::joints::Slider;
+use crate::joints::{Slider, SlidingRule};
 use crate::model::ModelError;
 use crate::model::words::{Approach, SliderError, SliderParts, written};
 
@@ -25,17 +25,41 @@ impl Scene {
             .map_err(ModelError::geometry(&definition.name))
     }
 
+    /// The place of several beams that is nearest to a station, all as drawn: the first such beam, and the arc length along it [length].
+    pub(super) fn nearest_of(
+        &self,
+        beams: impl Iterator<Item = usize>,
+        station: &Station,
+    ) -> Result<(usize, f64), ModelError> {
+        let point = self.drawn_at(station)?;
+        let mut best = (f64::INFINITY, (0, 0.0));
+        for beam in beams {
+            let along = self.nearest_arc_length(beam, station)?;
+            let there = self.drawn_at(&Station::on_beam(beam, along))?;
+            let distance = (there - point).norm();
+            if distance < best.0 {
+                best = (distance, (beam, along));
+            }
+        }
+        Ok(best.1)
+    }
+
     pub(in crate::model) fn check_slider(&self, slider: &Slider) -> Result<(), ModelError> {
         let parts = self.parts(slider);
-        if slider.slave.beam() == Some(slider.master) {
+        let masters = self.masters(slider);
+        if slider.slave.beam().is_some_and(|beam| masters.contains(&beam)) {
             return Err(SliderError::OnItself(parts).into());
+        }
+        if slider.track.is_some() && slider.rule == SlidingRule::Kinked {
+            return Err(SliderError::KinkedOnTrack(parts).into());
         }
         if !(0.0..=1.0).contains(&slider.restitution) {
             let (slider, restitution) = (slider.name.clone(), slider.restitution);
             return Err(SliderError::Restitution { slider, restitution }.into());
         }
         let is_same = |other: &Slider| {
-            other.master == slider.master && same_place(&other.slave, &slider.slave, self)
+            let is_on = self.masters(other).iter().any(|master| masters.contains(master));
+            is_on && same_place(&other.slave, &slider.slave, self)
         };
         if self.sliders.iter().any(is_same) {
             return Err(SliderError::Twice(parts).into());
@@ -47,12 +71,18 @@ impl Scene {
         if gap <= tolerance {
             return Ok(());
         }
-        let best = self.nearest_arc_length(slider.master, &slider.slave)?;
-        let distance = (from - self.drawn_at(&Station::on_beam(slider.master, best))?).norm();
-        let place = best / length;
+        let (master, best) = self.nearest_of(masters.into_iter(), &slider.slave)?;
+        let distance = (from - self.drawn_at(&Station::on_beam(master, best))?).norm();
+        let (guide, place) = match slider.track {
+            None => ("beam", best / length),
+            Some(track) => {
+                let along = self.length_along_track(track, master, best);
+                ("track", along / self.track_length(track))
+            }
+        };
         let nearest = match distance <= tolerance {
-            true => Approach::On { place },
-            false => Approach::Apart { place, distance },
+            true => Approach::On { place, guide },
+            false => Approach::Apart { place, guide, distance },
         };
         Err(SliderError::Open { parts, from: written(from), to: written(to), gap, nearest }.into())
     }
@@ -61,7 +91,10 @@ impl Scene {
         SliderParts {
             slider: slider.name.clone(),
             slave: self.describe(&slider.slave),
-            beam: self.beams[slider.master].name.clone(),
+            guide: match slider.track {
+                None => format!("beam '{}'", self.beams[slider.master].name),
+                Some(track) => format!("track '{}'", self.tracks[track].name),
+            },
         }
     }
 }

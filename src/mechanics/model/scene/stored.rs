@@ -6,7 +6,7 @@ use super::ties::check_ties;
 use super::{BeamDefinition, ParticleDefinition, RigidBodyDefinition, Scene, StationVelocity};
 use crate::beams::Station;
 use crate::geometry::Vec2;
-use crate::joints::{Joint, Partner, Release, Slider};
+use crate::joints::{Joint, Partner, Release, Slider, Track};
 use crate::model::ModelError;
 use crate::model::elements::{Drive, Element, Setting};
 use crate::model::words::finite;
@@ -26,6 +26,7 @@ pub struct StoredScene {
     rigid_bodies: Vec<RigidBodyDefinition>,
     stations: Vec<Station>,
     joints: Vec<Joint>,
+    tracks: Vec<Track>,
     sliders: Vec<Slider>,
     drives: Vec<Drive>,
     releases: Vec<Release>,
@@ -84,8 +85,12 @@ impl TryFrom<StoredScene> for Scene {
                 allowed: "at most 2000 in a file",
             });
         }
+        for track in stored.tracks {
+            scene.add_stored_track(track)?;
+        }
         for slider in stored.sliders {
             scene.check_station("a slider", &slider.slave)?;
+            scene.check_stored_track(&slider)?;
             scene.check_station("a slider", &Station::on_beam(slider.master, slider.arc_length))?;
             scene.add_slider(slider)?;
         }

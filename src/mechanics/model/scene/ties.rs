@@ -160,6 +160,20 @@ fn check_rollers(
 impl Scene {
     /// Whether supports hold a component of a station, directly or by way of joints.
     pub fn is_held(&self, station: &Station, component: Component) -> bool {
+        self.held_with(station, component).1
+    }
+
+    /// Whether two stations have the position of each other, whatever moves: joints tie them, directly or by way of others, or both are held.
+    pub(super) fn moves_with(&self, station: &Station, other: &Station) -> bool {
+        [Component::X, Component::Y].into_iter().all(|component| {
+            let (places, is_held) = self.held_with(station, component);
+            let is_tied = places.iter().any(|place| same_place(place, other, self));
+            is_tied || is_held && self.is_held(other, component)
+        })
+    }
+
+    /// The stations to which joints tie a component of one, with that itself, as far as is known where the ground holds it; and whether that does.
+    fn held_with(&self, station: &Station, component: Component) -> (Vec<Station>, bool) {
         let mut places = vec![*station];
         let mut next = 0;
         while let Some(&at) = places.get(next) {
@@ -170,7 +184,7 @@ impl Scene {
                 }
                 let is_here = |place: &Station| same_place(place, &at, self);
                 match &joint.partner {
-                    Partner::Ground if is_here(&joint.station) => return true,
+                    Partner::Ground if is_here(&joint.station) => return (places, true),
                     Partner::Ground => {}
                     Partner::Station(other) => {
                         for (here, there) in [(&joint.station, other), (other, &joint.station)] {
@@ -182,13 +196,18 @@ impl Scene {
                 }
             }
         }
-        false
+        (places, false)
     }
 }
 
 /// Whether two stations are one place, but for rounding.
 pub fn same_place(a: &Station, b: &Station, scene: &Scene) -> bool {
     a.body == b.body && (a.arc_length - b.arc_length).abs() <= 1e-10 * scene.length_at(a)
+}
+
+/// Whether a gap is none, but for rounding, at a place of a beam of such a length [length].
+pub fn is_closed(gap: f64, length: f64, at: Vec2) -> bool {
+    gap <= CLOSED * (length + at.norm())
 }
 
 fn check_closed(
@@ -198,8 +217,8 @@ fn check_closed(
     other: &Station,
 ) -> Result<(), ModelError> {
     let (from, to) = (scene.drawn_at(station)?, scene.drawn_at(other)?);
-    let (gap, size) = ((to - from).norm(), scene.length_at(station));
-    if gap <= CLOSED * (size + from.norm()) {
+    let gap = (to - from).norm();
+    if is_closed(gap, scene.length_at(station), from) {
         return Ok(());
     }
     Err(ModelError::OpenJoint {

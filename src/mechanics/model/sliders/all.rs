@@ -134,12 +134,14 @@ impl Sliders {
         let mut changed = false;
         for (index, slider) in self.iter_mut().enumerate() {
             if let Some(end) = slider.passes(unknowns) {
-                if slider.ends == EndAction::Release {
+                let goes_on = slider.seam(bodies, end).is_some();
+                if slider.ends == EndAction::Release && !goes_on {
                     return Err((index, end));
                 }
                 slider.hold(end);
                 changed = true;
             } else if slider.is_pulled(bodies, movements, unknowns) {
+                slider.change_sides(bodies);
                 slider.state = SliderState::Sliding;
                 changed = true;
             }
@@ -280,8 +282,17 @@ impl Sliders {
 
     /// Whether stored numbers of sliders may be those of these sliders.
     pub fn fit(&self, numbers: &[f64]) -> bool {
-        let mut pairs = self.iter().zip(numbers.chunks_exact(Sliding::SAVED));
-        pairs.all(|(slider, own)| slider.may_be_at(own[0]))
+        let mut left = numbers;
+        self.iter().all(|slider| {
+            let (own, rest) = left.split_at(slider.saved());
+            left = rest;
+            slider.may_be(own)
+        })
+    }
+
+    /// How many numbers all sliders save.
+    pub fn saved(&self) -> usize {
+        self.iter().map(Sliding::saved).sum()
     }
 
     /// The error of contact forces that are not determined.

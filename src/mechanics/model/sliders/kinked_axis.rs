@@ -37,6 +37,17 @@ pub struct KinkedAxis {
     speed: f64,
 }
 
+/// A kink that moves so fast that its inertia nearly takes away all of the stiffness against shear.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TooFast {
+    /// How fast it moves along the undeformed axis of the master [length/time].
+    pub speed: f64,
+    /// How fast shear waves are there [length/time].
+    pub wave: f64,
+    /// The part of that speed up to which a kink may move [-].
+    pub limit: f64,
+}
+
 impl KinkedAxis {
     /// The axis of a master of such a length as drawn, without a contact force, by its kink length, its arc length and its section.
     pub fn new(
@@ -62,14 +73,14 @@ impl KinkedAxis {
     /// Begins a step of such a duration [time], in which a kink without a mass has such a rate `dξ/dt` [1/time].
     ///
     /// # Errors
-    /// When the kink moves too fast: its speed and that of shear waves, and which part of that it may have.
-    pub fn begin_step(&mut self, duration: f64, rate: f64) -> Result<(), [f64; 3]> {
+    /// [`TooFast`] when the kink moves nearly as fast as shear waves do.
+    pub fn begin_step(&mut self, duration: f64, rate: f64) -> Result<(), TooFast> {
         self.duration = duration;
         if !self.is_heavy() {
             self.speed = self.stretch * rate;
         }
         let (speed, wave) = (self.speed.abs(), self.slowness.sqrt().recip());
-        if speed > FASTEST * wave { Err([speed, wave, FASTEST]) } else { Ok(()) }
+        if speed > FASTEST * wave { Err(TooFast { speed, wave, limit: FASTEST }) } else { Ok(()) }
     }
 
     /// Whether the kink has a mass, and with it a speed of its own.

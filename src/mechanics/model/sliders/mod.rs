@@ -5,12 +5,14 @@ mod all;
 mod blow;
 mod connection;
 mod kinked_axis;
+mod route;
 mod sliding;
 mod track;
 
 pub use all::Sliders;
 pub use blow::{Bar, Blow};
 pub use connection::Connection;
-pub use kinked_axis::KinkedAxis;
+pub use kinked_axis::{KinkedAxis, TooFast};
+pub use route::{Route, RouteLeg, Seam};
 pub use sliding::{AtRest, InStep, Passing, Sliding};
-pub use track::{SliderState, Track, TrackEnd, TrackLimit};
+pub use track::{Rail, SliderState, TrackEnd, TrackLimit};

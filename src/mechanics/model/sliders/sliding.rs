@@ -1,7 +1,6 @@
 //! Sliders of the model: where they are, and what they add to the equations of a step.
 
-use super::track::LANDED;
-use super::{Bar, Connection, KinkedAxis, SliderState, Track, TrackEnd};
+use super::{Bar, Connection, KinkedAxis, Rail, Route, SliderState, TooFast, TrackEnd};
 use crate::geometry::{Passage, Vec2, larger};
 use crate::integrators::{Ending, Interval, StepError};
 use crate::joints::{
@@ -14,7 +13,9 @@ use crate::model::bodies::Body;
 mod at_rest;
 mod kinematics;
 mod passing;
+mod place;
 mod saved;
+mod seams;
 mod stops;
 
 pub use passing::{AtRest, InStep, Passing};
@@ -48,7 +49,9 @@ pub struct Sliding {
     /// How many times as long as a blow a step was, at the bounce of the slider where that is most [-].
     pub blows_in_a_step: f64,
     /// The master as drawn.
-    track: Track,
+    rail: Rail,
+    /// The way from beam to beam, for a slider on a track.
+    route: Option<Box<Route>>,
     /// Master and slave as blows run through them; the slave may be no beam.
     bars: (Bar, Option<Bar>),
     /// The axis of the master as the contact force kinks it, where the rule knows of that.
@@ -71,12 +74,16 @@ pub struct Sliding {
     chord: f64,
     /// How much the stop pushes in the iterate, where the slider leans on it, times the tangent [force·length].
     push: f64,
+    /// How much a seam on which the slider leans pushes it away from the beam on the other side, likewise.
+    push_beyond: f64,
+    /// Whether it is that other beam along which the slider is drawn off.
+    pub leaves_beyond: bool,
     /// The contact force in the iterate [force].
     pressing: f64,
 }
 
 /// The time at which a slider that has left no stop yet left one: later than any, and finite, as it is saved [time].
-const NEVER: f64 = f64::MAX;
+pub(super) const NEVER: f64 = f64::MAX;
 
 /// A stop that pulls by less than this part of its contact force does not pull.
 const PULL: f64 = 1e-9;
@@ -94,11 +101,11 @@ impl Sliding {
         connection: Connection,
         passage: Passage,
         parameter: f64,
-        track: Track,
+        rail: Rail,
         bars: (Bar, Option<Bar>),
         kinked_axis: Option<KinkedAxis>,
     ) -> Self {
-        let (first, last) = track.domain();
+        let (first, last) = rail.domain();
         let functions = passage.basis().functions();
         let mut new = Self {
             name: slider.name.clone(),
@@ -116,9 +123,10 @@ impl Sliding {
             unknowns: ContactUnknowns::zeros(),
             most_spans: 0.0,
             blows_in_a_step: 0.0,
-            length: track.length() / (last - first),
-            size: track.length(),
-            track,
+            length: rail.length() / (last - first),
+            size: rail.length(),
+            rail,
+            route: None,
             bars,
             kinked_axis,
             kink_at_end: KinkState::default(),
@@ -129,6 +137,8 @@ impl Sliding {
             units: [Unit::Force; CONTACT_UNKNOWNS],
             chord: 1.0,
             push: 0.0,
+            push_beyond: 0.0,
+            leaves_beyond: false,
             pressing: 0.0,
         };
         new.stand_at(parameter);
@@ -137,7 +147,7 @@ impl Sliding {
 
     /// The most entries that the equations of the contact have.
     pub fn row_entries(&self) -> usize {
-        CONTACT_UNKNOWNS * 2 * (1 + self.passage.basis().functions())
+        CONTACT_UNKNOWNS * 2 * (1 + self.most_functions())
     }
 
     /// The most entries that they have in a step in which the slider passes no more than two spans of its master.
@@ -194,43 +204,6 @@ impl Sliding {
         self.kinked_axis.as_ref().map_or(0.0, KinkedAxis::kinetic_energy)
     }
 
-    /// Whether a parameter is one of the slider's master.
-    pub fn may_be_at(&self, parameter: f64) -> bool {
-        self.track.has(parameter)
-    }
-
-    /// How far the slider is from an end of its master, as a part of the parameters of the master [-].
-    pub fn distance_to(&self, end: TrackEnd) -> f64 {
-        self.track.distance(self.parameter, end)
-    }
-
-    /// Whether the slider is at an end of its master.
-    pub fn is_at(&self, end: TrackEnd) -> bool {
-        self.distance_to(end) <= LANDED
-    }
-
-    /// The place of the slider along its master as drawn: 0 at the start, 1 at the end [-].
-    pub fn position(&self) -> f64 {
-        // Arrivals are a few digits short of the end, or beyond it.
-        if self.is_at(TrackEnd::Start) {
-            return 0.0;
-        }
-        if self.is_at(TrackEnd::End) {
-            return 1.0;
-        }
-        self.track.part_before(self.parameter)
-    }
-
-    /// How far the slider is from the start of its master, as drawn [length].
-    pub fn arc_length(&self) -> f64 {
-        self.position() * self.track.length()
-    }
-
-    /// How much of its master, as drawn, the slider passes in a unit of time, positive towards the end [length/time].
-    pub fn speed(&self, bodies: &[Body], rates: &[f64]) -> f64 {
-        self.track.stretch(self.parameter) * self.rate(bodies, rates)
-    }
-
     fn read(&self, unknowns: &[f64]) -> ContactUnknowns {
         let mut own = [0.0; CONTACT_UNKNOWNS];
         own.copy_from_slice(&unknowns[self.connection.places()]);
@@ -253,7 +226,7 @@ impl Sliding {
         let rate = self.rate(bodies, rates);
         let begun =
             self.kinked_axis.as_mut().map(|axis| axis.begin_step(interval.duration(), rate));
-        begun.unwrap_or(Ok(())).map_err(|[speed, wave, limit]| StepError::FastAsWaves {
+        begun.unwrap_or(Ok(())).map_err(|TooFast { speed, wave, limit }| StepError::FastAsWaves {
             interval,
             slider: self.name.clone(),
             speed,
@@ -270,7 +243,7 @@ impl Sliding {
         interval: Interval,
         unknowns: &mut [f64],
     ) {
-        let (start, end) = self.track.domain();
+        let (start, end) = self.rail.domain();
         let ahead = self.parameter + interval.duration() * self.rate(bodies, rates);
         let way = ahead.clamp(start, end) - self.parameter;
         let force = if self.gives_way() { self.contact_force() } else { self.unknowns.force };
@@ -321,7 +294,8 @@ impl Sliding {
         let (connection, state) = (self.connection, self.state);
         let (contact, equations) = P::iterate(self, bodies, increments, unknowns);
         connection.add_values(bodies, &contact, P::forces(&contact), &equations, movements, out);
-        let (force, chord) = (contact.unknowns.force.norm(), P::chord(&contact));
+        let (pressing, chord) = (contact.unknowns.force, P::chord(&contact));
+        let force = pressing.norm();
         let push = match state {
             SliderState::Held(end) => contact.push(end.outward()),
             SliderState::Sliding | SliderState::Released => 0.0,
@@ -329,6 +303,7 @@ impl Sliding {
         (self.size, self.chord) = (contact.length + contact.slave_moved.norm(), chord);
         self.units = equations.map(|equation| equation.unit);
         (self.push, self.pressing) = (push, force);
+        self.push_beyond = self.push_beyond_seam(bodies, increments, pressing);
         force
     }
 
@@ -365,7 +340,7 @@ impl Sliding {
 
     /// How far beyond an end of the master the unknowns of the contact lead, relative to the master's parameters [-].
     pub fn beyond(&self, unknowns: &[f64], end: TrackEnd) -> f64 {
-        self.track.beyond(self.parameter + self.read(unknowns).way, end)
+        self.rail.beyond(self.parameter + self.read(unknowns).way, end)
     }
 
     /// Looks at the contact at the end of a step that is accepted; the bodies are at its start still.

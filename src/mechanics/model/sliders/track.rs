@@ -25,6 +25,14 @@ impl TrackEnd {
         }
     }
 
+    /// The other end of a beam.
+    pub(in crate::model) fn opposite(self) -> Self {
+        match self {
+            Self::Start => Self::End,
+            Self::End => Self::Start,
+        }
+    }
+
     /// The sign of `dξ/dt` with which a slider reaches the end [-].
     pub(in crate::model) fn outward(self) -> f64 {
         match self {
@@ -84,14 +92,14 @@ impl TrackLimit {
 
 /// The master of a slider: a beam as drawn, with the parameters of its mesh.
 #[derive(Debug, Clone)]
-pub struct Track {
+pub struct Rail {
     axis: Curve,
     /// The first and the last parameter of the mesh.
     domain: (f64, f64),
 }
 
-impl Track {
-    /// The track along a beam, given by its axis as drawn and the first and the last parameter of its mesh.
+impl Rail {
+    /// The rail along a beam, given by its axis as drawn and the first and the last parameter of its mesh.
     pub fn new(axis: Curve, domain: (f64, f64)) -> Self {
         Self { axis, domain }
     }

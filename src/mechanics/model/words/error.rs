@@ -1,6 +1,6 @@
 //! What can be wrong with a scene.
 
-use super::SliderError;
+use super::{SliderError, TrackError};
 use crate::beams::BeamError;
 use crate::geometry::GeometryError;
 use crate::loads::LoadError;
@@ -187,16 +187,12 @@ pub enum ModelError {
         how: String,
     },
     /// A damper whose law pushes at some rate, or at rest.
-    #[error(
-        "{damper}: at the rate {rate} its damping gives the force {force}, which drives what it should damp; give a force with the sign of the rate, 0 at rest"
-    )]
+    #[error("{damper}: {feeding}")]
     FeedingDamper {
         /// The damper whose law pushes, in words.
         damper: String,
-        /// The rate at which it does [length/time, rad/time].
-        rate: f64,
-        /// The force that it gives there [force, force·length].
-        force: f64,
+        /// Where it does, and what should be given, in words.
+        feeding: String,
     },
     /// Something that would hold what a drive moves.
     #[error(
@@ -295,6 +291,9 @@ pub enum ModelError {
     /// A sliding joint that is impossible.
     #[error(transparent)]
     Slider(Box<SliderError>),
+    /// A track that is impossible.
+    #[error(transparent)]
+    Track(Box<TrackError>),
     /// A number of a scene that is out of its range.
     #[error("{object}: {name} is {value}, but must be {allowed}")]
     Value {
@@ -372,6 +371,12 @@ pub fn finite(object: &str, name: &'static str, values: &[f64]) -> Result<(), Mo
             Err(ModelError::Value { object: object.to_owned(), name, value, allowed })
         }
         None => Ok(()),
+    }
+}
+
+impl From<TrackError> for ModelError {
+    fn from(error: TrackError) -> Self {
+        Self::Track(Box::new(error))
     }
 }
 

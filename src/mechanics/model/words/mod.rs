@@ -4,8 +4,10 @@ mod error;
 mod names;
 mod numbers;
 mod slider_error;
+mod track_error;
 
 pub use error::{ModelError, Turning, finite};
 pub use names::refusal;
 pub use numbers::{MOST, in_words, plural, rounded, written};
 pub use slider_error::{Approach, SliderError, SliderParts};
+pub use track_error::TrackError;

@@ -9,22 +9,26 @@ pub struct SliderParts {
     pub slider: String,
     /// The slave of the slider, the point that slides, in words.
     pub slave: String,
-    /// The name of the slider's master, the beam on which it slides.
-    pub beam: String,
+    /// What the slider slides on, in words: `beam 'rod'`, `track 'ring'`.
+    pub guide: String,
 }
 
-/// The place of a beam that is nearest to a point.
+/// The place of a beam or a track that is nearest to a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Approach {
-    /// The point lies on the beam.
+    /// The point lies on it.
     On {
-        /// The place of the point on the beam, as a part of the beam's length [-].
+        /// The place of the point, as a part of the length of what it is on [-].
         place: f64,
+        /// What it is on: a beam or a track.
+        guide: &'static str,
     },
-    /// The point does not lie on the beam.
+    /// The point does not lie on it.
     Apart {
-        /// The place of the beam that is nearest to the point, as a part of the beam's length [-].
+        /// The place that is nearest to the point, as a part of the length of what it is on [-].
         place: f64,
+        /// What it is on: a beam or a track.
+        guide: &'static str,
         /// How far that is [length].
         distance: f64,
     },
@@ -33,9 +37,14 @@ pub enum Approach {
 impl fmt::Display for Approach {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::On { place } => write!(f, "it lies on that beam at {place} of its length"),
-            Self::Apart { place, distance } => {
-                write!(f, "the beam comes no nearer than {distance:.3e}, at {place} of its length")
+            Self::On { place, guide } => {
+                write!(f, "it lies on that {guide} at {place} of its length")
+            }
+            Self::Apart { place, guide, distance } => {
+                write!(
+                    f,
+                    "the {guide} comes no nearer than {distance:.3e}, at {place} of its length"
+                )
             }
         }
     }
@@ -46,14 +55,14 @@ impl fmt::Display for Approach {
 pub enum SliderError {
     /// A slider whose slave is a part of its master.
     #[error(
-        "slider '{}': {} is on the beam '{}' itself; a beam cannot slide on itself, choose another beam",
-        _0.slider, _0.slave, _0.beam
+        "slider '{}': {} is on the {} itself; a beam cannot slide on itself, choose another beam",
+        _0.slider, _0.slave, _0.guide
     )]
     OnItself(SliderParts),
     /// A slider whose slave is not on its master.
     #[error(
-        "slider '{}': {} is at {from}, {gap:.3e} from its place {to} on the beam '{}'; {nearest}",
-        parts.slider, parts.slave, parts.beam
+        "slider '{}': {} is at {from}, {gap:.3e} from its place {to} on the {}; {nearest}",
+        parts.slider, parts.slave, parts.guide
     )]
     Open {
         /// The slider whose slave is not on its master.
@@ -69,16 +78,22 @@ pub enum SliderError {
     },
     /// A slider whose slave slides on the same master already.
     #[error(
-        "slider '{}': {} already slides on the beam '{}'; remove one of the two sliders",
-        _0.slider, _0.slave, _0.beam
+        "slider '{}': {} already slides on the {}; remove one of the two sliders",
+        _0.slider, _0.slave, _0.guide
     )]
     Twice(SliderParts),
     /// A slider whose slave is tied to its master as well.
     #[error(
-        "slider '{}': {} is also joined to the beam '{}', on which it then cannot slide; remove the joint or the slider",
-        _0.slider, _0.slave, _0.beam
+        "slider '{}': {} is also joined to the {}, on which it then cannot slide; remove the joint or the slider",
+        _0.slider, _0.slave, _0.guide
     )]
     Tied(SliderParts),
+    /// A slider on a track under a rule that is for one beam.
+    #[error(
+        "slider '{}': the kinked rule is for one beam: at the seams of the {} the kink of its axis has no room, and its energy would be a wall there",
+        _0.slider, _0.guide
+    )]
+    KinkedOnTrack(SliderParts),
     /// A coefficient of restitution that is none.
     #[error("slider '{slider}': a restitution of {restitution} is outside [0, 1]")]
     Restitution {
@@ -99,8 +114,8 @@ pub enum SliderError {
     },
     /// A slider between places that are held already.
     #[error(
-        "slider '{}': {} and its place on the beam '{}' are both held already, so that the contact force is not determined; remove the slider or a support",
-        _0.slider, _0.slave, _0.beam
+        "slider '{}': {} and its place on the {} are both held already, so that the contact force is not determined; remove the slider or a support",
+        _0.slider, _0.slave, _0.guide
     )]
     HeldBesides(SliderParts),
     /// Sliders that do not determine their forces.

@@ -137,7 +137,8 @@ impl Content<'_> {
             return Err(refused("the times of its history are out of order"));
         }
         let is_arrival = |arrival: &Arrival| {
-            arrival.limit.slider < self.scene.sliders.len() && arrival.time.is_finite()
+            let is_known = arrival.beam.is_none_or(|beam| beam < self.scene.beams.len());
+            is_known && arrival.limit.slider < self.scene.sliders.len() && arrival.time.is_finite()
         };
         if !self.arrivals.iter().all(is_arrival) {
             return Err(refused("a slider arrived that is not there"));

@@ -206,6 +206,7 @@ impl Simulation {
     fn strikes(&mut self, limit: TrackLimit) -> bool {
         let dt = self.dt();
         self.model.end_action(limit.slider) != EndAction::Bounce
+            || self.model.goes_on(limit)
             || self.model.approaches(limit, dt).unwrap_or(true)
     }
 
@@ -222,6 +223,18 @@ impl Simulation {
         for limit in self.model.arriving_with(limit) {
             let strikes = self.model.leads_beyond(limit);
             let kind = match self.model.end_action(limit.slider) {
+                _ if self.model.goes_on(limit) => {
+                    // It only touched the seam, or its velocity has turned round just there.
+                    if landing.step.is_some() && !strikes {
+                        continue;
+                    }
+                    let (group, kind) = match self.stays_at_seam(limit, landing, dt) {
+                        true => (&mut arriving.lean, ArrivalKind::Rested),
+                        false => (&mut arriving.pass, ArrivalKind::Passed),
+                    };
+                    group.push(limit);
+                    kind
+                }
                 EndAction::Stop => ArrivalKind::Stopped,
                 EndAction::Release => {
                     self.model.release(limit.slider);
@@ -238,10 +251,13 @@ impl Simulation {
                     ArrivalKind::Bounced
                 }
             };
-            arrivals.push(Arrival { time: self.model.time(), limit, kind });
+            arrivals.push(self.arrival(limit, kind));
         }
         if !arriving.is_empty() {
             self.model.blow(&arriving, dt)?;
+        }
+        if !arriving.pass.is_empty() {
+            self.model.pass_seams(&arriving.pass, dt)?;
         }
         // What ends the run is told last.
         arrivals.sort_by_key(|arrival| arrival.kind == ArrivalKind::Stopped);
@@ -266,6 +282,34 @@ impl Simulation {
         Ok(landing.step.is_none() && !self.model.approaches(limit, dt)?)
     }
 
+    /// Whether a slider at a seam comes to lean on it, and not to pass: both sides lead it back at once, or it passes to and fro within few steps.
+    fn stays_at_seam(&self, limit: TrackLimit, landing: &Landing, dt: f64) -> bool {
+        let is_led_back = landing.step.is_none() && self.model.came_to_seam_now(limit.slider);
+        is_led_back || self.passes_to_and_fro(limit, dt)
+    }
+
+    /// Whether a slider has passed the same seam to and fro so often within as many steps that nothing is resolved of what is between.
+    fn passes_to_and_fro(&self, limit: TrackLimit, dt: f64) -> bool {
+        let since = self.time() - CHATTER as f64 * dt;
+        let own = self.progress.arrivals.iter().rev();
+        let own = own.filter(|arrival| arrival.limit.slider == limit.slider);
+        let passed =
+            own.take_while(|arrival| arrival.kind == ArrivalKind::Passed && arrival.time >= since);
+        let place = |arrival: &Arrival| (arrival.limit.end, arrival.beam);
+        let places: Vec<_> = passed.map(place).take(2 * CHATTER).collect();
+        let here = (limit.end, Some(self.model.slider_beam(limit.slider)));
+        let alternates = |pair: &[(TrackEnd, Option<usize>)]| pair[0] != here && pair[1] == here;
+        let back = |pair: &[(TrackEnd, Option<usize>)]| pair[0] == places[0] && alternates(pair);
+        places.len() == 2 * CHATTER && places.chunks_exact(2).all(back)
+    }
+
+    /// The arrival of a slider at a limit at the present moment.
+    fn arrival(&self, limit: TrackLimit, kind: ArrivalKind) -> Arrival {
+        let is_on_track = self.scene.sliders[limit.slider].track.is_some();
+        let beam = is_on_track.then(|| self.model.slider_beam(limit.slider));
+        Arrival { time: self.model.time(), limit, beam, kind }
+    }
+
     /// Whether a slider has struck the same end so often within as many steps that nothing is resolved of its flights between.
     fn chatters(&self, limit: TrackLimit, dt: f64) -> bool {
         let own = self.progress.arrivals.iter().rev();
@@ -277,14 +321,15 @@ impl Simulation {
 
     /// Lets every slider arrive at the end of its master, for a pretended run: scripts may wait for that.
     pub(super) fn pretend_arrivals(&mut self) {
-        let time = self.model.time();
         let arrival = |slider: usize| {
+            let limit = TrackLimit { slider, end: TrackEnd::End };
             let kind = match self.model.end_action(slider) {
+                _ if self.scene.goes_round(slider) => ArrivalKind::Passed,
                 EndAction::Stop => ArrivalKind::Stopped,
                 EndAction::Bounce => ArrivalKind::Bounced,
                 EndAction::Release => ArrivalKind::Released,
             };
-            Arrival { time, limit: TrackLimit { slider, end: TrackEnd::End }, kind }
+            self.arrival(limit, kind)
         };
         let mut arrivals: Vec<Arrival> = (0..self.scene.sliders.len()).map(arrival).collect();
         arrivals.sort_by_key(|arrival| arrival.kind == ArrivalKind::Stopped);
@@ -308,7 +353,8 @@ impl Simulation {
 
     /// An arrival of the simulation in words.
     pub(super) fn describe(&self, arrival: &Arrival) -> String {
-        arrival.describe(&self.scene.sliders[arrival.limit.slider].name)
+        let beam = arrival.beam.map(|beam| self.scene.beams[beam].name.as_str());
+        arrival.describe(&self.scene.sliders[arrival.limit.slider].name, beam)
     }
 
     /// What a slider of the simulation does at present, by its index.

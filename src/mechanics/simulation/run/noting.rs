@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::Simulation;
+use crate::geometry::larger;
 use crate::integrators::{EnergyClaim, Mechanism};
 use crate::model::{Model, Part, RESOLVED_BLOW};
 use crate::simulation::notes::{LARGEST_ROTATION, MOST_SPANS, Suspect, short};
@@ -98,8 +99,10 @@ impl Simulation {
         let measures = self.history().samples().last().map(|row| row.measures).unwrap_or_default();
         let left = measures.energy.kinetic + measures.energy.strain + measures.energy.stored;
         let most = self.model.most_damping();
-        let most = most.filter(|_| measures.dissipated > MUCH * (measures.dissipated + left));
-        let dampers = most.map(|name| Suspect::Damping(name.to_owned()));
+        let others = measures.dissipated;
+        let is_much = |energy: f64| larger(energy, others) > MUCH * (larger(energy, others) + left);
+        let most = most.filter(|(_, energy)| is_much(*energy));
+        let dampers = most.map(|(name, _)| Suspect::Damping(name.to_owned()));
         let sampled = self.scene.schedules().filter(|(_, schedule)| schedule.is_sampled());
         let controllers =
             sampled.map(|(name, _)| Suspect::Controller(self.scene.source_of_schedule(name)));

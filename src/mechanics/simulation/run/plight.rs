@@ -51,7 +51,7 @@ impl Simulation {
         let sliders = self.scene.sliders.iter().enumerate();
         let slides = |index: usize| self.model.slider_state(index) != SliderState::Released;
         sliders.filter(move |(index, _)| slides(*index)).flat_map(|(index, slider)| {
-            let beam = &self.scene.beams[slider.master];
+            let beam = &self.scene.beams[self.model.slider_beam(index)];
             let (name, master) = (&slider.name, &beam.name);
             let force = self.model.contact_force(index).norm();
             let pressed = force / beam.section.mean().shear_stiffness;

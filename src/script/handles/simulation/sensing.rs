@@ -40,7 +40,7 @@ impl Sensing {
         match self.is_looking.get() {
             false => Ok(()),
             true => Err(ScriptError::new(
-                "a function that is recorded may not move the simulation that it looks at",
+                "a function that a simulation asks may not move it: it may only look",
             )
             .hint("step it outside the function, or at a time: sim.at(t, |sim| …)")),
         }

@@ -3,7 +3,7 @@
 use super::entries::{line, listed, number, pair};
 use crate::beams::{BodyIndex, Section, Station};
 use crate::geometry::Vec2;
-use crate::joints::{EndAction, StartVelocities};
+use crate::joints::{Course, EndAction, Heading, Leg, Slider, StartVelocities};
 use crate::model::{BeamDefinition, Scene};
 use crate::script::rows::kind::Details;
 
@@ -16,6 +16,7 @@ pub fn of_scene(scene: &Scene) -> Details {
         ("particles", listed(scene.particles.iter().map(|particle| particle.name.clone()))),
         ("bodies", listed(scene.rigid_bodies.iter().map(|body| body.name.clone()))),
         ("joints", listed(scene.joints.iter().map(|joint| joint.name.clone()))),
+        ("tracks", listed(scene.tracks.iter().map(|track| track.name.clone()))),
         ("sliders", listed(scene.sliders.iter().map(|slider| slider.name.clone()))),
         ("loads", listed(loads.into_iter())),
     ];
@@ -116,11 +117,47 @@ pub fn of_section(section: &Section) -> Details {
     properties.into_iter().map(|(label, value)| line(label, number(value))).chain(speeds).collect()
 }
 
+/// What a slider slides on, in words, and where on that it starts, as a part of the length of it.
+pub fn guide_of(scene: &Scene, slider: &Slider) -> (String, f64) {
+    let Slider { master, arc_length, track, .. } = *slider;
+    match track {
+        None => {
+            let beam = &scene.beams[master];
+            (format!("beam '{}'", beam.name), arc_length / beam.axis.length())
+        }
+        Some(track) => {
+            let along = scene.length_along_track(track, master, arc_length);
+            let name = format!("track '{}'", scene.tracks[track].name);
+            (name, along / scene.track_length(track))
+        }
+    }
+}
+
+/// The details of a track: along what it leads.
+pub fn of_track(scene: &Scene, index: usize) -> Details {
+    let track = &scene.tracks[index];
+    let leg = |leg: &Leg| {
+        let name = &scene.beams[leg.beam].name;
+        match leg.heading {
+            Heading::Forward => name.clone(),
+            Heading::Backward => format!("{name} (from its end to its start)"),
+        }
+    };
+    let behind = match track.course {
+        Course::Open => "it ends",
+        Course::Closed => "it goes on along the first one",
+    };
+    vec![
+        line("length", number(scene.track_length(index))),
+        line("along", listed(track.legs.iter().map(leg))),
+        line("behind the last beam", behind),
+    ]
+}
+
 /// The details of a slider: what slides on what, and how.
 pub fn of_slider(scene: &Scene, index: usize) -> Details {
     let slider = &scene.sliders[index];
-    let master = &scene.beams[slider.master];
-    let part = slider.arc_length / master.axis.length();
+    let guide = guide_of(scene, slider);
     let ends = match slider.ends {
         EndAction::Stop => "the run stops".to_owned(),
         EndAction::Bounce if slider.restitution < 1.0 => {
@@ -135,7 +172,7 @@ pub fn of_slider(scene: &Scene, index: usize) -> Details {
     };
     vec![
         line("slides", scene.describe(&slider.slave)),
-        line("on", format!("beam '{}', from {} of its length", master.name, number(part))),
+        line("on", format!("{}, from {} of its length", guide.0, number(guide.1))),
         line("rule", slider.rule.entry().name),
         line("at the ends", ends),
         line("start velocities", velocities),

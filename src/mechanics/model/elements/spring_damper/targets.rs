@@ -8,7 +8,7 @@ use crate::model::elements::{Iterate, RestoringLaw};
 
 impl SpringDamper {
     pub(super) fn restoring_at_start(&self) -> f64 {
-        self.law.as_ref().map_or(0.0, |law| law.force(self.elongation.value()))
+        self.law.as_ref().map_or(0.0, |law| law.force(self.elongation.grown()))
     }
 
     /// Whether its force is none in a part of its way. One that has let go is as it was: its state has the same numbers.
@@ -20,7 +20,7 @@ impl SpringDamper {
     /// What the configuration of an iterate asks of the spring.
     pub(super) fn restoring(&self, stage: Stage) -> Target {
         let Some(law) = &self.law else { return Target::default() };
-        let (q, change) = (self.elongation.value(), self.elongation.change);
+        let (q, change) = (self.elongation.grown(), self.elongation.change);
         match stage {
             Stage::Start => Target { force: law.force(q), stiffness: 0.0 },
             Stage::End => Target { force: law.force(q + change), stiffness: law.slope(q + change) },
@@ -42,38 +42,55 @@ impl SpringDamper {
     }
 
     /// What the configuration asks of the damper, for the whole step.
+    pub(super) fn damping(&self, at: Iterate<'_>) -> Target {
+        let Some(late) = self.lateness(at) else { return Target::default() };
+        match &self.damping {
+            DampingLaw::Linear(constant) => {
+                let by_change = constant / self.duration;
+                let force = by_change * self.elongation.change;
+                Target {
+                    force: force + late * (force - constant * self.last.1),
+                    stiffness: (1.0 + late) * by_change,
+                }
+            }
+            law => {
+                let (rate, by_change) = self.rate(late);
+                Target { force: law.force(rate), stiffness: by_change * law.slope(rate) }
+            }
+        }
+    }
+
+    /// The same for a linearisation.
+    pub(super) fn aimed_damping(&mut self, at: Iterate<'_>) -> Target {
+        match (&self.damping, self.lateness(at)) {
+            (law @ DampingLaw::Curve(_), Some(late)) => {
+                let (rate, by_change) = self.rate(late);
+                let impedance = self.damper.impedance(rate);
+                let (force, slope) = law.aimed(rate, self.damper.force, impedance);
+                Target { force, stiffness: by_change * slope }
+            }
+            _ => self.damping(at),
+        }
+    }
+
+    /// How much of the difference of two steps after the middle of a step its rates are met; none where they do not count.
     ///
     /// A method that takes forces at both ends balances those of one time of the step, `at.weight` of it after the start: the rate there
     /// follows from those in the middles of this step and of the last one.
-    pub(super) fn damping(&self, at: Iterate<'_>) -> Target {
-        let late = match at.stage {
-            Stage::Start => return Target::default(),
-            Stage::Midpoint | Stage::DampedMidpoint(_) => None,
-            Stage::End if self.duration.is_infinite() => return Target::default(),
+    fn lateness(&self, at: Iterate<'_>) -> Option<f64> {
+        match at.stage {
+            Stage::Start => None,
+            Stage::Midpoint | Stage::DampedMidpoint(_) => Some(0.0),
+            Stage::End if self.duration.is_infinite() => None,
             Stage::End => {
-                let before = self.last.0;
-                Some(2.0 * (at.weight - 0.5) * self.duration / (self.duration + before))
-            }
-        };
-        let last = self.last.1;
-        match (&self.damping, late) {
-            (DampingLaw::Linear(constant), _) => {
-                let by_change = constant / self.duration;
-                let force = by_change * self.elongation.change;
-                match late {
-                    None => Target { force, stiffness: by_change },
-                    Some(late) => Target {
-                        force: force + late * (force - constant * last),
-                        stiffness: (1.0 + late) * by_change,
-                    },
-                }
-            }
-            (law, late) => {
-                let (rate, late) = (self.elongation.change / self.duration, late.unwrap_or(0.0));
-                let rate = rate + late * (rate - last);
-                let stiffness = (1.0 + late) * law.slope(rate) / self.duration;
-                Target { force: law.force(rate), stiffness }
+                Some(2.0 * (at.weight - 0.5) * self.duration / (self.duration + self.last.0))
             }
         }
+    }
+
+    /// The rate that is damped, so late, and its derivative by `Δq`.
+    fn rate(&self, late: f64) -> (f64, f64) {
+        let rate = self.elongation.change / self.duration;
+        (rate + late * (rate - self.last.1), (1.0 + late) / self.duration)
     }
 }

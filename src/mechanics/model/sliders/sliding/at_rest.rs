@@ -60,7 +60,7 @@ impl Sliding {
     /// The way to where the slider leans on an end, or none.
     fn way_to_stop(&self) -> Option<f64> {
         match self.state {
-            SliderState::Held(end) => Some(self.track.end(end) - self.parameter),
+            SliderState::Held(end) => Some(self.rail.end(end) - self.parameter),
             SliderState::Sliding | SliderState::Released => None,
         }
     }
@@ -89,7 +89,10 @@ impl Sliding {
     pub fn is_pulled(&mut self, bodies: &[Body], movements: &[f64], unknowns: &[f64]) -> bool {
         let SliderState::Held(end) = self.state else { return false };
         let contact = self.take_at_rest(bodies, movements, unknowns);
-        would_pull(contact.push(end.outward()), contact.unknowns.force.norm(), contact.length)
+        let (push, force) = (contact.push(end.outward()), contact.unknowns.force);
+        let push_beyond = self.push_beyond_seam(bodies, movements, force);
+        self.leaves_beyond = self.is_drawn_beyond([push, push_beyond], force.norm());
+        self.leaves_beyond || would_pull(push, force.norm(), self.length)
     }
 
     /// Leaves the slider where a movement between two places at rest has led it; the bodies are there already.

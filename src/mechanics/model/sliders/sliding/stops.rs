@@ -34,8 +34,10 @@ impl Sliding {
     /// Notes whether the stop on which the slider leans has had to pull in a step of such an ending that was found; not within a step.
     pub fn note_pull(&mut self, ending: Ending) {
         let leans = matches!(self.state, SliderState::Held(_)) && !self.clings;
-        self.is_pulled =
-            leans && ending == Ending::OfStep && would_pull(self.push, self.pressing, self.length);
+        let is_drawn_off = self.is_drawn_beyond([self.push, self.push_beyond], self.pressing);
+        self.leaves_beyond = leans && is_drawn_off;
+        let pulls = would_pull(self.push, self.pressing, self.length) || is_drawn_off;
+        self.is_pulled = leans && ending == Ending::OfStep && pulls;
     }
 
     /// Notes that the slider struck an end of its master in steps that are so many times as long as the blow [-].

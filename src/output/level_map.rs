@@ -1,0 +1,203 @@
+//! Level maps: a field of cells over two axes of numbers, each coloured by a number on a linear scale; cells that have none are hatched.
+
+use super::{
+    axis::{Axis, Scale},
+    canvas::{Area, Canvas},
+    colour::ramp,
+    colour_bar::ColourBar,
+    frame::{Frame, Margins},
+    hatching::hatch,
+    page::Panel,
+};
+use crate::elementary::ln;
+
+/// Ratios of neighbours that differ by less than this part of themselves are equal.
+const EQUAL_RATIOS: f64 = 1e-6;
+
+/// An axis of a level map: what it shows, and the numbers at the middles of its cells, ascending.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LevelAxis {
+    /// What the axis shows.
+    pub label: String,
+    /// The numbers at the middles of the cells, ascending.
+    pub middles: Vec<f64>,
+}
+
+/// A map of cells, each coloured by its number.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LevelMap {
+    title: String,
+    captions: Vec<String>,
+    label: String,
+    x: LevelAxis,
+    y: LevelAxis,
+    /// Row by row of the vertical axis, from below.
+    values: Vec<Vec<f64>>,
+}
+
+impl LevelAxis {
+    /// How the axis is laid out: by ratios where all of its numbers are positive and follow one another by equal ones.
+    fn scale(&self) -> Scale {
+        let ratios: Vec<f64> = self.middles.windows(2).map(|pair| pair[1] / pair[0]).collect();
+        let is_equal = |ratio: &f64| (ratio / ratios[0] - 1.0).abs() < EQUAL_RATIOS;
+        let is_positive = self.middles.iter().all(|x| *x > 0.0);
+        match is_positive && ratios.len() > 1 && ratios.iter().all(is_equal) {
+            true => Scale::Logarithmic,
+            false => Scale::Linear,
+        }
+    }
+
+    /// The numbers at which cells end: halfway between their middles.
+    fn ends(&self) -> Vec<f64> {
+        let between = |a: f64, b: f64| match self.scale() {
+            Scale::Linear => (a + b) / 2.0,
+            Scale::Logarithmic => (a * b).sqrt(),
+        };
+        let beyond = |a: f64, end: f64| match self.scale() {
+            Scale::Linear => 2.0 * a - end,
+            Scale::Logarithmic => a * a / end,
+        };
+        let mut ends: Vec<f64> =
+            self.middles.windows(2).map(|pair| between(pair[0], pair[1])).collect();
+        match (self.middles.as_slice(), ends.first().copied(), ends.last().copied()) {
+            ([first, .., last], Some(low), Some(high)) => {
+                ends.insert(0, beyond(*first, low));
+                ends.push(beyond(*last, high));
+            }
+            ([only], ..) => {
+                let half = if *only == 0.0 { 0.5 } else { only.abs() / 2.0 };
+                ends = vec![only - half, only + half];
+            }
+            _ => ends = vec![0.0, 1.0],
+        }
+        ends
+    }
+
+    fn axis(&self) -> Axis {
+        let ends = self.ends();
+        let (low, high) = (ends[0], ends[ends.len() - 1]);
+        match self.scale() {
+            // Less than a hair of a power of ten is no axis.
+            Scale::Logarithmic if ln(high / low) > 1e-3 => Axis::powers_between(low, high),
+            _ => Axis::between(low, high),
+        }
+    }
+}
+
+impl LevelMap {
+    /// A map over two axes: `values` row by row of the vertical axis, from below; `label` says what they are. A value that is not finite is hatched.
+    pub fn new(
+        title: impl Into<String>,
+        label: impl Into<String>,
+        (x, y): (LevelAxis, LevelAxis),
+        values: Vec<Vec<f64>>,
+    ) -> Self {
+        Self { title: title.into(), captions: Vec::new(), label: label.into(), x, y, values }
+    }
+
+    /// Adds a line of small words below the title.
+    pub fn caption(mut self, words: impl Into<String>) -> Self {
+        self.captions.push(words.into());
+        self
+    }
+
+    fn frame(&self) -> Frame {
+        Frame {
+            title: self.title.clone(),
+            captions: self.captions.clone(),
+            x_label: self.x.label.clone(),
+            y_label: self.y.label.clone(),
+            x: self.x.axis(),
+            y: self.y.axis(),
+            legend: Vec::new(),
+        }
+    }
+
+    fn numbers(&self) -> impl Iterator<Item = f64> {
+        self.values.iter().flatten().copied().filter(|x| x.is_finite())
+    }
+
+    fn bar(&self) -> ColourBar {
+        ColourBar::new(&self.label, self.numbers(), ramp)
+    }
+}
+
+impl Panel for LevelMap {
+    fn size(&self) -> (f64, f64) {
+        (760.0, 560.0)
+    }
+
+    fn margins(&self, width: f64, height: f64) -> Margins {
+        self.frame().margins_beside(self.bar().width(), width, height)
+    }
+
+    fn draw(&self, canvas: &mut Canvas, area: &Area, plot: &Area) {
+        let (frame, bar) = (self.frame(), self.bar());
+        frame.draw(canvas, area, plot);
+        if self.numbers().next().is_none() {
+            frame.say_no_data(canvas, plot);
+        }
+        let (x_ends, y_ends) = (self.x.ends(), self.y.ends());
+        for (row, y) in self.values.iter().zip(y_ends.windows(2)) {
+            for (value, x) in row.iter().zip(x_ends.windows(2)) {
+                let (left, bottom) = frame.place(plot, (x[0], y[0]));
+                let (right, top) = frame.place(plot, (x[1], y[1]));
+                let cell = Area { left, top, right, bottom };
+                match value.is_finite() {
+                    // A hair more, so that no seams show.
+                    true => {
+                        let cell = Area {
+                            right: (right + 0.3).min(plot.right),
+                            bottom: (bottom + 0.3).min(plot.bottom),
+                            ..cell
+                        };
+                        canvas.fill(cell, ramp(bar.part(*value)));
+                    }
+                    false => hatch(canvas, &cell),
+                }
+            }
+        }
+        bar.draw(canvas, plot);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::canvas::Shape;
+
+    fn axis(label: &str, middles: &[f64]) -> LevelAxis {
+        LevelAxis { label: label.into(), middles: middles.to_vec() }
+    }
+
+    #[test]
+    fn cells_end_halfway_between_their_middles() {
+        assert_eq!(axis("", &[1.0, 2.0, 4.0]).scale(), Scale::Logarithmic);
+        let ends = axis("", &[1.0, 2.0, 5.0]).ends();
+        assert_eq!(ends, [0.5, 1.5, 3.5, 6.5]);
+        let ends = axis("", &[0.1, 1.0, 10.0]).ends();
+        assert!(
+            (ends[1] * ends[1] - 0.1).abs() < 1e-15 && (ends[3] * ends[3] - 1000.0).abs() < 1e-9
+        );
+        assert_eq!(axis("", &[0.0]).ends(), [-0.5, 0.5]);
+    }
+
+    #[test]
+    fn every_cell_is_coloured_and_those_without_a_value_are_hatched() {
+        let values = vec![vec![0.0, 1.0, 2.0], vec![f64::NAN, 4.0, 5.0]];
+        let axes = (axis("speed", &[1.0, 2.0, 3.0]), axis("mass", &[0.1, 0.2]));
+        let map = LevelMap::new("crane", "peak", axes, values);
+        let mut canvas = Canvas::default();
+        let area = Area { left: 0.0, top: 0.0, right: 500.0, bottom: 300.0 };
+        let plot = Area { left: 60.0, top: 40.0, right: 360.0, bottom: 240.0 };
+        map.draw(&mut canvas, &area, &plot);
+        let cells = canvas.shapes().iter().filter(|shape| match shape {
+            Shape::Fill { area, .. } => area.width() > 90.0 && area.width() < 110.0,
+            _ => false,
+        });
+        assert_eq!(cells.count(), 5);
+        let svg = map.figure().unwrap().to_svg().unwrap();
+        assert!(svg.contains("speed") && svg.contains("peak"), "{svg}");
+        LevelMap::new("", "", (axis("", &[]), axis("", &[])), vec![]).figure().unwrap();
+    }
+}

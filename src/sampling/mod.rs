@@ -1,0 +1,28 @@
+//! Designs of experiments: distributions, points that fill a cube, and how much of a result each coordinate explains.
+//!
+//! ```text
+//! latin_hypercube, sobol, saltelli → random
+//! distribution → normal
+//! sensitivity (of results on any of them, and on grids)
+//! ```
+//!
+//! Equal seeds give equal points on every machine: the generator is ChaCha with twelve rounds, whose stream is defined bit for bit, and what is made of
+//! its words is written here and not taken from a library that may change it.
+
+#![cfg_attr(test, allow(clippy::unwrap_used))]
+
+mod distribution;
+mod latin_hypercube;
+mod normal;
+mod random;
+mod saltelli;
+mod sensitivity;
+mod sobol;
+
+pub use distribution::Distribution;
+pub use latin_hypercube::latin_hypercube;
+pub use normal::normal_quantile;
+pub use random::Random;
+pub use saltelli::saltelli;
+pub use sensitivity::{Share, shares_by_rank, shares_of_grid, shares_of_saltelli};
+pub use sobol::{MOST_DIMENSIONS, sobol};

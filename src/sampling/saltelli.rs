@@ -1,0 +1,36 @@
+//! The points at which Sobol' indices are found.
+
+use super::sobol;
+
+/// Points of the unit cube for Sobol' indices (A. Saltelli et al., Computer Physics Communications 181 (2010) 259-270): blocks of `dimensions + 2` points, the
+/// first and the second of a block independent of one another (halves of a point of a Sobol' sequence of twice as many coordinates), and then for each
+/// coordinate the first with that coordinate of the second. For each coordinate its values, point by point; `blocks · (dimensions + 2)` in all.
+pub fn saltelli(blocks: usize, dimensions: usize, seed: u64) -> Vec<Vec<f64>> {
+    let pairs = sobol(blocks, 2 * dimensions, seed);
+    (0..dimensions)
+        .map(|own| {
+            let (first, second) = (&pairs[own], &pairs[dimensions + own]);
+            let of_block = |block: usize| {
+                let exchanged =
+                    move |other| if other == own { second[block] } else { first[block] };
+                [first[block], second[block]].into_iter().chain((0..dimensions).map(exchanged))
+            };
+            (0..blocks).flat_map(of_block).collect()
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_block_exchanges_one_coordinate_after_the_other() {
+        let columns = saltelli(4, 2, 1);
+        for block in 0..4 {
+            let point = |at: usize| [columns[0][4 * block + at], columns[1][4 * block + at]];
+            let ([a, b], [c, d]) = (point(0), point(1));
+            assert_eq!([point(2), point(3)], [[c, b], [a, d]]);
+        }
+    }
+}

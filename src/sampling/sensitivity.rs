@@ -1,0 +1,158 @@
+//! How much of the variance of a result each parameter explains: Sobol' indices.
+
+/// What a parameter explains of the variance of a result, as parts of the whole.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Share {
+    /// By itself: the variance of the mean of the result over all other parameters (index of first order, main effect).
+    pub first: f64,
+    /// Together with all others: what is left of the variance when all others are known (total index); none where the points do not tell.
+    pub total: Option<f64>,
+}
+
+fn mean(values: impl Iterator<Item = f64>) -> f64 {
+    let (sum, count) = values.fold((0.0, 0_usize), |(sum, count), x| (sum + x, count + 1));
+    sum / count.max(1) as f64
+}
+
+/// Mean of the squares of the distances from the mean.
+fn variance(values: &[f64]) -> f64 {
+    let middle = mean(values.iter().copied());
+    mean(values.iter().map(|x| (x - middle) * (x - middle)))
+}
+
+/// The shares of the parameters of a full grid, whose rows have the numbers of their values with the last parameter going fastest. Every value of a parameter
+/// counts as equally likely; the shares are exact for that. None where the result does not vary.
+pub fn shares_of_grid(lengths: &[usize], results: &[f64]) -> Option<Vec<Share>> {
+    let whole = variance(results);
+    (whole > 0.0).then(|| {
+        let of = |own: usize| {
+            let inner: usize = lengths[own + 1..].iter().product();
+            let (length, outer) = (lengths[own], lengths[..own].iter().product::<usize>());
+            let at = |a: usize, value: usize, b: usize| results[(a * length + value) * inner + b];
+            let others = || (0..outer).flat_map(|a| (0..inner).map(move |b| (a, b)));
+            let means: Vec<f64> =
+                (0..length).map(|value| mean(others().map(|(a, b)| at(a, value, b)))).collect();
+            let left = others().map(|(a, b)| {
+                let line: Vec<f64> = (0..length).map(|value| at(a, value, b)).collect();
+                variance(&line)
+            });
+            Share { first: variance(&means) / whole, total: Some(mean(left) / whole) }
+        };
+        (0..lengths.len()).map(of).collect()
+    })
+}
+
+/// The shares of the parameters at the points of [`saltelli`](super::saltelli), by the estimators of M. J. W. Jansen, Computer Physics Communications 117 (1999)
+/// 35-43, over the blocks all of whose results are finite. None where the result does not vary, or no block is whole.
+pub fn shares_of_saltelli(parameters: usize, results: &[f64]) -> Option<Vec<Share>> {
+    let is_whole = |block: &&[f64]| block.iter().all(|result| result.is_finite());
+    let blocks: Vec<&[f64]> = results.chunks_exact(parameters + 2).filter(is_whole).collect();
+    let both: Vec<f64> = blocks.iter().flat_map(|block| [block[0], block[1]]).collect();
+    let whole = variance(&both);
+    let half_square = |x: f64, y: f64| (x - y) * (x - y) / 2.0;
+    let of = |own: usize| {
+        let with_own = mean(blocks.iter().map(|block| half_square(block[1], block[2 + own])));
+        let without = mean(blocks.iter().map(|block| half_square(block[0], block[2 + own])));
+        Share { first: 1.0 - with_own / whole, total: Some(without / whole) }
+    };
+    (whole > 0.0).then(|| (0..parameters).map(of).collect())
+}
+
+/// The share of the first order of a parameter at any independent points: the variance of the means over groups of points that follow one another in the
+/// parameter, as many groups as the cube root of the number of points, less what the scatter within groups adds to it. Rows with a result that is not
+/// finite are left out. None where there are too few points (30), or the result does not vary.
+pub fn shares_by_rank(values: &[f64], results: &[f64]) -> Option<Share> {
+    let pairs = values.iter().copied().zip(results.iter().copied());
+    let mut pairs: Vec<(f64, f64)> = pairs.filter(|(_, result)| result.is_finite()).collect();
+    pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let results: Vec<f64> = pairs.into_iter().map(|(_, result)| result).collect();
+    let whole = variance(&results);
+    if results.len() < 30 || whole <= 0.0 {
+        return None;
+    }
+    let groups = (1..).take_while(|n: &usize| n.pow(3) <= results.len()).last().unwrap_or(1).max(3);
+    let ends =
+        |group: usize| (group * results.len() / groups)..((group + 1) * results.len() / groups);
+    let all = mean(results.iter().copied());
+    let (mut between, mut within) = (0.0, 0.0);
+    for group in (0..groups).map(|group| &results[ends(group)]) {
+        let (count, middle) = (group.len() as f64, mean(group.iter().copied()));
+        between += count * (middle - all) * (middle - all);
+        within += variance(group) * count / (count - 1.0).max(1.0);
+    }
+    let count = results.len() as f64;
+    Some(Share { first: ((between / count - within / count) / whole).max(0.0), total: None })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{latin_hypercube, saltelli};
+    use super::*;
+    use crate::elementary::{power, sin};
+    use std::f64::consts::PI;
+
+    /// T. Ishigami, T. Homma (1990), with a = 7, b = 0.1, on the cube from -π to π.
+    fn ishigami(x: &[f64]) -> f64 {
+        let [a, b, c] = [0, 1, 2].map(|at: usize| (2.0 * x[at] - 1.0) * PI);
+        sin(a) + 7.0 * sin(b) * sin(b) + 0.1 * power(c, 4.0) * sin(a)
+    }
+
+    /// Their indices in closed form: variances 1/2 (1 + b π⁴/5)², a²/8 and 0 of 8 π⁸ b²/225 besides.
+    fn known() -> ([f64; 3], [f64; 3]) {
+        let fourth = power(PI, 4.0);
+        let first = 0.5 * power(1.0 + 0.1 * fourth / 5.0, 2.0);
+        let (second, both) = (49.0 / 8.0, 8.0 * 0.01 * fourth * fourth / 225.0);
+        let whole = first + second + both;
+        ([first, second, 0.0].map(|v| v / whole), [first + both, second, both].map(|v| v / whole))
+    }
+
+    #[test]
+    fn indices_of_ishigami_are_the_known_ones() {
+        let columns = saltelli(4096, 3, 1);
+        let results: Vec<f64> = (0..columns[0].len())
+            .map(|at| ishigami(&[0, 1, 2].map(|c: usize| columns[c][at])))
+            .collect();
+        let (first, total) = known();
+        assert!((first[0] - 0.3139).abs() < 1e-4 && (total[2] - 0.2437).abs() < 1e-4);
+        for (own, share) in shares_of_saltelli(3, &results).unwrap().into_iter().enumerate() {
+            assert!((share.first - first[own]).abs() < 0.01, "{own}: {share:?}");
+            assert!((share.total.unwrap() - total[own]).abs() < 0.01, "{own}: {share:?}");
+        }
+    }
+
+    #[test]
+    fn a_fine_grid_has_the_same_indices() {
+        let lengths = [40, 41, 42];
+        let middle = |at: usize, of: usize| (at as f64 + 0.5) / of as f64;
+        let point = |row: usize| [row / (41 * 42), row / 42 % 41, row % 42];
+        let result = |row: usize| {
+            let at = point(row);
+            ishigami(&[0, 1, 2].map(|c: usize| middle(at[c], lengths[c])))
+        };
+        let results: Vec<f64> = (0..40 * 41 * 42).map(result).collect();
+        let (first, total) = known();
+        for (own, share) in shares_of_grid(&lengths, &results).unwrap().into_iter().enumerate() {
+            assert!((share.first - first[own]).abs() < 0.005, "{own}: {share:?}");
+            assert!((share.total.unwrap() - total[own]).abs() < 0.005, "{own}: {share:?}");
+        }
+    }
+
+    #[test]
+    fn groups_of_any_points_find_the_first_order() {
+        let columns = latin_hypercube(20_000, 3, 1);
+        let results: Vec<f64> =
+            (0..20_000).map(|at| ishigami(&[0, 1, 2].map(|c: usize| columns[c][at]))).collect();
+        for (own, known) in known().0.into_iter().enumerate() {
+            let share = shares_by_rank(&columns[own], &results).unwrap();
+            assert!((share.first - known).abs() < 0.02, "{own}: {share:?}, {known}");
+        }
+        assert!(shares_by_rank(&columns[0][..20], &results[..20]).is_none());
+    }
+
+    #[test]
+    fn what_does_not_vary_is_explained_by_nothing() {
+        assert!(shares_of_grid(&[2, 2], &[1.0; 4]).is_none());
+        assert!(shares_of_saltelli(1, &[1.0; 6]).is_none());
+        assert!(shares_of_saltelli(1, &[f64::NAN; 6]).is_none());
+    }
+}

@@ -1,0 +1,143 @@
+//! How the parameters of a sweep are spread, and the points at which they are taken together.
+
+use rhai::Dynamic;
+
+use crate::sampling::Distribution;
+use crate::script::rows::call::Call;
+use crate::script::rows::kind::{Scripted, Type};
+use crate::script::rows::parameter::{Parameter, Presence, number, whole};
+use crate::script::rows::returns::Returns;
+use crate::script::rows::table::{Body, Row, Table, function};
+use crate::script::studies::sweeps::design::{SampleKind, Samples};
+use crate::script::words::error::{Place, ScriptError};
+use crate::script::words::numbers::format_number;
+
+/// The domain of distributions and samples.
+pub const TABLE: Table = Table {
+    name: "samples",
+    doc: "Distributions of parameters, and points at which they are taken together. Random numbers are those of ChaCha with twelve rounds, started by the \
+          seed: equal seeds give equal points on every machine.",
+    types: &[DISTRIBUTION, SAMPLES],
+    setup: "",
+    constants: &[],
+    rows: &[
+        spread("uniform", &[FROM, TO], |call| {
+            let (from, to) = ends(call)?;
+            Ok(Dynamic::from(Distribution::Uniform { from, to }))
+        })
+        .summary("As a parameter of a sweep: all numbers between two are equally likely.")
+        .example("check(uniform(0.1, 2).to_string() == \"uniform(0.1, 2)\");"),
+        spread("log_uniform", &[FROM.positive(), TO.positive()], |call| {
+            let (from, to) = ends(call)?;
+            Ok(Dynamic::from(Distribution::LogUniform { from, to }))
+        })
+        .summary("As a parameter of a sweep: all logarithms of numbers between two are equally likely.")
+        .example("print(log_uniform(1e-3, 10));"),
+        spread("normal", &[number("mean"), DEVIATION], |call| {
+            let (mean, deviation) = (call.number("mean")?, call.number("deviation")?);
+            Ok(Dynamic::from(Distribution::Normal { mean, deviation }))
+        })
+        .summary("As a parameter of a sweep: normally distributed, with a mean and a standard deviation.")
+        .example("print(normal(100, 5));"),
+        spread("log_normal", &[number("median").positive(), DEVIATION], |call| {
+            let (median, deviation) = (call.number("median")?, call.number("deviation")?);
+            Ok(Dynamic::from(Distribution::LogNormal { median, deviation }))
+        })
+        .summary("As a parameter of a sweep: with a normally distributed logarithm; median, and standard deviation of the logarithm.")
+        .example("print(log_normal(100, 0.05));"),
+        spread("triangular", &[FROM, number("likeliest"), TO], |call| {
+            let (from, to) = ends(call)?;
+            let mode = call.number("likeliest")?;
+            match (from..=to).contains(&mode) {
+                true => Ok(Dynamic::from(Distribution::Triangular { from, mode, to })),
+                false => {
+                    let [mode, from, to] = [mode, from, to].map(format_number);
+                    let told = format!("the likeliest number {mode} is not between {from} and {to}");
+                    Err(call.error(told).hint("write triangular(from, likeliest, to)").at(Place::Argument(1)))
+                }
+            }
+        })
+        .summary("As a parameter of a sweep: from one number to another, rising to the likeliest and falling from there.")
+        .example("print(triangular(90, 100, 120));"),
+        points("latin_hypercube", &[COUNT, SEED], |call| samples(call, SampleKind::LatinHypercube))
+            .summary("Points for a sweep: each parameter, divided into as many equally likely parts as there are points, has one in each part.")
+            .doc("M. D. McKay, R. J. Beckman, W. J. Conover, Technometrics 21 (1979) 239-245.")
+            .example("print(latin_hypercube(2000));")
+            .see(&["study_sweep", "sobol"]),
+        points("sobol", &[COUNT, SEED], |call| samples(call, SampleKind::Sobol))
+            .summary("Points for a sweep that fill its parameters most evenly, at best a power of two of them: a Sobol' sequence.")
+            .doc(
+                "Direction numbers of S. Joe and F. Y. Kuo (SIAM J. Sci. Comput. 30 (2008) 2635-2654), for up to 40 parameters; each coordinate is moved by \
+                 random bits of the seed (a digital shift).",
+            )
+            .example("print(sobol(4096, 7));")
+            .see(&["study_sweep", "saltelli"]),
+        points("saltelli", &[whole("blocks").positive().doc("each with two runs more than there are parameters"), SEED], |call| {
+            samples(call, SampleKind::Saltelli)
+        })
+        .summary("Points for a sweep from which sensitivity() finds Sobol' indices of first order and total ones: blocks of two more than there are parameters.")
+        .doc("A. Saltelli et al., Computer Physics Communications 181 (2010) 259-270; the points of a Sobol' sequence.")
+        .example("print(saltelli(1024));")
+        .see(&["sensitivity", "sobol"]),
+    ],
+};
+
+const DISTRIBUTION: Type = Type::of::<Distribution>();
+/// The type of samples.
+pub(super) const SAMPLES: Type = Type::of::<Samples>();
+const FROM: Parameter = number("from");
+const TO: Parameter = number("to");
+const DEVIATION: Parameter = number("deviation").positive();
+const COUNT: Parameter = whole("count").positive();
+const SEED: Parameter = whole("seed").non_negative().or(Presence::Whole(0));
+
+const fn spread(name: &'static str, parameters: &'static [Parameter], body: Body) -> Row {
+    function(name, parameters, body).returns(Returns::object(DISTRIBUTION)).see(&["study_sweep"])
+}
+
+const fn points(name: &'static str, parameters: &'static [Parameter], body: Body) -> Row {
+    function(name, parameters, body).returns(Returns::object(SAMPLES))
+}
+
+impl Scripted for Distribution {
+    const NAME: &'static str = "distribution";
+    const DOC: &'static str = "How a parameter of a sweep is spread.";
+
+    fn show(&self) -> String {
+        self.describe()
+    }
+}
+
+impl Scripted for Samples {
+    const NAME: &'static str = "samples";
+    const DOC: &'static str = "Points at which the parameters of a sweep are taken together.";
+
+    fn show(&self) -> String {
+        let Self { kind, count, seed } = self;
+        let kind = match kind {
+            SampleKind::LatinHypercube => "latin_hypercube",
+            SampleKind::Sobol => "sobol",
+            SampleKind::Saltelli => "saltelli",
+        };
+        match seed {
+            0 => format!("{kind}({count})"),
+            seed => format!("{kind}({count}, {seed})"),
+        }
+    }
+}
+
+fn ends(call: &Call) -> Result<(f64, f64), ScriptError> {
+    let (from, to) = (call.number("from")?, call.number("to")?);
+    match from < to {
+        true => Ok((from, to)),
+        false => {
+            let told = format!("it goes from {} to {}", format_number(from), format_number(to));
+            Err(call.error(told).hint("give the smaller number first").at(Place::Argument(0)))
+        }
+    }
+}
+
+fn samples(call: &Call, kind: SampleKind) -> Result<Dynamic, ScriptError> {
+    let count = call.count(if kind == SampleKind::Saltelli { "blocks" } else { "count" })?;
+    Ok(Dynamic::from(Samples { kind, count, seed: call.count("seed")? as u64 }))
+}

@@ -1,0 +1,338 @@
+//! Sweeps: a function of parameters, called for all of their values.
+
+use std::rc::Rc;
+use std::time::Duration;
+
+use rhai::{Array, Dynamic, FnPtr, Map};
+
+use super::samples::SAMPLES;
+use crate::analysis::{Sweep, SweepResults};
+use crate::sampling::Share;
+use crate::script::rows::arguments::Arguments;
+use crate::script::rows::call::Call;
+use crate::script::rows::kind::{Details, Scripted, Type};
+use crate::script::rows::option_set::{Field, option_set};
+use crate::script::rows::options::Options;
+use crate::script::rows::parameter::{
+    Parameter, Presence, anything, callback, name, number, object, options, text,
+};
+use crate::script::rows::returns::{Returns, ValueKind};
+use crate::script::rows::table::{Table, function, method, property};
+use crate::script::state::settings::Mode;
+use crate::script::studies::desk::print_table;
+use crate::script::studies::plan::{at_key, study_name};
+use crate::script::studies::sweeps::design::{Samples, SweepPlan};
+use crate::script::studies::sweeps::function::RunFunction;
+use crate::script::studies::sweeps::rows::{Row, found};
+use crate::script::studies::sweeps::run::Order;
+use crate::script::studies::sweeps::table::{FAILURE, SweepTable, Swept};
+use crate::script::words::error::{Place, ScriptError};
+use crate::script::words::suggest::nearest;
+
+/// The domain of sweeps.
+pub const TABLE: Table = Table {
+    name: "sweeps",
+    doc: "A function of parameters, called with all of their values on all cores: what a thousand runs say together. withy study FILE keeps what is finished \
+          when it is interrupted, and goes on there the next time.",
+    types: &[SWEEP, SWEEP_TABLE],
+    setup: SETUP,
+    constants: &[],
+    rows: &[
+        function("study_sweep", &[options("options", KEYS)], study)
+            .returns(Returns::object(SWEEP))
+            .summary("Calls a function with all combinations of parameters, or at sampled points, on all cores, and gives the table of what it finds.")
+            .doc(
+                "`parameters` are arrays, of which every value is taken with every other (a grid, whose last name in the alphabet goes fastest), or with `samples` \
+                 distributions and arrays, whose values are equally likely. `run` is a function of a map of the values, which gives a map of numbers and \
+                 truth values (kept as 1 and 0), with the same names in all runs. What it throws, a result that is not finite and a check that fails are \
+                 the reason of a failed row; the others are not touched. \
+                 Every run is made in an engine of another thread, which has the functions and imports of the script, but has run none of its statements: \
+                 the function may use numbers, texts, arrays, maps, vectors, functions, sections, meshes, curves, integrators and schedules from outside, \
+                 and each run begins with these as they were. It prints nothing and writes no files. The table is the same whatever the number of \
+                 cores. At the prompt, where there is no whole script, one core makes all runs. A summary is printed, and the table written into NAME.csv.",
+            )
+            .example(
+                "let sweep = study_sweep(#{\n    name: \"throw\", parameters: #{ angle: linspace(0.2, 1.4, 7), speed: [5, 10] },\n    \
+                 run: |p| #{ range: p.speed ** 2 * sin(2 * p.angle) / 9.81 },\n});\n\
+                 check(sweep.table.count == 14);\ncheck_close(max(sweep.table.column(\"range\")), 100 / 9.81, 0.01);",
+            )
+            .see(&["latin_hypercube", "sobol", "sensitivity", "study_stability"]),
+        property(SWEEP, "table", |call| Ok(Dynamic::from(table_of(call)?)))
+            .returns(Returns::object(SWEEP_TABLE))
+            .summary("All rows: parameters, results, and the reasons of those that failed.")
+            .example("print(sweep.table);\ncheck(sweep.table.rows[5].energy == 9);"),
+        property(SWEEP, "failures", |call| Ok(Dynamic::from(table_of(call)?.failures())))
+            .returns(Returns::object(SWEEP_TABLE))
+            .summary("The rows that failed, with their reasons.")
+            .example("check(sweep.failures.count == 0);")
+            .see(&["where"]),
+        method(SWEEP, "sensitivity", &[RESULT], sensitivity)
+            .returns(Returns::array_of(&ValueKind::Map))
+            .summary("How much of the variance of a result each parameter explains, the one that explains most first: Sobol' indices.")
+            .doc(
+                "A map for each parameter: parameter, first (by itself: the variance of the mean over all others, as a part of the whole; its main effect) and \
+                 total (together with all others; () where the points do not tell). Of a grid they are exact for its values, each taken as equally likely; of \
+                 saltelli(…) they are estimated as M. J. W. Jansen does (Computer Physics Communications 117 (1999) 35-43); of other points first alone, by \
+                 groups of neighbours. Parameters must be independent of one another, which those of sweeps are.",
+            )
+            .example("let main = sweep.sensitivity(\"energy\")[0];\ncheck(main.parameter == \"speed\" && main.first < main.total);")
+            .see(&["saltelli", "study_sweep"]),
+        method(SWEEP_TABLE, "where", &[callback("condition").doc("|row| …, true or false")], rows_where)
+            .returns(Returns::object(SWEEP_TABLE))
+            .summary("The rows for which a function of the row, a map, is true; failed rows have a `failure` and no results.")
+            .example("check(sweep.table.where(|row| row.mass == 2 && row.energy > 2).count == 2);")
+            .see(&["failures", "column"]),
+        method(SWEEP_TABLE, "column", &[text("name")], |call| {
+            let (table, name) = (call.receiver::<SweepTable>()?, call.text("name")?);
+            let numbers = table.numbers(&name).ok_or_else(|| no_column(call, table.sweep(), (&name, 0)))?;
+            Ok(numbers.into_iter().map(Dynamic::from).collect::<Array>().into())
+        })
+        .returns(Returns::NUMBERS)
+        .summary("A parameter or result of all rows as numbers; not-a-number where a row failed, or the value is no number.")
+        .example("check(sweep.table.column(\"energy\") == [0.5, 2, 4.5, 1, 4, 9]);"),
+        property(SWEEP_TABLE, "rows", |call| {
+            let table = call.receiver::<SweepTable>()?;
+            call.context().expect_room("the rows of the sweep as maps", table.length() as u64 * BYTES_OF_A_ROW)?;
+            Ok(table.rows().map(|row| table.row(row).into()).collect::<Array>().into())
+        })
+        .returns(Returns::array_of(&ValueKind::Map))
+        .summary("A map for each row: parameters, results, and `failure` in the place of results where it failed.")
+        .example("for row in sweep.table.rows { check(row.energy == row.mass * row.speed ** 2 / 2); }"),
+        property(SWEEP_TABLE, "count", |call| Ok((call.receiver::<SweepTable>()?.length() as i64).into()))
+            .returns(Returns::WHOLE)
+            .summary("How many rows there are.")
+            .example("check(sweep.table.count == 6);"),
+    ],
+};
+
+/// How examples get a sweep.
+pub(super) const SETUP: &str = "let sweep = study_sweep(#{\n    name: \"first\", parameters: #{ speed: [1, 2, 3], mass: [1, 2] },\n    \
+            run: |p| #{ energy: p.mass * p.speed ** 2 / 2 },\n});";
+/// The type of sweeps.
+pub(super) const SWEEP: Type = Type::of::<SweepHandle>();
+/// The type of tables of sweeps.
+pub(super) const SWEEP_TABLE: Type = Type::of::<SweepTable>();
+const RESULT: Parameter = text("result").doc("a name that the runs give");
+const KEYS: &[Parameter] = SweepOptions::KEYS;
+/// What a row takes as a map, about.
+const BYTES_OF_A_ROW: u64 = 500;
+
+option_set! {
+    /// The options of `study_sweep`.
+    pub struct SweepOptions {
+        /// The name of the study and of its files.
+        name: String = name("name").doc("of the study and its files"),
+        /// Names and values, or distributions.
+        parameters: Dynamic = anything("parameters").doc("names with values or distributions: #{ speed: linspace(0.1, 2, 20), mass: [1, 2] }"),
+        /// Makes a run.
+        run: FnPtr = callback("run").doc("|p| …, a function of the values of a row that gives a map of numbers"),
+        /// Points in the place of a grid.
+        samples: Option<Samples> = object("samples", SAMPLES).doc("points in the place of a grid: latin_hypercube(2000), sobol(4096), saltelli(1024)").optional(),
+        /// How long a run may take [s].
+        patience: f64 = number("patience").positive().unit("s").or(Presence::Number(600.0)).doc("the longest that a run may take by the clock"),
+    }
+}
+
+impl Field for Samples {
+    fn read(options: &Arguments, key: &str) -> Result<Self, ScriptError> {
+        options.get(key)
+    }
+}
+
+/// A finished sweep.
+#[derive(Clone)]
+pub(super) struct SweepHandle(Rc<Swept>);
+
+impl SweepHandle {
+    /// The table of all rows.
+    pub(super) fn table(self) -> SweepTable {
+        SweepTable::new(self.0)
+    }
+}
+
+impl Scripted for SweepHandle {
+    const NAME: &'static str = "sweep";
+    const DOC: &'static str = "What a function of parameters gave for all of their values.";
+
+    fn show(&self) -> String {
+        let Sweep { name, design, results } = &self.0.sweep;
+        let finished = design.rows - results.failures().len();
+        format!("sweep '{name}': {finished} of {} runs came to their end", design.rows)
+    }
+
+    fn details(&self) -> Details {
+        let sweep = &self.0.sweep;
+        let parameters: Vec<&str> =
+            sweep.design.parameters.iter().map(|of| of.name.as_str()).collect();
+        vec![
+            ("parameters".to_owned(), parameters.join(", ")),
+            ("results".to_owned(), sweep.results.names.join(", ")),
+        ]
+    }
+}
+
+impl Scripted for SweepTable {
+    const NAME: &'static str = "sweep table";
+    const DOC: &'static str = "Rows of a sweep: parameters, results, and why runs failed.";
+
+    fn show(&self) -> String {
+        self.text()
+    }
+}
+
+fn table_of(call: &Call) -> Result<SweepTable, ScriptError> {
+    Ok(call.receiver::<SweepHandle>()?.table())
+}
+
+/// The error about the name of a column that a sweep has not, which is the argument with this number.
+pub(super) fn no_column(
+    call: &Call,
+    sweep: &Sweep,
+    (name, argument): (&str, usize),
+) -> ScriptError {
+    let meant = nearest(name, sweep.names());
+    let meant = meant.map(|name| format!("did you mean \"{name}\"? ")).unwrap_or_default();
+    let names: Vec<&str> = sweep.names().collect();
+    call.error(format!("the sweep '{}' has no column \"{name}\"", sweep.name))
+        .hint(format!("{meant}it has {}", names.join(", ")))
+        .at(Place::Argument(argument))
+}
+
+fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let given: Options = call.options("options")?;
+    let options = SweepOptions::of(&given)?;
+    let Some(parameters) = options.parameters.read_lock::<Map>().map(|map| map.clone()) else {
+        let told = format!("parameters are {}", call.describe(&options.parameters));
+        return Err(at_key(
+            call,
+            "parameters",
+            told,
+            "for example parameters: #{ speed: linspace(0.1, 2, 20) }",
+        ));
+    };
+    call.expect_arguments(
+        &options.run,
+        1,
+        "run: |p| …, a function of the map of the values of a row",
+    )?;
+    let plan = SweepPlan::read(call, &parameters, options.samples)?;
+    let names = plan.design.parameters.iter().map(|of| of.name.as_str());
+    if let Some(unread) = names.clone().find(|name| *name == FAILURE) {
+        return Err(at_key(
+            call,
+            "parameters",
+            format!("a parameter is called '{unread}'"),
+            "give it another name: a row that failed says so there",
+        ));
+    }
+    if let Some(unread) = RunFunction::unread(call, &options.run, names) {
+        let told = format!("the function of 'run' does not use the parameter '{unread}'");
+        let hint =
+            format!("use p.{unread} there, or leave it out: all of its values would give the same");
+        return Err(call.error(told).hint(hint).at(Place::Key(unread.to_owned())));
+    }
+    let context = call.context();
+    let name = study_name(call, &options.name)?;
+    context.output().path_of(&format!("{name}.csv"))?;
+    let wall = Duration::from_secs_f64(options.patience.min(1e9));
+    let order = Order { name, plan, function: &options.run, wall };
+    let swept = match context.mode() {
+        Mode::DryBuild => pretended(call, order)?,
+        Mode::Run => order.make(call)?,
+    };
+    expect_other_names(call, &swept.sweep)?;
+    print_table(context, &swept.summary());
+    let table = SweepTable::new(Rc::new(swept));
+    let name = format!("{}.csv", table.sweep().name);
+    context.write_file_by(&name, |file| table.write_csv(file))?;
+    Ok(Dynamic::from(SweepHandle(table.into_swept())))
+}
+
+/// Parameters and results stand in one table.
+fn expect_other_names(call: &Call, sweep: &Sweep) -> Result<(), ScriptError> {
+    let own = |name: &&String| sweep.design.parameters.iter().any(|of| of.name == **name);
+    let wrong = sweep.results.names.iter().find(|name| own(name) || *name == FAILURE);
+    wrong.map_or(Ok(()), |name| {
+        let told = format!("run: a result is called '{name}', as another column of the table is");
+        Err(at_key(call, "run", told, "give it another name: parameters stand beside results"))
+    })
+}
+
+/// A sweep that a dry build pretends to have made: the function is called with the first row, whose results all rows have.
+fn pretended(call: &Call, order: Order) -> Result<Swept, ScriptError> {
+    RunFunction::read(call, "run", order.function)?;
+    let given = order.invoked(call, 0)?;
+    let (names, values) = match found(&given, &call.type_of(&given)) {
+        Row::Found(names, values) => (names.to_vec(), values),
+        // A simulation that is not run may find nothing.
+        Row::Failed(_) => (
+            given
+                .read_lock::<Map>()
+                .map(|map| map.keys().map(ToString::to_string).collect())
+                .unwrap_or_default(),
+            Vec::new(),
+        ),
+        Row::Wrong(told) => {
+            let hint = "its last expression is a map of numbers: #{ peak: peak }";
+            return Err(at_key(call, "run", format!("run: {told}"), hint));
+        }
+    };
+    let Order { name, plan, .. } = order;
+    let rows = plan.design.rows;
+    let mut results = SweepResults::default();
+    let values = if values.is_empty() { vec![0.0; names.len()] } else { values };
+    results.begin(names, rows);
+    (0..rows).for_each(|row| results.find(row, &values));
+    let sweep = Sweep { name, design: plan.design.clone(), results };
+    Ok(Swept { sweep, plan })
+}
+
+fn sensitivity(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let (handle, result) = (call.receiver::<SweepHandle>()?, call.text("result")?);
+    let sweep = &handle.0.sweep;
+    if sweep.results.column(&result).is_none() {
+        return Err(no_column(call, sweep, (&result, 0)));
+    }
+    let of = |(name, share): (&str, Share)| -> Dynamic {
+        let total = share.total.map_or(Dynamic::UNIT, Dynamic::from);
+        let pairs = [("parameter", name.into()), ("first", share.first.into()), ("total", total)];
+        pairs.into_iter().map(|(name, value)| (name.into(), value)).collect::<Map>().into()
+    };
+    let names = sweep.design.parameters.iter().map(|of| of.name.as_str());
+    let Some(shares) = sweep.shares(&result) else {
+        // A dry build has made no runs.
+        if call.context().mode() == Mode::DryBuild {
+            let none = Share { first: 0.0, total: Some(0.0) };
+            return Ok(names.map(|name| of((name, none))).collect::<Array>().into());
+        }
+        return Err(call
+            .error(format!("the runs do not tell what '{result}' depends on"))
+            .hint("it must vary; a grid must have no failed rows, points must be at least 30; saltelli(1024) gives the best")
+            .at(Place::Argument(0)));
+    };
+    let mut shares: Vec<(&str, Share)> = names.zip(shares).collect();
+    let size = |share: &Share| share.total.unwrap_or(share.first);
+    shares.sort_by(|a, b| size(&b.1).total_cmp(&size(&a.1)));
+    Ok(shares.into_iter().map(of).collect::<Array>().into())
+}
+
+fn rows_where(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let (table, condition) = (call.receiver::<SweepTable>()?, call.callback("condition")?);
+    call.expect_arguments(&condition, 1, "|row| row.peak > 1")?;
+    let mut chosen = Vec::new();
+    for row in table.rows() {
+        let given = call.invoke(&condition, [table.row(row).into()])?;
+        match given.as_bool() {
+            Ok(true) => chosen.push(row as u32),
+            Ok(false) => (),
+            Err(_) => {
+                let told = format!("the function gives {} for a row", call.describe(&given));
+                return Err(call
+                    .error(told)
+                    .hint("it says true or false: |row| row.peak > 1")
+                    .at(Place::Argument(0)));
+            }
+        }
+    }
+    Ok(Dynamic::from(table.of_rows(chosen)))
+}

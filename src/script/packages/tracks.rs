@@ -1,0 +1,146 @@
+//! Tracks: beams one after the other, along which sliders pass from one to the next.
+
+use rhai::Dynamic;
+
+use super::scenes::{BEAM, SCENE};
+use crate::beams::Station;
+use crate::joints::Course;
+use crate::model::{ModelError, Scene, TrackError};
+use crate::script::handles::beam::BeamHandle;
+use crate::script::handles::scene::SceneHandle;
+use crate::script::handles::track::TrackHandle;
+use crate::script::rows::call::Call;
+use crate::script::rows::kind::{Kind, Type};
+use crate::script::rows::parameter::{Parameter, array, boolean, options, text};
+use crate::script::rows::returns::Returns;
+use crate::script::rows::table::{Table, method, property};
+use crate::script::words::error::{Place, ScriptError};
+
+/// The domain of tracks.
+pub const TABLE: Table = Table {
+    name: "tracks",
+    doc: "Beams that meet end to end are a track, along which a slider passes from one to the next: scene.slider(bead, track). Its position counts along the whole track, and \
+          round a closed one turn after turn.",
+    types: &[TRACK],
+    setup: "let scene = new_scene(\"example\");\n\
+            let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 1 });\n\
+            let ramp = scene.beam(#{ name: \"ramp\", axis: line([0, 1], [2, 0]), basis: bspline(4), section: s });\n\
+            let floor = scene.beam(#{ name: \"floor\", axis: line([5, 0], [2, 0]), basis: bspline(4), section: s });\n\
+            scene.clamp(ramp.start);\n\
+            scene.clamp(floor.start);\n\
+            scene.rigid(ramp.end, floor.end);\n\
+            let track = scene.track([ramp, floor]);",
+    constants: &[],
+    rows: &[
+        method(SCENE, "track", &[array("beams").doc("in the order in which the track leads along them"), options("options", TRACK_KEYS).optional()], track)
+            .returns(Returns::object(TRACK))
+            .summary("Makes a track of beams that are joined end to end, along which sliders pass from one to the next.")
+            .doc(
+                "Which way it leads along a beam follows from where the beams touch, however they are drawn. They must be joined there already, by scene.rigid or scene.hinge or by way \
+                 of other joints, or be held by the ground. A slider passes a corner as it would a rounded one whose radius is next to nothing: it keeps its energy, and its momentum \
+                 changes by an impulse across the track. Where a joint of the track has let go and the beams have come apart, the track ends. Tracks are called track1, track2, … unless \
+                 they get a name.",
+            )
+            .example(
+                "scene.gravity([0, -10]);\n\
+                 let bead = scene.particle([0, 1], 1, #{ name: \"bead\" });\n\
+                 let ring = scene.slider(bead, track, #{ name: \"ring\", at: 0 });\n\
+                 let sim = scene.start(#{ dt: 0.02 });\n\
+                 sim.run_to(1.2);\n\
+                 check(sim.slider_arc_length(ring) > ramp.length);\n\
+                 check(sim.events[0].what == \"passed\" && sim.history.drift(\"energy\") < 1e-10);",
+            )
+            .see(&["slider", "rigid", "events"]),
+        property(TRACK, "name", |call| Ok(call.receiver::<TrackHandle>()?.name().into()))
+            .returns(Returns::TEXT)
+            .summary("Its name.")
+            .example("check(track.name == \"track1\");"),
+        property(TRACK, "length", |call| Ok(call.receiver::<TrackHandle>()?.length().into()))
+            .returns(Returns::NUMBER.unit("length"))
+            .summary("Its length as drawn, that of all its beams.")
+            .example("check_close(track.length, ramp.length + floor.length, 1e-12);")
+            .see(&["slider_arc_length"]),
+        property(TRACK, "closed", |call| Ok(call.receiver::<TrackHandle>()?.is_closed().into()))
+            .returns(Returns::TRUTH)
+            .summary("Whether it goes on along its first beam behind its last one.")
+            .example("check(!track.closed);"),
+    ],
+};
+
+/// The track type.
+pub(super) const TRACK: Type = Type::of::<TrackHandle>();
+
+const TRACK_KEYS: &[Parameter] = &[
+    boolean("closed")
+        .doc("whether the last beam leads back to where the first one begins, so that a slider goes round and round; it does not unless given")
+        .optional(),
+    text("name").optional(),
+];
+
+/// What a slider slides on, by its index.
+#[derive(Clone, Copy)]
+pub(super) enum Guide {
+    Beam(usize),
+    Track(usize),
+}
+
+impl Guide {
+    /// That which an argument of a call is, in a scene.
+    pub(super) fn of(call: &Call, name: &str, scene: &SceneHandle) -> Result<Self, ScriptError> {
+        match call.get_if::<TrackHandle>(name) {
+            Some(track) => track.own(scene).map(Self::Track),
+            None => call.get::<BeamHandle>(name)?.own(scene).map(Self::Beam),
+        }
+    }
+
+    pub(super) fn track(self) -> Option<usize> {
+        match self {
+            Self::Beam(_) => None,
+            Self::Track(track) => Some(track),
+        }
+    }
+
+    /// The beam on which a slider starts, and the arc length there: where it is said, or at the nearest place.
+    pub(super) fn start(
+        self,
+        scene: &Scene,
+        slave: Station,
+        at: Option<f64>,
+    ) -> Result<(usize, f64), ModelError> {
+        match (self, at) {
+            (Self::Beam(beam), Some(part)) => Ok((beam, part * scene.beams[beam].axis.length())),
+            (Self::Beam(beam), None) => Ok((beam, scene.nearest_arc_length(beam, &slave)?)),
+            (Self::Track(track), Some(part)) => {
+                Ok(scene.place_on_track(track, part * scene.track_length(track)))
+            }
+            (Self::Track(track), None) => scene.nearest_on_track(track, &slave),
+        }
+    }
+}
+
+fn track(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let scene = call.receiver::<SceneHandle>()?;
+    let mut beams = Vec::new();
+    for (index, given) in call.array("beams")?.into_iter().enumerate() {
+        let wanted = (&Kind::Object(BEAM), "a beam");
+        let beam = call.accept("track", &format!("beam {}", index + 1), wanted, given)?;
+        beams.push(beam.cast::<BeamHandle>().own(&scene)?);
+    }
+    let options = call.options_or_defaults("options")?;
+    let is_closed = options.get_if("closed").unwrap_or(false);
+    let course = if is_closed { Course::Closed } else { Course::Open };
+    let name = options.text_if_given("name")?;
+    let name = name.unwrap_or_else(|| scene.scene().borrow().free_name("track"));
+    let added = scene.scene().borrow_mut().add_track(name, &beams, course);
+    let index = added.map_err(|error| {
+        let place = match &error {
+            ModelError::Track(error) if matches!(**error, TrackError::Open { .. }) => {
+                Place::Key("closed".into())
+            }
+            ModelError::Track(_) => Place::Argument(0),
+            _ => Place::Key("name".into()),
+        };
+        ScriptError::from(error).at(place)
+    })?;
+    Ok(Dynamic::from(TrackHandle { scene, index }))
+}

@@ -1,0 +1,224 @@
+//! What a sweep goes through, from its options.
+
+use rhai::{Array, Dynamic, FnPtr, Map};
+
+use super::portable::Portable;
+use crate::analysis::{Arrangement, Choice, SweepDesign, SweptParameter, SweptValues};
+use crate::output::format_number;
+use crate::sampling::{Distribution, MOST_DIMENSIONS, latin_hypercube, saltelli, sobol};
+use crate::script::rows::accept::readable;
+use crate::script::rows::call::Call;
+use crate::script::studies::parameters::label;
+use crate::script::studies::plan::at_key;
+use crate::script::words::error::{Place, ScriptError};
+use crate::script::words::numbers::as_number;
+
+/// The most rows of a sweep.
+const MOST_ROWS: usize = 100_000_000;
+
+/// Points at which the parameters of a sweep are taken together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Samples {
+    /// How the points are chosen.
+    pub kind: SampleKind,
+    /// How many points there are; of a Saltelli design how many blocks.
+    pub count: usize,
+    /// The seed of the random numbers.
+    pub seed: u64,
+}
+
+/// How points are chosen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SampleKind {
+    /// A Latin hypercube.
+    LatinHypercube,
+    /// A Sobol' sequence.
+    Sobol,
+    /// Blocks for Sobol' indices.
+    Saltelli,
+}
+
+impl Samples {
+    /// How many rows there are with so many parameters.
+    fn rows(self, parameters: usize) -> usize {
+        match self.kind {
+            SampleKind::Saltelli => self.count.saturating_mul(parameters + 2),
+            _ => self.count,
+        }
+    }
+}
+
+/// A parameter as the script gives it.
+struct Given {
+    name: String,
+    spread: Spread,
+}
+
+enum Spread {
+    Levels(Vec<Portable>, Vec<String>),
+    Distribution(Distribution),
+}
+
+/// The plan of a sweep: its design, and the values of levels as the function gets them.
+pub struct SweepPlan {
+    /// What the sweep goes through.
+    pub design: SweepDesign,
+    /// For each parameter the values of its levels; none where each row has its own number.
+    levels: Vec<Vec<Portable>>,
+}
+
+impl SweepPlan {
+    /// Reads the options `parameters` and `samples`.
+    pub fn read(
+        call: &Call,
+        parameters: &Map,
+        samples: Option<Samples>,
+    ) -> Result<Self, ScriptError> {
+        let wrong = |told: String, hint: &str| at_key(call, "parameters", told, hint);
+        if parameters.is_empty() {
+            return Err(wrong("there are no parameters".into(), EXAMPLE));
+        }
+        let given: Vec<Given> = parameters
+            .iter()
+            .map(|(name, value)| given(call, name, value))
+            .collect::<Result<_, _>>()?;
+        let rows = match samples {
+            Some(samples) => samples.rows(given.len()),
+            None => {
+                let spread = given.iter().find(|of| matches!(of.spread, Spread::Distribution(_)));
+                if let Some(Given { name, .. }) = spread {
+                    let told =
+                        format!("'{name}' is a distribution, and no points are drawn from it");
+                    return Err(wrong(
+                        told,
+                        "add samples: latin_hypercube(1000), or give an array of values",
+                    ));
+                }
+                let lengths = given.iter().map(|of| of.levels().len());
+                lengths.fold(1, usize::saturating_mul)
+            }
+        };
+        if rows > MOST_ROWS {
+            let told = format!("the sweep has {rows} rows, and {MOST_ROWS} are the most");
+            return Err(wrong(told, "take fewer values, or points: samples: sobol(100000)"));
+        }
+        if let Some(Samples { kind, .. }) = samples {
+            let dimensions =
+                if kind == SampleKind::Saltelli { 2 * given.len() } else { given.len() };
+            if kind != SampleKind::LatinHypercube && dimensions > MOST_DIMENSIONS {
+                let told = format!(
+                    "a Sobol' sequence for {} parameters has {dimensions} coordinates, and {MOST_DIMENSIONS} are the most",
+                    given.len()
+                );
+                return Err(at_key(call, "samples", told, "take latin_hypercube(…)"));
+            }
+        }
+        let columns = samples.map(|Samples { kind, count, seed }| match kind {
+            SampleKind::LatinHypercube => latin_hypercube(count, given.len(), seed),
+            SampleKind::Sobol => sobol(count, given.len(), seed),
+            SampleKind::Saltelli => saltelli(count, given.len(), seed),
+        });
+        let arrangement = match samples {
+            None => Arrangement::Grid,
+            Some(Samples { kind: SampleKind::Saltelli, .. }) => Arrangement::Saltelli,
+            Some(_) => Arrangement::Points,
+        };
+        let mut columns = columns.map(Vec::into_iter);
+        let (mut repeats, mut swept, mut levels) = (rows, Vec::new(), Vec::new());
+        for of in given {
+            let points = columns.as_mut().and_then(Iterator::next);
+            let (values, of_levels) = of.spread.values(points, &mut repeats);
+            swept.push(SweptParameter { name: of.name, values });
+            levels.push(of_levels);
+        }
+        Ok(Self { design: SweepDesign { parameters: swept, rows, arrangement }, levels })
+    }
+
+    /// The values of a row, as the function gets them.
+    pub fn values(&self, row: usize, function_of: &dyn Fn(&str, usize) -> Option<FnPtr>) -> Map {
+        let value = |(of, levels): (&SweptParameter, &Vec<Portable>)| {
+            let level =
+                of.values.level(row).and_then(|level| levels.get(level)?.value(function_of));
+            let value = level.or_else(|| of.values.number(row).map(Dynamic::from));
+            (of.name.as_str().into(), value.unwrap_or(Dynamic::UNIT))
+        };
+        self.design.parameters.iter().zip(&self.levels).map(value).collect()
+    }
+}
+
+const EXAMPLE: &str = "for example parameters: #{ speed: linspace(0.1, 2, 20), mass: [1, 2] }";
+
+fn given(call: &Call, name: &str, value: &Dynamic) -> Result<Given, ScriptError> {
+    let at = |error: ScriptError| error.at(Place::Key(name.to_owned()));
+    let name = readable("parameters", name).map_err(at)?;
+    if let Some(distribution) = value.read_lock::<Distribution>() {
+        return Ok(Given { name, spread: Spread::Distribution(distribution.clone()) });
+    }
+    let wrong = |told: String| {
+        call.error(told)
+            .hint("give an array of values, such as linspace(0.1, 2, 20), or a distribution, such as uniform(0.1, 2)")
+            .at(Place::Key(name.clone()))
+    };
+    let Some(array) = value.read_lock::<Array>() else {
+        return Err(wrong(format!("the values of '{name}' are {}", call.describe(value))));
+    };
+    if array.is_empty() {
+        return Err(wrong(format!("'{name}' has no values")));
+    }
+    let parameters_of = |function: &FnPtr| call.definition(function).map(|of| of.params.len());
+    let portable = |value: &Dynamic| {
+        Portable::of(call.engine(), value, &parameters_of).map_err(|_| {
+            wrong(format!(
+                "'{name}' has the value {}, which cannot go to other threads",
+                call.describe(value)
+            ))
+        })
+    };
+    let labels = array
+        .iter()
+        .map(|value| as_number(value).map_or_else(|| label(call, value), format_number));
+    let labels: Vec<String> = labels.collect();
+    if let Some(again) = (1..labels.len()).find(|at| labels[..*at].contains(&labels[*at])) {
+        return Err(wrong(format!("'{name}' has the value {} twice", labels[again])));
+    }
+    let levels = array.iter().map(portable).collect::<Result<_, _>>()?;
+    Ok(Given { name, spread: Spread::Levels(levels, labels) })
+}
+
+impl Given {
+    fn levels(&self) -> &[Portable] {
+        match &self.spread {
+            Spread::Levels(levels, _) => levels,
+            Spread::Distribution(_) => &[],
+        }
+    }
+}
+
+impl Spread {
+    /// The values at the points of a coordinate, or those of a grid, in which the parameters so far repeat after so many rows.
+    fn values(self, points: Option<Vec<f64>>, repeats: &mut usize) -> (SweptValues, Vec<Portable>) {
+        match self {
+            Self::Distribution(distribution) => {
+                let points = points.unwrap_or_default();
+                let numbers = points.into_iter().map(|point| distribution.quantile(point));
+                (SweptValues::Numbers(numbers.collect()), Vec::new())
+            }
+            Self::Levels(levels, labels) => {
+                let numbers = levels.iter().map(Portable::number).collect();
+                let count = levels.len();
+                let choice = match points {
+                    None => {
+                        *repeats /= count;
+                        Choice::Grid(*repeats)
+                    }
+                    // Each is equally likely.
+                    Some(points) => {
+                        let level = |point: f64| ((point * count as f64) as usize).min(count - 1);
+                        Choice::Drawn(points.into_iter().map(|point| level(point) as u32).collect())
+                    }
+                };
+                (SweptValues::Levels { labels, numbers, choice }, levels)
+            }
+        }
+    }
+}

@@ -1,0 +1,141 @@
+//! The function that a sweep calls: what it has captured, and which of its parameters it reads.
+
+use std::collections::BTreeSet;
+
+use rhai::{AST, ASTNode, Expr, FnPtr, Position};
+
+use super::portable::Portable;
+use crate::script::rows::call::Call;
+use crate::script::words::error::{Failure, Place, ScriptError};
+use crate::script::words::nouns::with_article;
+
+/// A function of the script in a form that can go to other threads.
+#[derive(Clone, Debug)]
+pub struct RunFunction {
+    /// The name under which the functions of the script are found.
+    pub name: String,
+    /// The names and values of the variables that it has captured.
+    pub captured: Vec<(String, Portable)>,
+}
+
+/// How a function reads the map that it is called with.
+struct Reading {
+    /// The names that it reads.
+    names: BTreeSet<String>,
+    /// Whether it does something else with the map, so that it may read any.
+    is_whole: bool,
+}
+
+impl RunFunction {
+    /// Reads the function that is given under a key.
+    ///
+    /// # Errors
+    /// When it has captured something that cannot go to other threads, which is told where the function uses it.
+    pub fn read(call: &Call, key: &str, function: &FnPtr) -> Result<Self, ScriptError> {
+        let Some(definition) = call.definition(function) else {
+            let told = format!(
+                "{key} is the function '{}', which is not one of this script",
+                function.fn_name()
+            );
+            let hint = format!("write {key}: |p| …, and call it there");
+            return Err(call.error(told).hint(hint).at(Place::Key(key.to_owned())));
+        };
+        let parameters_of = |function: &FnPtr| call.definition(function).map(|of| of.params.len());
+        let named = definition.params.iter().zip(function.curry());
+        let captured = named.map(|(name, value)| {
+            match Portable::of(call.engine(), value, &parameters_of) {
+                Ok(value) => Ok((name.to_string(), value)),
+                Err(immovable) => {
+                    let kind = with_article(&immovable.kind);
+                    let failure = Failure {
+                        message: format!(
+                            "the function of '{key}' uses the variable '{name}', which holds {kind}: it cannot go to the engines that make the runs"
+                        ),
+                        hint: Some(
+                            "make it within the function, from the values of the row; numbers, texts, arrays, maps, vectors, functions, sections, meshes, \
+                             curves, integrators and schedules can be used from outside"
+                                .into(),
+                        ),
+                        place: Place::Call,
+                    };
+                    let at = first_use(&call.body(function), name).unwrap_or(Position::NONE);
+                    Err(ScriptError::Engine(ScriptError::Failure(failure).into_engine(at)))
+                }
+            }
+        });
+        let captured = captured.collect::<Result<_, _>>()?;
+        Ok(Self { name: function.fn_name().to_owned(), captured })
+    }
+
+    /// The first of the names that the function does not read from the map that it is called with, as far as can be seen: one that hands the map on may
+    /// read any.
+    pub fn unread<'n>(
+        call: &Call,
+        function: &FnPtr,
+        names: impl IntoIterator<Item = &'n str>,
+    ) -> Option<&'n str> {
+        let definition = call.definition(function)?;
+        let map = definition.params.get(function.curry().len())?;
+        let reading = Reading::of(&call.body(function), map);
+        let mut names = names.into_iter();
+        names.find(|name| !reading.is_whole && !reading.names.contains(*name))
+    }
+}
+
+/// The name of a variable that is read.
+fn variable(expression: &Expr) -> Option<&str> {
+    match expression {
+        Expr::Variable(variable, ..) => Some(&variable.1),
+        _ => None,
+    }
+}
+
+/// Where a function uses a variable first.
+fn first_use(body: &AST, name: &str) -> Option<Position> {
+    let mut found = None;
+    body.walk(&mut |path: &[ASTNode]| {
+        if let Some(ASTNode::Expr(expression)) = path.last()
+            && variable(expression) == Some(name)
+        {
+            found.get_or_insert(expression.position());
+        }
+        found.is_none()
+    });
+    found
+}
+
+impl Reading {
+    fn of(body: &AST, map: &str) -> Self {
+        let mut reading = Self { names: BTreeSet::new(), is_whole: false };
+        let is_map = |expression: &Expr| variable(expression) == Some(map);
+        body.walk(&mut |path: &[ASTNode]| {
+            let Some(ASTNode::Expr(expression)) = path.last() else { return true };
+            if !is_map(expression) {
+                return true;
+            }
+            let around = path.len().checked_sub(2).map(|at| &path[at]);
+            let read = match around {
+                Some(ASTNode::Expr(Expr::Dot(of, ..) | Expr::Index(of, ..))) if is_map(&of.lhs) => {
+                    name_read(&of.rhs)
+                }
+                _ => None,
+            };
+            match read {
+                Some(name) => _ = reading.names.insert(name),
+                None => reading.is_whole = true,
+            }
+            true
+        });
+        reading
+    }
+}
+
+/// The name of a map that is read by what stands behind it: `.mass`, `["mass"]`, or these at the start of a chain.
+fn name_read(behind: &Expr) -> Option<String> {
+    match behind {
+        Expr::Property(property, _) => Some(property.2.to_string()),
+        Expr::StringConstant(name, _) => Some(name.to_string()),
+        Expr::Dot(of, ..) | Expr::Index(of, ..) => name_read(&of.lhs),
+        _ => None,
+    }
+}

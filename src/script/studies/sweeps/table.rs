@@ -1,0 +1,259 @@
+//! The table of a sweep as scripts hold it, for programs and for people.
+
+use std::io;
+use std::rc::Rc;
+
+use rhai::{Dynamic, Map};
+
+use super::design::SweepPlan;
+use crate::analysis::{Sweep, SweepColumn, SweptValues};
+use crate::output::{
+    Cell, DataColumn, DataTable, DataValues, NpzArchive, NpzArray, Table, format_number,
+    significant,
+};
+
+/// The column that says why a row failed.
+pub const FAILURE: &str = "failure";
+/// Rows that are shown at the start of a table; with those at its end.
+const SHOWN: (usize, usize) = (12, 4);
+/// Digits of a number in a table for people.
+const DIGITS: usize = 6;
+
+/// A finished sweep, with the values that its function got.
+pub struct Swept {
+    /// The sweep.
+    pub sweep: Sweep,
+    /// Where the values of its rows are from.
+    pub plan: SweepPlan,
+}
+
+/// The table of a sweep: all of its rows, or some.
+#[derive(Clone)]
+pub struct SweepTable {
+    swept: Rc<Swept>,
+    /// The numbers of the rows; none for all.
+    chosen: Option<Rc<Vec<u32>>>,
+}
+
+impl SweepTable {
+    /// The table of all rows.
+    pub fn new(swept: Rc<Swept>) -> Self {
+        Self { swept, chosen: None }
+    }
+
+    /// What the table is of.
+    pub fn into_swept(self) -> Rc<Swept> {
+        self.swept
+    }
+
+    /// The sweep that the table is of.
+    pub fn sweep(&self) -> &Sweep {
+        &self.swept.sweep
+    }
+
+    /// The table of some rows of this one.
+    pub fn of_rows(&self, rows: Vec<u32>) -> Self {
+        Self { swept: Rc::clone(&self.swept), chosen: Some(Rc::new(rows)) }
+    }
+
+    /// The table of the rows that failed.
+    pub fn failures(&self) -> Self {
+        let results = &self.sweep().results;
+        self.of_rows(
+            self.rows()
+                .filter(|row| results.failure(*row).is_some())
+                .map(|row| row as u32)
+                .collect(),
+        )
+    }
+
+    /// How many rows it has.
+    pub fn length(&self) -> usize {
+        self.chosen.as_ref().map_or(self.sweep().design.rows, |chosen| chosen.len())
+    }
+
+    /// The numbers of its rows in the sweep.
+    pub fn rows(&self) -> impl Iterator<Item = usize> + Clone + use<'_> {
+        let chosen = self.chosen.as_deref();
+        (0..self.length()).map(move |at| chosen.map_or(at, |chosen| chosen[at] as usize))
+    }
+
+    /// The row with this number in the sweep, as a map of a script: parameters, results, and `failure` where it failed.
+    pub fn row(&self, row: usize) -> Map {
+        let Swept { sweep, plan } = &*self.swept;
+        let mut map = plan.values(row, &|_, _| None);
+        match sweep.results.failure(row) {
+            Some(reason) => _ = map.insert(FAILURE.into(), reason.into()),
+            None => {
+                let found = sweep.results.names.iter().zip(sweep.results.row(row));
+                map.extend(found.map(|(name, value)| (name.as_str().into(), Dynamic::from(value))));
+            }
+        }
+        map
+    }
+
+    /// A column as numbers, not-a-number where there is none; nothing if there is no such column.
+    pub fn numbers(&self, name: &str) -> Option<Vec<f64>> {
+        let column = self.sweep().column(name)?;
+        Some(self.rows().map(|row| column.number(row)).collect())
+    }
+
+    fn texts(&self, column: SweepColumn) -> Option<Vec<Option<String>>> {
+        match column {
+            SweepColumn::Parameter(values @ SweptValues::Levels { numbers: None, .. }) => {
+                Some(self.rows().map(|row| values.label(row).map(str::to_owned)).collect())
+            }
+            _ => None,
+        }
+    }
+
+    /// The table for other programs.
+    pub fn data(&self) -> DataTable {
+        let sweep = self.sweep();
+        let column = |name: &str| {
+            let of = sweep.column(name)?;
+            let numbers = || self.rows().map(|row| Some(of.number(row)).filter(|x| x.is_finite()));
+            let texts = self.texts(of).map(DataValues::Texts);
+            let values = texts.unwrap_or_else(|| DataValues::Numbers(numbers().collect()));
+            Some(DataColumn { name: name.to_owned(), dimension: String::new(), values })
+        };
+        let reasons = self.rows().map(|row| sweep.results.failure(row).map(str::to_owned));
+        let failures = DataColumn {
+            name: FAILURE.to_owned(),
+            dimension: String::new(),
+            values: DataValues::Texts(reasons.collect()),
+        };
+        DataTable { columns: sweep.names().filter_map(column).chain([failures]).collect() }
+    }
+
+    /// The columns of numbers as arrays.
+    pub fn archive(&self) -> NpzArchive {
+        let is_number = |values: &&[f64]| values.iter().any(|x| x.is_finite());
+        let column = |name: &str| {
+            let numbers = self.numbers(name)?;
+            is_number(&numbers.as_slice()).then(|| NpzArray::row(name, numbers))
+        };
+        NpzArchive { arrays: self.sweep().names().filter_map(column).collect() }
+    }
+
+    /// The table as CSV, row by row: however long it is, it takes no memory.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn write_csv(&self, file: &mut dyn io::Write) -> io::Result<()> {
+        let sweep = self.sweep();
+        let columns: Vec<_> = sweep.names().filter_map(|name| sweep.column(name)).collect();
+        let mut writer = csv::Writer::from_writer(file);
+        writer.write_record(sweep.names().chain([FAILURE]))?;
+        for row in self.rows() {
+            let failure = sweep.results.failure(row);
+            for column in &columns {
+                writer.write_field(exact(*column, row))?;
+            }
+            writer.write_field(failure.unwrap_or_default())?;
+            writer.write_record(None::<&[u8]>)?;
+        }
+        writer.flush()
+    }
+
+    /// The table for people: its first rows and its last ones.
+    pub fn text(&self) -> String {
+        let sweep = self.sweep();
+        let columns: Vec<_> = sweep.names().filter_map(|name| sweep.column(name)).collect();
+        let has_failures = self.rows().any(|row| sweep.results.failure(row).is_some());
+        let head: Vec<&str> = sweep.names().chain(has_failures.then_some(FAILURE)).collect();
+        let mut table = Table::new(&head);
+        let (first, last) = SHOWN;
+        let left_out = self.length().saturating_sub(first + last);
+        for (at, row) in self.rows().enumerate() {
+            if left_out > 0 && at == first {
+                table.row([format!("… {left_out} rows")]);
+            }
+            if left_out > 0 && (first..first + left_out).contains(&at) {
+                continue;
+            }
+            let cells = columns.iter().map(|column| short(*column, row));
+            let failure = sweep.results.failure(row).unwrap_or_default();
+            table.row(cells.chain(has_failures.then(|| Cell::from(failure))));
+        }
+        table.to_string().trim_end().to_owned()
+    }
+}
+
+impl Swept {
+    /// What a sweep found in few lines: how many runs came to their end, and from where to where each result goes, and at which parameters.
+    pub fn summary(&self) -> String {
+        let Sweep { name, design, results } = &self.sweep;
+        let failed = results.failures().len();
+        let mut text = format!(
+            "sweep '{name}': {} of {} runs came to their end",
+            design.rows - failed,
+            design.rows
+        );
+        let mut table = Table::new(&["result", "least", "at", "mean", "largest", "at"]);
+        for name in &results.names {
+            let Some(column) = results.column(name) else { continue };
+            let found = || column.iter().copied().enumerate().filter(|(_, x)| x.is_finite());
+            let least = found().min_by(|a, b| a.1.total_cmp(&b.1));
+            // The first of equal ones.
+            let largest = found().rev().max_by(|a, b| a.1.total_cmp(&b.1));
+            let count = found().count().max(1);
+            let mean = found().map(|(_, x)| x / count as f64).sum::<f64>();
+            if let (Some(least), Some(largest)) = (least, largest) {
+                let number = |x: f64| Cell::Number(significant(x, DIGITS));
+                table.row([
+                    Cell::from(name.as_str()),
+                    number(least.1),
+                    Cell::from(self.place(least.0)),
+                    number(mean),
+                    number(largest.1),
+                    Cell::from(self.place(largest.0)),
+                ]);
+            }
+        }
+        text.push_str(&format!("\n{}", table.to_string().trim_end()));
+        for (row, reason) in results.failures().take(3) {
+            text.push_str(&format!("\nfailed with {}: {reason}", self.place(row)));
+        }
+        if failed > 3 {
+            text.push_str(&format!("\n… and {} more, told in {name}.csv", failed - 3));
+        }
+        text
+    }
+
+    /// The values of a row in words.
+    fn place(&self, row: usize) -> String {
+        let parameters = &self.sweep.design.parameters;
+        let words = parameters.iter().map(|of| match of.values.number(row) {
+            Some(number) => format!("{} {}", of.name, significant(number, 4)),
+            None => format!("{} {}", of.name, of.values.label(row).unwrap_or_default()),
+        });
+        words.collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// A value as text for programs: of a number all digits, empty where there is none.
+fn exact(column: SweepColumn, row: usize) -> String {
+    match column {
+        SweepColumn::Parameter(values) if values.label(row).is_some() => {
+            values.label(row).unwrap_or_default().to_owned()
+        }
+        _ => Some(column.number(row))
+            .filter(|x| x.is_finite())
+            .map(format_number)
+            .unwrap_or_default(),
+    }
+}
+
+/// A value as text for people.
+fn short(column: SweepColumn, row: usize) -> Cell {
+    match column {
+        SweepColumn::Parameter(values @ SweptValues::Levels { numbers: None, .. }) => {
+            Cell::from(values.label(row).unwrap_or_default())
+        }
+        _ => match column.number(row) {
+            x if x.is_finite() => Cell::Number(significant(x, DIGITS)),
+            _ => Cell::Number("-".into()),
+        },
+    }
+}

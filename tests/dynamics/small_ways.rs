@@ -1,0 +1,143 @@
+//! Springs and dampers whose ways end in nothing, or change by little of themselves: closed forms, orders, ledgers.
+#![allow(clippy::unwrap_used)]
+
+use crate::common::body_scenes::{add_body, point};
+use crate::common::scenes::drive;
+use crate::common::{Random, at, orders, sci, simulate};
+use std::f64::consts::FRAC_PI_2;
+use withy::geometry::Vec2;
+use withy::integrators::{EnergyClaim, INTEGRATORS, Method};
+use withy::joints::Component;
+use withy::loads::{Frame, LoadKind, PrescribedMotion, Schedule};
+use withy::model::{
+    Anchor, DampingLaw, Origin, ParticleDefinition, RestoringLaw, Scene, Spring, SpringKind,
+    StationVelocity,
+};
+use withy::simulation::{Invariant, Simulation};
+
+const STIFFNESS: f64 = 9.0;
+const DAMPING: f64 = 0.5;
+const SPEED: f64 = 0.3;
+/// Along which everything moves: no axis.
+const DIRECTION: Vec2 = Vec2::new(0.6, 0.8);
+
+fn spring(kind: SpringKind, law: Option<RestoringLaw>, damping: f64) -> Spring {
+    let damping = DampingLaw::Linear(damping);
+    Spring { name: "spring".to_owned(), kind, law, origin: Origin::Zero, damping }
+}
+
+/// A particle of mass 1, one away from where a damper is anchored, which passes through there.
+fn passing(law: Option<RestoringLaw>, damping: f64, velocity: Vec2) -> Scene {
+    let mut scene = Scene::new("passing");
+    let (name, anchor) = ("bead".to_owned(), at(2.0, -1.0));
+    let position = anchor + DIRECTION;
+    let station = scene.add_particle(ParticleDefinition { name, position }, 1.0).unwrap();
+    scene.velocities.push(StationVelocity { station, velocity, spin: None });
+    let kind = SpringKind::Way(vec![Anchor::Ground(anchor), Anchor::Station(station)]);
+    if law.is_none() {
+        let force = DIRECTION * -3.0;
+        let kind = LoadKind::Force { station, force, frame: Frame::Dead };
+        scene.add_load(kind, Schedule::constant(1.0).unwrap());
+    }
+    scene.add_spring(spring(kind, law, damping)).unwrap();
+    scene
+}
+
+fn place(simulation: &Simulation) -> f64 {
+    let point = simulation.model().control_points().next().unwrap()[0];
+    (point - at(2.0, -1.0)).dot(&DIRECTION)
+}
+
+/// `ẍ + c ẋ + k x = 0`, and `ẍ + c ẋ = -3`, both from 1 with a speed: through the anchor three times, and once.
+#[test]
+fn a_damper_that_passes_through_its_anchor_is_met_with_the_order_of_the_method() {
+    let end = 4.0;
+    let central = RestoringLaw::Linear { stiffness: STIFFNESS, natural: 0.0 };
+    let half = 0.5 * DAMPING;
+    let omega = (STIFFNESS - half * half).sqrt();
+    let (sin, cos) = (omega * end).sin_cos();
+    let swings = (-half * end).exp() * (cos + (SPEED + half) / omega * sin);
+    let limit = -3.0 / DAMPING;
+    let drawn = 1.0 + limit * end + (SPEED - limit) / DAMPING * (1.0 - (-DAMPING * end).exp());
+    for (law, expected) in [(Some(central), swings), (None, drawn)] {
+        for entry in INTEGRATORS {
+            let error = |dt: f64| {
+                let scene = passing(law.clone(), DAMPING, DIRECTION * SPEED);
+                (place(&simulate(scene, entry.method, dt, end)) - expected).abs()
+            };
+            let errors = [0.04, 0.02, 0.01].map(error);
+            let found = orders(&errors);
+            println!("{:18} {} {found:.2?}", entry.name, sci(&errors));
+            // Neither is a strain that could be damped.
+            let expected = match entry.claims.energy {
+                EnergyClaim::Decays => 2.0,
+                _ => f64::from(entry.claims.order),
+            };
+            assert!((found[1] - expected).abs() < 0.25, "{}: {errors:?} {found:?}", entry.name);
+        }
+    }
+}
+
+/// However near it passes, and however strong the damper is.
+#[test]
+fn a_damper_that_nearly_passes_through_its_anchor_keeps_the_ledger() {
+    let mut random = Random(17);
+    for (damping, velocity) in [(0.5, 3.0), (20.0, 40.0), (1e6, 1.0), (1e12, 1.0)] {
+        for law in [None, Some(RestoringLaw::Linear { stiffness: STIFFNESS, natural: 0.0 })] {
+            for _ in 0..6 {
+                let aside = at(-DIRECTION.y, DIRECTION.x) * (0.02 * random.next());
+                let velocity = (aside - DIRECTION) * velocity;
+                let scene = passing(law.clone(), damping, velocity);
+                let simulation = simulate(scene, Method::EnergyMomentum, 0.01, 1.0);
+                for (name, invariant) in Invariant::ALL {
+                    let drift = simulation.history().drift(invariant);
+                    assert!(drift < 1e-12, "{name} of {damping}, {velocity}: {drift:.1e}");
+                }
+                let taken = simulation.history().column("dissipated").unwrap();
+                let all = taken.last().unwrap();
+                let falls = taken.windows(2).map(|pair| pair[0] - pair[1]).fold(0.0, f64::max);
+                assert!(falls <= 1e-15 * all, "{falls} of {all}");
+            }
+        }
+    }
+}
+
+/// The foot of a spring, and of a torsion spring beside it that is drawn at a right angle, moved by `a sin 5t`.
+fn driven_by_little(stiffness: f64, amplitude: f64) -> Scene {
+    let mut scene = Scene::new("foot");
+    let foot = add_body(&mut scene, at(7.0, 2.0), FRAC_PI_2, (1e-3, 1e-3), &[]);
+    let station = point(foot, 0);
+    let motion = || {
+        let schedule = Schedule::Sine { amplitude, rate: 5.0, phase: 0.0 };
+        PrescribedMotion::Place(schedule)
+    };
+    drive(&mut scene, station, &[(Component::X, motion()), (Component::Rotation, motion())]);
+    let law = RestoringLaw::Linear { stiffness, natural: 6.0 };
+    let ends = |ground: Vec2| [Anchor::Ground(ground), Anchor::Station(station)];
+    let way = SpringKind::Way(ends(at(1.0, 2.0)).to_vec());
+    scene.add_spring(spring(way, Some(law), 0.0)).unwrap();
+    let law = RestoringLaw::Linear { stiffness, natural: FRAC_PI_2 };
+    let torsion = SpringKind::Torsion(ends(at(0.0, 0.0)));
+    let torsion = Spring { name: "torsion".to_owned(), ..spring(torsion, Some(law), 0.0) };
+    scene.add_spring(torsion).unwrap();
+    scene
+}
+
+/// What a drive puts into a spring is little beside what its length would store: from 1e-2 of it to 1e-10, all of it is in the ledger.
+#[test]
+fn a_spring_whose_end_is_moved_by_little_of_its_length_keeps_the_ledger() {
+    for stiffness in [1e-6, 1.0, 1e12] {
+        for amplitude in [1e-2, 1e-6, 1e-10] {
+            let scene = driven_by_little(stiffness, amplitude);
+            let simulation = simulate(scene, Method::EnergyMomentum, 0.01, 1.0);
+            let label = format!("stiffness {stiffness:e}, amplitude {amplitude:e}");
+            let history = simulation.history();
+            let drift = history.drift(Invariant::Energy);
+            assert!(drift < 1e-14, "{label}: {drift:.1e}");
+            // Both springs store ½ k a² sin²; the roundings of the place itself are left.
+            let expected = stiffness * (amplitude * 5.0_f64.sin()).powi(2);
+            let stored = *history.column("stored").unwrap().last().unwrap();
+            assert!((stored / expected - 1.0).abs() < 1e-5, "{label}: {stored} {expected}");
+        }
+    }
+}
