@@ -34,9 +34,8 @@ impl WithSimd for Elimination<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(mut self, simd: S) -> Self::Output {
-        // The half-bandwidths of beams of degree 1 to 3 are known to the compiler.
+        // The half-bandwidths of beams of degree 2 and 3 are known to the compiler; that of degree 1 gains nothing.
         match self.0.reach {
-            6 => eliminate(simd, &mut self.0, 6, eliminate_fixed::<S, 6, 8, 22>),
             8 => eliminate(simd, &mut self.0, 8, eliminate_fixed::<S, 8, 8, 28>),
             11 => eliminate(simd, &mut self.0, 11, eliminate_fixed::<S, 11, 12, 37>),
             reach => {
