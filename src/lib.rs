@@ -3,7 +3,7 @@
 //! Layers, each using only those to its right:
 //!
 //! ```text
-//! main → cli → repl, exercises → script → output, analysis → sampling, mechanics: simulation → … → model → …
+//! main → cli → repl, exercises → script → output, analysis → sampling, fitting, mechanics: simulation → … → model → …
 //! ```
 //!
 //! The mechanics is a crate of its own, so that a change of the language does not build it anew; its layers are named here as they are there. At the bottom
@@ -20,6 +20,7 @@ pub use withy_mechanics::{
 pub mod analysis;
 pub mod cli;
 pub mod exercises;
+pub mod fitting;
 pub mod folders;
 pub mod output;
 pub mod panics;

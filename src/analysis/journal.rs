@@ -4,17 +4,16 @@
 //! removed when the script of the study has come to its end.
 
 use std::collections::BTreeMap;
-use std::fs::{self, File};
+use std::fs::File;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
-use std::time::SystemTime;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use crate::folders::Folder;
+use crate::folders::{Folder, Imprint};
 
 /// Of one record; more is damage.
 const LONGEST: usize = 1 << 30;
@@ -25,16 +24,17 @@ const LARGEST: u64 = 1 << 32;
 /// How results are stored; it changes whenever that does.
 const FORMAT: u32 = 1;
 
-/// What tells this build of the program from others.
-type Build = (&'static str, Option<(u64, SystemTime)>);
+/// What tells this build of the program from others, and the same build on another machine is told by too.
+type Build = (&'static str, Option<(u64, u32)>);
 
-/// The version, and the length of the running program with the time at which it was written, where the system tells.
+/// The version, and the length and the checksum of the running program, where the system lets it be read.
 fn build() -> Build {
     static BUILD: OnceLock<Build> = OnceLock::new();
     *BUILD.get_or_init(|| {
         let file = || {
-            let file = fs::metadata(std::env::current_exe().ok()?).ok()?;
-            Some((file.len(), file.modified().ok()?))
+            let file = File::open(std::env::current_exe().ok()?).ok()?;
+            let imprint = Imprint::of(file).ok()?;
+            Some((imprint.length, imprint.checksum))
         };
         (env!("CARGO_PKG_VERSION"), file())
     })
@@ -78,6 +78,18 @@ impl Journal {
             postcard::from_bytes::<(u64, Vec<u8>)>(record).ok()
         });
         Ok(Self { known: known.collect(), path, file: None })
+    }
+
+    /// What is known from several files, none of which is written or removed.
+    ///
+    /// # Errors
+    /// When one of them cannot be read.
+    pub fn of_files(paths: impl IntoIterator<Item = PathBuf>) -> Result<Self, JournalError> {
+        let mut known = BTreeMap::new();
+        for path in paths {
+            known.extend(Self::open(path)?.known);
+        }
+        Ok(Self { path: PathBuf::new(), known, file: None })
     }
 
     /// Forgets what earlier runs of the study found.
@@ -124,7 +136,18 @@ impl Journal {
         Ok(bytes)
     }
 
-    fn append(&mut self, fingerprint: u64, result: &[u8]) -> io::Result<u64> {
+    /// Makes the file of the journal, also where there is nothing to be written yet: one that is there says that it was begun.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn begin(&mut self) -> Result<(), JournalError> {
+        let path = self.path.clone();
+        let begun = self.begin_file().map(drop);
+        begun.map_err(|source| JournalError { path, action: "written", source })
+    }
+
+    /// Makes the file with what is known, where it is not open; gives the bytes that were written.
+    fn begin_file(&mut self) -> io::Result<u64> {
         let mut bytes = 0;
         if self.file.is_none() {
             // What is known is written anew: a record that was cut off would hide those behind it.
@@ -144,6 +167,11 @@ impl Journal {
             folder.replace(&anew, &name)?;
             self.file = Some(file);
         }
+        Ok(bytes)
+    }
+
+    fn append(&mut self, fingerprint: u64, result: &[u8]) -> io::Result<u64> {
+        let mut bytes = self.begin_file()?;
         if let Some(file) = &mut self.file {
             let record = record(fingerprint, result)?;
             file.write_all(&record)?;
@@ -212,6 +240,8 @@ fn next_record(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     fn written(path: &Path, cases: std::ops::Range<u64>) {

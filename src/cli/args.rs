@@ -9,6 +9,7 @@ use super::learn_options::LearnOptions;
 use super::limits::LimitOptions;
 use super::view_options::ViewOptions;
 use crate::repl::editor::Keys;
+use crate::script::state::parts::Part;
 
 /// Planar dynamics of flexible beams, scripted.
 ///
@@ -132,6 +133,12 @@ pub struct StudyOptions {
     /// Forget what an interrupted run of these studies has finished.
     #[arg(long)]
     pub fresh: bool,
+    /// Make only this part of each study, such as 3/16, and keep it in the folder of --out until --merge joins all parts.
+    #[arg(long, value_name = "K/N", conflicts_with = "merge")]
+    pub part: Option<Part>,
+    /// Join the parts in these folders in the place of making them: the same files as those of one machine.
+    #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with = "fresh")]
+    pub merge: Vec<PathBuf>,
     /// How often each run is timed, whatever the script says.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub repeats: Option<u32>,

@@ -1,6 +1,6 @@
 //! `withy run`, `withy study` and `withy check`.
 
-use std::io::{IsTerminal, stderr, stdout};
+use std::io::{IsTerminal, sink, stderr, stdout};
 use std::path::Path;
 use std::process;
 use std::sync::Arc;
@@ -62,12 +62,14 @@ pub fn study(options: &StudyOptions) -> Exit {
     let studies = StudyWishes {
         journal: if options.fresh { JournalWish::Anew } else { JournalWish::GoOn },
         repeats: options.repeats.map(|repeats| repeats as usize),
+        part: options.part,
+        merge: options.merge.clone(),
     };
     let settings = Settings {
         out: options.out.clone(),
         interrupt: interrupt::flag(AtStake::Run),
         limits: options.limits.limits(),
-        printed: Box::new(stdout()),
+        printed: if options.part.is_some() { Box::new(sink()) } else { Box::new(stdout()) },
         told: Box::new(stderr()),
         progress: bar::progress(wish),
         studies,
@@ -75,6 +77,7 @@ pub fn study(options: &StudyOptions) -> Exit {
         ..Settings::silent(Mode::Run)
     };
     match start(&options.file, settings) {
+        Ok(outcome) if options.part.is_some() => exit_for_part(&outcome, options),
         Ok(outcome) => {
             if wish == Wish::Show {
                 show_summary(&outcome);
@@ -153,6 +156,36 @@ fn exit_for_study(outcome: &Outcome, out: &Path) -> Exit {
             exit
         }
         Ending::Finished | Ending::Undecided | Ending::PipeClosed => exit_for(outcome),
+    }
+}
+
+/// The same for a part of the studies of a script: what the script does behind them with results that are not known here is of no matter.
+fn exit_for_part(outcome: &Outcome, options: &StudyOptions) -> Exit {
+    let cases = match outcome.kept_cases {
+        1 => "1 finished case is".to_owned(),
+        many => format!("{many} finished cases are"),
+    };
+    let kept = format!("{cases} kept in '{}'", options.out.display());
+    match (&outcome.ending, outcome.stopped_by) {
+        (Ending::Interrupted, _) | (Ending::Failed(_), Some(_)) => {
+            exit_for_study(outcome, &options.out)
+        }
+        (Ending::Failed(_), None) if outcome.kept_cases == 0 => exit_for(outcome),
+        (Ending::Failed(diagnostic), None) => {
+            if !options.quiet {
+                let message = &diagnostic.message;
+                tell(&format!(
+                    "{kept}\nnote: then the script stopped, which may be for results that only all parts have: {message}\n"
+                ));
+            }
+            Exit::Good
+        }
+        (Ending::Finished | Ending::Undecided | Ending::PipeClosed, _) => {
+            if !options.quiet {
+                tell(&format!("{kept}\n"));
+            }
+            Exit::Good
+        }
     }
 }
 

@@ -19,6 +19,7 @@ pub const TRACKS: &[Track] = &[
     Track { name: "splines", title: "Splines and knot vectors" },
     Track { name: "integrators", title: "Integrators and invariants" },
     Track { name: "sliding", title: "Joints and sliding" },
+    Track { name: "studies", title: "Sweeps and fits" },
 ];
 
 /// An exercise from its files.
@@ -69,6 +70,8 @@ pub const EXERCISES: &[Exercise] = &[
     exercise!("sliding", "bead_clock"),
     exercise!("sliding", "launch"),
     exercise!("sliding", "sliding_rule"),
+    exercise!("studies", "best_angle"),
+    exercise!("studies", "whose_stiffness"),
 ];
 
 /// The exercise that is meant by `name`, `track/name`, or the path of its file.

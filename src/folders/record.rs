@@ -29,7 +29,10 @@ impl Imprint {
     }
 
     /// The imprint of all that can be read, piece by piece.
-    fn of(mut content: impl Read) -> io::Result<Self> {
+    ///
+    /// # Errors
+    /// When it cannot be read.
+    pub fn of(mut content: impl Read) -> io::Result<Self> {
         let (mut hasher, mut length, mut piece) = (crc32fast::Hasher::new(), 0, vec![0; PIECE]);
         loop {
             match content.read(&mut piece)? {

@@ -27,6 +27,7 @@ const BRANCHES: &[(&str, &[&str])] = &[
     ("newton", &["linalg", "elementary"]),
     ("linalg", &["elementary"]),
     ("sampling", &["elementary"]),
+    ("fitting", &["elementary"]),
     ("elementary", &[]),
     ("folders", &[]),
     ("panics", &[]),

@@ -120,6 +120,105 @@ fn a_journal_of_another_sweep_is_not_taken() {
     assert!(!said(&output).contains("are known"), "{}", said(&output));
 }
 
+/// Three parts in folders of their own, the second killed on its way, made by machines of another name.
+#[test]
+fn parts_are_joined_to_the_bytes_of_one_machine() {
+    let (folder, file) = script(&flights(300));
+    let whole = withy(&file, "whole").output().unwrap();
+    assert_eq!(whole.status.code(), Some(0), "{}", said(&whole));
+    let part = |number: usize, out: &str| {
+        let mut command = withy(&file, out);
+        command.args(["--part", &format!("{number}/3")]);
+        command
+    };
+    let joined = |folders: &[&str]| {
+        let mut command = withy(&file, "joined");
+        command.arg("--merge").args(folders.iter().map(|name| file.with_file_name(name)));
+        command.output().unwrap()
+    };
+    for (number, out) in [(1, "a"), (3, "b")] {
+        let output = part(number, out).output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+        assert!(output.stdout.is_empty());
+        assert_eq!(
+            said(&output),
+            format!("100 finished cases are kept in '{}'\n", file.with_file_name(out).display())
+        );
+    }
+    let refused = |folders: &[&str], told: &str| {
+        let output = joined(folders);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(said(&output).contains(told), "{}", said(&output));
+    };
+    refused(&["a", "b"], "of the 3 parts of the study 'flights' these are missing: 2");
+    refused(&["nowhere"], "there is no part of the study 'flights'");
+    // Cut off in the middle, as by a kill: it goes on there.
+    let second = part(2, "c").output().unwrap();
+    assert_eq!(second.status.code(), Some(0), "{}", said(&second));
+    let kept = file.with_file_name("c").join("flights.2-of-3.part");
+    let bytes = fs::read(&kept).unwrap();
+    fs::write(&kept, &bytes[..bytes.len() / 2]).unwrap();
+    refused(&["a", "b", "c"], "part 2 of 3 of the study 'flights' is not finished");
+    let again = part(2, "c").output().unwrap();
+    assert!(said(&again).contains("rows are known from an earlier run"), "{}", said(&again));
+    let output = joined(&["c", "b", "a"]);
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    assert_eq!((output.stdout, table(&file, "joined")), (whole.stdout, table(&file, "whole")));
+    assert!(kept.exists(), "parts stay");
+
+    fs::create_dir(folder.path().join("d")).unwrap();
+    fs::copy(&kept, file.with_file_name("d").join("flights.2-of-3.part")).unwrap();
+    refused(&["a", "b", "c", "d"], "part 2 of 3 of the study 'flights' is there twice");
+    let text = fs::read_to_string(&file).unwrap();
+    fs::write(&file, text.replace("sim.run_to(1)", "sim.run_to(2)")).unwrap();
+    refused(&["a", "b", "c"], "is not a part of this study");
+}
+
+/// The studies that were there before sweeps: their cases are divided and joined too.
+#[test]
+fn parts_of_maps_and_orders_are_joined_to_the_bytes_of_one_machine() {
+    let text = "let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });
+        let scene = |mesh| {
+            let scene = new_scene(\"rod\");
+            scene.beam(#{ axis: line([0, 0], [2, 0]), basis: mesh, section: s, spin: 1 });
+            scene
+        };
+        study_stability(#{ name: \"map\", scene: |cell| scene.call(bspline(2)), end: 1, rows: #{ dt: [0.1, 0.05] },
+            columns: #{ integrator: [energy_momentum(), trapezoidal()] } });
+        study_convergence(#{ name: \"steps\", scene: scene, integrators: [energy_momentum(), fourth_order()],
+            meshes: [bspline(2)], dts: [0.2, 0.1], times: [1] });";
+    let (_folder, file) = script(text);
+    let whole = withy(&file, "whole").output().unwrap();
+    assert_eq!(whole.status.code(), Some(0), "{}", said(&whole));
+    for number in ["1/2", "2/2"] {
+        let output = withy(&file, "parts").args(["--part", number]).output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    }
+    let parts = file.with_file_name("parts");
+    let names = fs::read_dir(&parts).unwrap().map(|entry| entry.unwrap().file_name());
+    let mut names: Vec<_> = names.map(|name| name.into_string().unwrap()).collect();
+    names.sort();
+    assert_eq!(
+        names,
+        ["map.1-of-2.part", "map.2-of-2.part", "steps.1-of-2.part", "steps.2-of-2.part"]
+    );
+    let output = withy(&file, "joined").arg("--merge").arg(&parts).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    assert_eq!(output.stdout, whole.stdout);
+    let read = |out: &str, name: &str| fs::read(file.with_file_name(out).join(name)).unwrap();
+    for name in ["map.csv", "map.svg", "steps.csv", "steps.svg"] {
+        assert_eq!(read("joined", name), read("whole", name), "{name}");
+    }
+    fs::remove_file(parts.join("steps.2-of-2.part")).unwrap();
+    let output = withy(&file, "joined").arg("--merge").arg(&parts).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        said(&output).contains("of the 2 parts of the study 'steps' these are missing: 2"),
+        "{}",
+        said(&output)
+    );
+}
+
 #[test]
 fn steps_of_all_runs_count_and_a_check_makes_one() {
     let (folder, file) = script(&flights(400));

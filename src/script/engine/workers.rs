@@ -1,6 +1,5 @@
 //! Engines on all cores: each worker has one of its own, which has read the script of the run, and calls its functions.
 
-use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, mpsc};
 use std::thread;
@@ -22,10 +21,8 @@ use crate::script::state::settings::{Mode, Settings};
 use crate::script::words::error::{EngineResult, ScriptError};
 use crate::simulation::cores;
 
-/// How often it is asked whether to go on while no piece of work ends.
+/// How often it is asked whether to go on while no job ends.
 const PULSE: Duration = Duration::from_millis(50);
-/// Results that may wait to be heard, for each worker.
-const WAITING: usize = 256;
 
 /// What an engine on another thread needs to be like the one of the run.
 #[derive(Clone)]
@@ -119,7 +116,7 @@ impl Worker {
 #[derive(Default)]
 struct Post {
     interrupt: Arc<AtomicBool>,
-    /// Since when it has been at its present piece of work.
+    /// Since when it has been at its present job.
     since: Mutex<Option<Instant>>,
 }
 
@@ -139,79 +136,109 @@ impl Post {
     }
 }
 
-/// Does numbered pieces of work on all cores, each with a worker of its own; a piece that takes longer than `wall` is stopped.
-///
-/// `heed` is called on the calling thread: with the number and the result of a piece as soon as it has one, in no order, and with `None` now and then
-/// between; when it breaks off, all workers are stopped, and pieces without a result get none. A piece that panics gives what `panicked` makes of it.
+/// Workers on all cores, to whom jobs are given and from whom results are heard, as long as somebody drives them.
+pub struct Crew<'c, J, R> {
+    posts: &'c [Post],
+    jobs: mpsc::Sender<(usize, J)>,
+    results: mpsc::Receiver<(usize, R)>,
+    is_over: &'c AtomicBool,
+    wall: Duration,
+}
+
+/// What is heard of a crew.
+pub enum News<R> {
+    /// The result of the job with a number.
+    Done(usize, R),
+    /// Nothing for some time: it can be asked whether to go on.
+    Nothing,
+    /// There are no workers, and will be no results.
+    Nobody,
+}
+
+impl<J, R> Crew<'_, J, R> {
+    /// How many workers there are.
+    pub fn size(&self) -> usize {
+        self.posts.len()
+    }
+
+    /// Gives a job to whoever is free next; its result has the same number.
+    pub fn give(&self, number: usize, job: J) {
+        // Without workers there is nobody to hear of.
+        let _ = self.jobs.send((number, job));
+    }
+
+    /// Waits for the next result, in no order. A job that takes too long is stopped.
+    pub fn hear(&self) -> News<R> {
+        match self.results.recv_timeout(PULSE) {
+            Ok((number, result)) => News::Done(number, result),
+            Err(mpsc::RecvTimeoutError::Timeout) => {
+                self.posts.iter().for_each(|post| post.stop_after(self.wall));
+                News::Nothing
+            }
+            Err(mpsc::RecvTimeoutError::Disconnected) => News::Nobody,
+        }
+    }
+}
+
+/// Lets `drive` give jobs to workers on all cores and hear of their results, each worker with an engine of its own; a job that takes longer than `wall` is
+/// stopped, and one that panics gives what `panicked` makes of it. What is not done when `drive` returns is stopped.
 ///
 /// # Errors
-/// When a worker cannot be made: nothing is wrong with the script then, which has been read before.
-pub fn on_all_engines<R: Send>(
+/// When no worker can be made.
+pub fn with_crew<J: Send, R: Send, T>(
     blueprint: &Blueprint,
     wall: Duration,
-    numbers: impl Iterator<Item = usize> + Send,
-    work: impl Fn(&Worker, usize) -> R + Sync,
+    work: impl Fn(&Worker, J) -> R + Sync,
     panicked: impl Fn(String) -> R + Sync,
-    mut heed: impl FnMut(Option<(usize, R)>) -> ControlFlow<()>,
-) -> Result<(), ScriptError> {
-    let numbers = Mutex::new(numbers);
-    let next = || numbers.lock().ok()?.next();
+    drive: impl FnOnce(&Crew<J, R>) -> T,
+) -> Result<T, ScriptError> {
     let is_over = AtomicBool::new(false);
     let posts: Vec<Post> = (0..cores()).map(|_| Post::default()).collect();
-    let (done, finished) = mpsc::sync_channel(WAITING * posts.len());
-    let labour = |post: &Post, done: mpsc::SyncSender<_>| -> Result<(), Diagnostic> {
+    let (jobs, given) = mpsc::channel();
+    let (done, results) = mpsc::channel();
+    let given = Mutex::new(given);
+    let next = || given.lock().ok()?.recv().ok();
+    let labour = |post: &Post, done: mpsc::Sender<_>| -> Result<(), Diagnostic> {
         let worker = Worker::open(blueprint, Arc::clone(&post.interrupt))?;
-        while !is_over.load(Ordering::Relaxed) {
-            let Some(number) = next() else { break };
-            post.begin(Some(Instant::now()));
-            let result = caught(|| work(&worker, number)).unwrap_or_else(&panicked);
-            post.begin(None);
-            // The limit of one piece is not that of the next.
-            if post.interrupt.swap(false, Ordering::Relaxed) && is_over.load(Ordering::Relaxed) {
+        while let Some((number, job)) = next() {
+            if is_over.load(Ordering::Relaxed) {
                 break;
             }
+            post.begin(Some(Instant::now()));
+            let result = caught(|| work(&worker, job)).unwrap_or_else(&panicked);
+            post.begin(None);
+            // The limit of one job is not that of the next.
+            post.interrupt.store(false, Ordering::Relaxed);
             if done.send((number, result)).is_err() {
                 break;
             }
         }
         Ok(())
     };
-    let made = thread::scope(|scope| {
-        let running: Vec<_> = posts
-            .iter()
-            .map(|post| {
-                let (done, labour) = (done.clone(), &labour);
-                let limits = blueprint.limits;
-                scope.spawn(move || {
-                    on_large_stack(&limits, || labour(post, done)).and_then(|done| done)
-                })
-            })
-            .collect();
+    thread::scope(|scope| {
+        let hire = |post| {
+            let (done, labour, limits) = (done.clone(), &labour, blueprint.limits);
+            scope.spawn(move || on_large_stack(&limits, || labour(post, done)).flatten())
+        };
+        let running: Vec<_> = posts.iter().map(hire).collect();
         drop(done);
-        loop {
-            let news = match finished.recv_timeout(PULSE) {
-                Ok(news) => Some(news),
-                Err(mpsc::RecvTimeoutError::Timeout) => None,
-                Err(mpsc::RecvTimeoutError::Disconnected) => break,
-            };
-            if news.is_none() {
-                posts.iter().for_each(|post| post.stop_after(wall));
-            }
-            if heed(news).is_break() {
-                is_over.store(true, Ordering::Relaxed);
-                posts.iter().for_each(|post| post.interrupt.store(true, Ordering::Relaxed));
-                // Whoever waits to be heard goes on, and ends.
-                drop(finished);
-                break;
+        let crew = Crew { posts: &posts, jobs, results, is_over: &is_over, wall };
+        let driven = drive(&crew);
+        crew.dismiss();
+        let ends = running.into_iter().filter_map(|worker| worker.join().ok());
+        match ends.collect::<Result<Vec<()>, Diagnostic>>() {
+            Ok(_) => Ok(driven),
+            Err(diagnostic) => {
+                Err(ScriptError::new(format!("a worker cannot begin: {}", diagnostic.message)))
             }
         }
-        let ends = running.into_iter().map(|worker| worker.join());
-        ends.filter_map(Result::ok).collect::<Result<Vec<()>, Diagnostic>>()
-    });
-    match made {
-        Ok(_) => Ok(()),
-        Err(diagnostic) => {
-            Err(ScriptError::new(format!("a worker cannot begin: {}", diagnostic.message)))
-        }
+    })
+}
+
+impl<J, R> Crew<'_, J, R> {
+    /// Stops all work.
+    fn dismiss(self) {
+        self.is_over.store(true, Ordering::Relaxed);
+        self.posts.iter().for_each(|post| post.interrupt.store(true, Ordering::Relaxed));
     }
 }

@@ -11,6 +11,7 @@ mod drives;
 mod equilibria;
 mod explaining;
 mod exports;
+mod fits;
 pub mod geometry;
 mod help;
 mod histories;
@@ -18,6 +19,7 @@ mod integrators;
 mod language;
 mod loads;
 mod math;
+mod measurements;
 mod modes;
 mod notes;
 pub mod pictures;
@@ -100,6 +102,8 @@ pub const TABLES: &[&Table] = &[
     &samples::TABLE,
     &sweeps::TABLE,
     &sweep_pictures::TABLE,
+    &fits::TABLE,
+    &measurements::TABLE,
     &reading_options::TABLE,
     &help::TABLE,
 ];

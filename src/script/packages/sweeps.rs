@@ -19,10 +19,10 @@ use crate::script::rows::parameter::{
 use crate::script::rows::returns::{Returns, ValueKind};
 use crate::script::rows::table::{Table, function, method, property};
 use crate::script::state::settings::Mode;
+use crate::script::studies::calls::function::RunFunction;
 use crate::script::studies::desk::print_table;
 use crate::script::studies::plan::{at_key, study_name};
 use crate::script::studies::sweeps::design::{Samples, SweepPlan};
-use crate::script::studies::sweeps::function::RunFunction;
 use crate::script::studies::sweeps::rows::{Row, found};
 use crate::script::studies::sweeps::run::Order;
 use crate::script::studies::sweeps::table::{FAILURE, SweepTable, Swept};
@@ -262,7 +262,7 @@ fn expect_other_names(call: &Call, sweep: &Sweep) -> Result<(), ScriptError> {
 fn pretended(call: &Call, order: Order) -> Result<Swept, ScriptError> {
     RunFunction::read(call, "run", order.function)?;
     let given = order.invoked(call, 0)?;
-    let (names, values) = match found(&given, &call.type_of(&given)) {
+    let (names, values) = match found(&given) {
         Row::Found(names, values) => (names.to_vec(), values),
         // A simulation that is not run may find nothing.
         Row::Failed(_) => (

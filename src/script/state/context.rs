@@ -60,6 +60,8 @@ struct Shared {
 impl Context {
     /// The state at the start of a run with these settings.
     pub fn new(settings: Settings) -> Self {
+        // Who makes a part of studies writes down nothing else.
+        let writing = settings.studies.part.map_or(settings.mode, |_| Mode::DryBuild);
         Self(Rc::new(Shared {
             mode: settings.mode,
             interrupt: settings.interrupt,
@@ -70,7 +72,7 @@ impl Context {
             progress: settings.progress,
             studies: settings.studies,
             journals: Journals::default(),
-            output: OutputFolder::new(settings.out, settings.folder, settings.mode),
+            output: OutputFolder::new(settings.out, settings.folder, writing),
             program: settings.program,
             refuses_files: settings.refuses_files,
             checks: RefCell::default(),
@@ -107,8 +109,8 @@ impl Context {
     }
 
     /// How the studies of the run are made.
-    pub fn studies(&self) -> StudyWishes {
-        self.0.studies
+    pub fn studies(&self) -> &StudyWishes {
+        &self.0.studies
     }
 
     /// The journals of the run: what is kept of its studies until the script has come to its end.

@@ -15,11 +15,22 @@ use crate::script::words::error::ScriptError;
 /// The journals of a run: what is kept of its studies.
 #[derive(Default)]
 pub struct Journals {
-    open: RefCell<Vec<Journal>>,
+    open: RefCell<Vec<(Journal, Lasting)>>,
     /// Journals of sweeps, which are kept open by these.
     of_rows: RefCell<Vec<PathBuf>>,
+    /// Whether parts are made, which stay.
+    has_parts: Cell<bool>,
     /// Cases that were found in them or written into them.
     kept: Cell<usize>,
+}
+
+/// How long a journal lasts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lasting {
+    /// It is removed when the script has come to its end.
+    UntilTheEnd,
+    /// It stays, for it is a part that will be joined with others.
+    Longer,
 }
 
 /// The number of one of the journals of a run.
@@ -34,7 +45,7 @@ impl Journals {
     pub fn open(
         &self,
         path: PathBuf,
-        wish: JournalWish,
+        (wish, lasting): (JournalWish, Lasting),
     ) -> Result<Option<JournalNumber>, ScriptError> {
         if wish == JournalWish::Without {
             return Ok(None);
@@ -43,14 +54,33 @@ impl Journals {
         if wish == JournalWish::Anew {
             journal.clear().map_err(refused)?;
         }
+        if lasting == Lasting::Longer {
+            journal.begin().map_err(refused)?;
+            self.has_parts.set(true);
+        }
+        Ok(Some(self.keep(journal, lasting)))
+    }
+
+    /// Opens files of parts as one journal, which is not written.
+    ///
+    /// # Errors
+    /// When one cannot be read.
+    pub fn open_parts(
+        &self,
+        paths: impl IntoIterator<Item = PathBuf>,
+    ) -> Result<JournalNumber, ScriptError> {
+        Ok(self.keep(Journal::of_files(paths).map_err(refused)?, Lasting::Longer))
+    }
+
+    fn keep(&self, journal: Journal, lasting: Lasting) -> JournalNumber {
         let mut open = self.open.borrow_mut();
-        open.push(journal);
-        Ok(Some(JournalNumber(open.len() - 1)))
+        open.push((journal, lasting));
+        JournalNumber(open.len() - 1)
     }
 
     /// The result of a case that a journal knows, by the case's fingerprint.
     pub fn find<T: DeserializeOwned>(&self, journal: JournalNumber, fingerprint: u64) -> Option<T> {
-        let found = self.open.borrow().get(journal.0)?.find(fingerprint);
+        let found = self.open.borrow().get(journal.0)?.0.find(fingerprint);
         self.kept.set(self.kept.get() + usize::from(found.is_some()));
         found
     }
@@ -66,7 +96,7 @@ impl Journals {
         result: &T,
     ) -> Result<u64, ScriptError> {
         let mut open = self.open.borrow_mut();
-        let Some(journal) = open.get_mut(journal.0) else { return Ok(0) };
+        let Some((journal, _)) = open.get_mut(journal.0) else { return Ok(0) };
         let bytes = journal.write(fingerprint, result).map_err(refused)?;
         self.kept.set(self.kept.get() + 1);
         Ok(bytes)
@@ -80,7 +110,7 @@ impl Journals {
     pub fn open_rows(
         &self,
         path: PathBuf,
-        wish: JournalWish,
+        (wish, lasting): (JournalWish, Lasting),
         about: RowEntry,
         mut recall: impl FnMut(RowEntry),
     ) -> Result<Option<RowKeeper>, ScriptError> {
@@ -102,7 +132,10 @@ impl Journals {
         let whole = if is_same { whole } else { 0 };
         let opened = RowJournal::append(&path, whole);
         let journal = opened.map_err(|error| refused_rows(&path, &error))?;
-        self.of_rows.borrow_mut().push(path.clone());
+        match lasting {
+            Lasting::UntilTheEnd => self.of_rows.borrow_mut().push(path.clone()),
+            Lasting::Longer => self.has_parts.set(true),
+        }
         self.kept.set(self.kept.get() + known);
         let mut keeper = RowKeeper { path, journal };
         if !is_same {
@@ -121,11 +154,15 @@ impl Journals {
     /// # Errors
     /// When a file cannot be removed.
     pub fn finish(&self) -> Result<(), ScriptError> {
-        self.kept.set(0);
+        if !self.has_parts.get() {
+            self.kept.set(0);
+        }
         for path in self.of_rows.take() {
             remove_rows(&path).map_err(|error| refused_rows(&path, &error))?;
         }
-        self.open.take().into_iter().try_for_each(Journal::finish).map_err(refused)
+        let ended = self.open.take().into_iter();
+        let mut ended = ended.filter(|(_, lasting)| *lasting == Lasting::UntilTheEnd);
+        ended.try_for_each(|(journal, _)| journal.finish()).map_err(refused)
     }
 }
 
@@ -194,7 +231,8 @@ mod tests {
         let path = |name: &str| home.path().join(format!("{name}.journal"));
         let begin = |wish| {
             let journals = Journals::default();
-            let numbers = ["a", "b"].map(|name| journals.open(path(name), wish).unwrap());
+            let numbers = ["a", "b"]
+                .map(|name| journals.open(path(name), (wish, Lasting::UntilTheEnd)).unwrap());
             (journals, numbers)
         };
         let (first, [a, b]) = begin(JournalWish::GoOn);

@@ -4,5 +4,6 @@ pub mod context;
 pub mod files;
 pub mod journals;
 pub mod limits;
+pub mod parts;
 pub mod settings;
 pub mod watchdog;

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use super::limits::{LastResort, Limits};
+use super::parts::Part;
 use crate::script::source::program::Program;
 use crate::script::words::progress::{NoProgress, Progress};
 
@@ -49,12 +50,16 @@ pub struct Settings {
 }
 
 /// How the studies of a run are made.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct StudyWishes {
     /// Whether the studies can go on where an earlier run of them was interrupted.
     pub journal: JournalWish,
     /// How often cases of the studies are timed, whatever the script says.
     pub repeats: Option<usize>,
+    /// The part of each study that is made; then nothing is written but that.
+    pub part: Option<Part>,
+    /// The folders of parts that are joined into whole studies, in the place of making them.
+    pub merge: Vec<PathBuf>,
 }
 
 /// What becomes of finished cases when a study is interrupted.

@@ -9,7 +9,8 @@ use serde::de::DeserializeOwned;
 
 use crate::analysis::{Case, Journal, Outcome, Timing, Trial, Verdict, on_all_cores};
 use crate::script::state::context::Context;
-use crate::script::state::journals::JournalNumber;
+use crate::script::state::journals::{JournalNumber, Lasting};
+use crate::script::state::parts::find_parts;
 use crate::script::state::settings::Mode;
 use crate::script::words::error::ScriptError;
 
@@ -74,17 +75,49 @@ impl<'c> Desk<'c> {
     /// # Errors
     /// When the name is not one of a file in the output folder, or the journal cannot be read.
     pub fn open(context: &'c Context, name: &str) -> Result<Self, ScriptError> {
-        let path = context.output().path_of(&format!("{name}.journal"))?;
-        let journal = context.journals().open(path, context.studies().journal)?;
+        let wishes = context.studies();
+        let path = |file: String| context.output().path_of(&file);
+        let journal = match (wishes.part, wishes.merge.as_slice()) {
+            (Some(part), _) => {
+                let kept = (wishes.journal, Lasting::Longer);
+                context.journals().open(path(part.file(name))?, kept)?
+            }
+            (None, []) => {
+                let kept = (wishes.journal, Lasting::UntilTheEnd);
+                context.journals().open(path(format!("{name}.journal"))?, kept)?
+            }
+            (None, _) if context.mode() == Mode::DryBuild => None,
+            (None, folders) => {
+                let files = find_parts(name, folders)?.into_iter().map(|(_, file)| file);
+                Some(context.journals().open_parts(files)?)
+            }
+        };
         Ok(Self { context, name: name.to_owned(), journal })
     }
 
     /// Works on all cases that the journal does not know, on all cores. `steps_of` counts the steps of a result for the limits
-    /// of the run. A panic is the result of its case alone.
+    /// of the run. A panic is the result of its case alone. Where only a part of the study is wanted, its cases are worked on, and nothing is given: the
+    /// others are worked on elsewhere.
     ///
     /// # Errors
-    /// When the run is stopped: what was finished by then is in the journal.
+    /// When the run is stopped: what was finished by then is in the journal; and when parts are joined in which a case is missing.
     pub fn in_parallel<R: Finding + Clone + Send>(
+        &self,
+        task: Task,
+        cases: &[Case],
+        steps_of: fn(&R) -> usize,
+        work: impl Fn(&Case, &AtomicBool) -> R + Sync,
+    ) -> Result<Option<Vec<Result<R, String>>>, ScriptError> {
+        let Some(part) = self.context.studies().part else {
+            return self.all_in_parallel(task, cases, steps_of, work).map(Some);
+        };
+        let is_own = |(at, case): &(usize, &Case)| part.has(*at) && case.to_bytes().is_some();
+        let own: Vec<Case> =
+            cases.iter().enumerate().filter(is_own).map(|(_, case)| case.clone()).collect();
+        self.all_in_parallel(task, &own, steps_of, work).map(|_| None)
+    }
+
+    fn all_in_parallel<R: Finding + Clone + Send>(
         &self,
         task: Task,
         cases: &[Case],
@@ -93,6 +126,7 @@ impl<'c> Desk<'c> {
     ) -> Result<Vec<Result<R, String>>, ScriptError> {
         let mut results: Vec<_> =
             cases.iter().map(|case| self.recall(task, case).map(Ok)).collect();
+        self.expect_parts(task, cases, &results)?;
         let unknown: Vec<usize> = (0..cases.len()).filter(|at| results[*at].is_none()).collect();
         let known = cases.len() - unknown.len();
         self.tell_known(task, known, cases.len());
@@ -160,13 +194,44 @@ impl<'c> Desk<'c> {
         results
     }
 
+    /// Refuses parts in which a case is missing that could be in one.
+    fn expect_parts<R>(
+        &self,
+        task: Task,
+        cases: &[Case],
+        results: &[Option<R>],
+    ) -> Result<(), ScriptError> {
+        if self.context.studies().merge.is_empty() {
+            return Ok(());
+        }
+        let missing = cases
+            .iter()
+            .zip(results)
+            .filter(|(case, found)| found.is_none() && task.fingerprint(case).is_some());
+        match (missing.count(), cases.len()) {
+            (0, _) => Ok(()),
+            (missing, all) => {
+                let (name, what) = (&self.name, task.name);
+                let told =
+                    format!("of the {all} {what} of the study '{name}' {missing} are in no part");
+                Err(ScriptError::new(told).hint(
+                    "they are of another script or another build of withy, or not finished: the same command with --part goes on with them",
+                ))
+            }
+        }
+    }
+
     fn recall<R: DeserializeOwned>(&self, task: Task, case: &Case) -> Option<R> {
         self.context.journals().find(self.journal?, task.fingerprint(case)?)
     }
 
     fn write<R: Finding>(&self, task: Task, case: &Case, result: &R) -> Result<(), ScriptError> {
+        if !self.context.studies().merge.is_empty() {
+            return Ok(());
+        }
+        let is_part = self.context.studies().part.is_some();
         match (self.journal, task.fingerprint(case)) {
-            (Some(journal), Some(fingerprint)) if result.is_final() => {
+            (Some(journal), Some(fingerprint)) if result.is_final() || is_part => {
                 let bytes = self.context.journals().write(journal, fingerprint, result)?;
                 // The study stops before its next case where that was too much.
                 self.context.meter().allows_to_write(bytes);

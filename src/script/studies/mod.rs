@@ -1,11 +1,13 @@
 //! Studies as scripts ask for them: from options to cases, and from results to tables, files and pictures.
 
+pub mod calls;
 pub mod cell;
 pub mod convergence;
 pub mod convergence_chart;
 pub mod convergence_table;
 pub mod cost;
 pub mod desk;
+pub mod fits;
 pub mod labels;
 pub mod options;
 pub mod parameters;

@@ -7,7 +7,7 @@ use super::precision_chart::chart;
 use super::precision_rows::{records, table};
 use super::reference::{Reference, read_sheet};
 use crate::analysis::{
-    Case, Outcome, Precision, PrecisionRow, Rival, Timing, Trial, Truth, all_combinations,
+    Case, Precision, PrecisionRow, Rival, Timing, Trial, Truth, all_combinations,
 };
 use crate::script::rows::call::Call;
 use crate::script::state::settings::Mode;
@@ -40,22 +40,18 @@ pub fn study(
     let cases: Vec<Case> =
         combinations.iter().map(|of| of.case(&plan.subjects, &plan.times)).collect();
     let repeats = call.context().studies().repeats.unwrap_or(timed.repeats);
-    let (trials, timings, truth) = match call.context().mode() {
-        Mode::DryBuild => {
-            let reason = "a check runs nothing".to_owned();
-            let trial = Trial::without_a_run(Outcome::Failed { time: 0.0, reason });
-            (vec![trial; cases.len()], vec![None; cases.len()], Truth::of_run("none", &Vec::new()))
-        }
-        Mode::Run => {
-            let (trials, truth) = reference.trials(call, &desk, &plan, &cases)?;
-            let timings = timings(&desk, &plan, (&cases, &trials), repeats)?;
-            (trials, timings, truth)
-        }
+    let found = match call.context().mode() {
+        Mode::DryBuild => None,
+        Mode::Run => reference.trials(call, &desk, &plan, &cases)?,
     };
-    let rivals = match call.context().mode() {
-        Mode::Run => compared(&truth)?,
-        Mode::DryBuild => Vec::new(),
+    let is_found = found.is_some();
+    let (trials, truth) = found.unwrap_or_else(|| Reference::no_trials(&cases));
+    // Times of several machines are no comparison: where a study is made in parts, they are taken where these are joined.
+    let timings = match is_found {
+        true => timings(&desk, &plan, (&cases, &trials), repeats)?,
+        false => vec![None; cases.len()],
     };
+    let rivals = if is_found { compared(&truth)? } else { Vec::new() };
     let judge = (plan.observables(), &truth, plan.length);
     let found = combinations.iter().zip(trials).zip(timings);
     let rows = found.map(|((of, trial), timing)| {

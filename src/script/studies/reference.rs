@@ -253,26 +253,34 @@ impl Reference {
         }
     }
 
-    /// Runs all cases of a study, and those of the reference with them: what each showed, and what it should have.
+    /// Runs all cases of a study, and those of the reference with them: what each showed, and what it should have. None where only a part of them is
+    /// wanted here.
     pub fn trials(
         &self,
         call: &Call,
         desk: &Desk,
         plan: &Plan,
         cases: &[Case],
-    ) -> Result<(Vec<Trial>, Truth), ScriptError> {
+    ) -> Result<Option<(Vec<Trial>, Truth)>, ScriptError> {
         let all: Vec<Case> = self.cases().iter().chain(cases).cloned().collect();
         let (observables, patience) = (plan.observables(), plan.patience);
         let parts = postcard::to_stdvec(observables).unwrap_or_default();
         let task = Task { name: "runs", parts: &parts };
         let work = |case: &Case, stop: &_| Trial::of(case, observables, patience, stop);
         let steps_of = |trial: &Trial| trial.steps + trial.retries;
-        let results = desk.in_parallel(task, &all, steps_of, work)?;
+        let Some(results) = desk.in_parallel(task, &all, steps_of, work)? else { return Ok(None) };
         let panicked = |message| Trial::without_a_run(Outcome::Panicked { message });
         let mut own: Vec<Trial> =
             results.into_iter().map(|result| result.unwrap_or_else(panicked)).collect();
         let trials = own.split_off(self.cases().len());
         let truth = self.truth(call, plan, &own)?;
-        Ok((trials, truth))
+        Ok(Some((trials, truth)))
+    }
+
+    /// What there is of trials where none is made.
+    pub fn no_trials(cases: &[Case]) -> (Vec<Trial>, Truth) {
+        let reason = "nothing is run here".to_owned();
+        let trial = Trial::without_a_run(Outcome::Failed { time: 0.0, reason });
+        (vec![trial; cases.len()], Truth::of_run("none", &Vec::new()))
     }
 }

@@ -2,12 +2,12 @@
 
 use rhai::{Array, Dynamic, FnPtr, Map};
 
-use super::portable::Portable;
 use crate::analysis::{Arrangement, Choice, SweepDesign, SweptParameter, SweptValues};
 use crate::output::format_number;
 use crate::sampling::{Distribution, MOST_DIMENSIONS, latin_hypercube, saltelli, sobol};
 use crate::script::rows::accept::readable;
 use crate::script::rows::call::Call;
+use crate::script::studies::calls::portable::Portable;
 use crate::script::studies::parameters::label;
 use crate::script::studies::plan::at_key;
 use crate::script::words::error::{Place, ScriptError};
@@ -132,6 +132,22 @@ impl SweepPlan {
             levels.push(of_levels);
         }
         Ok(Self { design: SweepDesign { parameters: swept, rows, arrangement }, levels })
+    }
+
+    /// What the parameters and all of their values are known again by.
+    pub fn imprint(&self) -> Vec<u8> {
+        let of = |(of, levels): (&SweptParameter, &Vec<Portable>)| {
+            let mut hasher = crc32fast::Hasher::new();
+            for row in 0..self.design.rows {
+                let place = of.values.level(row).map_or(0, |level| level as u64);
+                let number = of.values.number(row).map_or(place, f64::to_bits);
+                hasher.update(&number.to_le_bytes());
+            }
+            format!("{} {levels:?} {}", of.name, hasher.finalize()).into_bytes()
+        };
+        let rows = self.design.rows.to_le_bytes().to_vec();
+        let all = self.design.parameters.iter().zip(&self.levels).flat_map(of);
+        rows.into_iter().chain(all).collect()
     }
 
     /// The values of a row, as the function gets them.

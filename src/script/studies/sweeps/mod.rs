@@ -1,9 +1,9 @@
-//! Sweeps: a function of the script, called with the values of each row, on the engines of all cores.
+//! Sweeps: a function of the script, called with the values of each row.
 
 pub mod design;
-pub mod function;
+pub mod keeping;
+pub mod ledger;
 pub mod pictures;
-pub mod portable;
 pub mod rows;
 pub mod run;
 pub mod table;

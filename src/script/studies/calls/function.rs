@@ -1,8 +1,8 @@
-//! The function that a sweep calls: what it has captured, and which of its parameters it reads.
+//! A function that a study calls with named values: what it has captured, and which of the values it reads.
 
 use std::collections::BTreeSet;
 
-use rhai::{AST, ASTNode, Expr, FnPtr, Position};
+use rhai::{AST, ASTNode, Dynamic, Expr, FnPtr, Map, Position};
 
 use super::portable::Portable;
 use crate::script::rows::call::Call;
@@ -16,6 +16,15 @@ pub struct RunFunction {
     pub name: String,
     /// The names and values of the variables that it has captured.
     pub captured: Vec<(String, Portable)>,
+    /// What it is called with behind the map of values.
+    pub besides: Vec<Portable>,
+}
+
+/// Why a function that changes one of its captured variables is refused.
+pub fn changes(name: &str) -> String {
+    format!(
+        "it changes the variable '{name}' from outside, which every run has for itself: give what is found in the map"
+    )
 }
 
 /// How a function reads the map that it is called with.
@@ -64,7 +73,68 @@ impl RunFunction {
             }
         });
         let captured = captured.collect::<Result<_, _>>()?;
-        Ok(Self { name: function.fn_name().to_owned(), captured })
+        Ok(Self { name: function.fn_name().to_owned(), captured, besides: Vec::new() })
+    }
+
+    /// Makes a value one that the function is called with behind the map.
+    ///
+    /// # Errors
+    /// When it cannot go to other threads.
+    pub fn take(&mut self, call: &Call, key: &str, value: &Dynamic) -> Result<(), ScriptError> {
+        let parameters_of = |function: &FnPtr| call.definition(function).map(|of| of.params.len());
+        let portable = Portable::of(call.engine(), value, &parameters_of).map_err(|immovable| {
+            let kind = with_article(&immovable.kind);
+            call.error(format!(
+                "{key} holds {kind}, which cannot go to the engines that make the runs"
+            ))
+            .hint("give numbers, texts, arrays and maps of them")
+            .at(Place::Key(key.to_owned()))
+        })?;
+        self.besides.push(portable);
+        Ok(())
+    }
+
+    /// The values for which the function stands on this thread, and those that it is called with, made anew; `function_of` finds functions.
+    ///
+    /// None where a function is not found.
+    pub fn arguments(
+        &self,
+        values: Map,
+        function_of: &dyn Fn(&str, usize) -> Option<FnPtr>,
+    ) -> Option<(Vec<Dynamic>, Vec<Dynamic>)> {
+        let shared =
+            |(_, value): &(String, Portable)| Some(value.value(function_of)?.into_shared());
+        let captured = self.captured.iter().map(shared).collect::<Option<_>>()?;
+        let besides = self.besides.iter().map(|value| value.value(function_of));
+        let given = [Some(values.into())].into_iter().chain(besides).collect::<Option<_>>()?;
+        Some((captured, given))
+    }
+
+    /// The first of the variables from outside that is no longer what it was.
+    pub fn changed(&self, captured: &[Dynamic]) -> Option<&str> {
+        let pairs = self.captured.iter().zip(captured);
+        pairs.into_iter().find(|((_, was), is)| !was.is(is)).map(|((name, _), _)| name.as_str())
+    }
+
+    /// Calls the function in the engine of the script itself, with captured values of its own.
+    ///
+    /// # Errors
+    /// The function's own, with their places; also when it changes a variable from outside.
+    pub fn call_here(&self, call: &Call, key: &str, values: Map) -> Result<Dynamic, ScriptError> {
+        let function_of = |name: &str, parameters| call.function_named(name, parameters);
+        let lost = || ScriptError::bug("the function of a study is not found again");
+        let (captured, given) = self.arguments(values, &function_of).ok_or_else(lost)?;
+        let count = captured.len() + given.len();
+        let mut function = function_of(&self.name, count).ok_or_else(lost)?;
+        function.extend(captured.clone());
+        let found = call.invoke(&function, given)?;
+        match self.changed(&captured) {
+            None => Ok(found),
+            Some(name) => Err(call
+                .error(format!("{key}: {}", changes(name)))
+                .hint("each run begins with the values from outside")
+                .at(Place::Key(key.to_owned()))),
+        }
     }
 
     /// The first of the names that the function does not read from the map that it is called with, as far as can be seen: one that hands the map on may

@@ -1,0 +1,110 @@
+//! Derivatives of runs by differences.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::{Evaluate, Evaluation, Range};
+
+/// The distance at which differences are taken, as a part of the size of a parameter. Central differences err by `h² f‴/6` and by the noise of a run over
+/// `h`; runs repeat to about 1e-12 of their results (where Newton's method ends), so that 1e-4 makes both about 1e-8.
+pub const RELATIVE_STEP: f64 = 1e-4;
+
+/// How the derivative by a parameter is made of values beside the point.
+enum Stencil {
+    /// Half the difference of the values on both sides.
+    Central(f64),
+    /// The slope at its end of the parabola through the point and two values on one side, for a point at a bound.
+    OneSided(f64),
+}
+
+impl Stencil {
+    fn of(range: Range, x: f64, relative: f64) -> Self {
+        let step = relative * range.size(x);
+        match (x - step >= range.low, x + step <= range.high) {
+            (true, true) => Self::Central(step),
+            (false, _) => Self::OneSided(step),
+            (true, false) => Self::OneSided(-step),
+        }
+    }
+
+    /// How far from the point the values are taken.
+    fn places(&self) -> [f64; 2] {
+        match self {
+            Self::Central(step) => [*step, -step],
+            Self::OneSided(step) => [*step, 2.0 * step],
+        }
+    }
+
+    fn slope(&self, here: f64, [a, b]: [f64; 2]) -> f64 {
+        match self {
+            Self::Central(step) => (a - b) / (2.0 * step),
+            Self::OneSided(step) => (4.0 * a - 3.0 * here - b) / (2.0 * step),
+        }
+    }
+}
+
+/// The derivatives of all values at a point by all parameters, a column for each parameter: second order, two runs a parameter, all asked for at once. `here` are
+/// the values at the point.
+///
+/// # Errors
+/// The inner one says which run gave nothing.
+pub fn derivatives<E>(
+    ranges: &[Range],
+    (x, here): (&[f64], &DVector<f64>),
+    relative: f64,
+    evaluate: &mut Evaluate<'_, E>,
+) -> Result<Result<DMatrix<f64>, String>, E> {
+    let stencils: Vec<Stencil> =
+        ranges.iter().zip(x).map(|(range, x)| Stencil::of(*range, *x, relative)).collect();
+    let moved = |(own, stencil): (usize, &Stencil)| {
+        stencil.places().map(|far| {
+            let mut point = x.to_vec();
+            point[own] += far;
+            point
+        })
+    };
+    let points: Vec<Vec<f64>> = stencils.iter().enumerate().flat_map(moved).collect();
+    let found: Result<Vec<Vec<f64>>, String> =
+        evaluate(&points)?.into_iter().collect::<Result<_, _>>();
+    let Ok(found) = found else { return Ok(found.map(|_| DMatrix::zeros(0, 0))) };
+    if let Some(other) = found.iter().find(|values| values.len() != here.len()) {
+        return Ok(Err(format!("it gave {} values and then {}", here.len(), other.len())));
+    }
+    Ok(Ok(DMatrix::from_fn(here.len(), x.len(), |row, own| {
+        stencils[own].slope(here[row], [found[2 * own][row], found[2 * own + 1][row]])
+    })))
+}
+
+/// The one point of several evaluations.
+pub fn only(found: Vec<Evaluation>) -> Evaluation {
+    found.into_iter().next().unwrap_or_else(|| Err("nothing was found".into()))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::convert::Infallible;
+
+    use super::*;
+    use crate::elementary::exp;
+
+    #[test]
+    fn derivatives_are_right_to_eight_digits_at_bounds_too() {
+        let mut asked = 0;
+        let mut evaluate = |points: &[Vec<f64>]| -> Result<Vec<Evaluation>, Infallible> {
+            asked += points.len();
+            Ok(points.iter().map(|x| Ok(vec![exp(x[0]), x[0] * x[1] * x[1]])).collect())
+        };
+        let ranges = [
+            Range { start: 1.0, low: 1.0, high: 2.0 },
+            Range { start: 3.0, low: 0.0, high: f64::INFINITY },
+        ];
+        let here = DVector::from_vec(vec![exp(1.0), 9.0]);
+        let Ok(found) = derivatives(&ranges, (&[1.0, 3.0], &here), RELATIVE_STEP, &mut evaluate);
+        let found = found.unwrap();
+        let known = [[exp(1.0), 0.0], [9.0, 6.0]];
+        for (row, column) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+            let error = (found[(row, column)] - known[row][column]).abs();
+            assert!(error < 4e-8 * known[row][column].max(1.0), "{row} {column}: {error}");
+        }
+        assert_eq!(asked, 4);
+    }
+}

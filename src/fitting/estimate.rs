@@ -1,0 +1,75 @@
+//! How well fitted parameters are known.
+
+use nalgebra::DMatrix;
+
+use super::student_quantile;
+
+/// What is known of fitted parameters, from the scatter of the residuals.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Estimate {
+    /// The standard deviation of a weighted residual: the root of the sum of their squares over the degrees of freedom.
+    pub deviation: f64,
+    /// How many more residuals than parameters there are.
+    pub freedom: usize,
+    /// The covariances of the parameters, row by row.
+    pub covariance: Vec<Vec<f64>>,
+}
+
+impl Estimate {
+    /// The estimate from the derivatives of weighted residuals at the least sum of squares, `C = s² (JᵀJ)⁻¹`; none where there are no more residuals than parameters, or
+    /// the residuals do not depend on each parameter in a way of its own. Parameters at bounds, which are not `free`, count as known.
+    pub fn of(derivatives: &DMatrix<f64>, squares: f64, free: &[bool]) -> Option<Self> {
+        let columns: Vec<usize> = (0..free.len()).filter(|at| free[*at]).collect();
+        let freedom = derivatives.nrows().checked_sub(columns.len()).filter(|left| *left > 0)?;
+        let chosen = derivatives.select_columns(&columns);
+        // Columns of one size: parameters may have very different ones.
+        let sizes: Vec<f64> = chosen.column_iter().map(|column| column.norm()).collect();
+        let scaled = DMatrix::from_fn(chosen.nrows(), chosen.ncols(), |row, column| {
+            chosen[(row, column)] / sizes[column]
+        });
+        let factor = scaled.qr().r();
+        let is_known = (0..columns.len()).all(|at| factor[(at, at)].abs() > 1e-10);
+        let inverse = is_known.then(|| factor.try_inverse()).flatten()?;
+        let product = &inverse * inverse.transpose();
+        let variance = squares / freedom as f64;
+        let mut covariance = vec![vec![0.0; free.len()]; free.len()];
+        for (a, row) in columns.iter().enumerate() {
+            for (b, column) in columns.iter().enumerate() {
+                covariance[*row][*column] = variance * product[(a, b)] / (sizes[a] * sizes[b]);
+            }
+        }
+        Some(Self { deviation: variance.sqrt(), freedom, covariance })
+    }
+
+    /// The standard error of a parameter.
+    pub fn error(&self, parameter: usize) -> f64 {
+        self.covariance[parameter][parameter].sqrt()
+    }
+
+    /// Half the width of the interval around a parameter in which it lies with a probability, such as 0.95, by Student's distribution.
+    pub fn half_width(&self, parameter: usize, probability: f64) -> f64 {
+        self.error(parameter) * student_quantile(0.5 + probability / 2.0, self.freedom as f64)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A straight line through points: textbook formulas of the errors of its slope and its height.
+    #[test]
+    fn errors_of_a_straight_line_are_those_of_textbooks() {
+        let x = [0.0, 1.0, 2.0, 3.0, 4.0];
+        let derivatives =
+            DMatrix::from_fn(5, 2, |row, column| if column == 0 { 1.0 } else { x[row] });
+        let squares = 0.3;
+        let found = Estimate::of(&derivatives, squares, &[true, true]).unwrap();
+        let variance: f64 = squares / 3.0;
+        assert!((found.error(1) - (variance / 10.0).sqrt()).abs() < 1e-14);
+        assert!((found.error(0) - (variance * (1.0 / 5.0 + 4.0 / 10.0)).sqrt()).abs() < 1e-14);
+        assert!((found.half_width(1, 0.95) / found.error(1) - 3.182_446_305_284_26).abs() < 1e-9);
+        let same = DMatrix::from_element(5, 2, 1.0);
+        assert!(Estimate::of(&same, squares, &[true, true]).is_none());
+        assert!(Estimate::of(&same, squares, &[true, false]).is_some());
+    }
+}

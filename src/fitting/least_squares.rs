@@ -1,0 +1,270 @@
+//! Least squares: K. Levenberg's and D. W. Marquardt's method within bounds, with few runs.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::differences::{derivatives, only};
+use super::{Estimate, Evaluate, RELATIVE_STEP, Range};
+
+/// Rounds of steps from fresh derivatives.
+const MOST_ROUNDS: usize = 30;
+/// Steps from derivatives that were only corrected, for each parameter and so many more.
+const MORE_STEPS: usize = 6;
+/// A parameter that changes by less than this part of its size has settled.
+const SETTLED: f64 = 1e-7;
+/// Cosine of the angle between residuals and the changes that parameters can make, below which nothing is gained.
+const ORTHOGONAL: f64 = 1e-7;
+/// Part of the squares that a step must promise.
+const NOTHING: f64 = 1e-10;
+/// Part of the first squares below which they are rounding.
+const ROUNDING: f64 = 1e-26;
+/// Damping at the start, at least, and at most before it is given up.
+const DAMPING: (f64, f64, f64) = (1e-3, 1e-14, 1e12);
+
+/// A problem of least squares.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LeastSquares {
+    /// The parameters.
+    pub ranges: Vec<Range>,
+    /// The distance of differences as a part of the size of a parameter.
+    pub relative_step: f64,
+}
+
+/// How a search ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Settling {
+    /// Nothing is to be gained any more.
+    Settled,
+    /// No step makes the squares less, though the derivatives promise it: they are as good as the noise of the runs allows, or the function jumps.
+    Stuck,
+    /// It went on for too long.
+    Unfinished,
+}
+
+/// What a fit found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fitted {
+    /// The parameters with the least sum of squares.
+    pub parameters: Vec<f64>,
+    /// The residuals there.
+    pub residuals: Vec<f64>,
+    /// How well they are known, where that can be told.
+    pub estimate: Option<Estimate>,
+    /// How it ended.
+    pub settling: Settling,
+    /// How often the function was called.
+    pub runs: usize,
+    /// How many steps made the squares less.
+    pub steps: usize,
+}
+
+/// Where a search stands.
+struct State {
+    x: Vec<f64>,
+    residuals: DVector<f64>,
+    derivatives: DMatrix<f64>,
+    /// The largest norms of the columns of derivatives so far: sizes of parameters.
+    sizes: Vec<f64>,
+    damping: f64,
+}
+
+impl State {
+    fn squares(&self) -> f64 {
+        self.residuals.norm_squared()
+    }
+
+    /// Whether a parameter may move in the direction that makes the squares less.
+    fn free(&self, ranges: &[Range]) -> Vec<bool> {
+        let gradient = self.derivatives.tr_mul(&self.residuals);
+        let is_free = |at: usize| {
+            let (x, slope) = (self.x[at], gradient[at]);
+            !(x <= ranges[at].low && slope > 0.0 || x >= ranges[at].high && slope < 0.0)
+        };
+        (0..self.x.len()).map(is_free).collect()
+    }
+
+    /// The largest cosine of an angle between the residuals and what a free parameter changes.
+    fn cosine(&self, ranges: &[Range]) -> f64 {
+        let length = self.residuals.norm();
+        let columns = self.derivatives.column_iter().zip(self.free(ranges));
+        let cosines = columns.filter(|(_, free)| *free).map(|(column, _)| {
+            let product = column.norm() * length;
+            if product > 0.0 { column.dot(&self.residuals).abs() / product } else { 0.0 }
+        });
+        cosines.fold(0.0, f64::max)
+    }
+
+    /// The step of the free parameters that makes `|r + J δ|² + λ |D δ|²` least, cut at the bounds.
+    fn step(&self, ranges: &[Range]) -> DVector<f64> {
+        let free = self.free(ranges);
+        let columns: Vec<usize> = (0..free.len()).filter(|at| free[*at]).collect();
+        let (rows, count) = (self.derivatives.nrows(), columns.len());
+        if count == 0 {
+            return DVector::zeros(self.x.len());
+        }
+        let root = self.damping.sqrt();
+        let matrix = DMatrix::from_fn(rows + count, count, |row, column| match row {
+            row if row < rows => {
+                self.derivatives[(row, columns[column])] / self.sizes[columns[column]]
+            }
+            row if row - rows == column => root,
+            _ => 0.0,
+        });
+        let right = DVector::from_fn(rows + count, |row, _| match row {
+            row if row < rows => -self.residuals[row],
+            _ => 0.0,
+        });
+        let factors = matrix.qr();
+        let solution = factors.r().solve_upper_triangular(&factors.q().tr_mul(&right));
+        let solution = solution.unwrap_or_else(|| DVector::zeros(count));
+        let mut step = DVector::zeros(self.x.len());
+        for (at, column) in columns.into_iter().enumerate() {
+            let x = self.x[column];
+            step[column] = ranges[column].clip(x + solution[at] / self.sizes[column]) - x;
+        }
+        step
+    }
+
+    /// Keeps what a step has shown of the derivatives: C. G. Broyden's correction (1965), in the sizes of the parameters.
+    fn learn(&mut self, step: &DVector<f64>, change: &DVector<f64>) {
+        let scaled =
+            DVector::from_fn(step.len(), |at, _| step[at] * self.sizes[at] * self.sizes[at]);
+        let length = scaled.dot(step);
+        if length > 0.0 {
+            let missed = change - &self.derivatives * step;
+            self.derivatives += missed * scaled.transpose() / length;
+        }
+    }
+
+    fn measure(&mut self, derivatives: DMatrix<f64>) {
+        for (size, column) in self.sizes.iter_mut().zip(derivatives.column_iter()) {
+            *size = size.max(column.norm());
+        }
+        self.derivatives = derivatives;
+    }
+}
+
+/// How far a round of steps has come.
+enum Round {
+    /// The parameters no longer move, or nothing more is promised.
+    Rests,
+    /// Derivatives are to be found anew.
+    Goes,
+    /// Fresh derivatives promise what no step finds.
+    Sticks,
+}
+
+impl LeastSquares {
+    /// A problem with these parameters.
+    pub fn new(ranges: Vec<Range>) -> Self {
+        Self { ranges, relative_step: RELATIVE_STEP }
+    }
+
+    /// Makes the sum of the squares of what the function gives least: derivatives by central differences at the start, after that corrected by what each step
+    /// shows, and found anew where that no longer helps and at the end. Steps that fail are shortened.
+    ///
+    /// # Errors
+    /// Those of the function; the inner one tells why it gave nothing where it must.
+    pub fn solve<E>(&self, evaluate: &mut Evaluate<'_, E>) -> Result<Result<Fitted, String>, E> {
+        let mut runs = 0;
+        let mut counted = |points: &[Vec<f64>]| {
+            runs += points.len();
+            evaluate(points)
+        };
+        let x: Vec<f64> = self.ranges.iter().map(|range| range.clip(range.start)).collect();
+        let residuals = match only(counted(std::slice::from_ref(&x))?) {
+            Ok(residuals) => DVector::from_vec(residuals),
+            Err(reason) => return Ok(Err(reason)),
+        };
+        let sizes = vec![f64::MIN_POSITIVE; x.len()];
+        let empty = DMatrix::zeros(residuals.len(), x.len());
+        let mut state = State { x, residuals, derivatives: empty, sizes, damping: DAMPING.0 };
+        let least = ROUNDING * state.squares();
+        let (mut steps, mut settling) = (0, Settling::Unfinished);
+        for _ in 0..MOST_ROUNDS {
+            let here = (state.x.as_slice(), &state.residuals);
+            match derivatives(&self.ranges, here, self.relative_step, &mut counted)? {
+                Ok(found) => state.measure(found),
+                Err(reason) => return Ok(Err(reason)),
+            }
+            if state.squares() <= least || state.cosine(&self.ranges) <= ORTHOGONAL {
+                settling = Settling::Settled;
+                break;
+            }
+            match self.round(&mut state, least, &mut steps, &mut counted)? {
+                Round::Goes => (),
+                Round::Sticks => {
+                    settling = Settling::Stuck;
+                    break;
+                }
+                Round::Rests => {
+                    settling = Settling::Settled;
+                    break;
+                }
+            }
+        }
+        let free: Vec<bool> = state.free(&self.ranges);
+        let estimate = Estimate::of(&state.derivatives, state.squares(), &free);
+        let residuals = state.residuals.iter().copied().collect();
+        Ok(Ok(Fitted { parameters: state.x, residuals, estimate, settling, runs, steps }))
+    }
+
+    /// Steps from fresh derivatives on.
+    fn round<E>(
+        &self,
+        state: &mut State,
+        least: f64,
+        steps: &mut usize,
+        evaluate: &mut Evaluate<'_, E>,
+    ) -> Result<Round, E> {
+        let (mut is_fresh, mut taken) = (true, 0);
+        while taken < self.ranges.len() + MORE_STEPS {
+            let step = state.step(&self.ranges);
+            let promised =
+                state.squares() - (&state.residuals + &state.derivatives * &step).norm_squared();
+            let is_small = step
+                .iter()
+                .zip(&state.x)
+                .zip(&self.ranges)
+                .all(|((step, x), range)| step.abs() <= SETTLED * range.size(*x));
+            if is_small || promised <= NOTHING * state.squares() {
+                return Ok(if is_fresh { Round::Rests } else { Round::Goes });
+            }
+            let x: Vec<f64> = state.x.iter().zip(step.iter()).map(|(x, step)| x + step).collect();
+            let found = only(evaluate(std::slice::from_ref(&x))?);
+            let found = found.ok().filter(|found| found.len() == state.residuals.len());
+            let found = found.map(DVector::from_vec);
+            let gained =
+                found.as_ref().map_or(f64::NEG_INFINITY, |r| state.squares() - r.norm_squared());
+            let share = gained / promised;
+            let Some(found) = found.filter(|_| share > 1e-4) else {
+                // The derivatives may be too old for the step that they promise.
+                if !is_fresh {
+                    return Ok(Round::Goes);
+                }
+                state.damping *= 10.0;
+                if state.damping > DAMPING.2 {
+                    return Ok(Round::Sticks);
+                }
+                continue;
+            };
+            let change = &found - &state.residuals;
+            state.learn(&step, &change);
+            (state.x, state.residuals) = (x, found);
+            state.damping = match share {
+                good if good > 0.75 => (state.damping / 10.0).max(DAMPING.1),
+                bad if bad < 0.25 => state.damping * 4.0,
+                _ => state.damping,
+            };
+            *steps += 1;
+            taken += 1;
+            is_fresh = false;
+            if state.squares() <= least {
+                return Ok(Round::Goes);
+            }
+        }
+        Ok(Round::Goes)
+    }
+}
+
+#[cfg(test)]
+mod tests;

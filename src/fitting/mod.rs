@@ -1,0 +1,30 @@
+//! Parameters found by runs: least squares, the least of a function within constraints, a root. It sees numbers, and a function that gives some.
+//!
+//! ```text
+//! least_squares → differences, estimate → student
+//! design, root
+//! ```
+
+#![cfg_attr(test, allow(clippy::unwrap_used))]
+
+mod design;
+mod differences;
+mod estimate;
+mod least_squares;
+mod range;
+mod root;
+mod student;
+
+pub use design::{Design, Designed, Rating};
+pub use differences::RELATIVE_STEP;
+pub use estimate::Estimate;
+pub use least_squares::{Fitted, LeastSquares, Settling};
+pub use range::Range;
+pub use root::{Root, RootError, root};
+pub use student::student_quantile;
+
+/// What a function gave at a point: numbers, or why there are none.
+pub type Evaluation = Result<Vec<f64>, String>;
+
+/// A function that is asked at several points at once, so that they can be worked on beside each other; an error ends the whole search.
+pub type Evaluate<'e, E> = dyn FnMut(&[Vec<f64>]) -> Result<Vec<Evaluation>, E> + 'e;

@@ -1,0 +1,125 @@
+//! Where a function of one number is zero.
+
+/// Calls at most.
+const MOST_CALLS: usize = 200;
+
+/// A root that was found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Root {
+    /// Where the function is zero, or changes its sign.
+    pub at: f64,
+    /// The value there.
+    pub value: f64,
+    /// How often the function was called.
+    pub calls: usize,
+}
+
+/// Why no root was found.
+#[derive(Clone, Debug, PartialEq)]
+pub enum RootError<E> {
+    /// The function has the same sign at both ends: the values there.
+    SameSign(f64, f64),
+    /// The function gave something that is not finite at a place.
+    NotFinite(f64, f64),
+    /// The function failed.
+    Function(E),
+}
+
+/// Where `function` is zero between two places at which its signs differ, to within `tolerance`: R. P. Brent's method (Algorithms for Minimization without Derivatives, 1973,
+/// chapter 4), which keeps the root between two places and takes parabolas and secants where they help.
+///
+/// # Errors
+/// When the signs do not differ, a value is not finite, or the function fails.
+pub fn root<E>(
+    (from, to): (f64, f64),
+    tolerance: f64,
+    mut function: impl FnMut(f64) -> Result<f64, E>,
+) -> Result<Root, RootError<E>> {
+    let mut calls = 0;
+    let mut value = |x: f64| {
+        calls += 1;
+        match function(x) {
+            Ok(value) if value.is_finite() => Ok(value),
+            Ok(value) => Err(RootError::NotFinite(x, value)),
+            Err(error) => Err(RootError::Function(error)),
+        }
+    };
+    let (mut a, mut b) = (from, to);
+    let (mut fa, mut fb) = (value(a)?, value(b)?);
+    if fa * fb > 0.0 {
+        return Err(RootError::SameSign(fa, fb));
+    }
+    let (mut c, mut fc) = (a, fa);
+    let (mut last, mut step) = (b - a, b - a);
+    for _ in 0..MOST_CALLS {
+        // b is the best place, and c lies on the other side of the root.
+        if fb.signum() == fc.signum() {
+            (c, fc) = (a, fa);
+            step = b - a;
+            last = step;
+        }
+        if fc.abs() < fb.abs() {
+            (a, b, c) = (b, c, b);
+            (fa, fb, fc) = (fb, fc, fb);
+        }
+        let near = 2.0 * f64::EPSILON * b.abs() + 0.5 * tolerance;
+        let half = 0.5 * (c - b);
+        if half.abs() <= near || fb == 0.0 {
+            break;
+        }
+        let bisected = (half, half);
+        (last, step) = match last.abs() >= near && fa.abs() > fb.abs() {
+            false => bisected,
+            true => {
+                let s = fb / fa;
+                let (p, q) = if a == c {
+                    (2.0 * half * s, 1.0 - s)
+                } else {
+                    let (q, r) = (fa / fc, fb / fc);
+                    let p = s * (2.0 * half * q * (q - r) - (b - a) * (r - 1.0));
+                    (p, (q - 1.0) * (r - 1.0) * (s - 1.0))
+                };
+                let (p, q) = if p > 0.0 { (p, -q) } else { (-p, q) };
+                let is_good = 2.0 * p < (3.0 * half * q - (near * q).abs()).min((last * q).abs());
+                if is_good { (step, p / q) } else { bisected }
+            }
+        };
+        (a, fa) = (b, fb);
+        b += if step.abs() > near { step } else { near.copysign(half) };
+        fb = value(b)?;
+    }
+    Ok(Root { at: b, value: fb, calls })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::convert::Infallible;
+
+    use super::*;
+    use crate::elementary::{cos, cosh};
+
+    fn good(x: f64) -> Result<f64, Infallible> {
+        Ok(x)
+    }
+
+    #[test]
+    fn roots_are_found_to_the_tolerance_in_few_calls() {
+        // The first frequency of a cantilever: cos x cosh x = -1.
+        let found = root((1.0, 3.0), 1e-12, |x| good(cos(x) * cosh(x) + 1.0)).unwrap();
+        assert!((found.at - 1.875_104_068_711_961).abs() < 1e-12 && found.calls < 12, "{found:?}");
+        let found = root((3.0, 1.0), 1e-10, |x| good(x * x * x - 8.0)).unwrap();
+        assert!((found.at - 2.0).abs() < 1e-10, "{found:?}");
+        let step = root((0.0, 1.0), 1e-9, |x| good(if x < 0.3 { -1.0 } else { 1.0 })).unwrap();
+        assert!((step.at - 0.3).abs() < 1e-9, "{step:?}");
+        assert_eq!(root((0.0, 1.0), 1e-9, good).unwrap().at, 0.0);
+    }
+
+    #[test]
+    fn what_has_no_root_is_told() {
+        let found = root((0.0, 1.0), 1e-9, |x| good(x + 1.0));
+        assert_eq!(found, Err(RootError::SameSign(1.0, 2.0)));
+        assert!(matches!(root((0.0, 1.0), 1e-9, |x| good(1.0 / x)), Err(RootError::NotFinite(..))));
+        let failing = root((0.0, 1.0), 1e-9, |_| Err::<f64, _>("lost"));
+        assert_eq!(failing, Err(RootError::Function("lost")));
+    }
+}

@@ -1,0 +1,48 @@
+//! Tables that others have written.
+
+use rhai::{Array, Dynamic, Map};
+
+use crate::analysis::Sheet;
+use crate::script::rows::call::Call;
+use crate::script::rows::parameter::text;
+use crate::script::rows::returns::Returns;
+use crate::script::rows::table::{Table, function};
+use crate::script::words::error::{Place, ScriptError};
+
+/// The domain of tables that others have written.
+pub const TABLE: Table = Table {
+    name: "measurements",
+    doc: "Tables from other programs, as arrays of numbers.",
+    types: &[],
+    setup: "",
+    constants: &[],
+    rows: &[
+        function("read_csv", &[text("file").doc("its name in the output folder, or in that of the script")], read_csv)
+            .returns(Returns::MAP)
+            .summary("Reads a table of numbers: a map of its columns by their names, each an array.")
+            .doc("Comma-separated values with the names of the columns in the first line; lines that begin with # are left out. Every cell must be a finite number.")
+            .example(
+                "write_csv([#{ t: 0, x: 1 }, #{ t: 0.5, x: 0.25 }], \"measured.csv\");\nlet measured = read_csv(\"measured.csv\");\ncheck(measured.x == [1, 0.25]);",
+            )
+            .see(&["fit", "write_csv"]),
+    ],
+};
+
+fn read_csv(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let file = call.text("file")?;
+    let at = |error: ScriptError| error.at(Place::Argument(0));
+    let bytes = call.context().read_file(&file).map_err(at)?;
+    let told = |why: String| call.error(format!("\"{file}\": {why}")).at(Place::Argument(0));
+    let text = String::from_utf8(bytes).map_err(|_| told("it is not UTF-8 text".into()))?;
+    let sheet = Sheet::parse(&text).map_err(|error| told(error.to_string()))?;
+    if sheet.is_empty() {
+        return Err(told("it has no rows".into()));
+    }
+    let column = |name: &String| {
+        let number = |row| sheet.number(row, name).map(Dynamic::from);
+        let numbers = (0..sheet.len()).map(number).collect::<Result<Array, _>>();
+        let numbers = numbers.map_err(|error| told(error.to_string()))?;
+        Ok((name.as_str().into(), numbers.into()))
+    };
+    Ok(sheet.columns().iter().map(column).collect::<Result<Map, ScriptError>>()?.into())
+}

@@ -1,0 +1,171 @@
+//! Parts of studies, as several machines make them: which cases belong to one, and the files in which parts are kept until they are joined.
+
+use std::io;
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use crate::folders::Folder;
+use crate::script::words::error::ScriptError;
+
+/// A part of all studies of a script: every so manieth case of each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Part {
+    /// How many parts there are.
+    pub of: u32,
+    /// The number of the part, from 1.
+    pub number: u32,
+}
+
+/// A text that names no part.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("a part is written as 3/16: its number, from 1, and how many there are")]
+pub struct NoPart;
+
+impl FromStr for Part {
+    type Err = NoPart;
+
+    fn from_str(text: &str) -> Result<Self, NoPart> {
+        let (number, of) = text.split_once('/').ok_or(NoPart)?;
+        let (number, of) = (number.parse().map_err(|_| NoPart)?, of.parse().map_err(|_| NoPart)?);
+        if (1..=of).contains(&number) { Ok(Self { of, number }) } else { Err(NoPart) }
+    }
+}
+
+impl Part {
+    /// All of a study.
+    pub const WHOLE: Self = Self { of: 1, number: 1 };
+
+    /// Whether a case belongs to the part.
+    pub fn has(self, case: usize) -> bool {
+        case % self.of as usize == self.number as usize - 1
+    }
+
+    /// The name of the file in which the part of a study is kept.
+    pub fn file(self, study: &str) -> String {
+        format!("{study}.{}-of-{}.part", self.number, self.of)
+    }
+
+    /// The part that a file of the part of a study is, by its name.
+    fn of_file(study: &str, file: &str) -> Option<Self> {
+        let middle = file.strip_prefix(study)?.strip_prefix('.')?.strip_suffix(".part")?;
+        let (number, of) = middle.split_once("-of-")?;
+        format!("{number}/{of}").parse().ok()
+    }
+}
+
+/// The files of all parts of a study in some folders, in the order of the parts.
+///
+/// # Errors
+/// When there are none, some are missing, one is there twice, or they are parts of different numbers; or a folder cannot be read.
+pub fn find_parts(study: &str, folders: &[PathBuf]) -> Result<Vec<(Part, PathBuf)>, ScriptError> {
+    let mut found: Vec<(Part, PathBuf)> = Vec::new();
+    for folder in folders {
+        let names = file_names(&folder.join(study)).map_err(|error| {
+            ScriptError::new(format!("cannot read the folder '{}': {error}", folder.display()))
+                .hint("--merge takes the folders that --out of the parts named")
+        })?;
+        let base = Path::new(study).file_name().unwrap_or_default().to_string_lossy().into_owned();
+        for name in names {
+            if let Some(part) = Part::of_file(&base, &name) {
+                found.push((part, folder.join(study).with_file_name(name)));
+            }
+        }
+    }
+    found.sort();
+    let Some((Part { of, .. }, _)) = found.first().cloned() else {
+        let told = format!("there is no part of the study '{study}' in the folders to be merged");
+        return Err(ScriptError::new(told)
+            .hint("make them with withy study FILE --part 1/4 --out DIR, and so on"));
+    };
+    if let Some((other, path)) = found.iter().find(|(part, _)| part.of != of) {
+        let told =
+            format!("'{}' is one of {} parts, and others are of {of}", path.display(), other.of);
+        return Err(ScriptError::new(told).hint("give the folders of one division alone"));
+    }
+    if let Some(pair) = found.windows(2).find(|pair| pair[0].0 == pair[1].0) {
+        let ((part, first), (_, second)) = (&pair[0], &pair[1]);
+        let (number, first, second) = (part.number, first.display(), second.display());
+        let told = format!(
+            "part {number} of {of} of the study '{study}' is there twice: '{first}' and '{second}'"
+        );
+        return Err(ScriptError::new(told).hint("give the folder of one of them alone"));
+    }
+    let is_there = |number: &u32| found.iter().any(|(part, _)| part.number == *number);
+    let missing: Vec<String> =
+        (1..=of).filter(|number| !is_there(number)).map(|number| number.to_string()).collect();
+    match missing.as_slice() {
+        [] => Ok(found),
+        missing => {
+            let told = format!(
+                "of the {of} parts of the study '{study}' these are missing: {}",
+                missing.join(", ")
+            );
+            Err(ScriptError::new(told)
+                .hint("make them with the same command and --part, or name their folders too"))
+        }
+    }
+}
+
+/// The names of the files beside a path; none where there is no such folder.
+fn file_names(path: &Path) -> io::Result<Vec<String>> {
+    let folder = path.parent().filter(|above| !above.as_os_str().is_empty());
+    let folder = match Folder::open(folder.unwrap_or(Path::new("."))) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
+        opened => opened?,
+    };
+    let files = folder.entries()?.into_iter().filter(|entry| !entry.is_folder);
+    Ok(files.map(|entry| entry.name.to_string_lossy().into_owned()).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_case_belongs_to_one_part() {
+        let parts: Vec<Part> = (1..=3).map(|number| Part { of: 3, number }).collect();
+        for case in 0..10 {
+            assert_eq!(parts.iter().filter(|part| part.has(case)).count(), 1);
+        }
+        assert_eq!("3/16".parse(), Ok(Part { of: 16, number: 3 }));
+        for wrong in ["0/3", "4/3", "3", "a/b", "1/0", ""] {
+            assert_eq!(wrong.parse::<Part>(), Err(NoPart), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn parts_are_found_and_what_is_wrong_with_them_is_told() {
+        let home = tempfile::tempdir().unwrap();
+        let folder = |name: &str| home.path().join(name);
+        let lay = |place: &str, number, of| {
+            std::fs::create_dir_all(folder(place)).unwrap();
+            std::fs::write(folder(place).join(Part { of, number }.file("crane")), "").unwrap();
+        };
+        let told = |places: &[&str]| {
+            let folders: Vec<PathBuf> = places.iter().map(|place| folder(place)).collect();
+            match find_parts("crane", &folders) {
+                Ok(found) => found
+                    .iter()
+                    .map(|(part, _)| part.number.to_string())
+                    .collect::<Vec<_>>()
+                    .join(" "),
+                Err(ScriptError::Failure(failure)) => failure.message,
+                Err(other) => format!("{other:?}"),
+            }
+        };
+        assert!(told(&["a"]).contains("there is no part of the study 'crane'"));
+        lay("a", 1, 3);
+        lay("a", 3, 3);
+        assert!(told(&["a"]).ends_with("these are missing: 2"), "{}", told(&["a"]));
+        lay("b", 2, 3);
+        assert_eq!(told(&["a", "b"]), "1 2 3");
+        lay("c", 3, 3);
+        assert!(told(&["a", "b", "c"]).contains("part 3 of 3 of the study 'crane' is there twice"));
+        lay("d", 1, 2);
+        assert!(
+            told(&["a", "b", "d"]).contains("is one of 2 parts, and others are of"),
+            "{}",
+            told(&["a", "b", "d"])
+        );
+    }
+}

@@ -1,0 +1,268 @@
+//! Designs: parameters for which a result is least or largest, within constraints on others.
+
+use std::time::Duration;
+
+use rhai::{Array, Dynamic, FnPtr, Map};
+
+use super::ranges::Ranges;
+use crate::fitting::{Design, Rating};
+use crate::output::{Cell, Table, significant};
+use crate::script::rows::call::Call;
+use crate::script::studies::calls::evaluator::{Answer, Question};
+use crate::script::studies::calls::function::RunFunction;
+use crate::script::studies::plan::at_key;
+use crate::script::words::error::{Place, ScriptError};
+use crate::script::words::numbers::{as_number, format_number};
+
+/// Digits of a number in the table.
+const DIGITS: usize = 6;
+
+/// What is wanted of a result.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Goal {
+    /// The result of this name is to be least.
+    Least(String),
+    /// The result of this name is to be largest.
+    Largest(String),
+}
+
+/// Between which numbers a result must be.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Limit {
+    /// The name of the result.
+    pub name: String,
+    /// The least allowed, if there is one.
+    pub low: Option<f64>,
+    /// The largest allowed, if there is one.
+    pub high: Option<f64>,
+}
+
+/// What is asked of a design.
+pub struct DesignOrder<'o> {
+    /// The parameters.
+    pub ranges: Ranges,
+    /// The function, which gives a map of numbers.
+    pub function: &'o FnPtr,
+    /// What is wanted.
+    pub goal: Goal,
+    /// What must hold.
+    pub limits: Vec<Limit>,
+    /// How well parameters are to be known, as a part of their ranges.
+    pub tolerance: f64,
+    /// The most runs.
+    pub most_runs: usize,
+    /// The longest that a run may take by the clock.
+    pub wall: Duration,
+}
+
+/// The best design that was found.
+#[derive(Clone)]
+pub struct BestDesign {
+    /// The names of the parameters with their values.
+    pub parameters: Vec<(String, f64)>,
+    /// The results of the run with them.
+    pub results: Vec<(String, f64)>,
+    /// Whether the search came to its end before the most runs were made.
+    pub is_settled: bool,
+    /// How often the function was called.
+    pub runs: usize,
+}
+
+impl Goal {
+    fn name(&self) -> &str {
+        match self {
+            Self::Least(name) | Self::Largest(name) => name,
+        }
+    }
+}
+
+impl Limit {
+    /// Reads the option `constraints`.
+    pub fn read_all(call: &Call, given: &Dynamic) -> Result<Vec<Self>, ScriptError> {
+        let shape = "write constraints: #{ sag: [-1e-3, 1e-3], mass: [(), 5] }: the least and the largest that is allowed, () for none";
+        let Some(map) = given.read_lock::<Map>() else {
+            let told = format!("constraints are {}", call.describe(given));
+            return Err(at_key(call, "constraints", told, shape));
+        };
+        let limit = |(name, value): (&rhai::Identifier, &Dynamic)| {
+            let wrong = || {
+                let told = format!("the constraint on '{name}' is {}", call.describe(value));
+                call.error(told).hint(shape).at(Place::Key(name.to_string()))
+            };
+            let array = value.clone().try_cast::<Array>().ok_or_else(wrong)?;
+            let end = |value: &Dynamic| match value.is_unit() {
+                true => Ok(None),
+                false => as_number(value).filter(|x| x.is_finite()).map(Some).ok_or_else(wrong),
+            };
+            let [low, high] = array.as_slice() else { return Err(wrong()) };
+            let (low, high) = (end(low)?, end(high)?);
+            match (low, high) {
+                (None, None) => Err(wrong()),
+                (Some(low), Some(high)) if low > high => Err(wrong()),
+                _ => Ok(Self { name: name.to_string(), low, high }),
+            }
+        };
+        map.iter().map(limit).collect()
+    }
+
+    /// How far a result is from its ends, in parts of them: negative where it is beyond.
+    fn distances(&self, value: f64) -> impl Iterator<Item = f64> {
+        let size = [self.low, self.high].into_iter().flatten().map(f64::abs).fold(0.0, f64::max);
+        let size = if size > 0.0 { size } else { 1.0 };
+        let low = self.low.map(|low| (value - low) / size);
+        low.into_iter().chain(self.high.map(|high| (high - value) / size))
+    }
+
+    /// The limit in words.
+    fn describe(&self) -> String {
+        let name = &self.name;
+        match (self.low.map(format_number), self.high.map(format_number)) {
+            (Some(low), Some(high)) => format!("{low} ≤ {name} ≤ {high}"),
+            (Some(low), None) => format!("{name} ≥ {low}"),
+            (None, Some(high)) => format!("{name} ≤ {high}"),
+            (None, None) => name.clone(),
+        }
+    }
+}
+
+/// A map of numbers, in the order of its names; names are found by [`names`].
+fn values(given: &Dynamic) -> Answer {
+    let Some(map) = given.read_lock::<Map>() else {
+        return Answer::Wrong(
+            "it gives no map of numbers, such as #{ mass: mass, sag: sag }".into(),
+        );
+    };
+    let mut numbers = Vec::with_capacity(map.len());
+    for (name, value) in map.iter() {
+        match as_number(value) {
+            Some(number) if number.is_finite() => numbers.push(number),
+            Some(_) => return Answer::Failed(format!("'{name}' is not a finite number")),
+            None => return Answer::Wrong(format!("it gives '{name}', which is no number")),
+        }
+    }
+    Answer::Numbers(numbers)
+}
+
+fn names(given: &Dynamic) -> Vec<String> {
+    given
+        .read_lock::<Map>()
+        .map(|map| map.keys().map(ToString::to_string).collect())
+        .unwrap_or_default()
+}
+
+impl DesignOrder<'_> {
+    /// Finds the best design.
+    ///
+    /// # Errors
+    /// When the function is wrong or fails at the start, a result is missing, or no run meets the constraints.
+    pub fn make(self, call: &Call) -> Result<BestDesign, ScriptError> {
+        let function = RunFunction::read(call, "run", self.function)?;
+        let question = Question {
+            key: "run",
+            names: &self.ranges.names,
+            function: &function,
+            read: values,
+            wall: self.wall,
+        };
+        let start: Vec<f64> =
+            self.ranges.ranges.iter().map(|range| range.clip(range.start)).collect();
+        // The names of the results, and what is wrong with the first run, where it is wrong.
+        let results = names(&call.context().silently(|| question.here(call, &start))?);
+        let place = |name: &str| {
+            results.iter().position(|known| known == name).ok_or_else(|| {
+                let told = format!("the function of 'run' gives no '{name}'");
+                call.error(told)
+                    .hint(format!("it gives {}", results.join(", ")))
+                    .at(Place::Key("run".into()))
+            })
+        };
+        let goal = place(self.goal.name())?;
+        let limits = self.limits.iter().map(|limit| Ok((place(&limit.name)?, limit)));
+        let limits: Vec<(usize, &Limit)> = limits.collect::<Result<_, ScriptError>>()?;
+        let constraints = limits.iter().map(|(_, limit)| limit.distances(0.0).count()).sum();
+        let design = Design {
+            ranges: self.ranges.ranges.clone(),
+            constraints,
+            tolerance: self.tolerance,
+            most_runs: self.most_runs,
+        };
+        let mut size = None;
+        let found = question.with_evaluator(call, |evaluator| {
+            let found = design.solve(|x| -> Result<Option<Rating>, ScriptError> {
+                let answer = evaluator.ask(&[x.to_vec()])?.into_iter().next();
+                let Some(Ok(numbers)) = answer else { return Ok(None) };
+                if numbers.len() != results.len() {
+                    return Ok(None);
+                }
+                let size = *size.get_or_insert(numbers[goal].abs().max(f64::MIN_POSITIVE));
+                let objective = match self.goal {
+                    Goal::Least(_) => numbers[goal] / size,
+                    Goal::Largest(_) => -numbers[goal] / size,
+                };
+                let distances = limits.iter().flat_map(|(at, limit)| limit.distances(numbers[*at]));
+                Ok(Some(Rating { objective, constraints: distances.collect() }))
+            })?;
+            let Some(found) = found else { return Ok(None) };
+            let again = evaluator.ask(std::slice::from_ref(&found.parameters))?;
+            Ok(Some((found, again)))
+        })?;
+        let Some((found, again)) = found else {
+            return Err(question.blame(
+                call,
+                &start,
+                "it fails, and at all other designs that were tried",
+            ));
+        };
+        if !found.is_feasible {
+            let wanted: Vec<String> = self.limits.iter().map(Limit::describe).collect();
+            let told =
+                format!("none of {} runs meets the constraints {}", found.runs, wanted.join(", "));
+            let hint = "begin where they are met, or allow more";
+            return Err(at_key(call, "constraints", told, hint));
+        }
+        let numbers = again.into_iter().next().and_then(Result::ok).unwrap_or_default();
+        Ok(BestDesign {
+            parameters: self.ranges.names.into_iter().zip(found.parameters).collect(),
+            results: results.into_iter().zip(numbers).collect(),
+            is_settled: found.is_settled,
+            runs: found.runs,
+        })
+    }
+}
+
+impl DesignOrder<'_> {
+    /// What a dry build pretends to have found: the design is where it begins; the function is called there.
+    ///
+    /// # Errors
+    /// Those of the function.
+    pub fn pretend(self, call: &Call) -> Result<BestDesign, ScriptError> {
+        let function = RunFunction::read(call, "run", self.function)?;
+        let start: Vec<f64> =
+            self.ranges.ranges.iter().map(|range| range.clip(range.start)).collect();
+        let given = function.call_here(call, "run", self.ranges.named(&start))?;
+        let results = given.read_lock::<Map>().map(|map| {
+            map.iter()
+                .map(|(name, value)| (name.to_string(), as_number(value).unwrap_or(0.0)))
+                .collect()
+        });
+        let parameters = self.ranges.names.into_iter().zip(start).collect();
+        Ok(BestDesign {
+            parameters,
+            results: results.unwrap_or_default(),
+            is_settled: true,
+            runs: 0,
+        })
+    }
+}
+
+impl BestDesign {
+    /// The design as a table for people.
+    pub fn text(&self) -> String {
+        let outcome = if self.is_settled { "settled" } else { "the most runs were made" };
+        let mut table = Table::new(&["", "value"]);
+        for (name, value) in self.parameters.iter().chain(&self.results) {
+            table.row([Cell::from(name.as_str()), Cell::Number(significant(*value, DIGITS))]);
+        }
+        format!("design: {outcome} after {} runs\n{}", self.runs, table.to_string().trim_end())
+    }
+}

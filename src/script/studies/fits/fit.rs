@@ -1,0 +1,282 @@
+//! Fits: parameters for which what a function gives is nearest to data.
+
+use std::time::Duration;
+
+use rhai::{Array, Dynamic, FnPtr};
+
+use super::ranges::Ranges;
+use crate::fitting::{Estimate, Fitted, LeastSquares, Settling};
+use crate::output::{Cell, LineChart, Marker, Page, Panel, Series, Stroke, Table, significant};
+use crate::script::rows::call::Call;
+use crate::script::studies::calls::evaluator::{Answer, Question};
+use crate::script::studies::calls::function::RunFunction;
+use crate::script::words::error::ScriptError;
+use crate::script::words::numbers::as_number;
+
+/// Digits of a parameter in the table.
+const DIGITS: usize = 7;
+/// Digits of an error of one.
+const ERROR_DIGITS: usize = 2;
+
+/// What the function of a fit gives.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Compared {
+    /// Residuals themselves.
+    Residuals,
+    /// A model, of which these are the measured values, over these places where they are given.
+    Model {
+        /// What was measured.
+        measured: Vec<f64>,
+        /// Where or when.
+        over: Option<Vec<f64>>,
+    },
+}
+
+/// What is asked of a fit.
+pub struct FitOrder<'o> {
+    /// The name of the fit and of its files.
+    pub name: String,
+    /// The parameters.
+    pub ranges: Ranges,
+    /// The key under which the function stands.
+    pub key: &'static str,
+    /// The function.
+    pub function: &'o FnPtr,
+    /// What it is called with behind the map of parameters.
+    pub data: Option<Dynamic>,
+    /// What it gives.
+    pub compared: Compared,
+    /// The weights of the squares; none where all are one.
+    pub weights: Option<Vec<f64>>,
+    /// The probability with which a parameter lies in its interval.
+    pub confidence: f64,
+    /// The distance of differences as a part of the size of a parameter.
+    pub step: f64,
+    /// The longest that a run may take by the clock.
+    pub wall: Duration,
+}
+
+/// A finished fit.
+#[derive(Clone)]
+pub struct Fit {
+    /// The name of the fit and of its files.
+    pub name: String,
+    /// The names of the parameters, in the order of the numbers.
+    pub names: Vec<String>,
+    /// What was found; residuals are weighted.
+    pub fitted: Fitted,
+    /// The residuals as the function gave them.
+    pub residuals: Vec<f64>,
+    /// What they are of.
+    pub compared: Compared,
+    /// The probability with which a parameter lies in its interval.
+    pub confidence: f64,
+}
+
+impl FitOrder<'_> {
+    /// Finds the parameters.
+    ///
+    /// # Errors
+    /// When the function is wrong, fails at the start, or gives other numbers than there is data.
+    pub fn make(self, call: &Call) -> Result<Fit, ScriptError> {
+        let mut function = RunFunction::read(call, self.key, self.function)?;
+        if let Some(data) = &self.data {
+            function.take(call, "data", data)?;
+        }
+        let question = Question {
+            key: self.key,
+            names: &self.ranges.names,
+            function: &function,
+            read: numbers,
+            wall: self.wall,
+        };
+        let problem = LeastSquares {
+            relative_step: self.step,
+            ..LeastSquares::new(self.ranges.ranges.clone())
+        };
+        let roots: Option<Vec<f64>> = self
+            .weights
+            .as_ref()
+            .map(|weights| weights.iter().map(|weight| weight.sqrt()).collect());
+        let fitted = question.with_evaluator(call, |evaluator| {
+            let mut evaluate = |points: &[Vec<f64>]| {
+                let found = evaluator.ask(points)?;
+                let of = |found: Result<Vec<f64>, String>| -> Result<Vec<f64>, String> {
+                    Ok(weighted(roots.as_deref(), self.differences(found?)?))
+                };
+                Ok(found.into_iter().map(of).collect())
+            };
+            problem.solve(&mut evaluate)
+        })?;
+        let start: Vec<f64> =
+            self.ranges.ranges.iter().map(|range| range.clip(range.start)).collect();
+        let fitted = fitted.map_err(|reason| question.blame(call, &start, &reason))?;
+        let residuals = match &roots {
+            None => fitted.residuals.clone(),
+            Some(roots) => fitted.residuals.iter().zip(roots).map(|(r, root)| r / root).collect(),
+        };
+        let Self { name, ranges: Ranges { names, .. }, compared, confidence, .. } = self;
+        Ok(Fit { name, names, fitted, residuals, compared, confidence })
+    }
+
+    /// What a dry build pretends to have found: the parameters are where they begin; the function is called there.
+    ///
+    /// # Errors
+    /// Those of the function.
+    pub fn pretend(self, call: &Call) -> Result<Fit, ScriptError> {
+        let mut function = RunFunction::read(call, self.key, self.function)?;
+        if let Some(data) = &self.data {
+            function.take(call, "data", data)?;
+        }
+        let start: Vec<f64> =
+            self.ranges.ranges.iter().map(|range| range.clip(range.start)).collect();
+        let _ = function.call_here(call, self.key, self.ranges.named(&start))?;
+        let residuals = match &self.compared {
+            Compared::Model { measured, .. } => vec![0.0; measured.len()],
+            Compared::Residuals => Vec::new(),
+        };
+        let free = vec![true; start.len()];
+        let rows = nalgebra::DMatrix::identity(start.len() + 1, start.len());
+        let fitted = Fitted {
+            parameters: start,
+            residuals: residuals.clone(),
+            estimate: Estimate::of(&rows, 0.0, &free),
+            settling: Settling::Settled,
+            runs: 0,
+            steps: 0,
+        };
+        let Self { name, ranges: Ranges { names, .. }, compared, confidence, .. } = self;
+        Ok(Fit { name, names, fitted, residuals, compared, confidence })
+    }
+
+    /// The residuals of what the function gave.
+    fn differences(&self, found: Vec<f64>) -> Result<Vec<f64>, String> {
+        let expected = match &self.compared {
+            Compared::Model { measured, .. } => Some(measured.len()),
+            Compared::Residuals => self.weights.as_ref().map(Vec::len),
+        };
+        match (expected, &self.compared) {
+            (Some(count), _) if count != found.len() => Err(format!(
+                "it gives {} numbers, and there are {count} to compare them with",
+                found.len()
+            )),
+            (_, Compared::Model { measured, .. }) => {
+                Ok(found.iter().zip(measured).map(|(found, measured)| found - measured).collect())
+            }
+            (_, Compared::Residuals) => Ok(found),
+        }
+    }
+}
+
+fn weighted(roots: Option<&[f64]>, residuals: Vec<f64>) -> Vec<f64> {
+    match roots {
+        None => residuals,
+        Some(roots) => residuals.iter().zip(roots).map(|(r, root)| r * root).collect(),
+    }
+}
+
+/// The numbers of an array, all finite.
+fn numbers(given: &Dynamic) -> Answer {
+    let Some(array) = given.read_lock::<Array>() else {
+        return Answer::Wrong("it gives no array of numbers".into());
+    };
+    let mut numbers = Vec::with_capacity(array.len());
+    for (at, value) in array.iter().enumerate() {
+        match as_number(value) {
+            Some(number) if number.is_finite() => numbers.push(number),
+            Some(_) => {
+                return Answer::Failed(format!("number {at} of what it gives is not finite"));
+            }
+            None => return Answer::Wrong(format!("what it gives at index {at} is no number")),
+        }
+    }
+    match numbers.is_empty() {
+        true => Answer::Wrong("it gives an empty array".into()),
+        false => Answer::Numbers(numbers),
+    }
+}
+
+impl Fit {
+    /// Half the width of the interval of confidence of a parameter; none where nothing tells.
+    pub fn half_width(&self, parameter: usize) -> Option<f64> {
+        let estimate = self.fitted.estimate.as_ref()?;
+        Some(estimate.half_width(parameter, self.confidence))
+    }
+
+    /// How the search ended, in words.
+    pub fn outcome(&self) -> &'static str {
+        match self.fitted.settling {
+            Settling::Settled => "settled",
+            Settling::Stuck => "no step is better, though the derivatives promise it",
+            Settling::Unfinished => "not settled after the most steps",
+        }
+    }
+
+    /// The fit as a table for people.
+    pub fn text(&self) -> String {
+        let Fitted { parameters, estimate, runs, .. } = &self.fitted;
+        let share = format!("± at {} %", significant(100.0 * self.confidence, 3));
+        let mut table = Table::new(&["parameter", "value", "standard error", &share]);
+        for (at, name) in self.names.iter().enumerate() {
+            let error = |x: Option<f64>| {
+                Cell::Number(x.map_or("-".to_owned(), |x| significant(x, ERROR_DIGITS)))
+            };
+            table.row([
+                Cell::from(name.as_str()),
+                Cell::Number(significant(parameters[at], DIGITS)),
+                error(estimate.as_ref().map(|of| of.error(at))),
+                error(self.half_width(at)),
+            ]);
+        }
+        let scatter = estimate.as_ref().map_or(String::new(), |of| {
+            let deviation = significant(of.deviation, 3);
+            format!(", standard deviation of residuals {deviation}")
+        });
+        let count = self.residuals.len();
+        format!(
+            "fit '{}': {} after {runs} runs, {count} residuals{scatter}\n{}",
+            self.name,
+            self.outcome(),
+            table.to_string().trim_end()
+        )
+    }
+
+    /// The data with the model, where there is one, and the residuals below.
+    pub fn page(&self) -> Page {
+        let count = self.residuals.len();
+        let places: Vec<f64> = match &self.compared {
+            Compared::Model { over: Some(over), .. } => over.clone(),
+            _ => (0..count).map(|at| at as f64).collect(),
+        };
+        let over = |values: &[f64]| places.iter().copied().zip(values.iter().copied()).collect();
+        let residuals = LineChart::new("").y_label("residual").series(
+            Series::new("", over(&self.residuals))
+                .stroke(Stroke::Unjoined)
+                .marker(Marker::Ring)
+                .thin(),
+        );
+        let page = Page::grid(1).title(&self.name);
+        match &self.compared {
+            Compared::Residuals => page.panel(residuals),
+            Compared::Model { measured, .. } => {
+                let fitted: Vec<f64> =
+                    measured.iter().zip(&self.residuals).map(|(m, r)| m + r).collect();
+                let chart = LineChart::new("").series(Series::new("fitted", over(&fitted))).series(
+                    Series::new("measured", over(measured))
+                        .stroke(Stroke::Unjoined)
+                        .marker(Marker::Ring)
+                        .thin(),
+                );
+                page.panel(chart).panel(residuals)
+            }
+        }
+    }
+
+    /// The page as a picture.
+    ///
+    /// # Errors
+    /// When it cannot be drawn.
+    pub fn picture(&self) -> Result<String, ScriptError> {
+        Ok(self.page().figure()?.to_svg()?)
+    }
+}

@@ -1,0 +1,66 @@
+//! Parameters that are searched for: where each begins, and between which bounds it stays.
+
+use rhai::{Array, Dynamic, Map};
+
+use crate::fitting::Range;
+use crate::script::rows::accept::readable;
+use crate::script::rows::call::Call;
+use crate::script::studies::plan::at_key;
+use crate::script::words::error::{Place, ScriptError};
+use crate::script::words::numbers::{as_number, format_number};
+
+/// Parameters that are searched for, in the order of their names.
+pub struct Ranges {
+    /// Their names.
+    pub names: Vec<String>,
+    /// Where each begins and stays.
+    pub ranges: Vec<Range>,
+}
+
+const SHAPE: &str = "write EI: [10, 1, 100], which is where it begins, the least and the largest value, or EI: 10 where it has no bounds";
+
+impl Ranges {
+    /// Reads the option `parameters`.
+    pub fn read(call: &Call, given: &Dynamic) -> Result<Self, ScriptError> {
+        let map = given.read_lock::<Map>().filter(|map| !map.is_empty());
+        let Some(map) = map else {
+            let told = "parameters must be a map with at least one name";
+            return Err(at_key(call, "parameters", told, SHAPE));
+        };
+        let (mut names, mut ranges) = (Vec::new(), Vec::new());
+        for (name, value) in map.iter() {
+            let at = |error: ScriptError| error.at(Place::Key(name.to_string()));
+            names.push(readable("parameters", name).map_err(at)?);
+            ranges.push(range(call, name, value).map_err(at)?);
+        }
+        Ok(Self { names, ranges })
+    }
+
+    /// Values of the parameters by their names.
+    pub fn named(&self, values: &[f64]) -> Map {
+        let pairs = self.names.iter().zip(values);
+        pairs.map(|(name, value)| (name.as_str().into(), Dynamic::from(*value))).collect()
+    }
+}
+
+fn range(call: &Call, name: &str, value: &Dynamic) -> Result<Range, ScriptError> {
+    let wrong = |told: String| call.error(told).hint(SHAPE);
+    let finite = |value: &Dynamic| as_number(value).filter(|x| x.is_finite());
+    if let Some(start) = finite(value) {
+        return Ok(Range { start, low: f64::NEG_INFINITY, high: f64::INFINITY });
+    }
+    let numbers = value
+        .read_lock::<Array>()
+        .and_then(|array| array.iter().map(finite).collect::<Option<Vec<f64>>>());
+    match numbers.as_deref() {
+        Some(&[start, low, high]) if low < high && (low..=high).contains(&start) => {
+            Ok(Range { start, low, high })
+        }
+        Some(&[start, low, high]) => {
+            let [start, low, high] = [start, low, high].map(format_number);
+            Err(wrong(format!("'{name}' begins at {start}, and its bounds are {low} and {high}")))
+        }
+        Some(other) => Err(wrong(format!("'{name}' has {} numbers", other.len()))),
+        None => Err(wrong(format!("'{name}' is {}", call.describe(value)))),
+    }
+}

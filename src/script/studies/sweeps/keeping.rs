@@ -1,0 +1,97 @@
+//! What is kept of a sweep on disk: its journal, the part of it that is made here, or the parts from which it is joined.
+
+use std::path::PathBuf;
+
+use super::ledger::Ledger;
+use super::run::Order;
+use crate::analysis::{Journal, RowEntry, read_rows};
+use crate::script::rows::call::Call;
+use crate::script::rows::sources::Sources;
+use crate::script::state::journals::{Lasting, RowKeeper};
+use crate::script::state::parts::{Part, find_parts};
+use crate::script::studies::calls::function::RunFunction;
+use crate::script::words::error::ScriptError;
+
+impl Order<'_> {
+    /// The journal of the sweep, where the run wants one; what it knows is in the ledger then. Where parts are joined, all rows are, and nothing is kept.
+    ///
+    /// # Errors
+    /// When a file cannot be read or written, or the parts are not those of the whole sweep.
+    pub fn keeper(
+        &self,
+        call: &Call,
+        function: &RunFunction,
+        ledger: &mut Ledger,
+    ) -> Result<Option<RowKeeper>, ScriptError> {
+        let context = call.context();
+        let (wishes, rows) = (context.studies(), ledger.rows as u64);
+        let fingerprint = self.fingerprint(call, function);
+        let about =
+            |part: Part| RowEntry::Sweep { fingerprint, rows, part: (part.number, part.of) };
+        if wishes.part.is_none() && !wishes.merge.is_empty() {
+            self.join(&wishes.merge, about, ledger)?;
+            return Ok(None);
+        }
+        let (file, lasting) = match wishes.part {
+            Some(part) => (part.file(&self.name), Lasting::Longer),
+            None => (format!("{}.journal", self.name), Lasting::UntilTheEnd),
+        };
+        let path = context.output().path_of(&file)?;
+        let about = about(wishes.part.unwrap_or(Part::WHOLE));
+        let kept = (wishes.journal, lasting);
+        context.journals().open_rows(path, kept, about, |entry| ledger.recall(entry))
+    }
+
+    /// Reads all rows from the files of parts.
+    fn join(
+        &self,
+        folders: &[PathBuf],
+        about: impl Fn(Part) -> RowEntry,
+        ledger: &mut Ledger,
+    ) -> Result<(), ScriptError> {
+        for (part, file) in find_parts(&self.name, folders)? {
+            let (expected, mut is_same) = (about(part), None);
+            let read = read_rows::<std::io::Error>(&file, |entry| {
+                if *is_same.get_or_insert(entry == expected) {
+                    ledger.recall(entry);
+                }
+                Ok(())
+            });
+            let (file, number, of) = (file.display(), part.number, part.of);
+            read.map_err(|error| {
+                ScriptError::new(format!("cannot read the part '{file}': {error}"))
+            })?;
+            if is_same != Some(true) {
+                let told = format!(
+                    "'{file}' is not a part of this study: it is of another script, of other parameters, or of another build of withy"
+                );
+                return Err(
+                    ScriptError::new(told).hint("make it anew with this script and this withy")
+                );
+            }
+            let is_missing = |row: &usize| part.has(*row) && !ledger.knows(*row);
+            let missing = (0..ledger.rows).filter(is_missing).count();
+            if missing > 0 {
+                let name = &self.name;
+                let told = format!(
+                    "part {number} of {of} of the study '{name}' is not finished: {missing} rows are missing in '{file}'"
+                );
+                return Err(
+                    ScriptError::new(told).hint("the same command with --part goes on with it")
+                );
+            }
+        }
+        Ok(())
+    }
+
+    /// A number made of all that the rows depend on: the program, the texts of the script and of what it imports, what the function has captured, and
+    /// the parameters with their values.
+    fn fingerprint(&self, call: &Call, function: &RunFunction) -> u64 {
+        let told = format!("{:?} {:?}", function.captured, self.wall);
+        let script = call.context().program().map(|program| program.text.to_string());
+        let imports = Sources::of(call.engine()).imprint().to_le_bytes();
+        let parameters = self.plan.imprint();
+        let script = script.unwrap_or_default();
+        Journal::fingerprint(&[script.as_bytes(), told.as_bytes(), &imports, &parameters])
+    }
+}
