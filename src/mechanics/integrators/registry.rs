@@ -210,12 +210,13 @@ impl Method {
         }
     }
 
-    /// The longest part that a step is made of, as a share of it [-].
-    pub fn longest_part(&self) -> f64 {
-        match self {
+    /// The step whose longest part, of those that go the same way in time, is so long [time].
+    pub fn step_with_part(&self, duration: f64) -> f64 {
+        let [onwards, back] = match self {
             Self::FourthOrder => FourthOrder::LONGEST,
-            _ => 1.0,
-        }
+            _ => [1.0; 2],
+        };
+        duration / if duration < 0.0 { back } else { onwards }
     }
 
     /// The value of the method's parameter [-], if it has one.

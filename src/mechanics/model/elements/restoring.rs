@@ -4,6 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::larger;
 
+/// A force is none that is no more than this part of the largest of its law.
+const ROUNDING: f64 = 1e-12;
+
 /// A restoring force over an elongation `q`, a length or an angle.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum RestoringLaw {
@@ -81,11 +84,12 @@ impl RestoringLaw {
         }
     }
 
-    /// Whether there is no force at an elongation, as far as what was sampled can tell.
+    /// Whether there is no force at an elongation, as far as rounding and what was sampled can tell.
     pub fn is_at_ease(&self, q: f64) -> bool {
         let off = match self {
-            Self::Linear { .. } | Self::Table { .. } => 0.0,
-            Self::Sampled { error, .. } => *error,
+            Self::Linear { stiffness, natural } => ROUNDING * (stiffness * natural).abs(),
+            Self::Table { points } => ROUNDING * largest(points),
+            Self::Sampled { points, error } => larger(*error, ROUNDING * largest(points)),
         };
         self.force(q).abs() <= off
     }
@@ -168,6 +172,10 @@ impl RestoringLaw {
     }
 }
 
+fn largest(points: &[(f64, f64)]) -> f64 {
+    points.iter().map(|(_, force)| force.abs()).fold(0.0, larger)
+}
+
 fn moved(points: &[(f64, f64)], by: f64) -> Vec<(f64, f64)> {
     points.iter().map(|(q, force)| (q + by, *force)).collect()
 }
@@ -243,6 +251,21 @@ mod tests {
         }
         let constant = RestoringLaw::Table { points: vec![(1.0, 2.0), (2.0, 2.0)] };
         assert_eq!([constant.energy(1.0), constant.energy(0.0)], [0.0, -2.0]);
+    }
+
+    #[test]
+    fn a_law_is_at_ease_where_its_force_is_none_but_for_rounding() {
+        let line = |q: f64| (q, 16.1 * q);
+        let points = vec![line(-2.0), line(-0.7), line(1.9)];
+        let error = 0.0;
+        for law in [
+            RestoringLaw::Table { points: points.clone() },
+            RestoringLaw::Sampled { points, error },
+        ] {
+            assert!(law.is_at_ease(0.0) && !law.is_at_ease(1e-9), "{law:?}");
+        }
+        let linear = RestoringLaw::Linear { stiffness: 3.0, natural: 0.1 };
+        assert!(linear.is_at_ease(0.3 - 0.2) && !linear.is_at_ease(0.0));
     }
 
     #[test]

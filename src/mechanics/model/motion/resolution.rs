@@ -35,7 +35,7 @@ pub struct Resolution {
     last: f64,
     /// The largest rotation of a section in a step [rad].
     rotation: f64,
-    /// How long the step was, or the part of one, in which a section turned so far [time].
+    /// How long the step was, or the part of one, in which a section turned so far; negative of one that went back [time].
     turned_in: f64,
     /// Motions below this are those of rounding [energy].
     noise: f64,
@@ -67,7 +67,7 @@ impl Resolution {
         if increment > self.rotation {
             let angle = rotations.angle(increment);
             if angle > self.rotation {
-                (self.rotation, self.turned_in) = (angle, duration.abs());
+                (self.rotation, self.turned_in) = (angle, duration);
             }
         }
         let is_as_long = (duration - self.last).abs() <= EQUALLY_LONG * duration.abs();
@@ -97,7 +97,7 @@ impl Resolution {
         self.rotation
     }
 
-    /// How long the step was in which a section turned so far, or the part of one [time].
+    /// How long the step was in which a section turned so far, or the part of one; negative of one that went back [time].
     pub fn turned_in(&self) -> f64 {
         self.turned_in
     }

@@ -50,7 +50,7 @@ impl Simulation {
             notes.push(Note::Motion { dt, share, period, lowest, suspects });
         }
         if resolution.rotation() > LARGEST_ROTATION {
-            let dt = resolution.turned_in() / self.settings.method.longest_part();
+            let dt = self.settings.method.step_with_part(resolution.turned_in());
             notes.push(Note::Rotation { dt, angle: resolution.rotation() });
         }
         for (index, slider) in self.model.slider_names().enumerate() {
