@@ -2,7 +2,7 @@
 //!
 //! `cargo bench --bench step` prints all tables; `cargo bench --bench step -- --csv FILE` measures only what depends on the
 //! number of unknowns, and writes it as a table that `benches/compare_lapack.py FILE` sets beside LAPACK. `--spans 1000,10000`
-//! measures beams of so many spans only, `--threads 1` with one thread where large beams are worked on by as many as there are
+//! measures beams of so many spans only; `--steps BEAMS,SPANS,STEPS` takes steps and nothing else, whose instructions valgrind counts; `--threads 1` with one thread where large beams are worked on by as many as there are
 //! cores.
 #![allow(clippy::unwrap_used)]
 
@@ -13,7 +13,7 @@ use withy::beams::{Mesh, Section, Station};
 use withy::geometry::{Curve, Vec2};
 use withy::integrators::{Forces, INTEGRATORS, Inertia, Interval, Mechanism, Method, Stage};
 use withy::joints::{EndAction, Slider, SlidingRule, StartVelocities};
-use withy::linalg::BandedMatrix;
+use withy::linalg::{BorderShape, BorderedMatrix};
 use withy::loads::{Frame, LoadKind, Schedule};
 use withy::model::{BeamDefinition, Model, ParticleDefinition, Scene, StartMotion};
 use withy::newton::Tolerance;
@@ -185,9 +185,12 @@ fn costs(spans: usize, threads: usize) -> Costs {
     model.begin_step(Interval::between(0.0, DT), &Stage::ALL).unwrap();
     let increments: Vec<f64> = model.rates().iter().map(|rate| DT * rate).collect();
     let mut residual = vec![0.0; model.degrees_of_freedom()];
-    let mut tangent = BandedMatrix::zeros(unknowns, model.half_bandwidth());
-    let mut assemble = |model: &mut Model, tangent: &mut BandedMatrix| {
+    let half_bandwidth = model.half_bandwidth();
+    let mut tangent = BorderedMatrix::zeros(unknowns, half_bandwidth, BorderShape::default());
+    tangent.use_threads(threads);
+    let mut assemble = |model: &mut Model, tangent: &mut BorderedMatrix| {
         tangent.clear();
+        let tangent = tangent.band_mut();
         residual.fill(0.0);
         model.add_inertia(2.0 / (DT * DT), &increments, &mut residual);
         model.add_inertia_tangent(2.0 / (DT * DT), tangent);
@@ -199,7 +202,7 @@ fn costs(spans: usize, threads: usize) -> Costs {
         timed(|| _ = black_box(tangent.factorise().unwrap()))
     });
     assemble(&mut model, &mut tangent);
-    let factors = tangent.factorise().unwrap();
+    let mut factors = tangent.factorise().unwrap();
     let right: Vec<f64> = (0..unknowns).map(|i| (i as f64).sin()).collect();
     let mut solution = right.clone();
     let solving = measure(|| {
@@ -216,6 +219,54 @@ fn costs(spans: usize, threads: usize) -> Costs {
     });
     let parts = [assembly, factorisation, solving, checking, step];
     Costs { spans, unknowns, bytes, parts, iterations: iterations as f64 / steps as f64 }
+}
+
+/// Flying beams of so many spans, side by side.
+fn flying_beams(beams: usize, spans: usize) -> Model {
+    let mut scene = flying_scene(spans);
+    let first = scene.beams[0].clone();
+    for beam in 1..beams {
+        let from = Vec2::new(20.0 * beam as f64, 0.0);
+        let along = Vec2::new(0.6, -0.8) * first.axis.length();
+        let axis = Curve::line(from, from + along).unwrap();
+        scene
+            .add_beam(BeamDefinition { name: format!("rod{beam}"), axis, ..first.clone() })
+            .unwrap();
+    }
+    Model::assemble(&scene).unwrap()
+}
+
+/// Takes steps of flying beams with so many threads, and nothing else: to be counted by valgrind, as the difference of two numbers of steps, or timed.
+/// `rule` is beams, spans and steps.
+fn take_steps(rule: &str, threads: usize) {
+    let numbers: Vec<usize> = rule.split(',').map(|number| number.parse().unwrap()).collect();
+    let [beams, spans, steps] = numbers[..] else { panic!("--steps BEAMS,SPANS,STEPS") };
+    let mut model = flying_beams(beams, spans);
+    model.divide(threads);
+    let mut integrator = Method::EnergyMomentum.build(&mut model, Tolerance::default());
+    let (start, flight) = (model.state(), (END / DT).round() as usize);
+    let (mut iterations, mut corrections, mut least) = (0, 0, f64::INFINITY);
+    for step in 0..steps {
+        let at = step % flight;
+        if at == 0 {
+            model.restore(&start);
+        }
+        let interval = Interval::between(at as f64 * DT, (at + 1) as f64 * DT);
+        let mut work = 0;
+        let time = timed(|| {
+            let report = integrator.step(&mut model, interval).unwrap();
+            (work, corrections) = (report.iterations, corrections + report.corrections);
+        });
+        iterations += work;
+        least = least.min(time.as_secs_f64() * 1e6);
+    }
+    let each = |count: usize| count as f64 / steps as f64;
+    println!(
+        "{} unknowns, {:.2} iterations and {:.2} corrections a step, least {least:.1} µs",
+        model.unknowns(),
+        each(iterations),
+        each(corrections)
+    );
 }
 
 /// The beams whose costs are measured, the largest one with a million unknowns.
@@ -281,6 +332,9 @@ fn main() {
     let threads = option("--threads").map_or(cores, |threads| threads.parse().unwrap());
     if let Some(file) = option("--csv") {
         return write_sizes(file, threads);
+    }
+    if let Some(rule) = option("--steps") {
+        return take_steps(rule, threads);
     }
     if let Some(spans) = option("--spans") {
         let spans = spans.split(',').map(|spans| spans.parse().unwrap());

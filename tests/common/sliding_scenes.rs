@@ -175,7 +175,10 @@ pub fn crowd(mesh: &Mesh, rule: SlidingRule) -> Scene {
 /// Two beads on a closed track of three beams that flies and turns: one corner is stiff, one a hinge, one of the beams is drawn the other way round. Of
 /// rules that are for one beam the conserving one is taken.
 pub fn triangle(mesh: &Mesh, rule: SlidingRule) -> Scene {
-    let rule = if rule == SlidingRule::Kinked { SlidingRule::Conserving } else { rule };
+    let rule = match rule {
+        SlidingRule::Kinked | SlidingRule::Relaxed => SlidingRule::Conserving,
+        rule => rule,
+    };
     let mut scene = Scene::new("triangle");
     let corners = [at(0.0, 0.0), at(2.0, 0.3), at(0.8, 1.5)];
     let motion = StartMotion { velocity: at(0.2, -0.1), spin: 0.4, about: Some(corners[0]) };

@@ -42,7 +42,10 @@ pub fn track(scene: &mut Scene, beams: &[usize], course: Course) -> usize {
         };
         let pair = ours.iter().flat_map(|a| theirs.iter().map(move |b| (*a, *b)));
         let is_joined = |at: &Station| {
-            let ties = |joint: &Joint| joint.station == *at && joint.partner != Partner::Ground;
+            let ties = |joint: &Joint| match joint.partner {
+                Partner::Station(other) => joint.station == *at || other == *at,
+                Partner::Ground => false,
+            };
             scene.joints.iter().any(ties)
         };
         let mut pairs = pair.into_iter().filter(|(a, b)| meets(a, b) && !is_joined(a));

@@ -4,8 +4,10 @@
 use crate::common::sliding_scenes::abacus;
 use crate::common::{scenes, settings};
 use withy::beams::Mesh;
+use withy::geometry::Vec2;
 use withy::integrators::Method;
-use withy::joints::SlidingRule;
+use withy::joints::{JointKind, Partner, SlidingRule};
+use withy::loads::{Frame, LoadKind, Schedule};
 use withy::model::{Model, ModelState, Scene};
 use withy::simulation::{Simulation, Unwatched};
 
@@ -44,6 +46,38 @@ fn any_number_of_threads_comes_to_the_same_bits() {
             let some = state(&scene, Method::EnergyMomentum, allowed);
             assert!(some == one, "{}, {allowed}", scene.name);
         }
+    }
+}
+
+/// A hundred beams of forty spans side by side or one behind the other, of which the last is pushed; hinges where one begins as another ends.
+fn hundred(step: Vec2) -> Scene {
+    let mut scene = Scene::new("a hundred beams");
+    let mesh = Mesh::bspline(40, 3, 2).unwrap();
+    let along = Vec2::new(3.0, 1.0);
+    for beam in 0..100 {
+        let from = step * f64::from(beam);
+        scenes::add_beam(&mut scene, scenes::line(from, from + along), &mesh, scenes::rod());
+    }
+    if step == along {
+        for beam in 1..100 {
+            let end = scenes::end_of(&mut scene, beam - 1);
+            let start = scenes::start_of(&mut scene, beam);
+            scene.join(JointKind::Hinge, end, Partner::Station(start)).unwrap();
+        }
+    }
+    let station = scenes::end_of(&mut scene, 99);
+    let force = LoadKind::Force { station, force: Vec2::new(0.0, 2.0), frame: Frame::Dead };
+    scene.add_load(force, Schedule::constant(1.0).unwrap());
+    scene
+}
+
+#[test]
+fn many_bodies_come_to_the_same_bits_with_two_threads() {
+    for step in [Vec2::new(0.0, 2.0), Vec2::new(3.0, 1.0)] {
+        let scene = hundred(step);
+        assert_eq!(threads(&scene, 2), 2);
+        let one = state(&scene, Method::EnergyMomentum, 1);
+        assert!(one == state(&scene, Method::EnergyMomentum, 2), "{step}");
     }
 }
 

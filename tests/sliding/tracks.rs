@@ -224,6 +224,30 @@ fn ten_thousand_steps_round_a_free_triangle_keep_everything() {
 }
 
 #[test]
+fn many_beads_go_round_beams_with_meshes_of_all_kinds() {
+    let mut scene = Scene::new("many");
+    let corners = [at(0.0, 0.0), at(2.0, 0.3), at(0.8, 1.5)];
+    let meshes = [smooth(5), Mesh::bspline(4, 5, 3).unwrap(), Mesh::lagrange(6, 1).unwrap()];
+    let beams = [0, 1, 2].map(|leg| {
+        let axis = line(corners[leg], corners[(leg + 1) % 3]);
+        add_beam(&mut scene, axis, &meshes[leg], section(1e3, 1e1))
+    });
+    let track = track(&mut scene, &beams, Course::Closed);
+    for number in 0..6 {
+        let speed = at((2.0 * f64::from(number)).sin(), (3.0 * f64::from(number)).cos()) * 2.0;
+        bead(&mut scene, track, 0.4 + 0.9 * f64::from(number), 0.1, speed);
+    }
+    let mut simulation = Simulation::start(scene, settings(Method::EnergyMomentum, 0.01)).unwrap();
+    run(&mut simulation, 4.0).unwrap();
+    println!("many: {} seams", simulation.arrivals().len());
+    assert!(simulation.arrivals().len() > 12);
+    for invariant in [Invariant::Energy, Invariant::AngularMomentum, Invariant::Momentum] {
+        assert!(drift(&simulation, invariant) < 1e-11, "{invariant:?}");
+    }
+    assert!(gap(&simulation) < 1e-13);
+}
+
+#[test]
 fn beads_that_meet_a_seam_together_pass_it_together() {
     let places = |order: [f64; 2]| {
         let mut scene = Scene::new("pair");

@@ -145,22 +145,26 @@ impl<const N: usize, S: Sections> DiscreteBeam<N, S> {
         rates: &[Movement],
         forces: &mut [Movement],
     ) {
-        let Range { start, end } = points;
-        let mut add = |to: usize, inertia: Movement, rate: Movement| {
-            for ((force, inertia), rate) in forces[to - start].iter_mut().zip(inertia).zip(rate) {
-                *force += inertia * rate;
-            }
-        };
-        let first = start.saturating_sub(N - 1);
-        for (a, row) in (first..end).zip(&self.gram[first..]) {
-            for (b, entry) in (a..rates.len()).zip(row) {
+        for (point, force) in points.zip(forces) {
+            let mut add = |entry: S::MassIntegral, rate: &Movement| {
                 let inertia = entry.inertia(factor, &self.section);
-                if a >= start {
-                    add(a, inertia, rates[b]);
+                for ((force, inertia), rate) in force.iter_mut().zip(inertia).zip(rate) {
+                    *force += inertia * rate;
                 }
-                if b > a && b >= start && b < end {
-                    add(b, inertia, rates[a]);
-                }
+            };
+            // Where all neighbours are there, the compiler knows how many.
+            if let Some(first) = (point + 1).checked_sub(N)
+                && let Some(gram) = self.gram[first..].first_chunk::<N>()
+                && let Some(before) = rates[first..].first_chunk::<N>()
+                && let Some(behind) = rates[point..].first_chunk::<N>()
+            {
+                (0..N - 1).for_each(|other| add(gram[other][N - 1 - other], &before[other]));
+                (0..N).for_each(|other| add(gram[N - 1][other], &behind[other]));
+            } else {
+                let before = point.saturating_sub(N - 1)..point;
+                before.for_each(|other| add(self.gram[other][point - other], &rates[other]));
+                let behind = self.gram[point].iter().zip(&rates[point..]);
+                behind.for_each(|(entry, rate)| add(*entry, rate));
             }
         }
     }
@@ -270,7 +274,7 @@ impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
 
     fn add_mismatch_forces(&mut self, weight: f64, forces: &mut [Movement]) {
         let Self { section, spans, parts, .. } = self;
-        parts.sum(spans, forces, &mut [(); MOST_PARTS], |(), spans, first, forces| {
+        parts.sum_lightly(spans, forces, |spans, first, forces| {
             for span in spans {
                 let forces = window_mut(forces, span.first - first);
                 span.add_mismatch_forces(section, weight, forces);
@@ -302,21 +306,17 @@ impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
         &self,
         factor: f64,
         points: Range<usize>,
-        tangent: &mut dyn FnMut(usize, usize, Movement),
+        tangent: &mut dyn FnMut(usize, usize, &[Movement]),
     ) {
-        let first = points.start.saturating_sub(N - 1);
-        for (a, row) in (first..).zip(&self.gram[first..points.end]) {
-            // Functions that share no span may stand far apart in the numbering of the tangent.
-            let coupled = (a..self.gram.len()).zip(row).filter(|(_, entry)| entry.length() != 0.0);
-            for (b, entry) in coupled {
-                let inertia = entry.inertia(factor, &self.section);
-                if a >= points.start {
-                    tangent(a, b, inertia);
-                }
-                if b > a && points.contains(&b) {
-                    tangent(b, a, inertia);
-                }
+        for point in points {
+            let first = point.saturating_sub(N - 1);
+            let mut row = [Movement::default(); N];
+            for (inertia, other) in row.iter_mut().zip(first..point) {
+                *inertia = self.gram[other][point - other].inertia(factor, &self.section);
             }
+            tangent(point, first, &row[..point - first]);
+            row = self.gram[point].map(|entry| entry.inertia(factor, &self.section));
+            tangent(point, point, &row[..N.min(self.gram.len() - point)]);
         }
     }
 

@@ -50,7 +50,7 @@ pub type BlockSink<'a> = &'a mut (dyn FnMut(usize, &[f64]) + Send);
 /// A beam on its basis, or a body of points: reference quantities, state at the start of a step, and the iterate of the step.
 ///
 /// Movements, rates and forces are indexed by control point.
-pub trait BodyDynamics: Sync {
+pub trait BodyDynamics: Send + Sync {
     /// The number of basis functions that are not zero on a span of this body, degree + 1.
     fn order(&self) -> usize;
 
@@ -106,13 +106,13 @@ pub trait BodyDynamics: Sync {
     /// Adds `factor · M · rates` to the forces on the control points, with the inertia `M` of this body.
     fn add_inertia(&self, factor: f64, rates: &[Movement], forces: &mut [Movement]);
 
-    /// Gives the rows of some control points in `factor · M`, the inertia of this body, to `tangent`: control point of the row, of the
-    /// column, and the three diagonal entries.
+    /// Gives the rows of some control points in `factor · M`, the inertia of this body, to `tangent`, in pieces: control point of the row, first
+    /// one of the columns, and the three diagonal entries for each column.
     fn add_inertia_tangent(
         &self,
         factor: f64,
         points: Range<usize>,
-        tangent: &mut dyn FnMut(usize, usize, Movement),
+        tangent: &mut dyn FnMut(usize, usize, &[Movement]),
     );
 
     /// Gives, span by span, how this body resists small movements of its control points at the start of the step, as at rest there.

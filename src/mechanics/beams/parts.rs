@@ -21,6 +21,9 @@ pub(super) const MOST_PARTS: usize = 8;
 /// Fewest spans of a part: with half of it the gain of a step is lost in the noise of starting threads (docs/studies.md).
 const SMALLEST_PART: usize = 4000;
 
+/// Fewest spans of a part for what takes little time at each: less than a tenth of what their tangents take.
+const SMALLEST_LIGHT_PART: usize = 20_000;
+
 /// Where one part ends and the next begins.
 #[derive(Debug, Clone, PartialEq)]
 struct Cut {
@@ -83,26 +86,31 @@ impl Parts {
         self.cuts.iter().map(|cut| cut.point).collect()
     }
 
-    /// Works on all spans of a beam, parts at once, where spans give nothing to each other.
+    /// Whether the parts are large enough for threads that do little for each span.
+    fn are_large(&self, spans: usize) -> bool {
+        !self.cuts.is_empty() && spans >= SMALLEST_LIGHT_PART * self.count()
+    }
+
+    /// Works a little on all spans of a beam, parts at once, where spans give nothing to each other.
     pub(super) fn each<const N: usize, S: Send>(
         &self,
         spans: &mut [SpanPoints<N, S>],
         work: impl Fn(&mut SpanPoints<N, S>) + Sync,
     ) {
-        if self.cuts.is_empty() {
+        if !self.are_large(spans.len()) {
             return spans.iter_mut().for_each(work);
         }
         let most = spans.len().div_ceil(self.count());
         at_once(spans.chunks_mut(most), |part| part.iter_mut().for_each(&work));
     }
 
-    /// Works on the sums of the control points of each part of a beam, parts at once.
+    /// Works a little on the sums of the control points of each part of a beam, parts at once.
     pub(super) fn each_point(
         &self,
         sums: &mut [Movement],
         work: impl Fn(Range<usize>, &mut [Movement]) + Sync,
     ) {
-        if self.cuts.is_empty() {
+        if !self.are_large(sums.len()) {
             return work(0..sums.len(), sums);
         }
         let mut parts = Vec::with_capacity(self.count());
@@ -155,6 +163,20 @@ impl Parts {
                 on_one_side(own, span, sums, 0..cut.point);
             }
         }
+    }
+
+    /// The same for sums that take little time at each span.
+    pub(super) fn sum_lightly<const N: usize, S: Send>(
+        &self,
+        spans: &mut [SpanPoints<N, S>],
+        sums: &mut [Movement],
+        work: impl Fn(&mut [SpanPoints<N, S>], usize, &mut [Movement]) + Sync,
+    ) {
+        if !self.are_large(spans.len()) {
+            return work(spans, 0, sums);
+        }
+        let own = &mut [(); MOST_PARTS];
+        self.sum(spans, sums, own, |(), spans, first, sums| work(spans, first, sums));
     }
 
     /// What each part has for itself, without the spans astride.

@@ -97,7 +97,7 @@ impl BodyDynamics for RigidPoints {
         &self,
         _factor: f64,
         _points: Range<usize>,
-        _tangent: &mut dyn FnMut(usize, usize, Movement),
+        _tangent: &mut dyn FnMut(usize, usize, &[Movement]),
     ) {
     }
 

@@ -83,6 +83,7 @@ impl Equations for StepBalance<'_> {
         self.begin(deviation, residual);
         let inertia = self.inertia();
         let Self { mechanism, rule, increments, .. } = self;
+        tangent.use_threads(mechanism.threads());
         let band = tangent.band_mut();
         mechanism.add_inertia_tangent(inertia, band);
         mechanism.add_linearised_forces(rule.stage, increments, rule.weight, residual, band);

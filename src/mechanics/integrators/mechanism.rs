@@ -133,6 +133,11 @@ pub trait Mechanism: Inertia + Forces + Constraints {
     /// The half-bandwidth of the tangent of the mechanism: how far from the diagonal it has entries.
     fn half_bandwidth(&self) -> usize;
 
+    /// How many threads may work on the equations of the mechanism at once, with the same results.
+    fn threads(&self) -> usize {
+        1
+    }
+
     /// The rates of the unknown movements at the start of the step [length/time, 1/time].
     fn rates(&self) -> &[f64];
 

@@ -21,6 +21,11 @@ impl BandRows<'_> {
         self.rows.clone()
     }
 
+    /// The same rows, lent for a while.
+    pub fn reborrow(&mut self) -> BandRows<'_> {
+        BandRows { rows: self.rows.clone(), entries: self.entries, ..*self }
+    }
+
     /// These rows of a banded matrix in two parts: those before `row`, and those from it on.
     pub fn split_at(self, row: usize) -> (Self, Self) {
         let Self { rows, entries, stride, centre, half_bandwidth } = self;
@@ -69,6 +74,16 @@ impl BandRows<'_> {
         }
     }
 
+    /// Adds diagonal blocks of three rows from `row` on: `blocks[k][i]` at row `row + i` and column `first + 3 k + i`.
+    #[inline]
+    pub fn add_diagonal_blocks(&mut self, row: usize, first: usize, blocks: &[[f64; 3]]) {
+        for component in 0..3 {
+            let at = self.offset(row + component, first + component);
+            let entries = self.entries[at..].iter_mut().step_by(3);
+            entries.zip(blocks).for_each(|(entry, block)| *entry += block[component]);
+        }
+    }
+
     #[inline]
     fn add_rows<const WIDTH: usize>(&mut self, first: usize, values: &[f64]) {
         let (rows, _) = values.as_chunks::<WIDTH>();
@@ -102,6 +117,21 @@ mod tests {
         }
         for (row, column) in (0..9).flat_map(|row| (0..9).map(move |column| (row, column))) {
             assert_eq!(parted.get(row, column), whole.get(row, column), "({row}, {column})");
+        }
+    }
+
+    #[test]
+    fn diagonal_blocks_are_added_to_every_third_entry_of_their_rows() {
+        let mut matrix = BandedMatrix::zeros(12, 11);
+        matrix.rows_mut().add_diagonal_blocks(
+            3,
+            0,
+            &[[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 9.0]],
+        );
+        for (row, column) in (0..12).flat_map(|row| (0..12).map(move |column| (row, column))) {
+            let is_there = (3..6).contains(&row) && column < 9 && column % 3 == row % 3;
+            let expected = if is_there { (column + 1) as f64 } else { 0.0 };
+            assert_eq!(matrix.get(row, column), expected, "({row}, {column})");
         }
     }
 

@@ -5,7 +5,8 @@
 
 use pulp::Arch;
 
-use super::elimination::{Elimination, PANEL, SMALLEST_REACH};
+use super::elimination::Elimination;
+use super::storage::{Factors, Storage};
 use super::substitution::{StripSubstitution, Substitution};
 use super::{BandRows, LinearError};
 
@@ -17,81 +18,10 @@ pub struct BandedMatrix {
     storage: Storage,
 }
 
-/// The rows of a banded matrix, and what elimination notes about them.
-///
-/// Behind the last row stand as many rows of the identity as elimination, which goes by panels, may touch.
-#[derive(Debug, Clone)]
-pub(super) struct Storage {
-    pub(super) size: usize,
-    /// The half-bandwidth `b`, at least [`SMALLEST_REACH`].
-    pub(super) reach: usize,
-    /// Row `i` holds the columns `i - b - (PANEL - 1) ..= i + 2 b`. In factors, the multipliers stand left of the diagonal,
-    /// on the diagonal the inverse of the pivot.
-    pub(super) rows: Vec<f64>,
-    /// The row that the pivot of each column came from, by column.
-    pub(super) pivots: Vec<usize>,
-    /// The last column with an entry in each row of the upper factor, by row.
-    pub(super) last_columns: Vec<usize>,
-    /// The multipliers of the rows below a panel, until the panel is accepted.
-    pub(super) multipliers: Vec<[f64; PANEL]>,
-}
-
 /// The factors `P A = L U` of a [`BandedMatrix`], kept in its storage.
 #[derive(Debug)]
 pub struct BandedLu<'a> {
-    factors: &'a Storage,
-}
-
-impl Storage {
-    pub(super) fn zeros(size: usize, half_bandwidth: usize) -> Self {
-        let reach = half_bandwidth.max(SMALLEST_REACH);
-        let mut storage = Self {
-            size,
-            reach,
-            rows: Vec::new(),
-            pivots: vec![0; size],
-            last_columns: vec![0; size],
-            multipliers: vec![[0.0; PANEL]; reach],
-        };
-        storage.rows = vec![0.0; (size + PANEL + reach) * storage.stride()];
-        storage.end_with_the_identity();
-        storage
-    }
-
-    /// Makes room for the rows of another matrix, all zero; takes more memory only where there never were as many.
-    pub(super) fn remake(&mut self, size: usize, half_bandwidth: usize) {
-        (self.size, self.reach) = (size, half_bandwidth.max(SMALLEST_REACH));
-        self.pivots.resize(size, 0);
-        self.last_columns.resize(size, 0);
-        self.multipliers.resize(self.reach, [0.0; PANEL]);
-        self.rows.clear();
-        self.rows.resize((size + PANEL + self.reach) * self.stride(), 0.0);
-        self.end_with_the_identity();
-    }
-
-    /// The place of the diagonal entry among the stored entries of a row.
-    #[inline(always)]
-    pub(super) fn centre(&self) -> usize {
-        self.reach + PANEL - 1
-    }
-
-    /// The number of stored entries of a row.
-    #[inline(always)]
-    pub(super) fn stride(&self) -> usize {
-        3 * self.reach + PANEL
-    }
-
-    fn clear(&mut self) {
-        self.rows.fill(0.0);
-        self.end_with_the_identity();
-    }
-
-    fn end_with_the_identity(&mut self) {
-        for row in self.size..self.size + PANEL {
-            let diagonal = row * self.stride() + self.centre();
-            self.rows[diagonal] = 1.0;
-        }
-    }
+    factors: Factors<'a>,
 }
 
 impl BandedMatrix {
@@ -146,13 +76,21 @@ impl BandedMatrix {
         (first, &self.storage.rows[at..=at + last - first])
     }
 
+    pub(super) fn storage(&self) -> &Storage {
+        &self.storage
+    }
+
+    pub(super) fn storage_mut(&mut self) -> &mut Storage {
+        &mut self.storage
+    }
+
     /// Replaces the entries of the matrix by its factors `P A = L U`.
     ///
     /// # Errors
     /// When a column has no non-zero or no finite pivot; the entries are then lost.
     pub fn factorise(&mut self) -> Result<BandedLu<'_>, LinearError> {
-        Arch::new().dispatch(Elimination(&mut self.storage))?;
-        Ok(BandedLu { factors: &self.storage })
+        Arch::new().dispatch(Elimination(self.storage.rows_mut()))?;
+        Ok(BandedLu { factors: self.storage.factors() })
     }
 }
 
@@ -323,8 +261,8 @@ mod tests {
     /// The bits of factors and solutions, by one kind of instructions; none where there are no factors.
     fn worked_on(arch: Arch, matrix: &BandedMatrix, right: &[f64]) -> Option<Vec<u64>> {
         let mut storage = matrix.storage.clone();
-        arch.dispatch(Elimination(&mut storage)).ok()?;
-        let (factors, mut x) = (&storage, right.to_vec());
+        arch.dispatch(Elimination(storage.rows_mut())).ok()?;
+        let (factors, mut x) = (storage.factors(), right.to_vec());
         let mut strip: Vec<_> = right.iter().map(|x| [*x, 1.0 - x, 0.3 * x]).collect();
         arch.dispatch(Substitution { factors, x: &mut x });
         arch.dispatch(StripSubstitution { factors, x: &mut strip, first: 0 });

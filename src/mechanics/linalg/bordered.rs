@@ -6,6 +6,7 @@
 use super::full_border::FullLu;
 use super::local_border::LocalLu;
 use super::together::{Together, TogetherLu};
+use super::two_ended::{TwoEnded, TwoEndedLu};
 use super::{BandedLu, BandedMatrix, BlockLayout, FullBorder, LinearError, LocalBorder};
 
 /// A square matrix that is banded but for its last rows and columns, the border.
@@ -15,6 +16,8 @@ pub struct BorderedMatrix {
     border: Border,
     /// Where the band alone may be singular.
     together: Option<Together>,
+    /// Where the band is long, and has no border.
+    ends: Option<Box<TwoEnded>>,
 }
 
 /// The size of the border of a [`BorderedMatrix`]: its last rows and columns.
@@ -42,6 +45,7 @@ pub struct BorderedLu<'a>(Factors<'a>);
 #[derive(Debug)]
 enum Factors<'a> {
     Band(BandedLu<'a>),
+    TwoEnded(TwoEndedLu<'a>),
     Full(FullLu<'a>),
     Together(TogetherLu<'a>),
     Local(LocalLu<'a>),
@@ -114,6 +118,11 @@ impl BorderedMatrix {
             band: BandedMatrix::zeros(size, half_bandwidth),
             border: Border::Full(FullBorder::zeros(size, border)),
             together: None,
+            ends: if border.width == 0 {
+                TwoEnded::worthwhile(size, half_bandwidth).map(Box::new)
+            } else {
+                None
+            },
         }
     }
 
@@ -123,13 +132,21 @@ impl BorderedMatrix {
             band: BandedMatrix::zeros(size, half_bandwidth),
             border: Border::Local(Box::new(LocalBorder::zeros(size, half_bandwidth, layout))),
             together: None,
+            ends: None,
         }
     }
 
     /// The same matrix, if its border is one of full columns, to be eliminated with the border among the rows of the band, which alone may
     /// be singular; the last `full` rows and columns, which couple with all others, are a border still.
     pub fn together(self, full: usize) -> Self {
-        Self { together: Some(Together::new(self.size(), full)), ..self }
+        Self { together: Some(Together::new(self.size(), full)), ends: None, ..self }
+    }
+
+    /// Lets so many threads eliminate a long band from here on, with the same results.
+    pub fn use_threads(&mut self, threads: usize) {
+        if let Some(ends) = &mut self.ends {
+            ends.use_threads(threads);
+        }
     }
 
     /// The number of rows of the matrix, those of the border included.
@@ -154,7 +171,10 @@ impl BorderedMatrix {
 
     /// Sets every entry of the matrix, those of the border included, to zero.
     pub fn clear(&mut self) {
-        self.band.clear();
+        match &self.ends {
+            Some(ends) => ends.clear(&mut self.band),
+            None => self.band.clear(),
+        }
         self.border.clear();
     }
 
@@ -172,14 +192,17 @@ impl BorderedMatrix {
     /// # Errors
     /// When a column has no non-zero or no finite pivot; the entries are then lost.
     pub fn factorise(&mut self) -> Result<BorderedLu<'_>, LinearError> {
-        let Self { band, border, together } = self;
+        let Self { band, border, together, ends } = self;
         let size = band.size();
         let factors = match (border, together) {
             (Border::Local(border), _) => Factors::Local(border.factorise(band)?),
             (Border::Full(border), Some(together)) => {
                 Factors::Together(together.factorise(&border.entries_with(band))?)
             }
-            (Border::Full(border), None) if border.width() == 0 => Factors::Band(band.factorise()?),
+            (Border::Full(border), None) if border.width() == 0 => match ends {
+                Some(ends) => Factors::TwoEnded(ends.factorise(band)?),
+                None => Factors::Band(band.factorise()?),
+            },
             (Border::Full(border), None) => {
                 Factors::Full(border.factorise(band.factorise()?, size)?)
             }
@@ -193,6 +216,7 @@ impl BorderedLu<'_> {
     pub fn solve(&mut self, x: &mut [f64]) {
         match &mut self.0 {
             Factors::Band(factors) => factors.solve(x),
+            Factors::TwoEnded(factors) => factors.solve(x),
             Factors::Full(factors) => factors.solve(x),
             Factors::Together(factors) => factors.solve(x),
             Factors::Local(factors) => factors.solve(x),

@@ -10,68 +10,87 @@
 
 use pulp::{Simd, WithSimd};
 
-use super::LinearError;
-use super::banded::Storage;
-
-/// The number of columns of a banded matrix that are eliminated together: those of a control point.
-pub(super) const PANEL: usize = 3;
+use super::storage::Rows;
+use super::{LinearError, fixed_band};
 
 /// Numbers that vector instructions treat at once.
 const LANES: usize = 4;
+
+/// The number of columns of a banded matrix that are eliminated together: those of a vector. What one panel leaves behind in vectors is then
+/// met by the next one in the same vectors; where it reads across two that have just been written, the processor waits for both.
+pub(super) const PANEL: usize = LANES;
 
 /// The smallest half-bandwidth for which a row of a banded matrix has room for a panel, and for whole vectors behind it.
 pub(super) const SMALLEST_REACH: usize = PANEL + LANES - 2;
 
 /// The largest multiplier for which rows are not exchanged.
-const LARGEST_MULTIPLIER: f64 = 8.0;
+pub(super) const LARGEST_MULTIPLIER: f64 = 8.0;
 
 /// Gauss's elimination with row exchanges, which replaces a banded matrix by its factors, panel by panel.
-pub(super) struct Elimination<'a>(pub(super) &'a mut Storage);
+pub(super) struct Elimination<'a>(pub(super) Rows<'a>);
 
 impl WithSimd for Elimination<'_> {
     type Output = Result<(), LinearError>;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        // The half-bandwidths of beams of degree 1 to 3 are known to the compiler.
+    fn with_simd<S: Simd>(mut self, simd: S) -> Self::Output {
+        // The half-bandwidths of beams of degree 2 and 3 are known to the compiler; that of degree 1 gains nothing.
         match self.0.reach {
-            5 => eliminate(simd, self.0, 5),
-            8 => eliminate(simd, self.0, 8),
-            11 => eliminate(simd, self.0, 11),
-            reach => eliminate(simd, self.0, reach),
+            8 => eliminate(simd, &mut self.0, 8, eliminate_fixed::<S, 8, 8, 28>),
+            11 => eliminate(simd, &mut self.0, 11, eliminate_fixed::<S, 11, 12, 37>),
+            reach => {
+                // Behind the last column with an entry there are zeros.
+                let width = reach.next_multiple_of(LANES);
+                eliminate(simd, &mut self.0, reach, |simd, storage, first| {
+                    eliminate_panel(simd, storage, first, [reach, reach], width)
+                })
+            }
         }
     }
 }
 
 /// The same where the entries of a matrix end at a profile: for each index the last row with an entry in the column, which is the last column with
 /// one in the row. It never falls, and goes on for a panel behind the last row.
-pub(super) struct ProfileElimination<'a>(pub(super) &'a mut Storage, pub(super) &'a [usize]);
+pub(super) struct ProfileElimination<'a>(pub(super) Rows<'a>, pub(super) &'a [usize]);
 
 impl WithSimd for ProfileElimination<'_> {
     type Output = Result<(), LinearError>;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        eliminate_in_profile(simd, self.0, self.1)
+    fn with_simd<S: Simd>(mut self, simd: S) -> Self::Output {
+        eliminate_in_profile(simd, &mut self.0, self.1)
     }
 }
 
-/// `reach` is that of the storage.
 #[inline(always)]
-fn eliminate<S: Simd>(simd: S, storage: &mut Storage, reach: usize) -> Result<(), LinearError> {
+fn eliminate_fixed<S: Simd, const REACH: usize, const WIDTH: usize, const STRIDE: usize>(
+    simd: S,
+    storage: &mut Rows<'_>,
+    first: usize,
+) -> bool {
+    let (rows, _) = storage.rows.as_chunks_mut::<STRIDE>();
+    fixed_band::eliminate_panel::<S, REACH, WIDTH, STRIDE>(simd, &mut rows[first..])
+}
+
+/// `reach` is that of the storage; `eliminate_plain` eliminates a panel where nothing was filled in, as [`eliminate_panel`] does.
+#[inline(always)]
+fn eliminate<S: Simd>(
+    simd: S,
+    storage: &mut Rows<'_>,
+    reach: usize,
+    eliminate_plain: impl Fn(S, &mut Rows<'_>, usize) -> bool,
+) -> Result<(), LinearError> {
     // The last column in which a row above has an entry.
     let mut filled = 0;
-    for first in (0..storage.size).step_by(PANEL) {
+    for first in (0..storage.columns).step_by(PANEL) {
         let next = first + PANEL;
         let width = filled.max(next - 1 + reach) + 1 - next;
         let is_eliminated = if width == reach {
-            // Behind the last column with an entry there are zeros.
-            let width = reach.next_multiple_of(LANES);
-            eliminate_panel(simd, storage, first, [reach, reach], width)
+            eliminate_plain(simd, storage, first)
         } else {
             eliminate_panel(simd, storage, first, [reach, reach], width)
         };
-        let columns = first..next.min(storage.size);
+        let columns = first..next.min(storage.columns);
         if is_eliminated {
             for column in columns {
                 filled = filled.max(column + reach);
@@ -90,12 +109,12 @@ fn eliminate<S: Simd>(simd: S, storage: &mut Storage, reach: usize) -> Result<()
 #[inline(always)]
 fn eliminate_in_profile<S: Simd>(
     simd: S,
-    storage: &mut Storage,
+    storage: &mut Rows<'_>,
     ends: &[usize],
 ) -> Result<(), LinearError> {
     let reach = storage.reach;
     let mut filled = 0;
-    for first in (0..storage.size).step_by(PANEL) {
+    for first in (0..storage.columns).step_by(PANEL) {
         let next = first + PANEL;
         let below = ends[next - 1] + 1 - next;
         let width = filled.max(ends[next - 1]) + 1 - next;
@@ -111,7 +130,7 @@ fn eliminate_in_profile<S: Simd>(
                 eliminate_panel(simd, storage, first, [reach, below], width)
             }
         };
-        for column in first..next.min(storage.size) {
+        for column in first..next.min(storage.columns) {
             if is_eliminated {
                 filled = filled.max(ends[column]);
                 storage.pivots[column] = column;
@@ -124,12 +143,45 @@ fn eliminate_in_profile<S: Simd>(
     Ok(())
 }
 
+/// The factors of the rows and columns of a panel among themselves.
+pub(super) struct PanelFactors {
+    /// Multipliers left of the diagonal, the upper factor from there on.
+    pub(super) factors: [[f64; PANEL]; PANEL],
+    /// Those of the pivots.
+    pub(super) inverses: [f64; PANEL],
+    /// Whether no multiplier is large, and all numbers are finite.
+    pub(super) is_stable: bool,
+}
+
+impl PanelFactors {
+    #[inline(always)]
+    pub(super) fn of(mut factors: [[f64; PANEL]; PANEL]) -> Self {
+        let mut inverses = [0.0; PANEL];
+        let mut is_stable = true;
+        for column in 0..PANEL {
+            let pivot_row = factors[column];
+            let inverse = 1.0 / pivot_row[column];
+            is_stable &= pivot_row[column].is_finite();
+            for row in &mut factors[column + 1..] {
+                let multiplier = row[column] * inverse;
+                is_stable &= multiplier.abs() <= LARGEST_MULTIPLIER;
+                row[column] = multiplier;
+                for (entry, above) in row.iter_mut().zip(pivot_row).skip(column + 1) {
+                    *entry -= multiplier * above;
+                }
+            }
+            inverses[column] = inverse;
+        }
+        Self { factors, inverses, is_stable }
+    }
+}
+
 /// Eliminates the columns of a panel from so many rows below it, in so many columns behind it; false, with nothing changed,
 /// when rows should be exchanged. The first of the `reach`es is that of the storage.
 #[inline(always)]
 fn eliminate_panel<S: Simd>(
     simd: S,
-    storage: &mut Storage,
+    storage: &mut Rows<'_>,
     first: usize,
     [reach, below]: [usize; 2],
     width: usize,
@@ -137,56 +189,54 @@ fn eliminate_panel<S: Simd>(
     let (stride, centre) = (3 * reach + PANEL, reach + PANEL - 1);
     let rows = &mut storage.rows[first * stride..][..(PANEL + below) * stride];
     let (panel, rows_below) = rows.split_at_mut(PANEL * stride);
-    let (row0, rest) = panel.split_at_mut(stride);
-    let (row1, row2) = rest.split_at_mut(stride);
-    let (row0, row1, row2) =
-        (&mut row0[centre..], &mut row1[centre - 1..], &mut row2[centre - 2..]);
+    let head = |row: usize| row * stride + centre - row;
+    let heads = std::array::from_fn(|row| std::array::from_fn(|column| panel[head(row) + column]));
+    let PanelFactors { factors, inverses, is_stable } = PanelFactors::of(heads);
 
-    let [u00, u01, u02] = [row0[0], row0[1], row0[2]];
-    let inverse0 = 1.0 / u00;
-    let l10 = row1[0] * inverse0;
-    let [u11, u12] = [row1[1] - l10 * u01, row1[2] - l10 * u02];
-    let inverse1 = 1.0 / u11;
-    let l20 = row2[0] * inverse0;
-    let l21 = (row2[1] - l20 * u01) * inverse1;
-    let u22 = row2[2] - l20 * u02 - l21 * u12;
-    let inverse2 = 1.0 / u22;
-
-    let is_small = |multiplier: f64| multiplier.abs() <= LARGEST_MULTIPLIER;
-    let mut is_stable = is_small(l10) & is_small(l20) & is_small(l21);
-    is_stable &= u00.is_finite() & u11.is_finite() & u22.is_finite();
+    let mut is_small = is_stable;
     let multipliers = &mut storage.multipliers[..below];
     for (index, (row, found)) in rows_below.chunks_exact(stride).zip(&mut *multipliers).enumerate()
     {
         let entries = &row[reach - 1 - index..][..PANEL];
-        let l0 = entries[0] * inverse0;
-        let l1 = (entries[1] - l0 * u01) * inverse1;
-        let l2 = (entries[2] - l0 * u02 - l1 * u12) * inverse2;
-        is_stable &= is_small(l0) & is_small(l1) & is_small(l2);
-        *found = [l0, l1, l2];
+        for column in 0..PANEL {
+            let mut entry = entries[column];
+            for before in 0..column {
+                entry -= found[before] * factors[before][column];
+            }
+            found[column] = entry * inverses[column];
+            is_small &= found[column].abs() <= LARGEST_MULTIPLIER;
+        }
     }
-    if !is_stable {
+    if !is_small {
         return false;
     }
 
-    (row0[0], row1[1], row2[2]) = (inverse0, inverse1, inverse2);
-    (row1[0], row2[0], row2[1]) = (l10, l20, l21);
-    row1[2] = u12;
-    let (row0, row1, row2) =
-        (&row0[PANEL..][..width], &mut row1[PANEL..][..width], &mut row2[PANEL..][..width]);
-    subtract(simd, [l10], [row0], row1);
-    subtract(simd, [l20, l21], [row0, row1], row2);
+    for index in 0..PANEL {
+        panel[head(index)..][..PANEL].copy_from_slice(&factors[index]);
+        panel[head(index) + index] = inverses[index];
+    }
+    let (row0, rest) = panel.split_at_mut(stride);
+    let (row1, rest) = rest.split_at_mut(stride);
+    let (row2, row3) = rest.split_at_mut(stride);
+    let behind0 = &row0[head(0) + PANEL..][..width];
+    let behind1 = &mut row1[centre + PANEL - 1..][..width];
+    subtract(simd, [factors[1][0]], [behind0], behind1);
+    let behind2 = &mut row2[centre + PANEL - 2..][..width];
+    subtract(simd, [factors[2][0], factors[2][1]], [behind0, behind1], behind2);
+    let behind3 = &mut row3[centre + PANEL - 3..][..width];
+    let [l0, l1, l2, _] = factors[3];
+    subtract(simd, [l0, l1, l2], [behind0, behind1, behind2], behind3);
     for (index, (row, found)) in rows_below.chunks_exact_mut(stride).zip(multipliers).enumerate() {
         let (head, tail) = row[reach - 1 - index..][..PANEL + width].split_at_mut(PANEL);
         head.copy_from_slice(found);
-        subtract(simd, *found, [row0, row1, row2], tail);
+        subtract(simd, *found, [behind0, behind1, behind2, behind3], tail);
     }
     true
 }
 
 /// Subtracts multiples of rows from a row of the same length, one after another.
 #[inline(always)]
-fn subtract<S: Simd, const COUNT: usize>(
+pub(super) fn subtract<S: Simd, const COUNT: usize>(
     simd: S,
     multipliers: [f64; COUNT],
     rows: [&[f64]; COUNT],
@@ -196,9 +246,12 @@ fn subtract<S: Simd, const COUNT: usize>(
     let (vectors, rest) = S::as_mut_simd_f64s(from);
     let splat = multipliers.map(|multiplier| simd.splat_f64s(multiplier));
     for (at, vector) in vectors.iter_mut().enumerate() {
+        // Not in its place, which could be one of the rows as far as the compiler knows.
+        let mut left = *vector;
         for (multiplier, (row, _)) in splat.iter().zip(&rows) {
-            *vector = simd.sub_f64s(*vector, simd.mul_f64s(*multiplier, row[at]));
+            left = simd.sub_f64s(left, simd.mul_f64s(*multiplier, row[at]));
         }
+        *vector = left;
     }
     for (at, entry) in rest.iter_mut().enumerate() {
         for (multiplier, (_, row)) in multipliers.iter().zip(&rows) {
@@ -210,13 +263,13 @@ fn subtract<S: Simd, const COUNT: usize>(
 /// Eliminates one column with the largest of its entries as pivot; returns the last column in which a row has an entry now. Entries of a column, and
 /// of a row, end where `end` has it.
 fn eliminate_column(
-    storage: &mut Storage,
+    storage: &mut Rows<'_>,
     column: usize,
     filled: usize,
     end: impl Fn(usize) -> usize,
 ) -> Result<usize, LinearError> {
-    let (size, stride, reach) = (storage.size, storage.stride(), storage.reach);
-    let rows = &mut storage.rows;
+    let (size, reach) = (storage.size, storage.reach);
+    let (stride, rows) = (3 * reach + PANEL, &mut *storage.rows);
     let last_row = end(column).min(size - 1);
     let diagonal = column * stride + reach + PANEL - 1;
     let (mut pivot_row, mut magnitude) = (column, rows[diagonal].abs());

@@ -6,8 +6,8 @@
 use pulp::Arch;
 
 use super::LinearError;
-use super::banded::Storage;
 use super::elimination::{PANEL, ProfileElimination};
+use super::storage::{Factors, Storage};
 use super::substitution::ProfileSubstitution;
 
 /// A square matrix with a profile: for each index the last row with an entry in the column, and the last column with one in the row.
@@ -21,7 +21,7 @@ pub(super) struct ProfileMatrix {
 /// The factors `P A = L U` of a [`ProfileMatrix`], kept in its storage.
 #[derive(Debug)]
 pub(super) struct ProfileLu<'a> {
-    factors: &'a Storage,
+    factors: Factors<'a>,
     ends: &'a [usize],
 }
 
@@ -66,8 +66,8 @@ impl ProfileMatrix {
     /// # Errors
     /// When a column has no non-zero or no finite pivot; the entries are then lost.
     pub(super) fn factorise(&mut self) -> Result<ProfileLu<'_>, LinearError> {
-        Arch::new().dispatch(ProfileElimination(&mut self.storage, &self.ends))?;
-        Ok(ProfileLu { factors: &self.storage, ends: &self.ends })
+        Arch::new().dispatch(ProfileElimination(self.storage.rows_mut(), &self.ends))?;
+        Ok(ProfileLu { factors: self.storage.factors(), ends: &self.ends })
     }
 }
 

@@ -138,9 +138,9 @@ impl Model {
         self.bodies.mass() + self.elements.mass()
     }
 
-    /// Lets up to `threads` threads work on a large body from here on, with the same results; gives how many will at most.
+    /// Lets up to `threads` threads work on a large body, or on many, from here on, with the same results; gives how many will at most.
     pub fn divide(&mut self, threads: usize) -> usize {
-        self.bodies.iter_mut().map(|body| body.divide(threads)).max().unwrap_or(1)
+        self.bodies.divide(threads)
     }
 
     /// Moves the clock of the model to a time without moving anything else.

@@ -174,17 +174,20 @@ impl Quadratic {
         }
         first_order.view_mut((count, count), (count, count)).copy_from(&-damping);
         // A matrix is found to be decoupled where what couples is small beside its diagonal: beside numbers of no interest, which are next to nothing where the
-        // problem is turned round, it never is. So all are moved away from zero, by as much as the largest entry.
-        let moved = match self.turned {
-            Turned::Not => 0.0,
-            Turned::Round => first_order.amax(),
+        // problem is turned round, it may never be. Then all are moved away from zero, by as much as the largest entry.
+        let largest = first_order.amax();
+        let search = |part: f64, moved: f64| {
+            let mut matrix = first_order.clone();
+            (0..2 * count).for_each(|at| matrix[(at, at)] -= moved);
+            let schur = Schur::try_new(matrix, part, MOST_SWEEPS * count)?;
+            Some(schur.complex_eigenvalues().iter().map(|at| at + moved).collect())
         };
-        for at in 0..2 * count {
-            first_order[(at, at)] -= moved;
-        }
-        let search = |part: f64| Schur::try_new(first_order.clone(), part, MOST_SWEEPS * count);
-        let schur = DECOUPLED.into_iter().find_map(search).ok_or(VibrationError::Damping)?;
-        let found: Vec<Number> = schur.complex_eigenvalues().iter().map(|at| at + moved).collect();
+        let moved = |part: f64| match self.turned {
+            Turned::Not => search(part, 0.0),
+            Turned::Round => search(part, 0.0).or_else(|| search(part, largest)),
+        };
+        let found: Option<Vec<Number>> = DECOUPLED.into_iter().find_map(moved);
+        let found = found.ok_or(VibrationError::Damping)?;
         match found.iter().all(|at| at.re.is_finite() && at.im.is_finite()) {
             true => Ok(found),
             false => Err(VibrationError::Damping),

@@ -153,7 +153,7 @@ fn on_slider(error: &SliderError) -> Option<String> {
             "start it with the velocity of the beam there and whatever it has along the beam, or give the slider the option \
              velocities: \"project\", which takes the nearest velocities that fit"
         }
-        SliderError::KinkedOnTrack(_) => "take conserving()",
+        SliderError::RuleOfOneBeam { .. } => "take conserving()",
         _ => return None,
     };
     Some(advice.into())

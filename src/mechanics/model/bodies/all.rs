@@ -2,8 +2,9 @@
 
 use std::ops::{Deref, DerefMut};
 
+use super::halves::Halves;
 use super::{Body, Momenta, Tracker};
-use crate::beams::{Mesh, Movement, Place, RotationIncrement};
+use crate::beams::{Mesh, Movement, Place};
 use crate::geometry::{Vec2, larger};
 
 /// A function that is smaller than this at a place is zero there.
@@ -11,15 +12,19 @@ const NO_WEIGHT: f64 = 1e-12;
 
 /// The bodies of a model: beams, then particles, then rigid bodies, and what is watched on them; it derefs to the slice of them.
 pub struct Bodies {
-    all: Vec<Body>,
+    pub(super) all: Vec<Body>,
     /// Of the beams.
     meshes: Vec<Mesh>,
     /// Sections whose angle is followed: starts and ends of all beams, then the stations of the scene, then rigid bodies.
-    trackers: Vec<Tracker>,
+    pub(super) trackers: Vec<Tracker>,
     /// Pairs of places that joints hold together.
     joined: Vec<(Place, Place)>,
     /// That of the beams alone [mass].
     mass: f64,
+    /// How many threads may work at once.
+    pub(super) threads: usize,
+    /// Where there are many bodies.
+    pub(super) halves: Option<Halves>,
 }
 
 impl Deref for Bodies {
@@ -46,7 +51,7 @@ impl Bodies {
         joined: Vec<(Place, Place)>,
         mass: f64,
     ) -> Self {
-        Self { all, meshes, trackers, joined, mass }
+        Self { all, meshes, trackers, joined, mass, threads: 1, halves: None }
     }
 
     /// Gives the movements of all bodies other numbers, of which so many are unknown, and tells which places joints hold together.
@@ -59,6 +64,7 @@ impl Bodies {
         for (body, own) in self.all.iter_mut().zip(numbers) {
             body.renumber(own, unknowns);
         }
+        self.divide(self.threads);
         self.joined = joined;
     }
 
@@ -113,24 +119,11 @@ impl Bodies {
         self.iter().map(|body| body.dynamics.strain_energy()).sum()
     }
 
-    /// Adds `factor · M · rates` of all bodies to `out`, one entry for each unknown.
-    pub fn add_inertia(&mut self, factor: f64, rates: &[f64], out: &mut [f64]) {
-        self.all.iter_mut().for_each(|body| body.add_inertia(factor, rates, out));
-    }
-
     /// Gives every body its part of the increments of the unknowns.
     pub fn gather(&mut self, increments: &[f64]) {
         for body in &mut self.all {
             body.gather(increments);
         }
-    }
-
-    /// Lets all bodies accept the movements that were gathered last.
-    pub fn advance(&mut self, rotations: RotationIncrement) {
-        for tracker in &mut self.trackers {
-            tracker.advance(self.all[tracker.place.body].moved(), rotations);
-        }
-        self.all.iter_mut().for_each(|body| body.advance(rotations));
     }
 
     /// The values of unknowns at the control points of every body; supported movements are zero.

@@ -4,11 +4,12 @@ use std::iter::once;
 use std::ops::Range;
 
 use super::Momenta;
+use super::places::{Places, rows_of_parts};
 use crate::beams::{
     BlockSink, BodyDynamics, Collocation, ForceSummary, Movement, Place, RotationIncrement, at_once,
 };
 use crate::geometry::{Vec2, cross};
-use crate::linalg::{BandRows, BandedMatrix};
+use crate::linalg::BandRows;
 
 /// A beam or a particle with the places of its movements in the vectors of the mechanism.
 pub struct Body {
@@ -16,11 +17,16 @@ pub struct Body {
     pub degrees_of_freedom: Vec<[usize; 3]>,
     /// For each span that moves consecutive unknowns only: the first of them.
     consecutive: Vec<Option<usize>>,
+    /// For each control point whether all that share a span with it move consecutive unknowns.
+    in_order: Vec<bool>,
     unknowns: usize,
     /// The first control point and the first row of each part that is worked on at the same time, but for the first part.
     parts: Vec<(usize, usize)>,
     moved: Vec<Movement>,
+    /// What was added up, and not handed on yet.
     forces: Vec<Movement>,
+    /// What was met meanwhile.
+    met: ForceSummary,
 }
 
 impl Body {
@@ -34,10 +40,12 @@ impl Body {
             dynamics,
             degrees_of_freedom: Vec::new(),
             consecutive: Vec::new(),
+            in_order: Vec::new(),
             unknowns,
             parts: Vec::new(),
             moved: zeros.clone(),
             forces: zeros,
+            met: ForceSummary::default(),
         };
         body.renumber(degrees_of_freedom, unknowns);
         body
@@ -46,15 +54,19 @@ impl Body {
     /// Gives the movements of the body's control points other places among the degrees of freedom, of which so many are unknown.
     pub fn renumber(&mut self, degrees_of_freedom: Vec<[usize; 3]>, unknowns: usize) {
         let order = self.dynamics.order();
-        let is_consecutive = |first: usize| {
-            let span = degrees_of_freedom[first..first + order].as_flattened();
-            let steps = span.windows(2).all(|pair| pair[1] == pair[0] + 1);
-            (steps && span.iter().all(|&at| at < unknowns)).then(|| span[0])
+        let are_consecutive = |points: Range<usize>| {
+            let points = degrees_of_freedom[points].as_flattened();
+            let steps = points.windows(2).all(|pair| pair[1] == pair[0] + 1);
+            (steps && points.iter().all(|&at| at < unknowns)).then(|| points[0])
         };
-        let mut consecutive = vec![None; degrees_of_freedom.len()];
+        let count = degrees_of_freedom.len();
+        let mut consecutive = vec![None; count];
         for first in self.dynamics.span_starts() {
-            consecutive[first] = is_consecutive(first);
+            consecutive[first] = are_consecutive(first..first + order);
         }
+        let neighbours = |point: usize| (point + 1).saturating_sub(order)..count.min(point + order);
+        let in_order = (0..count).map(|point| are_consecutive(neighbours(point)).is_some());
+        self.in_order = in_order.collect();
         (self.degrees_of_freedom, self.unknowns) = (degrees_of_freedom, unknowns);
         self.consecutive = consecutive;
         if !self.parts.is_empty() {
@@ -80,6 +92,31 @@ impl Body {
             Vec::new()
         });
         self.parts.len() + 1
+    }
+
+    /// Whether the body works in several parts at once.
+    pub fn is_divided(&self) -> bool {
+        !self.parts.is_empty()
+    }
+
+    /// The number of control points of this body.
+    pub fn points(&self) -> usize {
+        self.degrees_of_freedom.len()
+    }
+
+    fn rows(&self) -> impl Iterator<Item = usize> {
+        let rows = self.degrees_of_freedom.as_flattened().iter().copied();
+        rows.filter(|row| *row < self.unknowns)
+    }
+
+    /// The first of the unknowns of this body.
+    pub fn first_row(&self) -> Option<usize> {
+        self.rows().min()
+    }
+
+    /// The last of the unknowns of this body.
+    pub fn last_row(&self) -> Option<usize> {
+        self.rows().max()
     }
 
     /// Gathers the values of the unknowns at this body, by control point; supported movements are zero.
@@ -129,48 +166,48 @@ impl Body {
         self.dynamics.advance(&self.moved, rotations);
     }
 
-    fn scatter(&mut self, out: &mut [f64]) {
+    /// Hands the forces that were added up on to `out`, and what was met meanwhile.
+    pub fn hand_on(&mut self, out: &mut [f64]) -> ForceSummary {
         for (force, degrees) in self.forces.iter_mut().zip(&self.degrees_of_freedom) {
             for (value, &at) in force.iter_mut().zip(degrees) {
                 out[at] += std::mem::take(value);
             }
         }
+        std::mem::take(&mut self.met)
     }
 
-    pub fn add_forces(
-        &mut self,
-        at: Collocation,
-        increments: &[f64],
-        weight: f64,
-        out: &mut [f64],
-    ) -> ForceSummary {
+    /// Forgets the forces that were added up.
+    pub fn forget_forces(&mut self) {
+        self.forces.fill(Movement::default());
+    }
+
+    /// Adds up the internal forces of this body, to be handed on.
+    pub fn meet_forces(&mut self, at: Collocation, increments: &[f64], weight: f64) {
         self.gather(increments);
-        let summary = self.dynamics.add_forces(at, &self.moved, weight, &mut self.forces);
-        self.scatter(out);
-        summary
+        self.met = self.dynamics.add_forces(at, &self.moved, weight, &mut self.forces);
     }
 
-    pub fn add_linearised_forces(
+    /// Adds up the condensed internal forces of this body, to be handed on, and adds their derivatives to the rows of the tangent that are at hand.
+    pub fn linearise(
         &mut self,
         at: Collocation,
         increments: &[f64],
         weight: f64,
-        out: &mut [f64],
-        tangent: &mut BandedMatrix,
+        mut rows: BandRows<'_>,
     ) {
         self.gather(increments);
-        let Self { dynamics, degrees_of_freedom, consecutive, moved, forces, parts, unknowns } =
-            self;
+        let Self {
+            dynamics, degrees_of_freedom, consecutive, moved, forces, parts, unknowns, ..
+        } = self;
         let (order, unknowns) = (dynamics.order(), *unknowns);
         let places = Places { degrees_of_freedom, consecutive, order, unknowns };
         let mut add = |tangents: &mut [BlockSink<'_>]| {
             dynamics.add_linearised_forces(at, moved, weight, forces, tangents);
         };
         if parts.is_empty() {
-            let mut rows = tangent.rows_mut();
             add(&mut [&mut |first, block| places.add_block(&mut rows, first, block)]);
         } else {
-            let mut sinks: Vec<_> = rows_of_parts(parts, tangent)
+            let mut sinks: Vec<_> = rows_of_parts(parts, rows)
                 .map(|mut rows| {
                     let places = &places;
                     move |first: usize, block: &[f64]| places.add_block(&mut rows, first, block)
@@ -179,12 +216,11 @@ impl Body {
             let mut sinks: Vec<BlockSink<'_>> = sinks.iter_mut().map(|sink| sink as _).collect();
             add(&mut sinks);
         }
-        self.scatter(out);
     }
 
-    pub fn add_mismatch_forces(&mut self, weight: f64, out: &mut [f64]) {
+    /// Adds up the forces that would close the strain mismatch of this body, to be handed on.
+    pub fn meet_mismatch(&mut self, weight: f64) {
         self.dynamics.add_mismatch_forces(weight, &mut self.forces);
-        self.scatter(out);
     }
 
     pub fn correct_section_forces(&mut self, correction: &[f64]) {
@@ -192,10 +228,10 @@ impl Body {
         self.dynamics.correct_section_forces(&self.moved);
     }
 
-    pub fn add_inertia(&mut self, factor: f64, rates: &[f64], out: &mut [f64]) {
+    /// Adds up `factor · M · rates` of this body, to be handed on.
+    pub fn meet_inertia(&mut self, factor: f64, rates: &[f64]) {
         self.gather(rates);
         self.dynamics.add_inertia(factor, &self.moved, &mut self.forces);
-        self.scatter(out);
     }
 
     /// Gives the entries of `factor · M` of this body to `add`: row, column and value; several of one place add up.
@@ -209,32 +245,59 @@ impl Body {
         factor: f64,
         add: &mut impl FnMut(usize, usize, f64),
     ) {
-        self.dynamics.add_inertia_tangent(factor, points, &mut |a, b, inertia| {
-            for ((&row, &column), value) in
-                self.degrees_of_freedom[a].iter().zip(&self.degrees_of_freedom[b]).zip(inertia)
-            {
-                if row < self.unknowns && column < self.unknowns {
-                    add(row, column, value);
-                }
-            }
+        self.dynamics.add_inertia_tangent(factor, points, &mut |point, first, inertia| {
+            self.entries_of(point, first, inertia, add);
         });
     }
 
-    /// Adds `factor · M` of this body to the tangent.
-    pub fn add_inertia_tangent(&self, factor: f64, tangent: &mut BandedMatrix) {
+    /// Gives the entries of a row of control points in the inertia to `add`: row, column and value.
+    fn entries_of(
+        &self,
+        point: usize,
+        first: usize,
+        inertia: &[Movement],
+        add: &mut impl FnMut(usize, usize, f64),
+    ) {
+        let rows = &self.degrees_of_freedom[point];
+        for (columns, inertia) in self.degrees_of_freedom[first..].iter().zip(inertia) {
+            // Functions that share no span may stand far apart in the numbering of the tangent.
+            if *inertia == Movement::default() {
+                continue;
+            }
+            for ((&row, &column), value) in rows.iter().zip(columns).zip(inertia) {
+                if row < self.unknowns && column < self.unknowns {
+                    add(row, column, *value);
+                }
+            }
+        }
+    }
+
+    /// Adds `factor · M` of this body to the rows of the tangent that are at hand.
+    pub fn add_inertia_tangent(&self, factor: f64, rows: BandRows<'_>) {
         let add = |points, mut rows: BandRows<'_>| {
-            self.inertia_entries_of(points, factor, &mut |row, column, value| {
-                rows.add(row, column, value);
+            let at_hand = rows.rows();
+            self.dynamics.add_inertia_tangent(factor, points, &mut |point, first, inertia| {
+                let place = |point: usize| self.degrees_of_freedom[point][0];
+                let row = place(point);
+                if self.in_order[point] && at_hand.start <= row && row + 3 <= at_hand.end {
+                    rows.add_diagonal_blocks(row, place(first), inertia);
+                } else {
+                    self.entries_of(point, first, inertia, &mut |row, column, value| {
+                        if at_hand.contains(&row) {
+                            rows.add(row, column, value);
+                        }
+                    });
+                }
             });
         };
         let points = self.degrees_of_freedom.len();
         if self.parts.is_empty() {
-            return add(0..points, tangent.rows_mut());
+            return add(0..points, rows);
         }
         let starts = once(0).chain(self.parts.iter().map(|(point, _)| *point));
         let ends = self.parts.iter().map(|(point, _)| *point).chain(once(points));
         let points = starts.zip(ends).map(|(start, end)| start..end);
-        at_once(points.zip(rows_of_parts(&self.parts, tangent)), |(points, rows)| {
+        at_once(points.zip(rows_of_parts(&self.parts, rows)), |(points, rows)| {
             add(points, rows);
         });
     }
@@ -252,53 +315,5 @@ impl Body {
             sum += Momenta { twice_kinetic, linear, angular: cross(*point, linear) + spin };
         }
         sum
-    }
-}
-
-/// The rows of a tangent, cut where parts begin.
-fn rows_of_parts<'a>(
-    parts: &[(usize, usize)],
-    tangent: &'a mut BandedMatrix,
-) -> impl Iterator<Item = BandRows<'a>> {
-    let cuts = parts.iter().map(|(_, row)| Some(*row)).chain(once(None));
-    cuts.scan(Some(tangent.rows_mut()), |left, cut| {
-        let rows = left.take()?;
-        let Some(cut) = cut else { return Some(rows) };
-        let (part, rest) = rows.split_at(cut);
-        *left = Some(rest);
-        Some(part)
-    })
-}
-
-/// Where the movements of spans stand in the tangent.
-struct Places<'a> {
-    degrees_of_freedom: &'a [[usize; 3]],
-    consecutive: &'a [Option<usize>],
-    /// The number of control points of a span.
-    order: usize,
-    unknowns: usize,
-}
-
-impl Places<'_> {
-    /// Adds the block of a span, but for rows that are not at hand.
-    fn add_block(&self, rows: &mut BandRows<'_>, first: usize, block: &[f64]) {
-        let width = 3 * self.order;
-        let at_hand = rows.rows();
-        if let Some(start) = self.consecutive[first]
-            && at_hand.start <= start
-            && start + width <= at_hand.end
-        {
-            return rows.add_block(start, width, block);
-        }
-        let degrees = self.degrees_of_freedom[first..first + self.order].as_flattened();
-        for (values, row) in block.chunks_exact(width).zip(degrees) {
-            if at_hand.contains(row) {
-                for (&column, &value) in degrees.iter().zip(values) {
-                    if column < self.unknowns {
-                        rows.add(*row, column, value);
-                    }
-                }
-            }
-        }
     }
 }

@@ -2,7 +2,9 @@
 
 mod all;
 mod body;
+mod halves;
 mod momenta;
+mod places;
 mod tracker;
 
 pub use all::Bodies;

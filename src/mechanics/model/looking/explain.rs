@@ -216,7 +216,9 @@ impl Model {
                 format!("{all} blocks beside the band, {free} with their slaves")
             }
         };
-        let how = format!("{rules}: {solved}; ends of their beams are watched");
+        let on_tracks = scene.sliders.iter().any(|slider| slider.track.is_some());
+        let seams = if on_tracks { ", steps are cut at seams of tracks" } else { "" };
+        let how = format!("{rules}: {solved}; ends of their beams are watched{seams}");
         Part::used("sliders", how)
     }
 

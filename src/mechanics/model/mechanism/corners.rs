@@ -7,16 +7,17 @@
 //! w⁺ = w⁻ + W P        P = γ J ½ (w⁻ + w⁺)        γ = 2 tan(θ/2)/√det W
 //! ```
 //!
-//! with the angle `θ` between the two tangents in that metric. Derived in docs/theory.md, section 10.3.
+//! with the angle `θ` between the two tangents in that metric. Sections turn it first, for which `G` is what steps follow of the velocity, as in a blow;
+//! then what is left, the difference of the shear of both sides, for which it is the velocity itself. Derived in docs/theory.md, section 10.3.
 
 use super::Model;
 use super::blows::RIGID;
 use super::impact::{Direction, Encounter};
-use crate::elementary::atan2;
+use crate::elementary::{atan2, sin_cos};
 use crate::geometry::{Vec2, cross, perpendicular};
 use crate::linalg::{BandedMatrix, LinearError};
 use crate::model::ModelError;
-use crate::model::sliders::TrackLimit;
+use crate::model::sliders::{Seam, TrackEnd, TrackLimit};
 
 /// Tangents whose directions differ by less than this angle are one: rounding [rad].
 const STRAIGHT: f64 = 1e-13;
@@ -86,19 +87,25 @@ impl Model {
     /// # Errors
     /// When the impulses are not determined.
     pub fn pass_seams(&mut self, limits: &[TrackLimit], dt: f64) -> Result<(), ModelError> {
-        let seam = |limit: &TrackLimit| {
-            let slider = &self.sliders[limit.slider];
-            let seam = slider.seam(&self.bodies, limit.end)?;
-            let [comes, goes] = slider.corner(&self.bodies, limit.end, seam)?;
-            Some((seam, Corner { slider: limit.slider, comes, goes }))
-        };
-        let passing: Vec<_> = limits.iter().filter_map(seam).collect();
-        let corners: Vec<Corner> = passing.iter().map(|(_, corner)| *corner).collect();
-        if !corners.iter().all(Corner::is_straight) {
-            self.turn(&corners, dt).map_err(|_| self.sliders.overdetermined())?;
-        }
+        let passing = limits.iter().filter_map(|&TrackLimit { slider, end }| {
+            Some((slider, end, self.sliders[slider].seam(&self.bodies, end)?))
+        });
+        let passing: Vec<(usize, TrackEnd, Seam)> = passing.collect();
+        let corners = passing.iter().filter_map(|(slider, end, seam)| {
+            let [comes, goes] = self.sliders[*slider].corner(&self.bodies, *end, *seam)?;
+            let turned = turned(comes, self.sections_at(*slider, *end, *seam)?);
+            Some((Corner { slider: *slider, comes, goes: turned }, turned, goes))
+        });
+        let corners: Vec<(Corner, Vec2, Vec2)> = corners.collect();
+        let of_sections: Vec<Corner> = corners.iter().map(|(corner, ..)| *corner).collect();
+        let of_shear =
+            corners.iter().map(|&(corner, comes, goes)| Corner { comes, goes, ..corner });
+        let of_shear: Vec<Corner> = of_shear.collect();
+        let turned = self.turn(&of_sections, Some(RIGID * dt));
+        let turned = turned.and_then(|()| self.turn(&of_shear, None));
+        turned.map_err(|_| self.sliders.overdetermined())?;
         let time = self.motion.time;
-        for (seam, Corner { slider, .. }) in passing {
+        for (slider, _, seam) in passing {
             self.sliders[slider].pass(seam);
             self.sliders[slider].note_passing(time);
         }
@@ -106,8 +113,22 @@ impl Model {
         Ok(())
     }
 
-    /// Turns the relative velocities of sliders round corners.
-    fn turn(&mut self, corners: &[Corner], dt: f64) -> Result<(), LinearError> {
+    /// The directions of the axis, as sections have them that are not sheared, in which a slider leaves the one side of a seam and comes to the other [-].
+    fn sections_at(&self, slider: usize, end: TrackEnd, seam: Seam) -> Option<[Vec2; 2]> {
+        let slider = &self.sliders[slider];
+        let along = |beam: usize, end: TrackEnd| {
+            let (sine, cosine) = sin_cos(self.section_angle(2 * beam + end as usize)?);
+            Some(Vec2::new(cosine, sine) * end.outward())
+        };
+        let beyond = along(slider.beam_beyond(seam)?, seam.end)?;
+        Some([along(slider.connection.master, end)?, -beyond])
+    }
+
+    /// Turns the relative velocities of sliders round corners, met by what steps of length `rigid_within` follow of the motion, or by all of it.
+    fn turn(&mut self, corners: &[Corner], rigid_within: Option<f64>) -> Result<(), LinearError> {
+        if corners.iter().all(Corner::is_straight) {
+            return Ok(());
+        }
         let passes = |slider: usize| corners.iter().any(|corner| corner.slider == slider);
         let turned = corners
             .iter()
@@ -115,11 +136,16 @@ impl Model {
         let others = self.sliders.directions(&self.bodies);
         let others = others.into_iter().filter(|(slider, _)| !passes(*slider));
         let directions: Vec<Direction> = turned.chain(others).collect();
-        let encounter = self.encounter(&directions, -2.0, Some(RIGID * dt))?;
+        let encounter = self.encounter(&directions, -2.0, rigid_within)?;
         let impulses = turning(&encounter, corners)?;
         self.apply(encounter, &impulses);
         Ok(())
     }
+}
+
+/// A direction turned by the angle between two others.
+fn turned(direction: Vec2, [from, to]: [Vec2; 2]) -> Vec2 {
+    direction * from.dot(&to) + perpendicular(direction) * cross(from, to)
 }
 
 /// The impulses that turn the relative velocities of sliders round corners, two for each, and then those by which all other contacts of an encounter answer.
@@ -171,7 +197,7 @@ fn turn_together(
         let mut rhs = vec![0.0; come.len()];
         for (at, angle) in angles.iter().enumerate() {
             let own = own(at);
-            let (sine, cosine) = crate::elementary::sin_cos(0.5 * angle);
+            let (sine, cosine) = sin_cos(0.5 * angle);
             let gyration = match own.is_one_way() {
                 true => 0.0,
                 false => 2.0 * sine / (cosine * own.determinant().sqrt()),

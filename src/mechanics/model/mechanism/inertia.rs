@@ -11,7 +11,7 @@ impl Inertia for Model {
     }
 
     fn add_inertia_tangent(&self, factor: f64, tangent: &mut BandedMatrix) {
-        self.bodies.iter().for_each(|body| body.add_inertia_tangent(factor, tangent));
+        self.bodies.add_inertia_tangent(factor, tangent);
         let add = &mut |row, column, value| tangent.add(row, column, value);
         self.elements.inertia_entries(&self.bodies, factor, self.unknowns.count(), add);
     }

@@ -59,9 +59,7 @@ impl Model {
         let rates = self.bodies.by_control_point(&self.motion.rates);
         let joined = self.bodies.number_apart();
         let mut apart = vec![0.0; joined.iter().map(|body| 3 * body.len()).sum()];
-        for body in self.bodies.iter_mut() {
-            body.add_forces(collocation(Stage::Start), &[], 1.0, &mut apart);
-        }
+        self.bodies.add_forces(collocation(Stage::Start), &[], 1.0, &mut apart);
         let at = Iterate { bodies: &self.bodies, stage: Stage::End, increments: &[], weight: 1.0 };
         self.elements.subtract_from(at, &mut apart);
         self.elements.add_resisting(&self.bodies, &rates, &mut apart);

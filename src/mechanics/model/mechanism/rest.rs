@@ -25,7 +25,7 @@ pub struct StaticForces {
 impl Model {
     /// Begins a movement between two places at rest: its section forces start from those of the last one.
     pub fn begin_movement(&mut self) {
-        self.bodies.iter_mut().for_each(|body| body.dynamics.begin_step());
+        self.bodies.begin_step();
         self.elements.begin_movement();
         self.links.begin_movement();
     }

@@ -30,10 +30,7 @@ impl Model {
         weight: f64,
         out: &mut [f64],
     ) -> ForceSummary {
-        let mut summary = ForceSummary::default();
-        for body in self.bodies.iter_mut() {
-            summary.join(&body.add_forces(collocation(stage), increments, weight, out));
-        }
+        let mut summary = self.bodies.add_forces(collocation(stage), increments, weight, out);
         let at = Iterate { bodies: &self.bodies, stage, increments, weight };
         self.elements.add_resistance(at, out, &mut summary);
         if stage != Stage::Start {
@@ -64,9 +61,8 @@ impl Model {
         out: &mut [f64],
         tangent: &mut BandedMatrix,
     ) {
-        for body in self.bodies.iter_mut() {
-            body.add_linearised_forces(collocation(stage), increments, weight, out, tangent);
-        }
+        let at = collocation(stage);
+        self.bodies.add_linearised_forces(at, increments, weight, out, tangent);
         let (at, unknowns) =
             (Iterate { bodies: &self.bodies, stage, increments, weight }, self.unknowns.count());
         self.elements.add_linearised_resistance(at, out, unknowns, tangent);
@@ -145,12 +141,12 @@ impl Forces for Model {
     }
 
     fn add_mismatch_forces(&mut self, weight: f64, out: &mut [f64]) {
-        self.bodies.iter_mut().for_each(|body| body.add_mismatch_forces(weight, out));
+        self.bodies.add_mismatch_forces(weight, out);
         self.elements.add_mismatch_forces(&self.bodies, weight, out);
     }
 
     fn correct_section_forces(&mut self, correction: &[f64]) {
-        self.bodies.iter_mut().for_each(|body| body.correct_section_forces(correction));
+        self.bodies.correct_section_forces(correction);
         self.elements.correct(&self.bodies, correction);
     }
 
@@ -233,6 +229,10 @@ impl Mechanism for Model {
         self.unknowns.half_bandwidth()
     }
 
+    fn threads(&self) -> usize {
+        self.bodies.threads()
+    }
+
     fn rates(&self) -> &[f64] {
         &self.motion.rates
     }
@@ -254,7 +254,7 @@ impl Mechanism for Model {
         links.begin_step(interval.duration());
         sliders.begin_step(bodies, &motion.rates, interval)?;
         elements.begin_step((interval, stages), bodies, &motion.rates).map_err(refused)?;
-        bodies.iter_mut().for_each(|body| body.dynamics.begin_step());
+        bodies.begin_step();
         let knows_accelerations = motion.accelerations.known().is_some();
         step.begin(interval, knows_accelerations && elements.may_jump_at(interval.start));
         let (factor, inertia) = (2.0 / interval.duration(), step.no_forces());

@@ -1,6 +1,5 @@
 //! The unknowns of a model: movements, and forces of rigid links among them.
 
-use crate::geometry::larger;
 use crate::joints::Hold;
 
 /// What an unknown is, and with it the equation of the same number.
@@ -50,11 +49,14 @@ impl Unknowns {
 
     /// The largest magnitudes among the entries of positions and among those of rotations.
     pub fn largest(&self, values: &[f64]) -> (f64, f64) {
-        let entries = values.iter().zip(&self.kinds);
-        entries.fold((0.0, 0.0), |(force, moment), (value, kind)| match kind {
-            UnknownKind::Position => (larger(force, value.abs()), moment),
-            UnknownKind::Rotation => (force, larger(moment, value.abs())),
-            UnknownKind::Force => (force, moment),
-        })
+        // As whole numbers, magnitudes are in the same order, and what is no number is the largest.
+        let magnitude = |value: &f64| value.abs().to_bits();
+        let (mut position, mut rotation) = (0, 0);
+        for (value, kind) in values.iter().zip(&self.kinds) {
+            let of = |wanted| if *kind == wanted { magnitude(value) } else { 0 };
+            position = position.max(of(UnknownKind::Position));
+            rotation = rotation.max(of(UnknownKind::Rotation));
+        }
+        (f64::from_bits(position), f64::from_bits(rotation))
     }
 }

@@ -12,6 +12,17 @@ use crate::model::words::{Approach, SliderError, SliderParts, written};
 /// from the origin: a scene may be drawn in six digits, and the slave is moved onto its master exactly.
 const CLOSED: f64 = 1e-6;
 
+/// Why a law of sliding is not one for tracks, where it is not.
+fn at_seams(rule: SlidingRule) -> Option<&'static str> {
+    match rule {
+        SlidingRule::Conserving | SlidingRule::Exact => None,
+        SlidingRule::Kinked => {
+            Some("the kink of its axis has no room, and its energy would be a wall there")
+        }
+        SlidingRule::Relaxed => Some("no step closes the gap that it leaves to both beams"),
+    }
+}
+
 impl Scene {
     /// The arc length at which a beam comes nearest to a station, both as drawn [length].
     ///
@@ -50,8 +61,9 @@ impl Scene {
         if slider.slave.beam().is_some_and(|beam| masters.contains(&beam)) {
             return Err(SliderError::OnItself(parts).into());
         }
-        if slider.track.is_some() && slider.rule == SlidingRule::Kinked {
-            return Err(SliderError::KinkedOnTrack(parts).into());
+        if let (Some(_), Some(why)) = (slider.track, at_seams(slider.rule)) {
+            let rule = slider.rule.entry().name;
+            return Err(SliderError::RuleOfOneBeam { parts, rule, why }.into());
         }
         if !(0.0..=1.0).contains(&slider.restitution) {
             let (slider, restitution) = (slider.name.clone(), slider.restitution);

@@ -14,6 +14,9 @@ use crate::model::words::finite;
 /// Most sliders of a stored scene: the matrix of a step grows with their square, and a small file must not make it huge.
 const MOST_SLIDERS: usize = 2000;
 
+/// Most tracks of a stored scene.
+const MOST_TRACKS: usize = 1000;
+
 /// Most quantities that a stored scene records.
 const MOST_SENSORS: usize = 10_000;
 
@@ -83,6 +86,14 @@ impl TryFrom<StoredScene> for Scene {
                 name: "number of sliders",
                 value: stored.sliders.len() as f64,
                 allowed: "at most 2000 in a file",
+            });
+        }
+        if stored.tracks.len() > MOST_TRACKS {
+            return Err(ModelError::Value {
+                object: format!("scene '{}'", scene.name),
+                name: "number of tracks",
+                value: stored.tracks.len() as f64,
+                allowed: "at most 1000 in a file",
             });
         }
         for track in stored.tracks {

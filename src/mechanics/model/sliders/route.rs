@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::{Bar, Rail, TrackEnd};
-use crate::geometry::{Passage, Vec2};
+use crate::geometry::{Basis, Passage, Vec2};
 use crate::joints::{Course, Heading};
 use crate::model::bodies::Body;
 
@@ -88,9 +88,9 @@ impl Route {
         self.turns * self.length() + (self.lengths[self.leg] + along)
     }
 
-    /// The most functions that a mesh of the track has.
-    pub fn most_functions(&self) -> usize {
-        self.legs.iter().map(|leg| leg.passage.basis().functions()).max().unwrap_or(0)
+    /// The bases of the beams of the track, in its order.
+    pub fn bases(&self) -> impl Iterator<Item = &Basis> {
+        self.legs.iter().map(|leg| leg.passage.basis())
     }
 
     /// Where the track goes on beyond an end of the present beam, if it does and the beams meet there.

@@ -1,7 +1,7 @@
 //! Sliders of the model: where they are, and what they add to the equations of a step.
 
 use super::{Bar, Connection, KinkedAxis, Rail, Route, SliderState, TooFast, TrackEnd};
-use crate::geometry::{Passage, Vec2, larger};
+use crate::geometry::{Basis, Passage, Vec2, larger};
 use crate::integrators::{Ending, Interval, StepError};
 use crate::joints::{
     CONTACT_UNKNOWNS, Contact, ContactUnknowns, EndAction, Held, KinkState, Released, Slider,
@@ -147,13 +147,13 @@ impl Sliding {
 
     /// The most entries that the equations of the contact have.
     pub fn row_entries(&self) -> usize {
-        CONTACT_UNKNOWNS * 2 * (1 + self.most_functions())
+        CONTACT_UNKNOWNS * 2 * (1 + self.most_of_masters(Basis::functions))
     }
 
     /// The most entries that they have in a step in which the slider passes no more than two spans of its master.
     pub fn usual_entries(&self) -> usize {
-        let basis = self.passage.basis();
-        CONTACT_UNKNOWNS * 2 * (1 + (basis.degree() + 3).min(basis.functions()))
+        let usual = |basis: &Basis| (basis.degree() + 3).min(basis.functions());
+        CONTACT_UNKNOWNS * 2 * (1 + self.most_of_masters(usual))
     }
 
     /// Puts the slider at a parameter of its master.

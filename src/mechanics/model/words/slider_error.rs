@@ -89,11 +89,15 @@ pub enum SliderError {
     )]
     Tied(SliderParts),
     /// A slider on a track under a rule that is for one beam.
-    #[error(
-        "slider '{}': the kinked rule is for one beam: at the seams of the {} the kink of its axis has no room, and its energy would be a wall there",
-        _0.slider, _0.guide
-    )]
-    KinkedOnTrack(SliderParts),
+    #[error("slider '{}': the {rule} rule is for one beam: at the seams of the {} {why}", parts.slider, parts.guide)]
+    RuleOfOneBeam {
+        /// The slider on a track.
+        parts: SliderParts,
+        /// The name of the rule that is for one beam.
+        rule: &'static str,
+        /// What happens at seams under that rule, in words.
+        why: &'static str,
+    },
     /// A coefficient of restitution that is none.
     #[error("slider '{slider}': a restitution of {restitution} is outside [0, 1]")]
     Restitution {

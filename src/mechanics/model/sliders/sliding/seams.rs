@@ -1,7 +1,7 @@
 //! A slider on a track and the seams between its beams: passing them, and leaning on them.
 
 use super::{Sliding, would_pull};
-use crate::geometry::Vec2;
+use crate::geometry::{Basis, Vec2};
 use crate::joints::ContactUnknowns;
 use crate::model::bodies::Body;
 use crate::model::sliders::{Route, Seam, SliderState, TrackEnd};
@@ -9,10 +9,10 @@ use crate::model::sliders::{Route, Seam, SliderState, TrackEnd};
 impl Sliding {
     /// Lets the slider pass from beam to beam along a route, on one of whose beams it is.
     pub fn follow(&mut self, route: Route) {
-        let functions = route.most_functions();
+        self.route = Some(Box::new(route));
+        let functions = self.most_of_masters(Basis::functions);
         self.before.reserve(functions);
         self.moved.reserve(functions);
-        self.route = Some(Box::new(route));
     }
 
     /// Whether the slider is on a track.
@@ -20,10 +20,10 @@ impl Sliding {
         self.route.is_some()
     }
 
-    /// The most functions that a master of the slider has.
-    pub(super) fn most_functions(&self) -> usize {
-        let own = self.passage.basis().functions();
-        self.route.as_ref().map_or(own, |route| route.most_functions())
+    /// The largest of a number that belongs to the mesh of a master, among all masters that the slider may have.
+    pub(super) fn most_of_masters(&self, of: impl Fn(&Basis) -> usize) -> usize {
+        let own = of(self.passage.basis());
+        self.route.as_ref().map_or(own, |route| route.bases().map(of).fold(own, usize::max))
     }
 
     /// Where the track goes on beyond an end of the present master, if the slider is on one that does.
@@ -47,6 +47,11 @@ impl Sliding {
     /// Notes when the slider passes a seam.
     pub fn note_passing(&mut self, time: f64) {
         self.route.iter_mut().for_each(|route| route.passed_at = time);
+    }
+
+    /// The beam on the other side of a seam, by its index.
+    pub fn beam_beyond(&self, seam: Seam) -> Option<usize> {
+        self.route.as_ref().map(|route| route.leg(seam.leg).beam)
     }
 
     /// Puts the slider on the other side of a seam at which it is.

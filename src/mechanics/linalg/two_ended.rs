@@ -1,0 +1,331 @@
+//! Elimination of a long band from both ends towards the middle, at once where there are two threads.
+//!
+//! The rows behind the middle are turned around in their place: last row first, last column first. They are then eliminated as those before it are, and
+//! what both leave in the middle is a small full matrix (the twisted or "burn at both ends" factorisation: Golub & Van Loan, Matrix Computations,
+//! 4th ed., section 4.3; van der Vorst, Parallel Computing 5 (1987) 45–54). The order of operations, and so every bit, is the same with one thread.
+
+use std::sync::{Mutex, PoisonError};
+use std::thread;
+
+use pulp::Arch;
+
+use super::elimination::{Elimination, PANEL};
+use super::storage::{Factors, Rows, Storage};
+use super::substitution::{Backward, Forward};
+use super::{BandedLu, BandedMatrix, LinearError};
+
+/// Bands of so many rows are eliminated from both ends: fewer gain little by a second thread, and keep the bits of elimination from one end.
+const FEWEST_ROWS: usize = 6000;
+
+/// Fewest rows of which each thread solves a half with factors that are there.
+const FEWEST_ROWS_TO_SOLVE: usize = 60_000;
+
+/// What a band that is eliminated from both ends needs besides its own rows.
+#[derive(Debug, Clone)]
+pub(super) struct TwoEnded {
+    cut: Cut,
+    threads: usize,
+    /// Those of elimination from the last row on.
+    multipliers: Vec<[f64; PANEL]>,
+    /// What is left in the middle.
+    middle: BandedMatrix,
+    right: Vec<f64>,
+    /// The unknowns behind the middle and in it, last one first.
+    turned: Vec<f64>,
+}
+
+/// Where a band of so many rows is cut.
+#[derive(Debug, Clone, Copy)]
+struct Cut {
+    size: usize,
+    reach: usize,
+    /// The number of columns that are eliminated from the first one on, in whole panels.
+    upper: usize,
+    /// The number of columns that are eliminated from the last one back, in whole panels.
+    lower: usize,
+}
+
+/// The factors of a band that was eliminated from both ends.
+#[derive(Debug)]
+pub(super) struct TwoEndedLu<'a> {
+    cut: Cut,
+    threads: usize,
+    upper: Factors<'a>,
+    lower: Factors<'a>,
+    middle: BandedLu<'a>,
+    right: &'a mut [f64],
+    turned: &'a mut [f64],
+}
+
+impl Cut {
+    fn new(size: usize, reach: usize) -> Self {
+        let both = size - (2 * reach + 1);
+        let upper = both / 2 / PANEL * PANEL;
+        Self { size, reach, upper, lower: (both - upper) / PANEL * PANEL }
+    }
+
+    /// The number of unknowns that are eliminated last.
+    fn middle(&self) -> usize {
+        self.size - self.upper - self.lower
+    }
+
+    /// The number of rows that elimination from the first one on touches.
+    fn upper_rows(&self) -> usize {
+        self.upper + self.reach
+    }
+
+    /// The number of rows that are turned around: all but those, and one between.
+    fn lower_rows(&self) -> usize {
+        self.size - self.upper_rows() - 1
+    }
+}
+
+impl TwoEnded {
+    /// Room to eliminate a band from both ends, if it is long enough for that.
+    pub(super) fn worthwhile(size: usize, half_bandwidth: usize) -> Option<Self> {
+        (size >= FEWEST_ROWS && size > 16 * half_bandwidth).then(|| Self::new(size, half_bandwidth))
+    }
+
+    fn new(size: usize, half_bandwidth: usize) -> Self {
+        let reach = Storage::zeros(0, half_bandwidth).reach;
+        let cut = Cut::new(size, reach);
+        let middle = cut.middle();
+        Self {
+            cut,
+            threads: 1,
+            multipliers: vec![[0.0; PANEL]; reach],
+            middle: BandedMatrix::zeros(middle, middle - 1),
+            right: vec![0.0; middle],
+            turned: vec![0.0; cut.lower + middle],
+        }
+    }
+
+    /// Lets so many threads work from here on, with the same results.
+    pub(super) fn use_threads(&mut self, threads: usize) {
+        self.threads = threads;
+    }
+
+    /// Sets every entry of a matrix to zero.
+    pub(super) fn clear(&self, band: &mut BandedMatrix) {
+        let storage = band.storage_mut();
+        let middle = self.cut.size / 2 * storage.stride();
+        let (before, behind) = storage.rows.split_at_mut(middle);
+        both(self.threads, || before.fill(0.0), || behind.fill(0.0));
+        storage.end_with_the_identity();
+    }
+
+    /// Replaces the entries of a matrix by its factors.
+    ///
+    /// # Errors
+    /// When a column has no non-zero or no finite pivot; the entries are then lost.
+    pub(super) fn factorise<'a>(
+        &'a mut self,
+        band: &'a mut BandedMatrix,
+    ) -> Result<TwoEndedLu<'a>, LinearError> {
+        let Self { cut, threads, multipliers, middle, right, turned } = self;
+        let (cut, threads) = (*cut, *threads);
+        let Cut { size, reach, .. } = cut;
+        let (stride, centre) = (3 * reach + PANEL, reach + PANEL - 1);
+        let storage = band.storage_mut();
+        let (before, behind) = (cut.upper_rows(), size - cut.lower_rows());
+        // A row that is turned around has its diagonal elsewhere; at the end of the row between there are zeros for that, which nothing fills.
+        let shift = 2 * reach - centre;
+        let (rows, lower) = storage.rows[..size * stride].split_at_mut(behind * stride - shift);
+        let (pivots, lower_pivots) = storage.pivots.split_at_mut(behind);
+        let (last_columns, lower_last_columns) = storage.last_columns.split_at_mut(behind);
+        let upper = Rows {
+            size: before,
+            columns: cut.upper,
+            reach,
+            rows: &mut rows[..before * stride],
+            pivots,
+            last_columns,
+            multipliers: &mut storage.multipliers,
+        };
+        let mut results = [Ok(()), Ok(())];
+        let [of_upper, of_lower] = &mut results;
+        let mut from_below = |rows: &mut [f64], result: &mut Result<(), LinearError>| {
+            rows.reverse();
+            let lower = Rows {
+                size: cut.lower_rows(),
+                columns: cut.lower,
+                reach,
+                rows: &mut rows[shift..],
+                pivots: lower_pivots,
+                last_columns: lower_last_columns,
+                multipliers,
+            };
+            *result = Arch::new().dispatch(Elimination(lower));
+        };
+        let from_above = || *of_upper = Arch::new().dispatch(Elimination(upper));
+        both(threads, from_above, || from_below(lower, of_lower));
+        let [of_upper, of_lower] = results;
+        of_upper.map_err(|error| error.at(error.unknown(), size))?;
+        of_lower.map_err(|error| error.at(size - 1 - error.unknown(), size))?;
+
+        let entry = |row: usize, column: usize| {
+            // Elimination fills in as far as twice the half-bandwidth.
+            let rows = &storage.rows;
+            if row < behind {
+                let is_stored = column <= row + 2 * reach;
+                if is_stored { rows[row * stride + column + centre - row] } else { 0.0 }
+            } else {
+                let (row, column) = (size - 1 - row, size - 1 - column);
+                let first = behind * stride;
+                let is_stored = column <= row + 2 * reach;
+                if is_stored { rows[first + row * stride + column + centre - row] } else { 0.0 }
+            }
+        };
+        middle.clear();
+        for row in 0..cut.middle() {
+            for column in 0..cut.middle() {
+                let (i, j) = (cut.upper + row, cut.upper + column);
+                if i != before || i.abs_diff(j) <= reach {
+                    middle.add(row, column, entry(i, j));
+                }
+            }
+        }
+        let middle =
+            middle.factorise().map_err(|error| error.at(cut.upper + error.unknown(), size))?;
+        let storage = band.storage();
+        let factors = |rows, columns, of: std::ops::Range<usize>, first: usize| Factors {
+            size: rows,
+            columns,
+            reach,
+            rows: &storage.rows[first * stride..][..rows * stride],
+            pivots: &storage.pivots[of.clone()],
+            last_columns: &storage.last_columns[of],
+        };
+        Ok(TwoEndedLu {
+            cut,
+            threads,
+            upper: factors(before, cut.upper, 0..behind, 0),
+            lower: factors(cut.lower_rows(), cut.lower, behind..size, behind),
+            middle,
+            right,
+            turned,
+        })
+    }
+}
+
+impl TwoEndedLu<'_> {
+    /// Replaces the right-hand side `x`, one number a row, by the solution of `A x = b`.
+    pub(super) fn solve(&mut self, x: &mut [f64]) {
+        let Self { cut, threads, upper, lower, middle, right, turned } = self;
+        let (cut, upper, lower) = (*cut, *upper, *lower);
+        let threads = if cut.size < FEWEST_ROWS_TO_SOLVE { 1 } else { *threads };
+        let before = cut.upper_rows();
+        let (above, below) = x.split_at_mut(before + 1);
+        let turned_rows = &mut turned[..cut.lower_rows()];
+        both(
+            threads,
+            || Arch::new().dispatch(Forward { factors: upper, x: &mut above[..before] }),
+            || {
+                let entries = turned_rows.iter_mut().zip(below.iter().rev());
+                entries.for_each(|(turned, x)| *turned = *x);
+                Arch::new().dispatch(Forward { factors: lower, x: turned_rows });
+            },
+        );
+        let (left, behind) = right.split_at_mut(cut.reach + 1);
+        left.copy_from_slice(&x[cut.upper..=before]);
+        let rest = turned[cut.lower..cut.lower_rows()].iter().rev();
+        behind.iter_mut().zip(rest).for_each(|(right, x)| *right = *x);
+        middle.solve(right);
+        x[cut.upper..][..right.len()].copy_from_slice(right);
+        let known = turned[cut.lower..].iter_mut().zip(right.iter().rev());
+        known.for_each(|(turned, x)| *turned = *x);
+        let (above, below) = x.split_at_mut(cut.upper + right.len());
+        both(
+            threads,
+            || Arch::new().dispatch(Backward { factors: upper, x: above }),
+            || {
+                Arch::new().dispatch(Backward { factors: lower, x: turned });
+                below.iter_mut().rev().zip(turned.iter()).for_each(|(x, turned)| *x = *turned);
+            },
+        );
+    }
+}
+
+/// Does both: at once where there are two threads, or here where the system gives no other.
+fn both(threads: usize, one: impl FnOnce(), other: impl FnOnce() + Send) {
+    if threads < 2 {
+        one();
+        return other();
+    }
+    let other = Mutex::new(Some(other));
+    let take = || {
+        let taken = other.lock().unwrap_or_else(PoisonError::into_inner).take();
+        taken.into_iter().for_each(|other| other());
+    };
+    thread::scope(|scope| {
+        let _ = thread::Builder::new().spawn_scoped(scope, take);
+        one();
+        take();
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::DVector;
+    use proptest::prelude::*;
+
+    fn solved(band: &BandedMatrix, threads: usize, right: &[f64]) -> Vec<f64> {
+        let mut band = band.clone();
+        let mut ends = TwoEnded::new(band.size(), band.half_bandwidth());
+        ends.use_threads(threads);
+        let mut x = right.to_vec();
+        let mut factors = ends.factorise(&mut band).unwrap();
+        factors.solve(&mut x);
+        // Again, as with factors that are used again.
+        x.copy_from_slice(right);
+        factors.solve(&mut x);
+        x
+    }
+
+    proptest! {
+        #[test]
+        fn the_solution_from_both_ends_is_that_from_one_and_the_same_on_two_threads(
+            size in 60_usize..200, half_bandwidth in prop::sample::select(vec![1_usize, 5, 6, 8, 11, 14]),
+            entries in prop::collection::vec(-1.0..1.0_f64, 2000),
+            // Rows are exchanged, or not, or only here and there.
+            diagonal in prop::sample::select(vec![0.0, 0.5, 3.0, 30.0]),
+        ) {
+            let mut matrix = BandedMatrix::zeros(size, half_bandwidth);
+            let mut entry = entries.iter().cycle();
+            for i in 0..size {
+                for j in i.saturating_sub(half_bandwidth)..(i + half_bandwidth + 1).min(size) {
+                    matrix.add(i, j, *entry.next().unwrap());
+                }
+                matrix.add(i, i, diagonal);
+            }
+            let right: Vec<f64> = (0..size).map(|i| (i as f64 + 1.0).sin()).collect();
+            let mut reference = right.clone();
+            matrix.clone().factorise().unwrap().solve(&mut reference);
+            let residual = |x: &[f64]| {
+                let row = |i: usize| {
+                    let columns = i.saturating_sub(half_bandwidth)..(i + half_bandwidth + 1).min(size);
+                    columns.map(|j| matrix.get(i, j) * x[j]).sum::<f64>() - right[i]
+                };
+                DVector::from_fn(size, |i, _| row(i)).amax()
+            };
+            let x = solved(&matrix, 1, &right);
+            let largest = DVector::from_column_slice(&reference).amax().max(1.0);
+            prop_assume!(largest < 1e6);
+            prop_assert!(residual(&x) < 1e-10 * largest, "{:e} of {:e}", residual(&x), residual(&reference));
+            let again = solved(&matrix, 2, &right);
+            prop_assert!(x.iter().zip(&again).all(|(a, b)| a.to_bits() == b.to_bits()));
+        }
+    }
+
+    #[test]
+    fn a_singular_column_is_named_wherever_it_is() {
+        for zero in [3, 40, 50, 55, 60, 99] {
+            let mut matrix = BandedMatrix::zeros(100, 6);
+            (0..100).filter(|row| *row != zero).for_each(|row| matrix.add(row, row, 2.0));
+            let mut ends = TwoEnded::new(100, 6);
+            let error = ends.factorise(&mut matrix).unwrap_err();
+            assert_eq!(error, LinearError::Singular { unknown: zero, size: 100 });
+        }
+    }
+}
