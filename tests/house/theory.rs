@@ -168,6 +168,12 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     ("within `1e-10` of an end", "simulation/run/landing.rs", "const NEAR: f64 = 1e-10;"),
     ("no multiplier is above 8", "linalg/elimination.rs", "const LARGEST_MULTIPLIER: f64 = 8.0;"),
     ("Four columns are eliminated at once", "linalg/elimination.rs", "const LANES: usize = 4;"),
+    ("Four columns are eliminated at once", "linalg/elimination.rs", "const PANEL: usize = LANES;"),
+    (
+        "A band of 6 000 rows or more without a border",
+        "linalg/two_ended.rs",
+        "const FEWEST_ROWS: usize = 6000;",
+    ),
     ("repeat at most 15 times", "newton/solver.rs", "iterations: 15 }"),
     (
         "violation of constraints ≤ 1e-11",
