@@ -163,6 +163,7 @@ const VELOCITIES: [(&str, StartVelocities); 2] =
 const SLIDER_KEYS: &[Parameter] = &[
     number("at")
         .between(0.0, 1.0)
+        .unit("part of the length")
         .doc("where it starts, as a part of the length of the beam or the track as drawn; the nearest place unless given")
         .optional(),
     object("rule", RULE).doc("conserving() unless given").optional(),
