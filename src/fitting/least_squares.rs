@@ -11,10 +11,12 @@ const MOST_ROUNDS: usize = 30;
 const MORE_STEPS: usize = 6;
 /// A parameter that changes by less than this part of its size has settled.
 const SETTLED: f64 = 1e-7;
+/// As long as parameters have changed by less than this part of their sizes, derivatives are as good as fresh ones.
+const NEAR: f64 = 0.02;
 /// Cosine of the angle between residuals and the changes that parameters can make, below which nothing is gained.
 const ORTHOGONAL: f64 = 1e-7;
-/// Part of the squares that a step must promise.
-const NOTHING: f64 = 1e-10;
+/// Part of the squares that a step must promise: less changes parameters by less than a hundredth of their standard errors.
+const NOTHING: f64 = 1e-6;
 /// Part of the first squares below which they are rounding.
 const ROUNDING: f64 = 1e-26;
 /// Damping at the start, at least, and at most before it is given up.
@@ -93,14 +95,39 @@ impl State {
         cosines.fold(0.0, f64::max)
     }
 
-    /// The step of the free parameters that makes `|r + J δ|² + λ |D δ|²` least, cut at the bounds.
+    /// The step of the free parameters that makes `|r + J δ|² + λ |D δ|²` least; those that it would take beyond a bound go there, and the others do what is best
+    /// then.
     fn step(&self, ranges: &[Range]) -> DVector<f64> {
-        let free = self.free(ranges);
-        let columns: Vec<usize> = (0..free.len()).filter(|at| free[*at]).collect();
-        let (rows, count) = (self.derivatives.nrows(), columns.len());
-        if count == 0 {
-            return DVector::zeros(self.x.len());
+        let mut free = self.free(ranges);
+        let mut step = DVector::zeros(self.x.len());
+        loop {
+            let columns: Vec<usize> = (0..free.len()).filter(|at| free[*at]).collect();
+            if columns.is_empty() {
+                return step;
+            }
+            let solution = self.step_of(&columns, &(&self.residuals + &self.derivatives * &step));
+            let reached = |(at, column): (usize, &usize)| {
+                let (x, range) = (self.x[*column] + solution[at], ranges[*column]);
+                (range.clip(x) != x).then(|| (*column, range.clip(x) - self.x[*column]))
+            };
+            let beyond: Vec<(usize, f64)> =
+                columns.iter().enumerate().filter_map(reached).collect();
+            if beyond.is_empty() {
+                for (at, column) in columns.into_iter().enumerate() {
+                    step[column] = solution[at];
+                }
+                return step;
+            }
+            for (column, length) in beyond {
+                step[column] = length;
+                free[column] = false;
+            }
         }
+    }
+
+    /// The step of some parameters from given residuals.
+    fn step_of(&self, columns: &[usize], residuals: &DVector<f64>) -> DVector<f64> {
+        let (rows, count) = (residuals.len(), columns.len());
         let root = self.damping.sqrt();
         let matrix = DMatrix::from_fn(rows + count, count, |row, column| match row {
             row if row < rows => {
@@ -110,18 +137,13 @@ impl State {
             _ => 0.0,
         });
         let right = DVector::from_fn(rows + count, |row, _| match row {
-            row if row < rows => -self.residuals[row],
+            row if row < rows => -residuals[row],
             _ => 0.0,
         });
         let factors = matrix.qr();
         let solution = factors.r().solve_upper_triangular(&factors.q().tr_mul(&right));
         let solution = solution.unwrap_or_else(|| DVector::zeros(count));
-        let mut step = DVector::zeros(self.x.len());
-        for (at, column) in columns.into_iter().enumerate() {
-            let x = self.x[column];
-            step[column] = ranges[column].clip(x + solution[at] / self.sizes[column]) - x;
-        }
-        step
+        DVector::from_fn(count, |at, _| solution[at] / self.sizes[columns[at]])
     }
 
     /// Keeps what a step has shown of the derivatives: C. G. Broyden's correction (1965), in the sizes of the parameters.
@@ -216,7 +238,7 @@ impl LeastSquares {
         steps: &mut usize,
         evaluate: &mut Evaluate<'_, E>,
     ) -> Result<Round, E> {
-        let (mut is_fresh, mut taken) = (true, 0);
+        let (mut is_fresh, mut taken, start) = (true, 0, state.x.clone());
         while taken < self.ranges.len() + MORE_STEPS {
             let step = state.step(&self.ranges);
             let promised =
@@ -226,15 +248,29 @@ impl LeastSquares {
                 .zip(&state.x)
                 .zip(&self.ranges)
                 .all(|((step, x), range)| step.abs() <= SETTLED * range.size(*x));
-            if is_small || promised <= NOTHING * state.squares() {
-                return Ok(if is_fresh { Round::Rests } else { Round::Goes });
+            let is_last = is_small || promised.abs() <= NOTHING * state.squares();
+            if is_last && !is_fresh {
+                let is_near = (0..start.len()).all(|at| {
+                    (state.x[at] - start[at]).abs() <= NEAR * self.ranges[at].size(state.x[at])
+                });
+                return Ok(if is_near { Round::Rests } else { Round::Goes });
             }
             let x: Vec<f64> = state.x.iter().zip(step.iter()).map(|(x, step)| x + step).collect();
-            let found = only(evaluate(std::slice::from_ref(&x))?);
+            // A bound may stand in the way of what the others promise: a shorter step does not reach it.
+            let found = match promised > 0.0 {
+                true => only(evaluate(std::slice::from_ref(&x))?),
+                false => Err("nothing is promised".into()),
+            };
             let found = found.ok().filter(|found| found.len() == state.residuals.len());
             let found = found.map(DVector::from_vec);
             let gained =
                 found.as_ref().map_or(f64::NEG_INFINITY, |r| state.squares() - r.norm_squared());
+            if is_last {
+                if let Some(found) = found.filter(|_| gained > 0.0) {
+                    (state.x, state.residuals) = (x, found);
+                }
+                return Ok(Round::Rests);
+            }
             let share = gained / promised;
             let Some(found) = found.filter(|_| share > 1e-4) else {
                 // The derivatives may be too old for the step that they promise.

@@ -61,7 +61,7 @@ fn a_ring_down_needs_few_runs() {
         Ok(times.iter().map(|t| wave(b, *t) - wave(&[3.3, 0.25], *t)).collect())
     });
     assert!((found.parameters[0] - 3.3).abs() < 1e-6 && (found.parameters[1] - 0.25).abs() < 1e-6);
-    assert!(found.runs <= 20, "{} runs", found.runs);
+    assert!(found.runs <= 20, "{} runs, {} steps", found.runs, found.steps);
 }
 
 #[test]

@@ -199,7 +199,11 @@ pub fn with_crew<J: Send, R: Send, T>(
     let given = Mutex::new(given);
     let next = || given.lock().ok()?.recv().ok();
     let labour = |post: &Post, done: mpsc::Sender<_>| -> Result<(), Diagnostic> {
-        let worker = Worker::open(blueprint, Arc::clone(&post.interrupt))?;
+        let worker = match Worker::open(blueprint, Arc::clone(&post.interrupt)) {
+            // All was done before this one had begun.
+            Err(_) if is_over.load(Ordering::Relaxed) => return Ok(()),
+            opened => opened?,
+        };
         while let Some((number, job)) = next() {
             if is_over.load(Ordering::Relaxed) {
                 break;

@@ -163,7 +163,7 @@ mod tests {
         assert!(told(&["a", "b", "c"]).contains("part 3 of 3 of the study 'crane' is there twice"));
         lay("d", 1, 2);
         assert!(
-            told(&["a", "b", "d"]).contains("is one of 2 parts, and others are of"),
+            told(&["a", "b", "d"]).contains("is one of 3 parts, and others are of 2"),
             "{}",
             told(&["a", "b", "d"])
         );
