@@ -77,7 +77,7 @@ fn on_statics(error: &StaticsError) -> Option<String> {
             "loads are taken as they are at one time: choose it with the option time".into()
         }
         StaticsError::InTime { by: InTime::Speed, .. } => {
-            "give the way to the place at rest, from 0 as drawn: x, y or angle as a function of time, such as angle: |t| 0.5 * t with \
+            "give the place at rest, counted from that as drawn: x, y or angle as a function of time that begins with 0, such as angle: |t| 0.5 * t, and \
              scene.equilibrium(#{ time: 1 })"
                 .into()
         }

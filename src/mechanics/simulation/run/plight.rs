@@ -41,7 +41,7 @@ impl Simulation {
             own.map(|mass| mass.rotary_inertia).sum()
         };
         let bodies = self.scene.rigid_bodies.iter().enumerate();
-        bodies.filter(move |(index, body)| body.points.len() > 0 && inertia(*index) == 0.0).map(
+        bodies.filter(move |(index, body)| !body.points.is_empty() && inertia(*index) == 0.0).map(
             |(_, body)| {
                 format!(
                     "body '{}' has no inertia: a force off its centre would turn it at once, in no time; give it an inertia",
