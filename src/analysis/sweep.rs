@@ -199,6 +199,17 @@ impl Sweep {
         parameters.chain(self.results.names.iter().map(String::as_str))
     }
 
+    /// From how many rows it is told what a result depends on: those that came to their end; of a Saltelli design the blocks none of whose rows failed.
+    pub fn telling_rows(&self, result: &str) -> usize {
+        let results = self.results.column(result).unwrap_or_default();
+        let is_whole = |rows: &&[f64]| rows.iter().all(|x| x.is_finite());
+        let block = match self.design.arrangement {
+            Arrangement::Saltelli => self.design.parameters.len() + 2,
+            Arrangement::Grid | Arrangement::Points => 1,
+        };
+        results.chunks_exact(block).filter(is_whole).count() * block
+    }
+
     /// How much of the variance of a result each parameter explains, in the order of the parameters; none where it does not vary, where rows of a grid
     /// failed, or where there are too few points.
     pub fn shares(&self, result: &str) -> Option<Vec<Share>> {
@@ -275,5 +286,9 @@ mod tests {
         assert_eq!(sweep.results.failure(1), None);
         assert!(sweep.results.failures().eq([(0, "lost"), (2, "lost")]));
         assert!(sweep.shares("sum").is_none());
+        assert_eq!(sweep.telling_rows("sum"), 5);
+        sweep.design.arrangement = Arrangement::Saltelli;
+        // Two parameters: blocks of four rows, of which the first has a failed one, and the second is cut off.
+        assert_eq!(sweep.telling_rows("sum"), 0);
     }
 }

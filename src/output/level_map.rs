@@ -13,6 +13,8 @@ use crate::elementary::ln;
 
 /// Ratios of neighbours that differ by less than this part of themselves are equal.
 const EQUAL_RATIOS: f64 = 1e-6;
+/// The most cells along an axis that are drawn: more are smaller than the eye tells apart, and a picture of millions takes many megabytes.
+const MOST_CELLS: usize = 160;
 
 /// An axis of a level map: what it shows, and the numbers at the middles of its cells, ascending.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -31,13 +33,30 @@ pub struct LevelMap {
     label: String,
     x: LevelAxis,
     y: LevelAxis,
-    /// Row by row of the vertical axis, from below.
+    /// Those of drawn cells, row by row of the vertical axis, from below.
     values: Vec<Vec<f64>>,
+}
+
+/// The means of the finite values of neighbours, so many across and up; not-a-number where none is.
+fn means(values: &[Vec<f64>], (across, up): (usize, usize)) -> Vec<Vec<f64>> {
+    let row = |rows: &[Vec<f64>]| {
+        let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+        let mean = |start: usize| {
+            let end = |row: &Vec<f64>| (start + across).min(row.len());
+            let all = rows.iter().flat_map(|row| row.get(start..end(row)).unwrap_or_default());
+            let (sum, count) = all
+                .filter(|x| x.is_finite())
+                .fold((0.0, 0_usize), |(sum, count), x| (sum + x, count + 1));
+            if count == 0 { f64::NAN } else { sum / count as f64 }
+        };
+        (0..columns).step_by(across).map(mean).collect()
+    };
+    values.chunks(up).map(row).collect()
 }
 
 impl LevelAxis {
     /// How the axis is laid out: by ratios where all of its numbers are positive and follow one another by equal ones.
-    fn scale(&self) -> Scale {
+    pub fn scale(&self) -> Scale {
         let ratios: Vec<f64> = self.middles.windows(2).map(|pair| pair[1] / pair[0]).collect();
         let is_equal = |ratio: &f64| (ratio / ratios[0] - 1.0).abs() < EQUAL_RATIOS;
         let is_positive = self.middles.iter().all(|x| *x > 0.0);
@@ -47,13 +66,22 @@ impl LevelAxis {
         }
     }
 
-    /// The numbers at which cells end: halfway between their middles.
+    /// The numbers at which cells end: halfway between their middles, of a logarithmic axis by ratios.
     fn ends(&self) -> Vec<f64> {
-        let between = |a: f64, b: f64| match self.scale() {
+        self.ends_by(self.scale())
+    }
+
+    /// The numbers halfway between the middles, and beyond the first and the last as far.
+    pub fn ends_halfway(&self) -> Vec<f64> {
+        self.ends_by(Scale::Linear)
+    }
+
+    fn ends_by(&self, scale: Scale) -> Vec<f64> {
+        let between = |a: f64, b: f64| match scale {
             Scale::Linear => (a + b) / 2.0,
             Scale::Logarithmic => (a * b).sqrt(),
         };
-        let beyond = |a: f64, end: f64| match self.scale() {
+        let beyond = |a: f64, end: f64| match scale {
             Scale::Linear => 2.0 * a - end,
             Scale::Logarithmic => a * a / end,
         };
@@ -73,6 +101,19 @@ impl LevelAxis {
         ends
     }
 
+    /// How many neighbours are drawn as one cell.
+    fn merged(&self) -> usize {
+        self.middles.len().div_ceil(MOST_CELLS).max(1)
+    }
+
+    /// The numbers at which drawn cells end.
+    fn drawn_ends(&self) -> Vec<f64> {
+        let ends = self.ends();
+        let inner = ends.iter().copied().step_by(self.merged());
+        let last = ends.last().copied().filter(|_| !(ends.len() - 1).is_multiple_of(self.merged()));
+        inner.chain(last).collect()
+    }
+
     fn axis(&self) -> Axis {
         let ends = self.ends();
         let (low, high) = (ends[0], ends[ends.len() - 1]);
@@ -85,14 +126,23 @@ impl LevelAxis {
 }
 
 impl LevelMap {
-    /// A map over two axes: `values` row by row of the vertical axis, from below; `label` says what they are. A value that is not finite is hatched.
+    /// A map over two axes: `values` row by row of the vertical axis, from below; `label` says what they are. A value that is not finite is hatched. Of axes
+    /// with more than 160 numbers neighbours are drawn as one cell, which has the mean of their values, and that is said below the title.
     pub fn new(
         title: impl Into<String>,
         label: impl Into<String>,
         (x, y): (LevelAxis, LevelAxis),
         values: Vec<Vec<f64>>,
     ) -> Self {
-        Self { title: title.into(), captions: Vec::new(), label: label.into(), x, y, values }
+        let merged = (x.merged(), y.merged());
+        let (captions, values) = match merged {
+            (1, 1) => (Vec::new(), values),
+            (across, up) => {
+                let told = format!("each cell that is drawn is the mean of {across} × {up}");
+                (vec![told], means(&values, merged))
+            }
+        };
+        Self { title: title.into(), captions, label: label.into(), x, y, values }
     }
 
     /// Adds a line of small words below the title.
@@ -137,7 +187,7 @@ impl Panel for LevelMap {
         if self.numbers().next().is_none() {
             frame.say_no_data(canvas, plot);
         }
-        let (x_ends, y_ends) = (self.x.ends(), self.y.ends());
+        let (x_ends, y_ends) = (self.x.drawn_ends(), self.y.drawn_ends());
         for (row, y) in self.values.iter().zip(y_ends.windows(2)) {
             for (value, x) in row.iter().zip(x_ends.windows(2)) {
                 let (left, bottom) = frame.place(plot, (x[0], y[0]));
@@ -180,6 +230,25 @@ mod tests {
             (ends[1] * ends[1] - 0.1).abs() < 1e-15 && (ends[3] * ends[3] - 1000.0).abs() < 1e-9
         );
         assert_eq!(axis("", &[0.0]).ends(), [-0.5, 0.5]);
+    }
+
+    #[test]
+    fn neighbours_are_drawn_as_one_cell_where_there_are_many() {
+        let middles: Vec<f64> = (0..1000).map(f64::from).collect();
+        let values = (0..3).map(|row| (0..1000).map(|x| f64::from(x + 1000 * row)).collect());
+        let axes = (axis("x", &middles), axis("y", &[1.0, 2.0, 3.0]));
+        let mut map = LevelMap::new("", "", axes, values.collect());
+        assert_eq!(map.captions, ["each cell that is drawn is the mean of 7 × 1"]);
+        let ends = map.x.drawn_ends();
+        assert_eq!((map.values[1].len(), ends.len()), (143, 144));
+        assert_eq!((ends[0], ends[1], ends[143]), (-0.5, 6.5, 999.5));
+        // The last cell has 994 to 999.
+        assert_eq!((map.values[1][0], map.values[2][142]), (1003.0, 2996.5));
+        map.values[0][0] = f64::NAN;
+        assert_eq!(
+            means(&map.values, (2, 3))[0][0],
+            (1003.0 + 1010.0 + 2003.0 + 2010.0 + 10.0) / 5.0
+        );
     }
 
     #[test]

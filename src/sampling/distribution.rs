@@ -46,6 +46,11 @@ pub enum Distribution {
 }
 
 impl Distribution {
+    /// Whether the distribution is one of the logarithm of its numbers.
+    pub fn is_of_logarithms(&self) -> bool {
+        matches!(self, Self::LogUniform { .. } | Self::LogNormal { .. })
+    }
+
     /// The number below which a value lies with the given probability, strictly between 0 and 1.
     pub fn quantile(&self, probability: f64) -> f64 {
         let between = |from: f64, to: f64| from * (1.0 - probability) + to * probability;

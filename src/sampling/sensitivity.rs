@@ -1,5 +1,8 @@
 //! How much of the variance of a result each parameter explains: Sobol' indices.
 
+/// The fewest blocks from which Sobol' indices are estimated, and the fewest points: an estimate is uncertain by about one over the root of their number.
+const FEWEST: usize = 30;
+
 /// What a parameter explains of the variance of a result, as parts of the whole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Share {
@@ -43,7 +46,7 @@ pub fn shares_of_grid(lengths: &[usize], results: &[f64]) -> Option<Vec<Share>> 
 }
 
 /// The shares of the parameters at the points of [`saltelli`](super::saltelli), by the estimators of M. J. W. Jansen, Computer Physics Communications 117 (1999)
-/// 35-43, over the blocks all of whose results are finite. None where the result does not vary, or no block is whole.
+/// 35-43, over the blocks all of whose results are finite. None where the result does not vary, or fewer than 30 blocks are whole.
 pub fn shares_of_saltelli(parameters: usize, results: &[f64]) -> Option<Vec<Share>> {
     let is_whole = |block: &&[f64]| block.iter().all(|result| result.is_finite());
     let blocks: Vec<&[f64]> = results.chunks_exact(parameters + 2).filter(is_whole).collect();
@@ -55,7 +58,7 @@ pub fn shares_of_saltelli(parameters: usize, results: &[f64]) -> Option<Vec<Shar
         let without = mean(blocks.iter().map(|block| half_square(block[0], block[2 + own])));
         Share { first: 1.0 - with_own / whole, total: Some(without / whole) }
     };
-    (whole > 0.0).then(|| (0..parameters).map(of).collect())
+    (whole > 0.0 && blocks.len() >= FEWEST).then(|| (0..parameters).map(of).collect())
 }
 
 /// The share of the first order of a parameter at any independent points: the variance of the means over groups of points that follow one another in the
@@ -67,7 +70,7 @@ pub fn shares_by_rank(values: &[f64], results: &[f64]) -> Option<Share> {
     pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
     let results: Vec<f64> = pairs.into_iter().map(|(_, result)| result).collect();
     let whole = variance(&results);
-    if results.len() < 30 || whole <= 0.0 {
+    if results.len() < FEWEST || whole <= 0.0 {
         return None;
     }
     let groups = (1..).take_while(|n: &usize| n.pow(3) <= results.len()).last().unwrap_or(1).max(3);
@@ -153,6 +156,8 @@ mod tests {
     fn what_does_not_vary_is_explained_by_nothing() {
         assert!(shares_of_grid(&[2, 2], &[1.0; 4]).is_none());
         assert!(shares_of_saltelli(1, &[1.0; 6]).is_none());
+        let blocks = |count| shares_of_saltelli(1, &[0.0, 1.0, 0.5].repeat(count));
+        assert!(blocks(29).is_none() && blocks(30).is_some());
         assert!(shares_of_saltelli(1, &[f64::NAN; 6]).is_none());
     }
 }

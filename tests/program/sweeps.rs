@@ -231,3 +231,79 @@ fn steps_of_all_runs_count_and_a_check_makes_one() {
     assert_eq!(check.status.code(), Some(0), "{}", said(&check));
     assert!(check.stdout.is_empty() && fs::read_dir(folder.path()).unwrap().count() == 1);
 }
+
+/// Many points are drawn by lot and many cells together, which the pictures say; those of some rows stand beside those of all.
+#[test]
+fn pictures_are_of_all_rows_and_have_names_of_their_own() {
+    let (_folder, file) = script(
+        r#"
+        let lots = study_sweep(#{ name: "lots", samples: sobol(4000), parameters: #{ a: uniform(0, 1), b: uniform(-1, 1) }, run: |p| #{ y: p.a + p.b } });
+        lots.plot("a", "b");
+        lots.plot_matrix();
+        let grid = study_sweep(#{ name: "grid", parameters: #{ a: linspace(0, 1, 400), b: linspace(0, 1, 400) }, run: |p| #{ y: p.a * p.b } });
+        grid.plot("a", "b", "y");
+        grid.plot("a", "y");
+        grid.table.where(|row| row.a < 0.5).plot("a", "y");
+        grid.table.where(|row| row.a > 0.5).plot("a", "y");
+        "#,
+    );
+    let output = withy(&file, "out").output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    let picture = |name: &str| {
+        let name = format!("{name}.svg");
+        fs::read_to_string(file.with_file_name("out").join(name)).unwrap()
+    };
+    let [scatter, matrix] = ["lots-a-b", "lots-matrix"].map(picture);
+    assert!(scatter.contains("2000 of 4000 points, drawn by lot"));
+    assert!(matrix.contains("lots: 500 of 4000 runs, drawn by lot"));
+    // The smallest of the points is no reason for a logarithmic axis.
+    assert!(!scatter.contains("10⁻"), "{}", &scatter[..2000]);
+    let map = picture("grid-a-b-y");
+    assert!(map.contains("each cell that is drawn is the mean of 3 × 3"));
+    assert!(map.len() < 4_000_000, "{}", map.len());
+    let [all, low, high] = ["grid-a-y", "grid-a-y-2", "grid-a-y-3"].map(picture);
+    assert!(all != low && low != high && high != all);
+}
+
+/// When no run came to its end, the first is made again to find the place of its error; neither prints nor writes.
+#[test]
+fn runs_that_all_fail_leave_nothing_behind() {
+    let (_folder, file) = script(
+        r#"
+        study_sweep(#{ name: "failing", parameters: #{ x: [1, 2] }, run: |p| {
+            print("printed by a run");
+            if p.x > 1 { write_csv([#{ a: 1 }], "written.csv"); }
+            throw "no " + p.x;
+        } });
+        "#,
+    );
+    let output = withy(&file, "out").output().unwrap();
+    assert_ne!(output.status.code(), Some(0));
+    assert!(said(&output).contains("no 1"), "{}", said(&output));
+    assert!(!String::from_utf8_lossy(&output.stdout).contains("printed by a run"));
+    let text = fs::read_to_string(&file).unwrap().replace("p.x > 1", "p.x > 0");
+    fs::write(&file, text).unwrap();
+    let output = withy(&file, "out").output().unwrap();
+    assert!(said(&output).contains("no file is written here"), "{}", said(&output));
+    assert!(!file.with_file_name("out").join("written.csv").exists());
+}
+
+/// Rows that failed are left out of what a result depends on, and that is told.
+#[test]
+fn sensitivity_tells_how_many_rows_it_leaves_out() {
+    let (_folder, file) = script(
+        r#"
+        let sweep = study_sweep(#{
+            name: "some fail", samples: saltelli(64), parameters: #{ a: uniform(0, 1), b: uniform(0, 1) },
+            run: |p| { if p.a > 0.99 { throw "too much"; } #{ y: p.a + p.b } },
+        });
+        print(sweep.failures.count);
+        sweep.sensitivity("y");
+        "#,
+    );
+    let output = withy(&file, "out").output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    let told = said(&output);
+    let told = told.lines().find(|line| line.contains("the sensitivity of 'y'")).unwrap();
+    assert!(told.contains("of 256 rows") && told.contains("blocks are left out"), "{told}");
+}

@@ -3,20 +3,23 @@
 use rhai::Dynamic;
 
 use super::sweeps::{SETUP, SWEEP, SWEEP_TABLE, SweepHandle, no_column};
+use crate::analysis::{SweepColumn, SweptValues};
 use crate::output::Panel;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::Type;
 use crate::script::rows::parameter::{Parameter, text};
 use crate::script::rows::table::{Row, Table, method};
+use crate::script::state::settings::Mode;
 use crate::script::studies::sweeps::pictures::{MOST_COLUMNS, Picture};
 use crate::script::studies::sweeps::table::SweepTable;
-use crate::script::words::error::ScriptError;
+use crate::script::words::error::{Place, ScriptError};
 
 /// The domain of pictures of sweeps.
 pub const TABLE: Table = Table {
     name: "pictures of sweeps",
     doc: "Each is written into a file that is named by the sweep and its columns: NAME-speed-mass-peak.svg. Rows that failed are not drawn. What sweeps have, \
-          their tables have too, so that some rows can be drawn: sweep.table.where(|row| row.mass < 2).plot(\"speed\", \"peak\").",
+          their tables have too, so that some rows can be drawn: sweep.table.where(|row| row.mass < 2).plot(\"speed\", \"peak\"). Pictures of some rows \
+          are numbered from 2: NAME-speed-peak-2.svg. A column of texts or other values that are no numbers cannot be drawn; truth values are 0 and 1.",
     types: &[],
     setup: SETUP,
     constants: &[],
@@ -40,8 +43,10 @@ const fn plot(of: Type) -> Row {
         .summary("Draws a column over another one, or as colours over two others.")
         .doc(
             "Over a parameter that goes through an array: a curve for each combination of the others, or mean, least and largest where there are more \
-             than eight. Over other columns: points. With z a map: a cell for each pair of values of two such parameters, or for points twenty by twenty; \
-             the mean where several runs fall into a cell, hatched where none does.",
+             than eight. Over other columns: points, of more than 2000 rows as many, drawn by lot. The axis of x is logarithmic for logspace(…) and \
+             distributions of logarithms over a decade or more. With z a map: a cell for each pair of values of two such parameters, or for points twenty by twenty; \
+             the mean where several runs fall into a cell, hatched where none does. Of more than 160 values along an axis neighbours are drawn as one cell, which \
+             has the mean of theirs.",
         )
         .example("sweep.plot(\"speed\", \"energy\");\nsweep.plot(\"speed\", \"mass\", \"energy\");\nsweep.table.where(|row| row.mass == 2).plot(\"speed\", \"energy\");")
         .see(&["plot_matrix", "plot_histogram", "sensitivity"])
@@ -52,6 +57,7 @@ const fn matrix(of: Type) -> Row {
         .summary(
             "Draws all columns of numbers, six at most, over all others, with their histograms.",
         )
+        .doc("Of more than 500 rows as many are shown, drawn by lot, the same in all panels; the histograms are of all.")
         .example("sweep.plot_matrix();\nsweep.table.plot_matrix();")
         .see(&["plot"])
 }
@@ -60,6 +66,7 @@ const fn histogram(of: Type) -> Row {
     const COLUMN: &[Parameter] = &[text("column").doc("a parameter or result")];
     method(of, "plot_histogram", COLUMN, draw_histogram)
         .summary("Draws how many runs have which values of a column.")
+        .doc("Of at most 64 values that come back, each has a class of its own; else classes are equally wide.")
         .example("sweep.plot_histogram(\"energy\");\nsweep.table.plot_histogram(\"energy\");")
         .see(&["plot", "plot_matrix"])
 }
@@ -78,13 +85,67 @@ fn write(
 ) -> Result<Dynamic, ScriptError> {
     let parts = [table.sweep().name.as_str()].into_iter().chain(columns.iter().copied());
     let name = parts.map(|part| part.replace('/', " ")).collect::<Vec<_>>().join("-");
-    call.context().write_file(&format!("{name}.svg"), picture.as_bytes())?;
+    let file = match table.is_of_some_rows() {
+        false => format!("{name}.svg"),
+        true => numbered(call, &name)?,
+    };
+    call.context().write_file(&file, picture.as_bytes())?;
     Ok(Dynamic::UNIT)
+}
+
+/// The name of a picture of some rows, which must not take the place of that of all, nor of one of other rows: the first that this run has not written.
+fn numbered(call: &Call, name: &str) -> Result<String, ScriptError> {
+    let output = call.context().output();
+    let written = output.written();
+    let mut number = 2;
+    loop {
+        let file = format!("{name}-{number}.svg");
+        if !written.contains(&output.path_of(&file)?) {
+            return Ok(file);
+        }
+        number += 1;
+    }
+}
+
+/// Rows that can be drawn are expected of a run that has made all of them.
+fn expect_rows(call: &Call, picture: &Picture, names: &[&str]) -> Result<(), ScriptError> {
+    let context = call.context();
+    let is_whole = context.mode() == Mode::Run && context.studies().part.is_none();
+    if !is_whole || picture.has_rows(names) {
+        return Ok(());
+    }
+    let (count, all) = (picture.table.length(), picture.table.sweep().design.rows);
+    let hint = match count {
+        0 => "no row was chosen: loosen the condition of where(…)",
+        _ => "rows that failed have no results: print(sweep.failures) says why",
+    };
+    let told = format!("there is nothing to draw in {count} of the {all} rows of the sweep");
+    Err(call.error(told).hint(hint))
 }
 
 fn expect_columns(call: &Call, table: &SweepTable, names: &[&str]) -> Result<(), ScriptError> {
     let missing = names.iter().position(|name| table.sweep().column(name).is_none());
-    missing.map_or(Ok(()), |at| Err(no_column(call, table.sweep(), (names[at], at))))
+    if let Some(at) = missing {
+        return Err(no_column(call, table.sweep(), (names[at], at)));
+    }
+    let words = |name: &&str| match table.sweep().column(name)? {
+        SweepColumn::Parameter(SweptValues::Levels { labels, numbers: None, .. }) => Some(labels),
+        _ => None,
+    };
+    let Some((at, labels)) =
+        names.iter().map(words).enumerate().find_map(|(at, of)| Some((at, of?)))
+    else {
+        return Ok(());
+    };
+    let name = names[at];
+    let few: Vec<&str> = labels.iter().take(3).map(String::as_str).collect();
+    let told = format!("the values of \"{name}\" are no numbers: {}", few.join(", "));
+    Err(call
+        .error(told)
+        .hint(format!(
+            "over a parameter of numbers there is a curve for each of them; where(|row| row.{name} == …) has the rows of one"
+        ))
+        .at(Place::Argument(at)))
 }
 
 fn draw(call: &mut Call) -> Result<Dynamic, ScriptError> {
@@ -93,6 +154,7 @@ fn draw(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let names: Vec<&str> = [x.as_str(), y.as_str()].into_iter().chain(z.as_deref()).collect();
     expect_columns(call, &table, &names)?;
     let picture = Picture { table: &table, title: table.sweep().name.clone() };
+    expect_rows(call, &picture, &names)?;
     let drawn = match &z {
         None => picture.over(&x, &y).map(|chart| chart.figure()),
         Some(z) => picture.map(&x, &y, z).map(|map| map.figure()),
@@ -107,6 +169,7 @@ fn draw_matrix(call: &mut Call) -> Result<Dynamic, ScriptError> {
         |name: &&str| table.numbers(name).is_some_and(|all| all.iter().any(|x| x.is_finite()));
     let names: Vec<&str> = table.sweep().names().filter(is_number).take(MOST_COLUMNS).collect();
     let picture = Picture { table: &table, title: table.sweep().name.clone() };
+    expect_rows(call, &picture, &names)?;
     let svg = picture.matrix(&names).figure()?.to_svg()?;
     write(call, &table, &["matrix"], &svg)
 }
@@ -115,6 +178,7 @@ fn draw_histogram(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (table, column) = (table(call)?, call.text("column")?);
     expect_columns(call, &table, &[&column])?;
     let picture = Picture { table: &table, title: table.sweep().name.clone() };
+    expect_rows(call, &picture, &[&column])?;
     let svg = picture.histogram(&column).figure()?.to_svg()?;
     write(call, &table, &[&column, "histogram"], &svg)
 }

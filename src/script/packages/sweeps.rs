@@ -6,7 +6,7 @@ use std::time::Duration;
 use rhai::{Array, Dynamic, FnPtr, Map};
 
 use super::samples::SAMPLES;
-use crate::analysis::{Sweep, SweepResults};
+use crate::analysis::{Arrangement, Sweep, SweepResults};
 use crate::sampling::Share;
 use crate::script::rows::arguments::Arguments;
 use crate::script::rows::call::Call;
@@ -73,7 +73,8 @@ pub const TABLE: Table = Table {
                 "A map for each parameter: parameter, first (by itself: the variance of the mean over all others, as a part of the whole; its main effect) and \
                  total (together with all others; () where the points do not tell). Of a grid they are exact for its values, each taken as equally likely; of \
                  saltelli(…) they are estimated as M. J. W. Jansen does (Computer Physics Communications 117 (1999) 35-43); of other points first alone, by \
-                 groups of neighbours. Parameters must be independent of one another, which those of sweeps are.",
+                 groups of neighbours. Estimates from N blocks or points are uncertain by about 1/√N: at least 30 are asked for, and thousands tell small shares \
+                 apart. How many rows are left out because runs failed is told. Parameters must be independent of one another, which those of sweeps are.",
             )
             .example("let main = sweep.sensitivity(\"energy\")[0];\ncheck(main.parameter == \"speed\" && main.first < main.total);")
             .see(&["saltelli", "study_sweep"]),
@@ -307,9 +308,21 @@ fn sensitivity(call: &mut Call) -> Result<Dynamic, ScriptError> {
         }
         return Err(call
             .error(format!("the runs do not tell what '{result}' depends on"))
-            .hint("it must vary; a grid must have no failed rows, points must be at least 30; saltelli(1024) gives the best")
+            .hint("it must vary; a grid must have no failed rows; points, or blocks of saltelli(…) without failed rows, must be at least 30; saltelli(1024) gives the best")
             .at(Place::Argument(0)));
     };
+    let (used, rows) = (sweep.telling_rows(&result), sweep.design.rows);
+    if used < rows && call.context().mode() == Mode::Run {
+        let failed = sweep.results.failures().len();
+        let told = format!(
+            "note: the sensitivity of '{result}' is told by {used} of {rows} rows: {failed} failed"
+        );
+        let blocks = match sweep.design.arrangement {
+            Arrangement::Saltelli => ", and with them their blocks are left out",
+            Arrangement::Grid | Arrangement::Points => "",
+        };
+        call.context().tell(&(told + blocks));
+    }
     let mut shares: Vec<(&str, Share)> = names.zip(shares).collect();
     let size = |share: &Share| share.total.unwrap_or(share.first);
     shares.sort_by(|a, b| size(&b.1).total_cmp(&size(&a.1)));

@@ -42,7 +42,7 @@ struct Shared {
     journals: Journals,
     output: OutputFolder,
     program: Option<Program>,
-    refuses_files: Option<&'static str>,
+    refuses_files: Cell<Option<&'static str>>,
     checks: RefCell<Checks>,
     reports: Reports,
     /// The names of studies so far.
@@ -74,7 +74,7 @@ impl Context {
             journals: Journals::default(),
             output: OutputFolder::new(settings.out, settings.folder, writing),
             program: settings.program,
-            refuses_files: settings.refuses_files,
+            refuses_files: Cell::new(settings.refuses_files),
             checks: RefCell::default(),
             reports: Reports::default(),
             study_names: RefCell::default(),
@@ -213,6 +213,14 @@ impl Context {
         let was_silent = self.0.is_silent.replace(true);
         let result = work();
         self.0.is_silent.set(was_silent);
+        result
+    }
+
+    /// Does something of which nothing is printed or told, and which may write no files; `refusal` says why not.
+    pub fn tracelessly<T>(&self, refusal: &'static str, work: impl FnOnce() -> T) -> T {
+        let refused_before = self.0.refuses_files.replace(Some(refusal));
+        let result = self.silently(work);
+        self.0.refuses_files.set(refused_before);
         result
     }
 

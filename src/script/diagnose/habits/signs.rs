@@ -35,6 +35,7 @@ fn sign(spot: &Spot) -> Option<Cure> {
         (":=", "write = to assign, and let where a variable is made: let x = 3;"),
         ("++", "write x += 1"),
         ("--", "write x -= 1"),
+        ("<-", "write = to assign, and to compare with a negative number a blank between: x < -1"),
         ("->", "write |x| … for a function without a name; what a function gives is not declared"),
         ("=>", ARROW),
         ("@", "write |x| x^2 for a function without a name"),

@@ -77,7 +77,7 @@ impl Context {
     }
 
     fn account_for(&self, content: &[u8]) -> Result<(), ScriptError> {
-        if let Some(refusal) = self.0.refuses_files {
+        if let Some(refusal) = self.0.refuses_files.get() {
             return Err(ScriptError::new("no file is written here").hint(refusal));
         }
         match self.mode() == Mode::DryBuild || self.meter().allows_a_file(content.len() as u64) {

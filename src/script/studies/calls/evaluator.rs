@@ -110,7 +110,7 @@ impl Question<'_> {
 
     /// The error of a function that fails at a point where it must not: that of the script itself, at its place, where it is found again.
     pub fn blame(&self, calling: &Call, point: &[f64], reason: &str) -> ScriptError {
-        let found = calling.context().silently(|| self.here(calling, point));
+        let found = calling.context().tracelessly(NO_FILES, || self.here(calling, point));
         found.err().unwrap_or_else(|| {
             let pairs = self.names.iter().zip(point);
             let at: Vec<String> = pairs.map(|(name, x)| format!("{name} = {x}")).collect();
@@ -178,7 +178,7 @@ impl<'w> Evaluator<'w> {
 
     fn ask_here(&self, point: &[f64]) -> Result<Answer, ScriptError> {
         let context = self.call.context();
-        match context.silently(|| self.question.here(self.call, point)) {
+        match context.tracelessly(NO_FILES, || self.question.here(self.call, point)) {
             Ok(given) => Ok((self.question.read)(&given)),
             Err(ScriptError::Engine(error)) if !context.is_stopped() => match thrown(&error) {
                 Some(reason) => Ok(Answer::Failed(reason)),

@@ -180,9 +180,10 @@ impl Portable {
         }
     }
 
-    /// The value as a number, if it is one.
+    /// The value as a number, if it is one or a truth value: 1 is true.
     pub fn number(&self) -> Option<f64> {
         match self {
+            Self::Truth(truth) => Some(f64::from(u8::from(*truth))),
             Self::Whole(whole) => Some(*whole as f64),
             Self::Number(number) => Some(*number),
             _ => None,

@@ -65,6 +65,8 @@ pub struct SweepPlan {
     pub design: SweepDesign,
     /// For each parameter the values of its levels; none where each row has its own number.
     levels: Vec<Vec<Portable>>,
+    /// The names of parameters whose logarithms are distributed.
+    spread_by_ratios: Vec<String>,
 }
 
 impl SweepPlan {
@@ -123,6 +125,8 @@ impl SweepPlan {
             Some(Samples { kind: SampleKind::Saltelli, .. }) => Arrangement::Saltelli,
             Some(_) => Arrangement::Points,
         };
+        let by_ratios = given.iter().filter(|of| of.is_spread_by_ratios());
+        let spread_by_ratios = by_ratios.map(|of| of.name.clone()).collect();
         let mut columns = columns.map(Vec::into_iter);
         let (mut repeats, mut swept, mut levels) = (rows, Vec::new(), Vec::new());
         for of in given {
@@ -131,7 +135,8 @@ impl SweepPlan {
             swept.push(SweptParameter { name: of.name, values });
             levels.push(of_levels);
         }
-        Ok(Self { design: SweepDesign { parameters: swept, rows, arrangement }, levels })
+        let design = SweepDesign { parameters: swept, rows, arrangement };
+        Ok(Self { design, levels, spread_by_ratios })
     }
 
     /// What the parameters and all of their values are known again by.
@@ -148,6 +153,11 @@ impl SweepPlan {
         let rows = self.design.rows.to_le_bytes().to_vec();
         let all = self.design.parameters.iter().zip(&self.levels).flat_map(of);
         rows.into_iter().chain(all).collect()
+    }
+
+    /// Whether the distribution of a parameter is one of its logarithm.
+    pub fn is_spread_by_ratios(&self, name: &str) -> bool {
+        self.spread_by_ratios.iter().any(|of| of == name)
     }
 
     /// The values of a row, as the function gets them.
@@ -202,6 +212,10 @@ fn given(call: &Call, name: &str, value: &Dynamic) -> Result<Given, ScriptError>
 }
 
 impl Given {
+    fn is_spread_by_ratios(&self) -> bool {
+        matches!(&self.spread, Spread::Distribution(of) if of.is_of_logarithms())
+    }
+
     fn levels(&self) -> &[Portable] {
         match &self.spread {
             Spread::Levels(levels, _) => levels,

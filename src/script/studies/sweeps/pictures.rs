@@ -4,14 +4,15 @@ use std::collections::BTreeMap;
 
 use super::table::SweepTable;
 use crate::analysis::{SweepColumn, SweptValues};
-use crate::elementary::ln;
+use crate::elementary::{exp, ln};
 use crate::output::{
     LevelAxis, LevelMap, LineChart, Marker, Page, Scale, Series, Stroke, significant,
 };
+use crate::sampling::Random;
 
 /// Curves of a chart; more are told as their mean, least and largest.
 const MOST_CURVES: usize = 8;
-/// Points of a scatter; of more rows some are shown, evenly spread over all.
+/// Points of a scatter; of more rows some are shown, which are drawn by lot.
 const MOST_POINTS: usize = 2000;
 /// Points of each panel among many.
 const MOST_POINTS_AMONG: usize = 500;
@@ -19,8 +20,10 @@ const MOST_POINTS_AMONG: usize = 500;
 const CELLS: usize = 20;
 /// Columns of which all are drawn over all.
 pub const MOST_COLUMNS: usize = 6;
-/// A ratio of the ends of a parameter from which its axis is logarithmic.
-const DECADES: f64 = 50.0;
+/// Values of a column that have classes of their own in a histogram, when they come back twice on the average.
+const MOST_VALUES: usize = 64;
+/// A ratio of the ends of an axis from which it may be logarithmic.
+const DECADE: f64 = 10.0;
 
 /// Which columns a picture is of.
 pub struct Picture<'t> {
@@ -42,14 +45,9 @@ fn levels(column: SweepColumn) -> Option<Vec<f64>> {
     }
 }
 
-/// Whether numbers are better seen by their ratios: positive ones over decades.
-fn scale(numbers: &[f64]) -> Scale {
-    let finite = || numbers.iter().copied().filter(|x| x.is_finite());
-    let (least, most) = (finite().fold(f64::INFINITY, f64::min), finite().fold(0.0, f64::max));
-    match least > 0.0 && most / least >= DECADES {
-        true => Scale::Logarithmic,
-        false => Scale::Linear,
-    }
+/// The least and the largest of some numbers.
+fn ends(numbers: impl Iterator<Item = f64> + Clone) -> (f64, f64) {
+    (numbers.clone().fold(f64::INFINITY, f64::min), numbers.fold(f64::NEG_INFINITY, f64::max))
 }
 
 fn mean(numbers: &[f64]) -> f64 {
@@ -62,10 +60,18 @@ fn pairs(table: &SweepTable, x: SweepColumn, y: SweepColumn) -> Vec<(usize, f64,
     all.filter(|(_, x, y)| x.is_finite() && y.is_finite()).collect()
 }
 
-/// So many points at most, evenly spread over all.
-fn thinned(points: &[(f64, f64)], most: usize) -> Vec<(f64, f64)> {
-    let every = points.len().div_ceil(most).max(1);
-    points.iter().copied().step_by(every).collect()
+/// So many of some things at most, in their order: each choice is equally likely, and the same in every run (C. T. Fan, M. E. Muller, I. Rezucha, 1962). Every
+/// tenth of the points of a grid or of a Sobol' sequence would be a sequence of its own, and lie in a part of them only.
+fn thinned<T: Copy>(all: &[T], most: usize) -> Vec<T> {
+    let mut random = Random::seeded(0);
+    let mut wanted = most.min(all.len());
+    let is_chosen = |(at, _): &(usize, &T)| {
+        let rest = (all.len() - at) as u64;
+        let is_chosen = random.below(rest) < wanted as u64;
+        wanted -= usize::from(is_chosen);
+        is_chosen
+    };
+    all.iter().enumerate().filter(is_chosen).map(|(_, one)| *one).collect()
 }
 
 impl Picture<'_> {
@@ -73,19 +79,40 @@ impl Picture<'_> {
         self.table.sweep().column(name)
     }
 
+    /// How a column is laid out along an axis: by ratios if its values follow one another, or are distributed, by ratios, over a decade at least.
+    fn scale(&self, name: &str, column: SweepColumn) -> Scale {
+        let by_ratios = match levels(column) {
+            Some(middles) => {
+                LevelAxis { label: String::new(), middles }.scale() == Scale::Logarithmic
+            }
+            None => self.table.is_spread_by_ratios(name),
+        };
+        let (least, largest) = ends(self.table.rows().map(|row| column.number(row)));
+        match by_ratios && largest / least >= DECADE {
+            true => Scale::Logarithmic,
+            false => Scale::Linear,
+        }
+    }
+
+    /// Whether there is a row in which all of these columns have numbers.
+    pub fn has_rows(&self, names: &[&str]) -> bool {
+        let columns: Vec<_> = names.iter().filter_map(|name| self.column(name)).collect();
+        self.table.rows().any(|row| columns.iter().all(|column| column.number(row).is_finite()))
+    }
+
     /// One column over another: curves over the values of a grid, else points. None where a column is missing.
     pub fn over(&self, x_name: &str, y_name: &str) -> Option<LineChart> {
         let (x, y) = (self.column(x_name)?, self.column(y_name)?);
         let found = pairs(self.table, x, y);
-        let xs: Vec<f64> = found.iter().map(|(_, x, _)| *x).collect();
-        let empty = LineChart::new(&self.title).x_label(x_name).y_label(y_name).x_scale(scale(&xs));
+        let scale = self.scale(x_name, x);
+        let empty = LineChart::new(&self.title).x_label(x_name).y_label(y_name).x_scale(scale);
         let is_grid = levels(x).is_some_and(|levels| levels.len() > 1);
         Some(match is_grid {
             true => self.curves(empty, x_name, &found),
             false => {
                 let points: Vec<(f64, f64)> = found.iter().map(|(_, x, y)| (*x, *y)).collect();
                 let shown = thinned(&points, MOST_POINTS);
-                let told = format!("{} of {} points", shown.len(), points.len());
+                let told = format!("{} of {} points, drawn by lot", shown.len(), points.len());
                 let series =
                     Series::new("", shown).stroke(Stroke::Unjoined).marker(Marker::Ring).thin();
                 let chart = empty.series(series);
@@ -156,12 +183,15 @@ impl Picture<'_> {
         let axis = |name: &str, column: SweepColumn, at: usize| {
             let numbers = || rows.iter().map(move |row| row[at]).filter(|x| x.is_finite());
             let middles = levels(column).unwrap_or_else(|| {
-                let (low, high) = (
-                    numbers().fold(f64::INFINITY, f64::min),
-                    numbers().fold(f64::NEG_INFINITY, f64::max),
-                );
-                let step = (high - low) / CELLS as f64;
-                (0..CELLS).map(|cell| low + (cell as f64 + 0.5) * step).collect()
+                let (low, high) = ends(numbers());
+                let between = |low: f64, high: f64| {
+                    let step = (high - low) / CELLS as f64;
+                    (0..CELLS).map(move |cell| low + (cell as f64 + 0.5) * step)
+                };
+                match self.scale(name, column) {
+                    Scale::Linear => between(low, high).collect(),
+                    Scale::Logarithmic => between(ln(low), ln(high)).map(exp).collect(),
+                }
             });
             LevelAxis { label: name.to_owned(), middles }
         };
@@ -190,23 +220,32 @@ impl Picture<'_> {
 
     /// All columns of numbers over all others, with histograms on the diagonal.
     pub fn matrix(&self, names: &[&str]) -> Page {
-        let page = Page::grid(names.len()).title(&self.title);
+        let columns: Vec<_> = names.iter().filter_map(|name| self.column(name)).collect();
+        let is_whole = |row: &usize| columns.iter().all(|column| column.number(*row).is_finite());
+        let whole: Vec<usize> = self.table.rows().filter(is_whole).collect();
+        let shown = thinned(&whole, MOST_POINTS_AMONG);
+        let title = match whole.len() > shown.len() {
+            true => {
+                format!("{}: {} of {} runs, drawn by lot", self.title, shown.len(), whole.len())
+            }
+            false => self.title.clone(),
+        };
+        let page = Page::grid(names.len()).title(title);
         let panels = names.iter().flat_map(|y| names.iter().map(move |x| (*x, *y)));
         panels.fold(page, |page, (x_name, y_name)| {
             let chart = match x_name == y_name {
                 true => self.histogram(x_name),
-                false => self.points_among(x_name, y_name),
+                false => self.points_of(&shown, x_name, y_name),
             };
             page.panel(chart.title("").sized(300.0, 260.0))
         })
     }
 
-    fn points_among(&self, x_name: &str, y_name: &str) -> LineChart {
+    fn points_of(&self, rows: &[usize], x_name: &str, y_name: &str) -> LineChart {
         let columns = self.column(x_name).zip(self.column(y_name));
-        let found = columns.map(|(x, y)| pairs(self.table, x, y)).unwrap_or_default();
-        let points: Vec<(f64, f64)> = found.into_iter().map(|(_, x, y)| (x, y)).collect();
-        let series =
-            Series::new("", thinned(&points, MOST_POINTS_AMONG)).stroke(Stroke::Unjoined).thin();
+        let points =
+            rows.iter().filter_map(|row| columns.map(|(x, y)| (x.number(*row), y.number(*row))));
+        let series = Series::new("", points.collect()).stroke(Stroke::Unjoined).thin();
         LineChart::new("").x_label(x_name).y_label(y_name).series(series)
     }
 
@@ -216,35 +255,102 @@ impl Picture<'_> {
         let numbers = self.table.rows().filter_map(|row| column.map(|column| column.number(row)));
         let numbers: Vec<f64> = numbers.filter(|x| x.is_finite()).collect();
         let chart = LineChart::new(&self.title).x_label(name).y_label("runs");
-        let (low, high) = (
-            numbers.iter().copied().fold(f64::INFINITY, f64::min),
-            numbers.iter().copied().fold(f64::NEG_INFINITY, f64::max),
-        );
-        if numbers.is_empty() {
-            return chart.series(Series::new("", Vec::new()));
+        let classes = classes(numbers);
+        let mut outline: Vec<(f64, f64)> = Vec::new();
+        for Class { from, to, count } in &classes {
+            outline.extend([(*from, *count as f64), (*to, *count as f64)]);
         }
-        // Sturges' rule (1926), with twice as many classes.
-        let classes =
-            (2.0 * (1.0 + ln(numbers.len() as f64) / std::f64::consts::LN_2)).ceil().max(4.0);
-        let width = if high > low { (high - low) / classes } else { 1.0 };
-        let mut counts = vec![0_usize; classes as usize];
-        for x in &numbers {
-            let class = ((x - low) / width) as usize;
-            let last = counts.len() - 1;
-            counts[class.min(last)] += 1;
+        if let (Some(first), Some(last)) = (classes.first(), classes.last()) {
+            outline.insert(0, (first.from, 0.0));
+            outline.push((last.to, 0.0));
         }
-        let mut outline = vec![(low, 0.0)];
-        for (class, count) in counts.iter().enumerate() {
-            let left = low + class as f64 * width;
-            outline.extend([(left, *count as f64), (left + width, *count as f64)]);
-        }
-        outline.push((low + counts.len() as f64 * width, 0.0));
         chart.series(Series::new("", outline))
     }
 }
 
-/// The number of the middle that is nearest to `x`.
+/// How many numbers of a histogram lie between two.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Class {
+    from: f64,
+    to: f64,
+    count: usize,
+}
+
+/// The classes of a histogram: one for each value where few come back again and again, which ends halfway to its neighbours; else equal ones.
+fn classes(mut numbers: Vec<f64>) -> Vec<Class> {
+    numbers.sort_by(f64::total_cmp);
+    let (Some(low), Some(high)) = (numbers.first().copied(), numbers.last().copied()) else {
+        return Vec::new();
+    };
+    let values: Vec<&[f64]> = numbers.chunk_by(|a, b| a == b).collect();
+    let is_discrete =
+        values.len() > 1 && values.len() <= MOST_VALUES && 2 * values.len() <= numbers.len();
+    if is_discrete {
+        let middles = values.iter().map(|of| of[0]).collect();
+        let ends = LevelAxis { label: String::new(), middles }.ends_halfway();
+        let of =
+            |(of, ends): (&&[f64], &[f64])| Class { from: ends[0], to: ends[1], count: of.len() };
+        return values.iter().zip(ends.windows(2)).map(of).collect();
+    }
+    // Sturges' rule (1926), with twice as many classes.
+    let count = (2.0 * (1.0 + ln(numbers.len() as f64) / std::f64::consts::LN_2)).ceil().max(4.0);
+    let width = if high > low { (high - low) / count } else { 1.0 };
+    let at = |class: usize| low + class as f64 * width;
+    let class = |class| Class { from: at(class), to: at(class) + width, count: 0 };
+    let mut classes: Vec<Class> = (0..count as usize).map(class).collect();
+    let last = classes.len() - 1;
+    for x in &numbers {
+        classes[(((x - low) / width) as usize).min(last)].count += 1;
+    }
+    classes
+}
+
+/// The number of the middle, of ascending ones, that is nearest to `x`.
 fn nearest(middles: &[f64], x: f64) -> Option<usize> {
+    let above = middles.partition_point(|middle| *middle < x);
     let distance = |at: &usize| (middles[*at] - x).abs();
-    (0..middles.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    let around = above.saturating_sub(1)..(above + 1).min(middles.len());
+    around.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_are_thinned_by_lot_and_not_in_step_with_a_pattern() {
+        let all: Vec<usize> = (0..4000).collect();
+        let shown = thinned(&all, 2000);
+        assert_eq!(shown, thinned(&all, 2000));
+        assert!(shown.len() == 2000 && shown.is_sorted());
+        for period in [2, 4, 8] {
+            for phase in 0..period {
+                let count = shown.iter().filter(|at| *at % period == phase).count();
+                let expected = 2000 / period;
+                assert!(count.abs_diff(expected) < expected / 4, "{period} {phase}: {count}");
+            }
+        }
+        assert_eq!(thinned(&all[..5], 5), [0, 1, 2, 3, 4]);
+        assert!(thinned(&all[..0], 5).is_empty());
+    }
+
+    #[test]
+    fn few_values_have_classes_of_their_own() {
+        let numbers: Vec<f64> = (0..32 * 10).map(|at| f64::from(at % 32)).collect();
+        let found = classes(numbers);
+        assert!(found.len() == 32 && found.iter().all(|of| of.count == 10), "{found:?}");
+        assert_eq!((found[0].from, found[0].to, found[31].to), (-0.5, 0.5, 31.5));
+        let found = classes((0..1000).map(|at| f64::from(at).sqrt()).collect());
+        assert!(found.len() == 22 && found.iter().map(|of| of.count).sum::<usize>() == 1000);
+        assert_eq!(classes(vec![3.0; 7])[0], Class { from: 3.0, to: 4.0, count: 7 });
+        assert!(classes(Vec::new()).is_empty());
+    }
+
+    #[test]
+    fn the_nearest_middle_is_found_among_ascending_ones() {
+        let middles = [1.0, 2.0, 4.0];
+        let found = [-9.0, 1.4, 1.6, 2.0, 3.5, 9.0].map(|x| nearest(&middles, x));
+        assert_eq!(found, [0, 0, 1, 1, 2, 2].map(Some));
+        assert_eq!(nearest(&[], 1.0), None);
+    }
 }

@@ -80,8 +80,8 @@ impl Order<'_> {
             && let Some((row, reason)) = results.failures().next()
         {
             let told = format!("no run came to its end; the first one failed: {reason}");
-            return Err(self
-                .invoked(call, row)
+            return Err(context
+                .tracelessly(NO_FILES, || self.invoked(call, row))
                 .err()
                 .unwrap_or_else(|| at_key(call, "run", told, "see what the function throws")));
         }
@@ -125,7 +125,7 @@ impl Order<'_> {
             if ledger.knows(row) {
                 continue;
             }
-            let of = match context.silently(|| self.invoked(call, row)) {
+            let of = match context.tracelessly(NO_FILES, || self.invoked(call, row)) {
                 Ok(given) => found(&given),
                 Err(error @ (ScriptError::Stopped(_) | ScriptError::Bug(_))) => {
                     return Err(Trouble::Other(error));
@@ -155,7 +155,7 @@ impl Order<'_> {
 
     /// The error about a row for which the function seems wrong: that of the script itself, at its place, where it is found again.
     fn blame(&self, call: &Call, ledger: &Ledger, row: usize, told: &str) -> ScriptError {
-        let found = call.context().silently(|| self.invoked(call, row));
+        let found = call.context().tracelessly(NO_FILES, || self.invoked(call, row));
         match found {
             Err(error) => error,
             Ok(_) => {

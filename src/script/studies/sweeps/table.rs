@@ -51,6 +51,16 @@ impl SweepTable {
         &self.swept.sweep
     }
 
+    /// Whether it has some rows of its sweep, and not all as they are.
+    pub fn is_of_some_rows(&self) -> bool {
+        self.chosen.is_some()
+    }
+
+    /// Whether equal ratios of a parameter are equally likely, or nearly so: its distribution is one of its logarithm.
+    pub fn is_spread_by_ratios(&self, name: &str) -> bool {
+        self.swept.plan.is_spread_by_ratios(name)
+    }
+
     /// The table of some rows of this one.
     pub fn of_rows(&self, rows: Vec<u32>) -> Self {
         Self { swept: Rc::clone(&self.swept), chosen: Some(Rc::new(rows)) }
@@ -112,7 +122,7 @@ impl SweepTable {
         let sweep = self.sweep();
         let column = |name: &str| {
             let of = sweep.column(name)?;
-            let numbers = || self.rows().map(|row| Some(of.number(row)).filter(|x| x.is_finite()));
+            let numbers = || self.rows().map(|row| Some(of.number(row)).filter(|x| !x.is_nan()));
             let texts = self.texts(of).map(DataValues::Texts);
             let values = texts.unwrap_or_else(|| DataValues::Numbers(numbers().collect()));
             Some(DataColumn { name: name.to_owned(), dimension: String::new(), values })
@@ -235,13 +245,12 @@ impl Swept {
 /// A value as text for programs: of a number all digits, empty where there is none.
 fn exact(column: SweepColumn, row: usize) -> String {
     match column {
-        SweepColumn::Parameter(values) if values.label(row).is_some() => {
+        SweepColumn::Parameter(values @ SweptValues::Levels { numbers: None, .. }) => {
             values.label(row).unwrap_or_default().to_owned()
         }
-        _ => Some(column.number(row))
-            .filter(|x| x.is_finite())
-            .map(format_number)
-            .unwrap_or_default(),
+        _ => {
+            Some(column.number(row)).filter(|x| !x.is_nan()).map(format_number).unwrap_or_default()
+        }
     }
 }
 
@@ -252,8 +261,8 @@ fn short(column: SweepColumn, row: usize) -> Cell {
             Cell::from(values.label(row).unwrap_or_default())
         }
         _ => match column.number(row) {
-            x if x.is_finite() => Cell::Number(significant(x, DIGITS)),
-            _ => Cell::Number("-".into()),
+            x if x.is_nan() => Cell::Number("-".into()),
+            x => Cell::Number(significant(x, DIGITS)),
         },
     }
 }
