@@ -117,6 +117,26 @@ fn drag_of_any_strength_keeps_the_ledger_in_as_many_steps() {
     }
 }
 
+/// What is lost is that of the law at its force: as a difference of two large turnovers it would carry their rounding, with either sign.
+#[test]
+fn what_a_strong_medium_takes_from_a_grain_in_the_wind_never_falls() {
+    let mut scene = Scene::new("grain");
+    let grain = ParticleDefinition { name: "grain".to_owned(), position: at(0.0, 0.0) };
+    let station = scene.add_particle(grain, 0.001).unwrap();
+    let on = Dragged::Point { station, law: SpeedLaw { linear: 0.0, quadratic: 1e8 } };
+    let wind = at(0.0, 100.0);
+    scene.add_drag(Drag { name: "air".to_owned(), on, wind }).unwrap();
+    scene.gravity = at(0.0, -GRAVITY);
+    let simulation = simulate(scene, Method::EnergyMomentum, 0.01, 1.0);
+    let rows = simulation.history().samples();
+    let falls =
+        rows.windows(2).filter(|two| two[1].measures.dissipated < two[0].measures.dissipated);
+    assert_eq!(falls.count(), 0);
+    let last = rows.last().unwrap().measures;
+    assert!(last.dissipated > 0.0, "{:e}", last.dissipated);
+    assert!(simulation.history().drift(Invariant::Energy) < 1e-13);
+}
+
 /// A stiff rod along x that is let go with its ends in a direction.
 fn falling(direction: Vec2) -> Scene {
     let mut scene = Scene::new("falling rod");

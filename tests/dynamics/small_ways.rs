@@ -59,7 +59,9 @@ fn a_damper_that_passes_through_its_anchor_is_met_with_the_order_of_the_method()
     let swings = (-half * end).exp() * (cos + (SPEED + half) / omega * sin);
     let limit = -3.0 / DAMPING;
     let drawn = 1.0 + limit * end + (SPEED - limit) / DAMPING * (1.0 - (-DAMPING * end).exp());
-    for (law, expected) in [(Some(central), swings), (None, drawn)] {
+    let line = vec![(-2.0, -2.0 * STIFFNESS), (2.0, 2.0 * STIFFNESS)];
+    let table = RestoringLaw::Table { points: line };
+    for (law, expected) in [(Some(central), swings), (Some(table), swings), (None, drawn)] {
         for entry in INTEGRATORS {
             let error = |dt: f64| {
                 let scene = passing(law.clone(), DAMPING, DIRECTION * SPEED);

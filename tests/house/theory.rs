@@ -167,7 +167,13 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     ("to `4e-15` of the interval", "model/sliders/track.rs", "const LANDED: f64 = 4e-15;"),
     ("within `1e-10` of an end", "simulation/run/landing.rs", "const NEAR: f64 = 1e-10;"),
     ("no multiplier is above 8", "linalg/elimination.rs", "const LARGEST_MULTIPLIER: f64 = 8.0;"),
-    ("Three columns, those of a control point", "linalg/elimination.rs", "const PANEL: usize = 3;"),
+    ("Four columns are eliminated at once", "linalg/elimination.rs", "const LANES: usize = 4;"),
+    ("Four columns are eliminated at once", "linalg/elimination.rs", "const PANEL: usize = LANES;"),
+    (
+        "A band of 6 000 rows or more without a border",
+        "linalg/two_ended.rs",
+        "const FEWEST_ROWS: usize = 6000;",
+    ),
     ("repeat at most 15 times", "newton/solver.rs", "iterations: 15 }"),
     (
         "violation of constraints ≤ 1e-11",

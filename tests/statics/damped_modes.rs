@@ -183,7 +183,8 @@ fn a_beam_creeps_back_against_a_strong_dashpot() {
     let length: f64 = 2.0;
     let compliance =
         length.powi(3) / (3.0 * section.bending_stiffness) + length / section.shear_stiffness;
-    for damping in [1e2, 1e4, 1e6, 1e8] {
+    // With less of it inertia counts too.
+    for damping in [1e4, 1e6, 1e8] {
         let mut scene = Scene::new("stay");
         let mesh = Mesh::bspline(40, 3, 2).unwrap();
         let beam = scenes::add_beam(

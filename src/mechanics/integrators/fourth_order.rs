@@ -33,6 +33,9 @@ impl FourthOrder {
     /// The stages of a step at which the method takes forces: one in each part.
     pub const STAGES: &[Stage] = &[Stage::Midpoint; ENDS.len()];
 
+    /// The longest part, the one that goes back in time, as a share of a step.
+    pub const LONGEST: f64 = ENDS[2] - ENDS[3];
+
     /// The method of fourth order with work space for a mechanism.
     pub fn new(mechanism: &mut dyn Mechanism, tolerance: Tolerance) -> Self {
         // Here is time to make room for it.

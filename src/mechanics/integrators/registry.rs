@@ -210,6 +210,14 @@ impl Method {
         }
     }
 
+    /// The longest part that a step is made of, as a share of it [-].
+    pub fn longest_part(&self) -> f64 {
+        match self {
+            Self::FourthOrder => FourthOrder::LONGEST,
+            _ => 1.0,
+        }
+    }
+
     /// The value of the method's parameter [-], if it has one.
     pub fn parameter(&self) -> Option<f64> {
         match *self {

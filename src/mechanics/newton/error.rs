@@ -53,7 +53,7 @@ fn describe(history: &[Imbalance]) -> String {
     let parts: [Part; 3] = [
         ("relative force imbalance", |imbalance| imbalance.force),
         ("strain mismatch", |imbalance| imbalance.strain),
-        ("relative violation of a sliding constraint", |imbalance| imbalance.constraint),
+        ("relative violation of a constraint", |imbalance| imbalance.constraint),
     ];
     let [force, others @ ..] = parts;
     let (name, part) = others

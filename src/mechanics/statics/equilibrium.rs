@@ -4,12 +4,15 @@ use super::tracer::{Hold, Tracer};
 use super::{Control, InTime, Loading, Path, PathPoint, StaticsError};
 use crate::beams::{Place, Section, SectionForces, Station};
 use crate::elementary::square;
-use crate::geometry::Vec2;
+use crate::geometry::{Vec2, larger};
 use crate::integrators::{Constraints, Mechanism};
 use crate::joints::StartVelocities;
 use crate::loads::PrescribedMotion;
 use crate::model::{Drive, Element, Model, ModelError, Scene, SectionSample};
 use crate::vibration::{Modes, VibrationError, loose_movements};
+
+/// Forces whose sum is no larger than this part of them are balanced.
+const ROUNDING: f64 = 1e-12;
 
 /// What becomes of a small disturbance of an equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -220,8 +223,29 @@ fn prepare(scene: &Scene, loading: &Loading) -> Result<Model, StaticsError> {
     }
     let mut loads = vec![0.0; model.degrees_of_freedom()];
     model.subtract_static_loads(&vec![0.0; model.unknowns()], 1.0, &mut loads);
-    if loads.iter().all(|load| *load == 0.0) {
-        return Err(StaticsError::NoLoad { time: loading.time });
+    if loads.iter().any(|load| *load != 0.0) {
+        return Ok(model);
     }
-    Ok(model)
+    let time = loading.time;
+    match (is_at_ease(&mut model), loading.control) {
+        (true, _) => Err(StaticsError::NoLoad { time }),
+        (false, Control::ArcLength(_)) => Err(StaticsError::NothingGrows { time }),
+        (false, Control::Load) => Ok(model),
+    }
+}
+
+/// Whether a model without loads is balanced as it is drawn; springs that are not at ease there may pull.
+fn is_at_ease(model: &mut Model) -> bool {
+    if !model.is_strung() {
+        return true;
+    }
+    let (at_start, mut forces) = (model.state(), vec![0.0; model.degrees_of_freedom()]);
+    let movements = model.unknowns();
+    let mut standstill = vec![0.0; movements + model.constraint_shape().width];
+    model.stay(&mut standstill);
+    model.begin_movement();
+    let met = model.add_static_forces(&standstill, 0.0, &mut forces);
+    model.restore(&at_start);
+    let largest = larger(met.force, met.moment);
+    forces[..movements].iter().all(|left| left.abs() <= ROUNDING * largest)
 }

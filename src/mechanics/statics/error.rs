@@ -44,6 +44,14 @@ pub enum StaticsError {
         /// The time at which loads were taken from their schedules [time].
         time: f64,
     },
+    /// A path of given length where nothing acts but what was not at ease as drawn, which no load factor scales.
+    #[error(
+        "no load acts at t = {time}: what is not at ease as drawn pulls by itself, and there is no load to follow along a path of given length"
+    )]
+    NothingGrows {
+        /// The time at which loads were taken from their schedules [time].
+        time: f64,
+    },
     /// Something that only time makes what it is.
     #[error("'{name}' is given by {by}, which says nothing at rest, where no time passes")]
     InTime {

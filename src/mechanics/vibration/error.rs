@@ -50,7 +50,7 @@ pub enum VibrationError {
     LightDamped,
     /// Damped modes that are not found.
     #[error(
-        "the damped modes of the scene are not found: its damping and its stiffness are too far apart; take a coarser mesh or less damping; damping_ratios of modes are right to first order in the damping"
+        "the damped modes of the scene are not found: its damping and its stiffness are too far apart for a matrix of both; take a coarser mesh or less damping, join or hold what a damper of that strength holds as good as rigidly, or simulate and fit the decay; damping_ratios of modes are right to first order in the damping"
     )]
     Damping,
     /// Modes of which rounding hides some.

@@ -116,7 +116,7 @@ pub const TABLE: Table = Table {
         })
         .returns(Returns::TEXT.note(", empty for one that hangs free of the ends"))
         .summary("The end of its beam or track on whose stop a slider leans, \"start\" or \"end\", or a \"seam\" of its track.")
-        .doc("A stop pushes and never pulls. Sliders with ends: \"stop\" and ends: \"bounce\" lean; one with ends: \"release\" has left there, and has no rest.")
+        .doc("A stop pushes and never pulls. Sliders with ends: \"stop\" and ends: \"bounce\" lean; one with ends: \"release\" has left there, and has no rest. In modes about the equilibrium one that leans is held where it is.")
         .example(SLID)
         .see(&["slider_position"]),
         method(EQUILIBRIUM, "modes", &[COUNT], |call| {

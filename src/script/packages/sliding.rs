@@ -91,7 +91,7 @@ pub const TABLE: Table = Table {
             "Zero before the first step and after a release. It belongs to the middle of the step; with kinked() it is that at its end, to the order of the method, and with fourth_order() that of the \
              last of its seven parts, so of first order: present_contact_force has the order of the motion with every rule, and scene.record(\"ring.present_force\") makes a column of it. On splines and with the conserving rule it is smooth where the motion \
              is; where it alternates from step to step (kinks of Lagrange elements, the relaxed rule), averaged(\"ring.force\") of \
-             the history is free of that. scripts/contact_force.rhai shows how much.",
+             the history is free of that. scripts/contact_force.rhai shows how much. The impulse of a blow at an end, or at a corner of a track, is in none of them.",
         )
         .example("check(norm(sim.contact_force(ring)) == 0);\nsim.step();\ncheck(sim.contact_force(ring).y < 0);")
         .see(&["present_contact_force", "slider_position", "averaged"]),
@@ -163,6 +163,7 @@ const VELOCITIES: [(&str, StartVelocities); 2] =
 const SLIDER_KEYS: &[Parameter] = &[
     number("at")
         .between(0.0, 1.0)
+        .unit("part of the length")
         .doc("where it starts, as a part of the length of the beam or the track as drawn; the nearest place unless given")
         .optional(),
     object("rule", RULE).doc("conserving() unless given").optional(),

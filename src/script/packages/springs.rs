@@ -98,6 +98,7 @@ pub const TABLE: Table = Table {
         method(SIMULATION, "spring_force", &[WHICH], |call| asked(call, |spring| spring.force))
             .returns(Returns::NUMBER.unit("force"))
             .summary("The force of a spring and its damper, positive where they pull, the mean of the last step; of a torsion spring the moment.")
+            .doc("With trapezoidal() and generalized_alpha(), which take forces at the ends of steps, it is that at the end of the last step.")
             .example("let s1 = scene.spring(rod.end, bead, #{ stiffness: 100, length: 0.9 });\nlet sim = scene.start(#{ dt: 0.01 });\n\
                       check_close(sim.spring_force(s1), 10, 1e-9);")
             .see(&["spring_length", "spring"]),

@@ -38,7 +38,8 @@ pub const TABLE: Table = Table {
             .doc(
                 "Which way it leads along a beam follows from where the beams touch, however they are drawn. They must be joined there already, by scene.rigid or scene.hinge or by way \
                  of other joints, or be held by the ground. A slider passes a corner as it would a rounded one whose radius is next to nothing: it keeps its energy, and its momentum \
-                 changes by an impulse across the track. Where a joint of the track has let go and the beams have come apart, the track ends. Tracks are called track1, track2, … unless \
+                 changes by an impulse across the track. Where a joint of the track has let go and the beams have come apart, the track ends, also for one that leans there. One that starts at a corner is on the beam behind it. A closed \
+                 track of two beams leads along the first as it is drawn. Tracks are called track1, track2, … unless \
                  they get a name.",
             )
             .example(

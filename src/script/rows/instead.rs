@@ -45,9 +45,17 @@ pub fn hint(kind: &Kind, value: &Dynamic, given: &str) -> Option<String> {
             })
         }
         Kind::Object(of) => of_object(of.name(), value, given).map(str::to_owned),
+        // A number that is refused for its size needs no other kind.
+        Kind::Either(kinds) if as_number(value).is_some() && kinds.iter().any(is_number) => {
+            kinds.iter().filter(|kind| is_number(kind)).find_map(|kind| hint(kind, value, given))
+        }
         Kind::Either(kinds) => kinds.iter().find_map(|kind| hint(kind, value, given)),
         _ => None,
     }
+}
+
+fn is_number(kind: &Kind) -> bool {
+    matches!(kind, Kind::Number(_))
 }
 
 fn of_number(value: &Dynamic, given: &str) -> Option<String> {

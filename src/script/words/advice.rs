@@ -34,7 +34,7 @@ fn on_simulation(error: &SimulationError) -> Option<String> {
         }
         SimulationError::Load { source } => {
             let own = cause_of(source).and_then(on_load);
-            own.unwrap_or_else(|| "a load needs a finite value at all times".into())
+            own.unwrap_or_else(|| "loads and drives need a finite value at all times".into())
         }
         SimulationError::Tolerance { .. } => {
             "the history up to there is kept; give a larger tolerance or a smaller step: adaptive(#{ tolerance: …, smallest: … }); adaptive steps \
@@ -77,12 +77,14 @@ fn on_statics(error: &StaticsError) -> Option<String> {
             "loads are taken as they are at one time: choose it with the option time".into()
         }
         StaticsError::InTime { by: InTime::Speed, .. } => {
-            "give the place at rest: x, y or angle, as a number or a function of time that is taken at the option time".into()
+            "give the way to the place at rest, from 0 as drawn: x, y or angle as a function of time, such as angle: |t| 0.5 * t with \
+             scene.equilibrium(#{ time: 1 })"
+                .into()
         }
         StaticsError::InTime { .. } => {
             "give the force or the torque that it has at rest, as a number, in the scene of which you ask the equilibrium".into()
         }
-        StaticsError::Driven { .. } => "leave out control: arc_length()".into(),
+        StaticsError::NothingGrows { .. } | StaticsError::Driven { .. } => "leave out control: arc_length()".into(),
         StaticsError::Loose { reason, .. } | StaticsError::Lost { reason, .. }
             if matches!(**reason, Miss::Leaves { .. }) =>
         {

@@ -1,6 +1,8 @@
-//! A linear spring without length at ease: its force is `k` times the way between its ends, a linear law of both its components.
+//! Springs whose ends may pass through one another: no force is left where they meet.
 //!
-//! Along the way it would be `k ℓ` in a direction that changes without bound where the ends meet. By components there is no direction: `U = ½ k (x² + y²)`.
+//! A linear one without length at ease pulls with `k` times the way between its ends, a linear law of both its components. Along the way it would be `k ℓ` in
+//! a direction that changes without bound where the ends meet. By components there is no direction: `U = ½ k (x² + y²)`. Any other law is one of the length.
+//! The damper beside either takes the rate along the mean way, as the rate of a length says nothing of ends that pass through one another within a step.
 
 use super::damping_law::DampingLaw;
 use super::elongation::{Elongation, Terminal};
@@ -8,16 +10,16 @@ use super::radial_damper::RadialDamper;
 use super::resistance::{Resistance, Stretched};
 use super::restoring::RestoringLaw;
 use super::spring_damper::SpringDamper;
-use super::{Exchange, Iterate};
+use super::{Exchange, Iterate, ShortBounce};
 use crate::beams::{ForceSummary, Movement, SpanAtRest};
 use crate::geometry::Vec2;
 use crate::integrators::Interval;
 use crate::linalg::BandedMatrix;
 use crate::model::bodies::Body;
 
-/// A spring along x and one along y, which are one; and a damper along the way, if there is one.
+/// A spring along x and one along y, which are one, or one along the way; and a damper along the way, if there is one.
 pub struct CentralSpring {
-    along: [SpringDamper; 2],
+    along: Vec<SpringDamper>,
     damper: Option<RadialDamper>,
 }
 
@@ -32,11 +34,37 @@ impl CentralSpring {
         damping: DampingLaw,
     ) -> Self {
         let law = RestoringLaw::Linear { stiffness, natural: 0.0 };
-        let along = [0, 1].map(|component| {
+        let component = |component| {
             let elongation = Elongation::component(terminals.clone(), at, component);
             let (law, none) = ((law.clone(), 0.0), DampingLaw::default());
             SpringDamper::new(name.to_owned(), elongation, grounds.to_vec(), Some(law), none)
-        });
+        };
+        let along = [0, 1].map(component).into();
+        Self::beside(name, along, terminals, at, grounds, damping)
+    }
+
+    /// A spring with a law of the length, counted from an origin, with a damper between two terminals, which are at these places at the start.
+    pub fn of_law(
+        name: &str,
+        terminals: [Terminal; 2],
+        at: [Vec2; 2],
+        grounds: &[Option<Vec2>],
+        law: (RestoringLaw, f64),
+        damping: DampingLaw,
+    ) -> Self {
+        let (way, none) = (Elongation::way(terminals.to_vec(), &at), DampingLaw::default());
+        let along = SpringDamper::new(name.to_owned(), way, grounds.to_vec(), Some(law), none);
+        Self::beside(name, vec![along], terminals, at, grounds, damping)
+    }
+
+    fn beside(
+        name: &str,
+        along: Vec<SpringDamper>,
+        terminals: [Terminal; 2],
+        at: [Vec2; 2],
+        grounds: &[Option<Vec2>],
+        damping: DampingLaw,
+    ) -> Self {
         let damper = damping
             .acts()
             .then(|| RadialDamper::new(name.to_owned(), terminals, at, grounds, damping));
@@ -53,9 +81,12 @@ impl CentralSpring {
         along.chain(self.damper.iter_mut().map(|part| part as &mut dyn Resistance))
     }
 
-    fn both(&self, number: impl Fn(Stretched) -> f64) -> f64 {
-        let [x, y] = [0, 1].map(|at: usize| self.along[at].stretched().map_or(0.0, &number));
-        Vec2::new(x, y).norm()
+    /// What the springs measure and their force: of both components the sizes.
+    fn whole(&self) -> Option<Stretched> {
+        let [x, y] = self.along.as_slice() else { return self.along[0].stretched() };
+        let (x, y) = (x.stretched()?, y.stretched()?);
+        let elongation = Vec2::new(x.elongation, y.elongation).norm();
+        Some(Stretched { elongation, force: Vec2::new(x.force, y.force).norm(), ..x })
     }
 }
 
@@ -116,9 +147,12 @@ impl Resistance for CentralSpring {
 
     fn stretched(&self) -> Option<Stretched> {
         let of_damper = self.damper.as_ref().and_then(Resistance::stretched);
-        let force = self.both(|part| part.force) + of_damper.map_or(0.0, |part| part.force);
-        let stiffness = self.along[0].stretched()?.stiffness;
-        Some(Stretched { elongation: self.both(|part| part.elongation), force, stiffness })
+        let spring = self.whole()?;
+        Some(Stretched { force: spring.force + of_damper.map_or(0.0, |part| part.force), ..spring })
+    }
+
+    fn short_bounce(&self) -> Option<ShortBounce> {
+        self.along.iter().find_map(Resistance::short_bounce)
     }
 
     fn add_forces_now(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]) {
@@ -155,10 +189,10 @@ impl Resistance for CentralSpring {
 
     fn explain(&self) -> String {
         let damper = self.damper.as_ref().map(|damper| format!("; {}", damper.explain()));
-        format!(
-            "by components, as it has no length at ease: {}{}",
-            self.along[0].explain(),
-            damper.unwrap_or_default()
-        )
+        let by = match self.along.len() {
+            1 => "",
+            _ => "by components, as it has no length at ease: ",
+        };
+        format!("{by}{}{}", self.along[0].explain(), damper.unwrap_or_default())
     }
 }

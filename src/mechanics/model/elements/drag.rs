@@ -65,24 +65,17 @@ impl Drag {
 impl Description for Drag {
     fn check(&self, setting: &dyn Setting) -> Result<(), ModelError> {
         finite(&self.name, "wind", self.wind.as_slice())?;
-        let all = match &self.on {
+        match &self.on {
             Dragged::Beam { beam, normal, tangent } => {
                 setting.check_station("a drag", &Station::on_beam(*beam, 0.0))?;
                 self.check_law(normal, ["normal", "quadratic normal"])?;
-                self.check_law(tangent, ["tangent", "quadratic tangent"])?;
-                [normal.linear, normal.quadratic, tangent.linear, tangent.quadratic]
+                self.check_law(tangent, ["tangent", "quadratic tangent"])
             }
             Dragged::Point { station, law } => {
                 setting.check_station("a drag", station)?;
-                self.check_law(law, ["linear", "quadratic"])?;
-                [law.linear, law.quadratic, 0.0, 0.0]
+                self.check_law(law, ["linear", "quadratic"])
             }
-        };
-        if all == [0.0; 4] {
-            let (object, name) = (self.object(), "largest coefficient");
-            return Err(ModelError::Value { object, name, value: 0.0, allowed: "positive" });
         }
-        Ok(())
     }
 
     /// A force that grows with the speed ties the components of a velocity together.

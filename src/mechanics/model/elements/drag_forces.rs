@@ -4,6 +4,9 @@
 //! v = Δx/Δt - wind      f_a = -w N_a G(v, t)      D grows by Σ w G·v Δt ≥ 0, W by -Σ w G·wind Δt
 //! ```
 //!
+//! In a wind `G·v` is that of the law at the force `G`: as `G·Δx - G·wind Δt` it would be a small difference of two numbers that a strong drag makes large,
+//! whose rounding may have either sign. W is what is left of `-G·Δx`, so that the ledger closes.
+//!
 //! `t` is the direction of the axis in the mean configuration.
 
 use super::drag_law::DragLaw;
@@ -44,6 +47,19 @@ impl DragForces {
     fn rates(&self, at: Iterate<'_>) -> Option<RateCollocation> {
         let is_timed = self.pace.duration().is_finite();
         self.pace.at(at.stage, at.weight).filter(|_| is_timed)
+    }
+
+    /// What the wind gives by a point in the step of the movements that its body gathered last, and what is lost there [energy].
+    fn turnover(&self, point: &DragPoint, body: &Body) -> [f64; 2] {
+        let (force, movement) = (point.given(), point.movement(body));
+        let taken = force.dot(&movement);
+        if !self.blows() {
+            return [0.0, taken];
+        }
+        let duration = self.pace.duration();
+        let besides = force.dot(&point.besides(movement, duration));
+        let lost = point.power(&self.surroundings.law) * duration + besides;
+        [lost - taken, lost]
     }
 
     fn blows(&self) -> bool {
@@ -117,9 +133,9 @@ impl Resistance for DragForces {
     fn exchange(&self, bodies: &[Body], duration: f64) -> Exchange {
         let mut sum = Exchange::default();
         for point in &self.points {
-            let middle = point.middle(&bodies[point.body]);
+            let body = &bodies[point.body];
             let impulse = point.given() * -duration;
-            let work = impulse.dot(&self.surroundings.wind);
+            let (middle, [work, _]) = (point.middle(body), self.turnover(point, body));
             sum += Exchange::of(work, impulse, cross(middle, impulse));
         }
         sum
@@ -128,14 +144,15 @@ impl Resistance for DragForces {
     fn advance(&mut self, bodies: &[Body]) {
         let duration = self.pace.duration();
         let is_timed = duration.is_finite();
-        let wind = self.surroundings.wind;
+        if is_timed {
+            for point in &self.points {
+                let [work, lost] = self.turnover(point, &bodies[point.body]);
+                self.dissipated += lost;
+                self.wind_work += work;
+            }
+        }
         for point in &mut self.points {
             let movement = point.movement(&bodies[point.body]);
-            if is_timed {
-                let force = point.given();
-                self.dissipated += force.dot(&(movement - wind * duration));
-                self.wind_work -= force.dot(&wind) * duration;
-            }
             point.advance(movement / duration);
         }
         self.pace.end();

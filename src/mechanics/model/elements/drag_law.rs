@@ -22,6 +22,16 @@ impl SpeedLaw {
         (self.linear + self.quadratic * speed.abs()) * speed
     }
 
+    /// The power `F s` at a force `F = c s + k |s| s`: never negative, and without a speed that it would have to be a difference of.
+    fn power(&self, force: f64) -> f64 {
+        let force = force.abs();
+        if force == 0.0 {
+            return 0.0;
+        }
+        let root = (self.linear * self.linear + 4.0 * self.quadratic * force).sqrt();
+        force * (2.0 * force / (self.linear + root))
+    }
+
     fn slope(&self, speed: f64) -> f64 {
         self.linear + 2.0 * self.quadratic * speed.abs()
     }
@@ -85,6 +95,14 @@ impl DragLaw {
         }
     }
 
+    /// The power that is lost at such components of the force [power, or power/length].
+    pub fn power(&self, force: Vec2) -> f64 {
+        match self {
+            Self::Point(law) => law.power(force.norm()),
+            Self::Line { normal, tangent } => normal.power(force.x) + tangent.power(force.y),
+        }
+    }
+
     /// What the components of the force are relative to where velocities are differences of velocities of such a size.
     pub fn scale(&self, speed: f64) -> Vec2 {
         let of = |law: &SpeedLaw| law.slope(speed) * speed;
@@ -134,7 +152,8 @@ mod tests {
             for (angle, velocity) in [(0.3, Vec2::new(1.0, -2.0)), (2.5, Vec2::new(-0.4, 0.2))] {
                 let (h, t) = (1e-6, unit(angle));
                 let found = law.resist(velocity, t);
-                assert!(in_space(t, found.force).dot(&velocity) > 0.0);
+                let power = in_space(t, found.force).dot(&velocity);
+                assert!(power > 0.0 && (law.power(found.force) - power).abs() < 1e-14 * power);
                 let force = |v: Vec2, angle: f64| {
                     let t = unit(angle);
                     in_space(t, law.resist(v, t).force)

@@ -38,6 +38,8 @@ pub struct DragPoint {
     /// The force in space, as it was given last, times its weight [force].
     given: Vec2,
     linearised: Met,
+    /// Where rates were taken last.
+    rates: Option<RateCollocation>,
 }
 
 /// A point in an iterate.
@@ -93,6 +95,7 @@ impl DragPoint {
             mismatch: none,
             given: none,
             linearised: Met::nothing(),
+            rates: None,
         }
     }
 
@@ -177,6 +180,7 @@ impl DragPoint {
     ) -> f64 {
         let Met { tangent, resisted, .. } = self.meet(around, body, increments, rates);
         self.mismatch = resisted.force - self.force;
+        self.rates = Some(rates);
         self.given = in_space(tangent, self.force) * self.weight;
         let moved = self.size(|at| body.vector_at(at, increments)) * rates.by_change.abs();
         let before = self.last_velocity.norm() * rates.by_last.abs();
@@ -237,6 +241,18 @@ impl DragPoint {
     /// The force of the last iterate in space [force].
     pub fn given(&self) -> Vec2 {
         self.given
+    }
+
+    /// The power that the law loses at the force of the last iterate, which the rounding of velocities has no part in [power].
+    pub fn power(&self, law: &DragLaw) -> f64 {
+        law.power(self.force) * self.weight
+    }
+
+    /// By how much the point moves in a step of a duration, less what it would at the velocity that was resisted: nothing where that is the mean one [length].
+    pub fn besides(&self, movement: Vec2, duration: f64) -> Vec2 {
+        let Some(rates) = self.rates else { return Vec2::zeros() };
+        movement * (1.0 - rates.by_change * duration)
+            + self.last_velocity * (rates.by_last * duration)
     }
 
     /// The force that would close the mismatch, in the direction of the last linearisation [force].

@@ -81,6 +81,15 @@ impl RestoringLaw {
         }
     }
 
+    /// Whether there is no force at an elongation, as far as what was sampled can tell.
+    pub fn is_at_ease(&self, q: f64) -> bool {
+        let off = match self {
+            Self::Linear { .. } | Self::Table { .. } => 0.0,
+            Self::Sampled { error, .. } => *error,
+        };
+        self.force(q).abs() <= off
+    }
+
     /// The stored energy `U(q)`, zero at ease; where a table has no such place, at its first point [energy].
     pub fn energy(&self, q: f64) -> f64 {
         match self {

@@ -180,6 +180,25 @@ impl Description for Spring {
                 self.damping.with_rest(),
             ))));
         }
+        if let (Some(law), SpringKind::Way(_), [from, to]) = (&self.law, &self.kind, &terminals[..])
+            && self.damping.acts()
+        {
+            let (from_to, places) = ([from.clone(), to.clone()], [at[0], at[1]]);
+            let origin = match self.origin {
+                Origin::Zero => 0.0,
+                Origin::AsBuilt => (places[1] - places[0]).norm(),
+            };
+            if law.is_at_ease(-origin) {
+                return Ok(Assembled::Resistance(Box::new(CentralSpring::of_law(
+                    &self.name,
+                    from_to,
+                    places,
+                    &grounds,
+                    (law.clone(), origin),
+                    self.damping.with_rest(),
+                ))));
+            }
+        }
         let elongation = match (&self.kind, terminals.as_slice()) {
             (SpringKind::Torsion(_), [from, to]) => {
                 Elongation::angle([from.clone(), to.clone()], angles[1] - angles[0])

@@ -3,12 +3,16 @@
 use crate::model::Model;
 use crate::model::elements::{Resistance, ShortBounce, Stretched};
 
+/// What a spring measures is right to this part of it.
+const ROUNDING: f64 = 1e-14;
+
 /// What a spring or a damper is in, in the present state.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpringState {
     /// What it measures: the length of its way [length], or of a torsion spring the angle [rad].
     pub elongation: f64,
-    /// The force of the spring, positive where it pulls, or its moment; the mean of the last step [force, force·length].
+    /// The force of the spring, positive where it pulls, or its moment; the mean of the last step, or of methods that take forces at the ends of steps that at
+    /// its end [force, force·length].
     pub force: f64,
     /// The energy that it stores [energy].
     pub stored: f64,
@@ -23,6 +27,14 @@ impl Model {
             let Stretched { elongation, force, .. } = spring.stretched()?;
             let (stored, dissipated) = (spring.stored(), spring.dissipated());
             Some(SpringState { elongation, force, stored, dissipated })
+        })
+    }
+
+    /// Whether a spring has a force, and not only the rounding of what it measures.
+    pub fn is_strung(&self) -> bool {
+        let all = self.elements().resistances();
+        all.filter_map(|one: &dyn Resistance| one.stretched()).any(|spring| {
+            spring.force.abs() > ROUNDING * (spring.stiffness * spring.elongation).abs()
         })
     }
 

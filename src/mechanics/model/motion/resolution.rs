@@ -35,6 +35,8 @@ pub struct Resolution {
     last: f64,
     /// The largest rotation of a section in a step [rad].
     rotation: f64,
+    /// How long the step was, or the part of one, in which a section turned so far [time].
+    turned_in: f64,
     /// Motions below this are those of rounding [energy].
     noise: f64,
 }
@@ -42,7 +44,15 @@ pub struct Resolution {
 impl Resolution {
     /// The resolution before the first step, with the energy below which all motion is rounding [energy].
     pub(super) fn above(noise: f64) -> Self {
-        Self { kinetic: 0.0, unresolved: 0.0, bent: 0.0, last: 0.0, rotation: 0.0, noise }
+        Self {
+            kinetic: 0.0,
+            unresolved: 0.0,
+            bent: 0.0,
+            last: 0.0,
+            rotation: 0.0,
+            turned_in: 0.0,
+            noise,
+        }
     }
 
     /// Takes in a step, or a part of one, of some length [time], in which sections turned by such increments at most.
@@ -55,7 +65,10 @@ impl Resolution {
     ) {
         // An increment is no smaller than its angle, which costs more.
         if increment > self.rotation {
-            self.rotation = self.rotation.max(rotations.angle(increment));
+            let angle = rotations.angle(increment);
+            if angle > self.rotation {
+                (self.rotation, self.turned_in) = (angle, duration.abs());
+            }
         }
         let is_as_long = (duration - self.last).abs() <= EQUALLY_LONG * duration.abs();
         self.last = duration;
@@ -84,8 +97,16 @@ impl Resolution {
         self.rotation
     }
 
+    /// How long the step was in which a section turned so far, or the part of one [time].
+    pub fn turned_in(&self) -> f64 {
+        self.turned_in
+    }
+
     pub(super) fn save(&self, state: &mut Vec<f64>) {
-        state.extend([self.kinetic, self.unresolved, self.bent, self.last, self.rotation]);
+        let turned = [self.rotation, self.turned_in];
+        state.extend(
+            [self.kinetic, self.unresolved, self.bent, self.last].into_iter().chain(turned),
+        );
     }
 
     pub(super) fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
@@ -95,6 +116,7 @@ impl Resolution {
             &mut self.bent,
             &mut self.last,
             &mut self.rotation,
+            &mut self.turned_in,
         ] {
             *number = next();
         }

@@ -95,6 +95,16 @@ impl Route {
 
     /// Where the track goes on beyond an end of the present beam, if it does and the beams meet there.
     pub fn seam(&self, bodies: &[Body], end: TrackEnd) -> Option<Seam> {
+        self.beyond(end).filter(|seam| self.meet(bodies, end, *seam))
+    }
+
+    /// Whether the track went on beyond an end of the present beam, and the beams have come apart there.
+    pub fn is_torn(&self, bodies: &[Body], end: TrackEnd) -> bool {
+        self.beyond(end).is_some_and(|seam| !self.meet(bodies, end, seam))
+    }
+
+    /// Where the track goes on beyond an end of the present beam as drawn.
+    fn beyond(&self, end: TrackEnd) -> Option<Seam> {
         let last = self.legs.len() - 1;
         let leads_on = end == self.present().leaves_at();
         let (leg, turns) = match (leads_on, self.leg) {
@@ -104,16 +114,16 @@ impl Route {
             (true, _) => (0, 1.0),
             (false, _) => (last, -1.0),
         };
-        let next = &self.legs[leg];
-        let seam = Seam {
-            leg,
-            end: if leads_on { next.leaves_at().opposite() } else { next.leaves_at() },
-            turns,
-        };
+        let leaves_at = self.legs[leg].leaves_at();
+        Some(Seam { leg, end: if leads_on { leaves_at.opposite() } else { leaves_at }, turns })
+    }
+
+    /// Whether the beams of a seam beyond an end of the present beam are at one place there.
+    fn meet(&self, bodies: &[Body], end: TrackEnd, seam: Seam) -> bool {
+        let next = &self.legs[seam.leg];
         let (here, there) =
             (self.present().end_point(bodies, end), next.end_point(bodies, seam.end));
-        let tolerance = SAME * (next.rail.length() + here.norm());
-        ((there - here).norm() <= tolerance).then_some(seam)
+        (there - here).norm() <= SAME * (next.rail.length() + here.norm())
     }
 
     /// Goes on to the other side of a seam.

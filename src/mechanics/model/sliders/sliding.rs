@@ -292,11 +292,13 @@ impl Sliding {
         out: &mut [f64],
     ) -> f64 {
         let (connection, state) = (self.connection, self.state);
+        let leans_on_nothing = self.leans_on_nothing(bodies);
         let (contact, equations) = P::iterate(self, bodies, increments, unknowns);
         connection.add_values(bodies, &contact, P::forces(&contact), &equations, movements, out);
         let (pressing, chord) = (contact.unknowns.force, P::chord(&contact));
         let force = pressing.norm();
         let push = match state {
+            SliderState::Held(_) if leans_on_nothing => f64::NEG_INFINITY,
             SliderState::Held(end) => contact.push(end.outward()),
             SliderState::Sliding | SliderState::Released => 0.0,
         };

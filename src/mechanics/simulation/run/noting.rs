@@ -40,16 +40,17 @@ impl Simulation {
     ///
     /// The lowest period of the scene is found the first time that there is something to tell of it.
     pub fn notes(&self) -> Vec<Note> {
-        let (dt, resolution) = (self.dt(), self.model.resolution());
+        let (dt, resolution) = (self.longest_step(), self.model.resolution());
         let mut notes = Vec::new();
         let share = resolution.unresolved_share();
-        let turn = resolution.angular_frequency() * dt;
+        let turn = resolution.angular_frequency() * self.dt();
         if share > LARGEST_SHARE || (share > HIDDEN_SHARE && turn > HIDDEN_TURN) {
             let period = TAU / resolution.angular_frequency();
             let (lowest, suspects) = (self.lowest_period(), self.suspects());
             notes.push(Note::Motion { dt, share, period, lowest, suspects });
         }
         if resolution.rotation() > LARGEST_ROTATION {
+            let dt = resolution.turned_in() / self.settings.method.longest_part();
             notes.push(Note::Rotation { dt, angle: resolution.rotation() });
         }
         for (index, slider) in self.model.slider_names().enumerate() {
@@ -76,6 +77,13 @@ impl Simulation {
         notes
     }
 
+    /// The longest of the steps that were taken: a chosen size may be one that was wished for and never met [time].
+    fn longest_step(&self) -> f64 {
+        let rows = self.history().samples();
+        let longest = rows.iter().map(|row| row.dt).fold(0.0, larger);
+        if longest > 0.0 { longest.min(self.dt()) } else { self.dt() }
+    }
+
     /// The drift of the energy, where the method promises none and rounding does not explain it. Sliders have rules with promises of their own.
     fn broken_promise(&self) -> Option<f64> {
         let keeps = self.settings.method.entry().claims.energy == EnergyClaim::Kept;
@@ -96,10 +104,11 @@ impl Simulation {
 
     /// What takes a good part of the kinetic energy within a step, or may give it: the strongest damping, and controllers.
     fn suspects(&self) -> Vec<Suspect> {
-        let measures = self.history().samples().last().map(|row| row.measures).unwrap_or_default();
-        let left = measures.energy.kinetic + measures.energy.strain + measures.energy.stored;
+        let rows = self.history().samples();
+        let others = rows.last().map(|row| row.measures).unwrap_or_default().dissipated;
+        // What is stored may be let go as slowly as a damper allows: it is motion that is taken within a step.
+        let left = rows.iter().map(|row| row.measures.energy.kinetic).fold(0.0, larger);
         let most = self.model.most_damping();
-        let others = measures.dissipated;
         let is_much = |energy: f64| larger(energy, others) > MUCH * (larger(energy, others) + left);
         let most = most.filter(|(_, energy)| is_much(*energy));
         let dampers = most.map(|(name, _)| Suspect::Damping(name.to_owned()));

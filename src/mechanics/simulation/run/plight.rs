@@ -1,9 +1,11 @@
 //! What may leave a step without a solution, in words: what no steps, however short, take a scene through.
 
 use super::Simulation;
+use crate::beams::BodyIndex;
 use crate::geometry::smaller;
+use crate::integrators::Method;
 use crate::joints::SlidingRule;
-use crate::model::SliderState;
+use crate::model::{Element, SliderState};
 use crate::simulation::Axes;
 use crate::simulation::notes::short;
 
@@ -22,8 +24,42 @@ const HOVERS: f64 = 5e-3;
 impl Simulation {
     /// What is extreme in the present configuration, in words, as the end of a sentence; empty where nothing is.
     pub(super) fn plight(&self) -> String {
-        let axes = self.extreme_axes().chain(self.extreme_contacts());
-        axes.map(|told| format!("; {told}")).collect()
+        let extreme = self.extreme_axes().chain(self.extreme_contacts());
+        let others = self.bodies_without_inertia().chain(self.driven_backwards());
+        extreme.chain(others).map(|told| format!("; {told}")).collect()
+    }
+
+    /// What is pulled off its centre and has no inertia turns in no time to where nothing turns it.
+    fn bodies_without_inertia(&self) -> impl Iterator<Item = String> {
+        let inertia = |body: usize| -> f64 {
+            let masses = self.scene.elements.iter().filter_map(|element| match element {
+                Element::PointMass(mass) => Some(mass),
+                _ => None,
+            });
+            let own = masses
+                .filter(|mass| matches!(mass.station.body, BodyIndex::Rigid(at, _) if at == body));
+            own.map(|mass| mass.rotary_inertia).sum()
+        };
+        let bodies = self.scene.rigid_bodies.iter().enumerate();
+        bodies.filter(move |(index, body)| body.points.len() > 0 && inertia(*index) == 0.0).map(
+            |(_, body)| {
+                format!(
+                    "body '{}' has no inertia: a force off its centre would turn it at once, in no time; give it an inertia",
+                    body.name
+                )
+            },
+        )
+    }
+
+    /// A method whose steps go back in time for a part, where what resists gives.
+    fn driven_backwards(&self) -> impl Iterator<Item = String> {
+        let goes_back = self.settings.method == Method::FourthOrder;
+        let damping = if goes_back { self.model.most_damping() } else { None };
+        damping.into_iter().map(|(name, _)| {
+            format!(
+                "fourth_order goes back in time within a step, where '{name}' drives instead of resisting, and where it is strong there may be no way back: take energy_momentum"
+            )
+        })
     }
 
     fn extreme_axes(&self) -> impl Iterator<Item = String> {

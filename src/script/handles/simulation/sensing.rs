@@ -6,6 +6,7 @@ use std::rc::Rc;
 use rhai::Dynamic;
 
 use super::{SimulationHandle, Watch, explain};
+use crate::loads::Schedule;
 use crate::script::handles::scene::{Condition, Controller};
 use crate::script::rows::call::Call;
 use crate::script::rows::stored::StoredFunction;
@@ -127,12 +128,25 @@ impl SimulationHandle {
                 let engine = function.context().engine();
                 let got = engine.map(|engine| describe(&engine, &value)).unwrap_or_default();
                 ScriptError::new(format!(
-                    "{} must give a finite number, got {got}",
-                    function.role()
+                    "{} must give a finite number, got {got} at t = {}",
+                    self.role_of(controller),
+                    self.time()
                 ))
             })?);
         }
         Ok(())
+    }
+
+    /// What a controller is, with the load or the drive that it tells.
+    fn role_of(&self, controller: &Controller) -> String {
+        let simulation = self.simulation();
+        let is_own = |schedule: &Schedule| matches!(schedule, Schedule::Sampled(value) if Rc::ptr_eq(value, &controller.value));
+        let scene = simulation.scene();
+        let told = scene.schedules().find(|(_, schedule)| is_own(schedule));
+        match told {
+            Some((name, _)) => format!("the controller of {}", scene.source_of_schedule(name)),
+            None => controller.function.role().to_string(),
+        }
     }
 
     fn varies_steps(&self) -> bool {

@@ -2,7 +2,7 @@
 
 use super::{Sliding, would_pull};
 use crate::geometry::{Basis, Vec2};
-use crate::joints::ContactUnknowns;
+use crate::joints::{ContactUnknowns, EndAction};
 use crate::model::bodies::Body;
 use crate::model::sliders::{Route, Seam, SliderState, TrackEnd};
 
@@ -34,6 +34,13 @@ impl Sliding {
     /// Whether the slider passed a seam at a time, or left one on which it leant: one that is led back at once does not get away.
     pub fn came_to_seam_at(&self, time: f64) -> bool {
         self.left_at == time || self.route.as_ref().is_some_and(|route| route.passed_at == time)
+    }
+
+    /// Whether the slider leans where there was a seam, on what is now an end of the track that holds nobody.
+    pub(super) fn leans_on_nothing(&self, bodies: &[Body]) -> bool {
+        let SliderState::Held(end) = self.state else { return false };
+        let holds = self.ends == EndAction::Bounce;
+        !holds && self.route.as_ref().is_some_and(|route| route.is_torn(bodies, end))
     }
 
     /// The directions in which the slider leaves the one side of a seam beyond an end of its master, and comes to the other [-].
