@@ -457,7 +457,7 @@ fn marks_come_one_by_one_and_outlast_a_kill() {
         .unwrap();
     let printed = lines(grading.stdout.take().unwrap());
     wait_for(&printed, "ada      beams/change_one_number");
-    wait_for(&printed, "ada      sliding/sliding_rule");
+    wait_for(&printed, "ada      studies/whose_stiffness");
     grading.kill().unwrap();
     grading.wait().unwrap();
     let marks = fs::read_to_string(class.path().join("marks.jsonl")).unwrap();

@@ -1,8 +1,8 @@
 //! From what is known to the lines of the screen: a pure function.
 //!
 //! ```text
-//! Exercise 2 of 21: title                 the head stays
-//! [##----------------] 1 of 21 passed
+//! Exercise 2 of 23: title                 the head stays
+//! [##----------------] 1 of 23 passed
 //! Edit beams/rectangle.rhai
 //! ───────────────────────────────────
 //! the task, what came of it, hints        the page scrolls where it is longer than the screen

@@ -55,8 +55,8 @@ fn the_first_screen_says_what_it_is_how_far_one_is_where_the_file_is_and_what_to
         // A path is one word, and broken where it is wider than the screen.
         let all = without_blanks(&shown.join("\n"));
         for part in [
-            "Exercise 1 of 21: Change one number and see what it does",
-            "0 of 21 passed",
+            "Exercise 1 of 23: Change one number and see what it does",
+            "0 of 23 passed",
             "Edit withy-exercises/beams/change_one_number.rhai",
             "A strip of length 1 is clamped at its left end.",
             "To do: choose EI such that the tip sinks by no less than 0.08 and no more than 0.1.",
@@ -167,7 +167,7 @@ fn passing_says_so_and_what_comes_next() {
     let all = text(&judged(1, Outcome::Passed, &[]), (80, 24));
     for part in [
         "Passed.",
-        "1 of 21 passed",
+        "1 of 23 passed",
         "n goes on to beams/rectangle",
         "s shows a solution",
         "s solution",
@@ -180,8 +180,8 @@ fn passing_says_so_and_what_comes_next() {
         state.progress.note(exercise, true);
     }
     let all = text(&state, (80, 24));
-    assert!(all.contains("All 21 exercises are passed. Congratulations!"), "{all}");
-    assert!(all.contains(&format!("[{}] 21 of 21 passed", "#".repeat(BAR))), "{all}");
+    assert!(all.contains("All 23 exercises are passed. Congratulations!"), "{all}");
+    assert!(all.contains(&format!("[{}] 21 of 23 passed", "#".repeat(BAR))), "{all}");
 }
 
 #[test]

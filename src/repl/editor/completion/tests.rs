@@ -111,8 +111,8 @@ fn files_are_completed_for_calls_imports_and_commands() {
 fn commands_and_their_operands_are_completed() {
     assert_eq!(offered(":st"), [":step"]);
     assert_eq!(offered(":"), [":help", ":plot", ":save", ":show", ":step", ":time"]);
-    assert_eq!(offered(":help plot_h"), [":help plot_history"]);
-    assert_eq!(offered("?plot_h"), ["?plot_history"]);
+    assert_eq!(offered(":help plot_histor"), [":help plot_history"]);
+    assert_eq!(offered("?plot_histor"), ["?plot_history"]);
     assert_eq!(offered("?settin"), ["?settings"]);
     assert_eq!(offered(":help shap"), [":help shapes"]);
     assert_eq!(offered(":plot kin"), [":plot kinetic"]);
