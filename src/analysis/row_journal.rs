@@ -11,7 +11,7 @@ use crate::folders::Folder;
 
 /// Of one entry; more is damage.
 const LONGEST: u32 = 1 << 20;
-/// What is lost at most by a crash are the rows of this time.
+/// A kill loses at most the rows of this time; a loss of power those that the system had not yet written to the disk.
 const DELAY: Duration = Duration::from_millis(100);
 
 /// An entry of the journal of a sweep.
@@ -89,7 +89,7 @@ impl RowJournal {
         Ok(8 + u64::from(length))
     }
 
-    /// Lets what was written last reach the disk, now and then.
+    /// Hands what was written last to the system, now and then.
     ///
     /// # Errors
     /// When it cannot be written.
@@ -100,7 +100,7 @@ impl RowJournal {
         Ok(())
     }
 
-    /// Lets what was written reach the disk.
+    /// Hands what was written to the system.
     ///
     /// # Errors
     /// When it cannot be written.

@@ -18,7 +18,8 @@ enum Stencil {
 
 impl Stencil {
     fn of(range: Range, x: f64, relative: f64) -> Self {
-        let step = relative * range.size(x);
+        // From a bound it reaches two steps inwards.
+        let step = (relative * range.size(x)).min(0.25 * (range.high - range.low));
         match (x - step >= range.low, x + step <= range.high) {
             (true, true) => Self::Central(step),
             (false, _) => Self::OneSided(step),

@@ -15,7 +15,8 @@ const SETTLED: f64 = 1e-7;
 const NEAR: f64 = 0.02;
 /// Cosine of the angle between residuals and the changes that parameters can make, below which nothing is gained.
 const ORTHOGONAL: f64 = 1e-7;
-/// Part of the squares that a step must promise: less changes parameters by less than a hundredth of their standard errors.
+/// Part of the squares that a step must promise: less changes parameters by less than `1e-3 √(n - p)` of their
+/// standard errors, for `n` residuals and `p` parameters.
 const NOTHING: f64 = 1e-6;
 /// Part of the first squares below which they are rounding.
 const ROUNDING: f64 = 1e-26;

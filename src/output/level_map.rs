@@ -78,11 +78,12 @@ impl LevelAxis {
 
     fn ends_by(&self, scale: Scale) -> Vec<f64> {
         let between = |a: f64, b: f64| match scale {
-            Scale::Linear => (a + b) / 2.0,
+            Scale::Linear => 0.5 * a + 0.5 * b,
             Scale::Logarithmic => (a * b).sqrt(),
         };
         let beyond = |a: f64, end: f64| match scale {
-            Scale::Linear => 2.0 * a - end,
+            // Twice the largest numbers are none.
+            Scale::Linear => Some(2.0 * a - end).filter(|far| far.is_finite()).unwrap_or(a),
             Scale::Logarithmic => a * a / end,
         };
         let mut ends: Vec<f64> =
@@ -218,6 +219,12 @@ mod tests {
 
     fn axis(label: &str, middles: &[f64]) -> LevelAxis {
         LevelAxis { label: label.into(), middles: middles.to_vec() }
+    }
+
+    #[test]
+    fn ends_of_cells_are_numbers_however_large() {
+        let axis = LevelAxis { label: "a".into(), middles: vec![-1.7e308, -1e308, 1.7e308] };
+        assert!(axis.ends_halfway().iter().all(|end| end.is_finite()));
     }
 
     #[test]

@@ -56,7 +56,7 @@ impl Heading {
         }
     }
 
-    /// Where the track is on a beam of such a length, when so much of the beam lies behind it on the track; and the other way round [length].
+    /// Arc length from the start of a beam of such a length, for arc length counted from where the track enters it; its own inverse [length].
     pub fn along(self, length: f64, arc_length: f64) -> f64 {
         match self {
             Self::Forward => arc_length,

@@ -6,7 +6,7 @@ use super::elimination::{PANEL, SMALLEST_REACH};
 
 /// The rows of a banded matrix, and what elimination notes about them.
 ///
-/// Behind the last row stand as many rows of the identity as elimination, which goes by panels, may touch.
+/// Behind the last row stand rows of the identity, so that the last panel is whole, and behind these rows of zeros, which elimination may touch.
 #[derive(Debug, Clone)]
 pub(super) struct Storage {
     pub(super) size: usize,

@@ -31,9 +31,11 @@ pub struct DragPoint {
     last_velocity: Vec2,
     /// The largest speed that its velocity may be a difference of, at the start of the step [length/time].
     speed: f64,
-    /// The components across and along of the force, its value in the last step, and what the configuration asks for less the force [force, or force/length].
+    /// The components of the force across and along the line, in the iterate [force, or force/length].
     force: Vec2,
+    /// The force of the last step, likewise.
     last_force: Vec2,
+    /// What the configuration asks for less the force, likewise.
     mismatch: Vec2,
     /// The force in space, as it was given last, times its weight [force].
     given: Vec2,

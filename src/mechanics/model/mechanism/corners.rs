@@ -180,7 +180,8 @@ fn turning(encounter: &Encounter, corners: &[Corner]) -> Result<Vec<f64>, Linear
     Ok(impulses)
 }
 
-/// The impulses `P = γ J ½ (w⁻ + w⁺)` of several sliders that move each other, `w⁺ = w⁻ + W P`, with all angles right.
+/// The impulses `P = γ J ½ (w⁻ + w⁺)` of several sliders that move each other, `w⁺ = w⁻ + W P`, with angles right to 1e-12, or as the last
+/// correction leaves them.
 fn turn_together(
     response: &[Vec<f64>],
     come: &[f64],

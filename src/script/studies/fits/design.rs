@@ -186,7 +186,7 @@ impl DesignOrder<'_> {
             tolerance: self.tolerance,
             most_runs: self.most_runs,
         };
-        let mut size = None;
+        let mut first_size = None;
         let found = question.with_evaluator(call, |evaluator| {
             let found = design.solve(|x| -> Result<Option<Rating>, ScriptError> {
                 let answer = evaluator.ask(&[x.to_vec()])?.into_iter().next();
@@ -194,7 +194,10 @@ impl DesignOrder<'_> {
                 if numbers.len() != results.len() {
                     return Ok(None);
                 }
-                let size = *size.get_or_insert(numbers[goal].abs().max(f64::MIN_POSITIVE));
+                // A goal that begins at zero has no size of its own.
+                let own_size =
+                    || Some(numbers[goal].abs()).filter(|size| *size > 0.0).unwrap_or(1.0);
+                let size = *first_size.get_or_insert_with(own_size);
                 let objective = match self.goal {
                     Goal::Least(_) => numbers[goal] / size,
                     Goal::Largest(_) => -numbers[goal] / size,

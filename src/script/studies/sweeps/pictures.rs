@@ -25,7 +25,7 @@ const MOST_VALUES: usize = 64;
 /// A ratio of the ends of an axis from which it may be logarithmic.
 const DECADE: f64 = 10.0;
 
-/// Which columns a picture is of.
+/// The rows that pictures show, and their title.
 pub struct Picture<'t> {
     /// The rows that are drawn.
     pub table: &'t SweepTable,
@@ -33,7 +33,7 @@ pub struct Picture<'t> {
     pub title: String,
 }
 
-/// The places of a column along an axis: few levels, or any numbers.
+/// The numbers that a parameter takes, ascending, where it has levels that are all numbers; none of other columns.
 fn levels(column: SweepColumn) -> Option<Vec<f64>> {
     match column {
         SweepColumn::Parameter(SweptValues::Levels { numbers: Some(numbers), .. }) => {
