@@ -26,6 +26,7 @@ use super::drawn::Drawn;
 use super::halving::Halving;
 use super::progress::Progress;
 use super::record::Record;
+use super::sensitivities::Sensitivities;
 use super::snapshots::Snapshots;
 use super::{History, Monitor, SimulationError, StepSize, TimeGrid, Trajectory, WorkCounts, cores};
 use crate::integrators::{Constraints, Integrator, Interval, Mechanism, Method};
@@ -49,17 +50,18 @@ pub struct Settings {
 
 /// A simulation: a scene in motion, with its history.
 pub struct Simulation {
-    scene: Scene,
-    settings: Settings,
-    model: Model,
+    pub(super) scene: Scene,
+    pub(super) settings: Settings,
+    pub(super) model: Model,
     integrator: Box<dyn Integrator>,
     /// What finds the size of steps, where it varies.
-    adaptive: Option<Box<Adaptive>>,
+    pub(super) adaptive: Option<Box<Adaptive>>,
     clock: Clock,
     progress: Progress,
     record: Record,
     snapshots: Snapshots,
     drawn: Drawn,
+    pub(super) sensitivities: Option<Box<Sensitivities>>,
 }
 
 impl Simulation {
@@ -117,6 +119,7 @@ impl Simulation {
             progress: Progress::default(),
             snapshots: Snapshots::default(),
             drawn: Drawn::default(),
+            sensitivities: None,
         })
     }
 
@@ -252,6 +255,9 @@ impl Simulation {
             self.progress.count_pretended(dt);
             self.keep_present();
             self.ask(monitor)?;
+        }
+        if let Some(sensitivities) = &mut self.sensitivities {
+            sensitivities.pretend_to(end);
         }
         if rows > 0 {
             self.pretend_arrivals();

@@ -6,7 +6,7 @@ use super::Simulation;
 use crate::model::ModelState;
 use crate::simulation::clock::Clock;
 use crate::simulation::snapshots::Snapshot;
-use crate::simulation::{SimulationError, WorkCounts};
+use crate::simulation::{DerivativeError, SimulationError, WorkCounts};
 
 impl Simulation {
     /// Keeps the state of the simulation after every step from here on, as long as all of them fit into `limit` bytes; then the oldest but
@@ -116,6 +116,7 @@ impl Simulation {
     /// # Errors
     /// When the scene cannot be built, which it could before.
     pub(super) fn stand_at(&mut self, snapshot: &Snapshot) -> Result<(), SimulationError> {
+        self.leave_derivatives("going back");
         self.stand_released(&snapshot.let_go)?;
         self.model.restore(&snapshot.state);
         self.clock.grid.go_back(snapshot.passed);
@@ -195,5 +196,12 @@ impl Simulation {
         fork.progress = self.progress.clone();
         fork.record = self.record.clone();
         Ok(fork)
+    }
+
+    /// There are no derivatives from here on: the run did not get here by its steps.
+    fn leave_derivatives(&mut self, way: &'static str) {
+        if let Some(sensitivities) = &mut self.sensitivities {
+            sensitivities.lose(DerivativeError::Way { way });
+        }
     }
 }

@@ -37,6 +37,7 @@ impl Simulation {
         if self.has_let_go(release) {
             return Ok(());
         }
+        self.lose_derivatives("something lets go");
         let before = self.holds_released(&self.progress.let_go);
         self.model.let_go(&self.scene, &before, hold)?;
         let gone = LetGo { release, time: self.time() };
