@@ -28,8 +28,11 @@ pub use student::student_quantile;
 /// What a function gave at a point: numbers, or why there are none.
 pub type Evaluation = Result<Vec<f64>, String>;
 
-/// The values of a function at a point, each with its derivatives by all parameters; the inner error tells why it does not know them.
-pub type Slopes<'s, E> = dyn FnMut(&[f64]) -> Result<Result<Vec<(f64, Vec<f64>)>, String>, E> + 's;
+/// The values of a function at a point, each with its derivatives by all parameters, or why it does not know them.
+pub type Sloped = Result<Vec<(f64, Vec<f64>)>, String>;
+
+/// A function that may know its derivatives, asked at a point; an error ends the whole search.
+pub type Slopes<'s, E> = dyn FnMut(&[f64]) -> Result<Sloped, E> + 's;
 
 /// A function that is asked at several points at once, so that they can be worked on beside each other; an error ends the whole search.
 pub type Evaluate<'e, E> = dyn FnMut(&[Vec<f64>]) -> Result<Vec<Evaluation>, E> + 'e;

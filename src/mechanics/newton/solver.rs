@@ -15,6 +15,9 @@ const MOST_CORRECTIONS: i32 = 5;
 /// With the factors of equations near by so many corrections are tried; each should gain some digits.
 const MOST_FOLLOWING: usize = 12;
 
+/// Imbalances [-] below this are small enough beside equations near by: what is left of them is a billionth of the change that is looked for.
+const FOLLOWED: f64 = 1e-14;
+
 /// A correction that leaves more than this part of an imbalance has met rounding.
 const STANDSTILL: f64 = 0.1;
 
@@ -174,7 +177,7 @@ impl Newton {
         Err(NewtonError::NotConverged { history: self.history.clone() })
     }
 
-    /// Improves `u`, which solves equations near by, with the factors of these, to rounding; where that does not get on, as [`solve`](Self::solve)
+    /// Improves `u`, which solves equations near by, with the factors of these, nearly to rounding; where that does not get on, as [`solve`](Self::solve)
     /// does.
     ///
     /// # Errors
@@ -195,9 +198,7 @@ impl Newton {
             let imbalance = correct(equations, factors, &mut self.correction, u, residual);
             let largest = imbalance.largest();
             let stands_still = largest > STANDSTILL * before;
-            if self.tolerance.accepts(&imbalance)
-                && (largest <= self.tolerance.polish || stands_still)
-            {
+            if self.tolerance.accepts(&imbalance) && (largest <= FOLLOWED || stands_still) {
                 return Ok(NewtonReport { iterations: 0, corrections, imbalance });
             }
             if !imbalance.is_finite() || largest >= before {

@@ -28,6 +28,7 @@ mod snapshots;
 mod spectrum;
 mod statistics;
 mod step_size;
+mod stepper;
 mod time_grid;
 mod trajectory;
 

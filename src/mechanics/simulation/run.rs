@@ -4,6 +4,7 @@ mod adapting;
 mod back;
 mod blaming;
 mod content;
+mod derivatives;
 mod explain;
 mod frames;
 mod landing;
@@ -26,10 +27,10 @@ use super::drawn::Drawn;
 use super::halving::Halving;
 use super::progress::Progress;
 use super::record::Record;
-use super::sensitivities::Sensitivities;
 use super::snapshots::Snapshots;
+use super::stepper::Stepper;
 use super::{History, Monitor, SimulationError, StepSize, TimeGrid, Trajectory, WorkCounts, cores};
-use crate::integrators::{Constraints, Integrator, Interval, Mechanism, Method};
+use crate::integrators::{Constraints, Interval, Mechanism, Method};
 use crate::model::{Model, Scene};
 use crate::newton::Tolerance;
 use crate::statics::Equilibrium;
@@ -50,18 +51,17 @@ pub struct Settings {
 
 /// A simulation: a scene in motion, with its history.
 pub struct Simulation {
-    pub(super) scene: Scene,
-    pub(super) settings: Settings,
-    pub(super) model: Model,
-    integrator: Box<dyn Integrator>,
+    scene: Scene,
+    settings: Settings,
+    model: Model,
+    stepper: Stepper,
     /// What finds the size of steps, where it varies.
-    pub(super) adaptive: Option<Box<Adaptive>>,
+    adaptive: Option<Box<Adaptive>>,
     clock: Clock,
     progress: Progress,
     record: Record,
     snapshots: Snapshots,
     drawn: Drawn,
-    pub(super) sensitivities: Option<Box<Sensitivities>>,
 }
 
 impl Simulation {
@@ -114,12 +114,11 @@ impl Simulation {
             scene,
             settings,
             model,
-            integrator,
+            stepper: Stepper::of(integrator),
             adaptive,
             progress: Progress::default(),
             snapshots: Snapshots::default(),
             drawn: Drawn::default(),
-            sensitivities: None,
         })
     }
 
@@ -256,7 +255,7 @@ impl Simulation {
             self.keep_present();
             self.ask(monitor)?;
         }
-        if let Some(sensitivities) = &mut self.sensitivities {
+        if let Some(sensitivities) = &mut self.stepper.sensitivities {
             sensitivities.pretend_to(end);
         }
         if rows > 0 {

@@ -8,7 +8,7 @@ use std::fmt;
 pub use error::DerivativeError;
 pub(super) use twins::Twins;
 
-use super::{Recording, Simulation, Unwatched};
+use super::{Recording, Simulation, StepSize, Unwatched};
 use crate::integrators::{Accompanied, Company, Integrator, Interval, Mechanism, StepError};
 use crate::model::{Model, ModelState, Scene};
 use crate::newton::NewtonReport;
@@ -62,14 +62,14 @@ impl Sensitivities {
         run: &mut Simulation,
         variations: Vec<Variation>,
     ) -> Result<Self, super::SimulationError> {
-        let settings = run.settings;
-        if run.adaptive.is_some() {
+        let settings = *run.settings();
+        if let StepSize::Adaptive(_) = settings.dt {
             return Err(DerivativeError::Adaptive.into());
         }
         let name = settings.method.entry().name;
-        let company = Company::of(settings.method, &mut run.model, settings.tolerance)
+        let company = Company::of(settings.method, run.model_mut(), settings.tolerance)
             .ok_or(DerivativeError::Method { method: name })?;
-        let start = run.model.state();
+        let start = run.model().state();
         let twins = |variation| Twins::start(run, variation, &start);
         let parameters = variations.into_iter().map(twins).collect::<Result<_, _>>()?;
         Ok(Self { company, parameters, start, counts: DerivativeCounts::default(), lost: None })
@@ -139,9 +139,9 @@ impl Sensitivities {
         self.each(|twin| twin.record(recording));
     }
 
-    fn each(&mut self, mut what: impl FnMut(&mut Simulation)) {
+    fn each(&mut self, what: impl FnMut(&mut Simulation)) {
         if self.lost.is_none() {
-            self.parameters.iter_mut().flat_map(Twins::runs).for_each(|twin| what(twin));
+            self.parameters.iter_mut().flat_map(Twins::runs).for_each(what);
         }
     }
 
@@ -151,67 +151,38 @@ impl Sensitivities {
     }
 }
 
-impl Simulation {
-    /// Builds a scene with those that parameters make of it, and puts the simulation at its start; the derivatives by these parameters are found with its
-    /// steps, which they do not change.
-    ///
-    /// # Errors
-    /// As those of [`start`](Self::start), and when steps cannot be taken in company or the scenes differ in more than numbers.
-    pub fn start_with_derivatives(
-        scene: Scene,
-        settings: super::Settings,
-        variations: Vec<Variation>,
-    ) -> Result<Self, super::SimulationError> {
-        let mut run = Self::start(scene, settings)?;
-        let sensitivities = Sensitivities::new(&mut run, variations)?;
-        run.sensitivities = Some(Box::new(sensitivities));
-        Ok(run)
+impl fmt::Debug for Sensitivities {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Sensitivities").field("counts", &self.counts).finish_non_exhaustive()
+    }
+}
+
+impl Sensitivities {
+    /// The names of the parameters, with the distances of the runs beside.
+    pub(super) fn parameters(&self) -> impl Iterator<Item = (&str, f64)> {
+        self.parameters.iter().map(|twins| (twins.name.as_str(), twins.distance))
     }
 
-    /// The names of the parameters by which the simulation has derivatives, with the distances of the runs beside it.
-    pub fn parameters(&self) -> impl Iterator<Item = (&str, f64)> {
-        let all = self.sensitivities.iter().flat_map(|of| &of.parameters);
-        all.map(|twins| (twins.name.as_str(), twins.distance))
-    }
-
-    /// The run beside this one at a parameter, by its index, plus or minus its distance, in the state that lies so far from the present one in the
-    /// direction of the derivative: half the difference of what both tell, over the distance, is the derivative of that.
+    /// The run beside at a parameter, by its index.
     ///
     /// # Errors
     /// When there are no derivatives (any more).
-    pub fn beside(&self, parameter: usize, side: Side) -> Result<&Self, DerivativeError> {
-        let known = self.sensitivities.as_ref().ok_or(DerivativeError::None)?;
-        match &known.lost {
+    pub(super) fn beside(
+        &self,
+        parameter: usize,
+        side: Side,
+    ) -> Result<&Simulation, DerivativeError> {
+        match &self.lost {
             Some(reason) => Err(reason.clone()),
             None => {
-                let twins = known.parameters.get(parameter).ok_or(DerivativeError::None)?;
+                let twins = self.parameters.get(parameter).ok_or(DerivativeError::None)?;
                 Ok(twins.run(side))
             }
         }
     }
 
-    /// The derivative of a number that a simulation tells by a parameter, by its index.
-    ///
-    /// # Errors
-    /// When there are no derivatives (any more).
-    pub fn derivative(
-        &self,
-        parameter: usize,
-        number: impl Fn(&Self) -> f64,
-    ) -> Result<f64, DerivativeError> {
-        let [plus, minus] = [Side::Plus, Side::Minus].map(|side| self.beside(parameter, side));
-        let distance = self.parameters().nth(parameter).map_or(f64::NAN, |(_, distance)| distance);
-        Ok((number(plus?) - number(minus?)) / (2.0 * distance))
-    }
-
-    /// The work for the derivatives of the simulation so far.
-    pub fn derivative_counts(&self) -> DerivativeCounts {
-        self.sensitivities.as_ref().map(|of| of.counts).unwrap_or_default()
-    }
-}
-
-impl fmt::Debug for Sensitivities {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Sensitivities").field("counts", &self.counts).finish_non_exhaustive()
+    /// The work so far.
+    pub(super) fn counts(&self) -> DerivativeCounts {
+        self.counts
     }
 }

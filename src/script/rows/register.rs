@@ -8,7 +8,7 @@ use super::accept::{accept, blame_argument};
 use super::arguments::Arguments;
 use super::call::Call;
 use super::kind::{Kind, Type};
-use super::lifting::{Family, Lifting, lift, lifting_of};
+use super::lifting::{Family, Lifting, lift, lifting_of, present};
 use super::parameter::Parameter;
 use super::table::{Body, Form, Row, Table};
 use crate::geometry::Vec2;
@@ -155,7 +155,12 @@ fn perform(
         return make(binding, native, receiver, given);
     }
     let again = &mut |receiver: Option<&mut Dynamic>, given: &[Dynamic]| {
-        make(binding, native, receiver, given.iter().cloned())
+        let made = || make(binding, native, receiver, given.iter().cloned());
+        // What is told is told once.
+        match present() {
+            Some(beside) if beside.variant > 0 => context.silently(made),
+            _ => made(),
+        }
     };
     lift((row, binding.lifting), receiver, (parameters, given.collect()), again)
 }

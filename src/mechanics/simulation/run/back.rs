@@ -6,7 +6,7 @@ use super::Simulation;
 use crate::model::ModelState;
 use crate::simulation::clock::Clock;
 use crate::simulation::snapshots::Snapshot;
-use crate::simulation::{DerivativeError, SimulationError, WorkCounts};
+use crate::simulation::{SimulationError, WorkCounts};
 
 impl Simulation {
     /// Keeps the state of the simulation after every step from here on, as long as all of them fit into `limit` bytes; then the oldest but
@@ -196,12 +196,5 @@ impl Simulation {
         fork.progress = self.progress.clone();
         fork.record = self.record.clone();
         Ok(fork)
-    }
-
-    /// There are no derivatives from here on: the run did not get here by its steps.
-    fn leave_derivatives(&mut self, way: &'static str) {
-        if let Some(sensitivities) = &mut self.sensitivities {
-            sensitivities.lose(DerivativeError::Way { way });
-        }
     }
 }

@@ -12,7 +12,7 @@ impl Simulation {
     /// Changes which states of the simulation are recorded, from here on.
     pub fn record(&mut self, recording: Recording) {
         self.record.recording = recording;
-        if let Some(sensitivities) = &mut self.sensitivities {
+        if let Some(sensitivities) = &mut self.stepper.sensitivities {
             sensitivities.record(recording);
         }
     }
@@ -31,7 +31,7 @@ impl Simulation {
     /// Gives the present state of the simulation a row of the history that stays.
     pub(in crate::simulation) fn keep_row(&mut self) {
         self.record.keep_row(&mut self.model, self.progress.last_step);
-        if let Some(sensitivities) = &mut self.sensitivities {
+        if let Some(sensitivities) = &mut self.stepper.sensitivities {
             sensitivities.keep_row();
         }
     }
@@ -50,7 +50,7 @@ impl Simulation {
             return;
         }
         self.record.show_present(&mut self.model, self.progress.last_step);
-        if let Some(sensitivities) = &mut self.sensitivities {
+        if let Some(sensitivities) = &mut self.stepper.sensitivities {
             sensitivities.show_present();
         }
     }

@@ -6,7 +6,7 @@ use crate::integrators::{Interval, StepError};
 use crate::model::TrackLimit;
 use crate::newton::NewtonReport;
 use crate::simulation::halving::Halving;
-use crate::simulation::{DerivativeError, Monitor, SimulationError};
+use crate::simulation::{Monitor, SimulationError};
 
 /// How much of an interval steps have covered.
 #[derive(PartialEq, Eq)]
@@ -51,7 +51,7 @@ impl Simulation {
     ) -> Result<Covered, SimulationError> {
         while !halving.is_done() {
             let interval = halving.next();
-            let mut stepped = self.take(interval);
+            let mut stepped = self.stepper.step(&mut self.model, interval);
             if let Err(StepError::Overshoot { overshoot, iterations, .. }) = stepped {
                 self.progress.count_try(iterations);
                 self.lose_derivatives("a slider arrives at an end of its way or leaves a stop");
@@ -97,15 +97,6 @@ impl Simulation {
         Ok(Covered::All)
     }
 
-    /// Takes one step over an interval, with those that derivatives are found by.
-    fn take(&mut self, interval: Interval) -> Result<NewtonReport, StepError> {
-        let Self { integrator, model, sensitivities, .. } = self;
-        match sensitivities {
-            None => integrator.step(model, interval),
-            Some(sensitivities) => sensitivities.step(model, &mut **integrator, interval),
-        }
-    }
-
     /// Counts a step that succeeded after some failed tries.
     pub(in crate::simulation) fn count_step(
         &mut self,
@@ -115,16 +106,8 @@ impl Simulation {
     ) {
         self.progress.count_step(interval, report, retries);
         self.model.end_step(interval.duration());
-        if let Some(sensitivities) = &mut self.sensitivities {
+        if let Some(sensitivities) = &mut self.stepper.sensitivities {
             sensitivities.count_step(interval, report);
-        }
-    }
-
-    /// There are no derivatives from the present on: something happens that they do not pass.
-    pub(super) fn lose_derivatives(&mut self, event: &'static str) {
-        let time = self.time();
-        if let Some(sensitivities) = &mut self.sensitivities {
-            sensitivities.lose(DerivativeError::Event { time, event });
         }
     }
 

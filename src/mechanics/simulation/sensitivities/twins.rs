@@ -24,15 +24,15 @@ impl Twins {
         state: &ModelState,
     ) -> Result<Self, SimulationError> {
         let Variation { name, distance, scenes } = variation;
-        let [plus, minus] = scenes.map(|scene| Simulation::start(scene, run.settings));
+        let [plus, minus] = scenes.map(|scene| Simulation::start(scene, *run.settings()));
         let runs = [plus?, minus?];
         let has_form = |twin: &Simulation| {
-            twin.unknowns() == run.unknowns() && twin.model.state().is_shaped_like(state)
+            twin.unknowns() == run.unknowns() && twin.model().state().is_shaped_like(state)
         };
         if !runs.iter().all(has_form) {
             return Err(DerivativeError::Form { parameter: name, distance }.into());
         }
-        if !runs.iter().all(|twin| times(&twin.scene) == times(&run.scene)) {
+        if !runs.iter().all(|twin| times(twin.scene()) == times(run.scene())) {
             return Err(DerivativeError::Times { parameter: name }.into());
         }
         let states = [state.blank(), state.blank()];
@@ -45,7 +45,7 @@ impl Twins {
     pub(super) fn differentiate(&mut self) {
         let Self { runs, states, derivative, distance, .. } = self;
         for (run, state) in runs.iter().zip(states.iter_mut()) {
-            run.model.write_state(state);
+            run.model().write_state(state);
         }
         let [plus, minus] = states;
         plus.change_from(minus, 2.0 * *distance, derivative);
@@ -58,12 +58,12 @@ impl Twins {
             runs.iter_mut().zip(states.iter_mut()).zip([*distance, -*distance])
         {
             beside.displace(state, derivative, amount);
-            run.model.restore(beside);
+            run.model_mut().restore(beside);
         }
     }
 
     pub(super) fn models(&mut self) -> impl Iterator<Item = &mut Model> {
-        self.runs.iter_mut().map(|run| &mut run.model)
+        self.runs.iter_mut().map(Simulation::model_mut)
     }
 
     pub(super) fn runs(&mut self) -> impl Iterator<Item = &mut Simulation> {

@@ -6,7 +6,7 @@ use rhai::{Array, Dynamic, Map};
 
 use super::calling::{Called, Made, call, thrown};
 use super::function::RunFunction;
-use crate::fitting::Evaluation;
+use crate::fitting::{Evaluation, Sloped};
 use crate::script::engine::workers::{Blueprint, Crew, News, with_crew};
 use crate::script::rows::call::Call;
 use crate::script::rows::lifting::{Family, Varied};
@@ -187,10 +187,7 @@ impl<'w> Evaluator<'w> {
     ///
     /// # Errors
     /// When the run is stopped.
-    pub fn slopes(
-        &mut self,
-        point: &[(f64, f64)],
-    ) -> Result<Result<Vec<(f64, Vec<f64>)>, String>, ScriptError> {
+    pub fn slopes(&mut self, point: &[(f64, f64)]) -> Result<Sloped, ScriptError> {
         let answers = match self.answers(vec![Point::Slopes(point.to_vec())]) {
             Err(error) if self.call.context().is_stopped() => return Err(error),
             Err(error) => return Ok(Err(in_words(error))),

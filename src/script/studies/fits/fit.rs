@@ -6,7 +6,7 @@ use std::time::Duration;
 use rhai::{Array, Dynamic, FnPtr};
 
 use super::ranges::Ranges;
-use crate::fitting::{Estimate, Fitted, LeastSquares, Range, Settling};
+use crate::fitting::{Estimate, Fitted, LeastSquares, Range, Settling, Sloped};
 use crate::output::{Cell, LineChart, Marker, Page, Panel, Series, Stroke, Table, significant};
 use crate::script::rows::call::Call;
 use crate::script::rows::lifting::RELATIVE_DISTANCE;
@@ -182,11 +182,7 @@ impl FitOrder<'_> {
     }
 
     /// The weighted residuals of what the function gave, with their derivatives.
-    fn differences_with(
-        &self,
-        rows: Vec<(f64, Vec<f64>)>,
-        roots: Option<&[f64]>,
-    ) -> Result<Vec<(f64, Vec<f64>)>, String> {
+    fn differences_with(&self, rows: Vec<(f64, Vec<f64>)>, roots: Option<&[f64]>) -> Sloped {
         let (values, mut slopes): (Vec<f64>, Vec<Vec<f64>>) = rows.into_iter().unzip();
         let residuals = weighted(roots, self.differences(values)?);
         for (row, root) in slopes.iter_mut().zip(roots.into_iter().flatten()) {
