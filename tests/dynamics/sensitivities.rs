@@ -1,9 +1,10 @@
 //! Derivatives of runs by parameters: against closed forms, against differences of exact runs, and what they cost.
 #![allow(clippy::unwrap_used)]
 
-use crate::common::{at, run, scenes, settings, simulate};
+use crate::common::{at, body_scenes, run, scenes, settings, simulate, sliding_scenes};
 use withy::beams::{Mesh, SectionVariation};
 use withy::integrators::Method;
+use withy::joints::SlidingRule;
 use withy::loads::{LoadKind, Schedule};
 use withy::model::{
     Anchor, Element, Origin, ParticleDefinition, RestoringLaw, Scene, Spring, SpringKind,
@@ -121,7 +122,9 @@ fn derivatives_of_all_scenes_are_those_of_exact_runs() {
     let mesh = Mesh::bspline(4, 3, 2).unwrap();
     let mut compared = 0;
     for method in METHODS {
-        for scene in scenes::all(&mesh) {
+        let bodies = body_scenes::all(&mesh);
+        let sliding = sliding_scenes::all(&mesh, SlidingRule::default());
+        for scene in scenes::all(&mesh).into_iter().chain(bodies).chain(sliding) {
             let of = |what: usize| variation("p", 1e-5, |by| scaled(&scene, what, by));
             let start = || {
                 Simulation::start_with_derivatives(

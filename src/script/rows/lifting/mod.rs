@@ -10,5 +10,7 @@ mod varied;
 
 pub use family::{Family, Present, RELATIVE_DISTANCE, know, lose, present};
 pub use lift::{gathered, lift};
+#[cfg(test)]
+pub use policy::NAMED;
 pub use policy::{Lifting, lifting_of};
 pub use varied::Varied;

@@ -66,3 +66,7 @@ pub fn lifting_of(table: &Table, row: &Row) -> Lifting {
         _ => Lifting::Once,
     }
 }
+
+/// The domains that are named here.
+#[cfg(test)]
+pub const NAMED: [&[&str]; 3] = [EACH, AT_VALUES, REFUSED];
