@@ -1,6 +1,6 @@
 //! Why a run could not start or go on.
 
-use super::StepSizeError;
+use super::{DerivativeError, StepSizeError};
 use crate::integrators::{MethodError, StepError};
 use crate::model::ModelError;
 
@@ -16,6 +16,9 @@ pub enum SimulationError {
     /// The step size of a run is not positive, or its tolerance cannot be kept.
     #[error(transparent)]
     StepSize(#[from] StepSizeError),
+    /// A run has no derivatives by parameters of its scene.
+    #[error(transparent)]
+    Derivative(#[from] DerivativeError),
     /// The mean of a step of a method that balances accelerations of its own.
     #[error(
         "'{sensor}' is the mean over a step, by which momenta change, and {method} balances accelerations of its own instead: it has none; record the force at the present moment, or take another method"

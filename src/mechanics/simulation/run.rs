@@ -4,6 +4,7 @@ mod adapting;
 mod back;
 mod blaming;
 mod content;
+mod derivatives;
 mod explain;
 mod frames;
 mod landing;
@@ -27,8 +28,9 @@ use super::halving::Halving;
 use super::progress::Progress;
 use super::record::Record;
 use super::snapshots::Snapshots;
+use super::stepper::Stepper;
 use super::{History, Monitor, SimulationError, StepSize, TimeGrid, Trajectory, WorkCounts, cores};
-use crate::integrators::{Constraints, Integrator, Interval, Mechanism, Method};
+use crate::integrators::{Constraints, Interval, Mechanism, Method};
 use crate::model::{Model, Scene};
 use crate::newton::Tolerance;
 use crate::statics::Equilibrium;
@@ -52,7 +54,7 @@ pub struct Simulation {
     scene: Scene,
     settings: Settings,
     model: Model,
-    integrator: Box<dyn Integrator>,
+    stepper: Stepper,
     /// What finds the size of steps, where it varies.
     adaptive: Option<Box<Adaptive>>,
     clock: Clock,
@@ -116,7 +118,7 @@ impl Simulation {
             scene,
             settings,
             model,
-            integrator,
+            stepper: Stepper::of(integrator),
             adaptive,
             progress: Progress::default(),
             snapshots: Snapshots::default(),
@@ -256,6 +258,9 @@ impl Simulation {
             self.progress.count_pretended(dt);
             self.keep_present();
             self.ask(monitor)?;
+        }
+        if let Some(sensitivities) = &mut self.stepper.sensitivities {
+            sensitivities.pretend_to(end);
         }
         if rows > 0 {
             self.pretend_arrivals();
