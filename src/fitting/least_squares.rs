@@ -193,7 +193,7 @@ impl LeastSquares {
             runs += points.len();
             evaluate(points)
         };
-        let x: Vec<f64> = self.ranges.iter().map(|range| range.clip(range.start)).collect();
+        let x: Vec<f64> = self.ranges.iter().map(|range| range.first()).collect();
         let residuals = match only(counted(std::slice::from_ref(&x))?) {
             Ok(residuals) => DVector::from_vec(residuals),
             Err(reason) => return Ok(Err(reason)),

@@ -34,7 +34,6 @@ pub use dynamics::{BlockSink, BodyDynamics, Collocation, ForceSummary, Movement}
 pub use error::BeamError;
 pub use kink::kink_length;
 pub use mesh::{Mesh, PointCounts, Quadrature};
-pub use parts::at_once;
 pub use rigid_points::RigidPoints;
 pub use rotation::{Rotation, RotationIncrement};
 pub use section::{Section, Shape, Solid};

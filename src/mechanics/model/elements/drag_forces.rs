@@ -158,10 +158,6 @@ impl Resistance for DragForces {
         self.pace.end();
     }
 
-    fn stored(&self) -> f64 {
-        0.0
-    }
-
     fn dissipated(&self) -> f64 {
         self.dissipated
     }

@@ -26,6 +26,16 @@ pub enum Terminal {
     Ground,
 }
 
+impl Terminal {
+    /// What it has of a vector of the control points of each body, by body and point: none on the ground.
+    pub fn combine(&self, of_point: impl Fn(usize, usize) -> Vec2) -> Vec2 {
+        let Self::Moving(place) = self else { return Vec2::zeros() };
+        place
+            .weights()
+            .fold(Vec2::zeros(), |sum, (point, share)| sum + of_point(place.body, point) * share)
+    }
+}
+
 /// Which movements of a place count.
 #[derive(Debug, Clone)]
 enum Measure {

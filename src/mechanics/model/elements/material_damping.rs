@@ -152,10 +152,6 @@ impl Resistance for DampedMaterial {
         self.pace.end();
     }
 
-    fn stored(&self) -> f64 {
-        0.0
-    }
-
     fn dissipated(&self) -> f64 {
         self.dissipated
     }

@@ -58,7 +58,9 @@ pub trait Resistance {
     fn advance(&mut self, bodies: &[Body]);
 
     /// The energy that is stored in it at the start of the step [energy].
-    fn stored(&self) -> f64;
+    fn stored(&self) -> f64 {
+        0.0
+    }
 
     /// What it has dissipated since the start of the simulation [energy].
     fn dissipated(&self) -> f64;
