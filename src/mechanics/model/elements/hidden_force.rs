@@ -46,9 +46,13 @@ impl HiddenForce {
         if self.mismatch == 0.0 { 0.0 } else { self.mismatch.abs() / size }
     }
 
-    /// The change of `Δq` after which the configuration that was compared last would ask for the force as it is, to first order; none where it asks for none.
+    /// The change of `Δq` after which the configuration that was compared last would ask for the force as it is, to first order; infinite where no change does.
     pub fn missing_change(&self) -> f64 {
-        if self.asked > 0.0 { -self.mismatch / self.asked } else { 0.0 }
+        match self.mismatch == 0.0 {
+            true => 0.0,
+            false if self.asked > 0.0 => -self.mismatch / self.asked,
+            false => f64::INFINITY,
+        }
     }
 
     /// Begins a step with the force of the last one.
