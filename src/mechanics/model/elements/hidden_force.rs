@@ -46,7 +46,8 @@ impl HiddenForce {
         if self.mismatch == 0.0 { 0.0 } else { self.mismatch.abs() / size }
     }
 
-    /// The change of `Δq` after which the configuration that was compared last would ask for the force as it is, to first order; infinite where no change does.
+    /// The change of `Δq` after which the configuration that was compared last would ask for the force as it is, to first order; infinite where no
+    /// change does.
     pub fn missing_change(&self) -> f64 {
         match self.mismatch == 0.0 {
             true => 0.0,
@@ -61,7 +62,8 @@ impl HiddenForce {
         self.search = Search::default();
     }
 
-    /// How much the force falls where the rate rises, by all that it acts on, as the last two iterates tell: where the search goes on for long, and not before.
+    /// How much the force falls where the rate rises, by all that it acts on, as the last two iterates tell: where the search goes on for long, and
+    /// not before.
     pub fn impedance(&mut self, rate: f64) -> Option<f64> {
         let Search { linearised, at: (rate_before, force_before) } = self.search;
         self.search = Search { linearised: linearised + 1, at: (rate, self.force) };
