@@ -41,8 +41,19 @@ const EACH: &[&str] = &[
 ];
 
 /// Domains that look at numbers.
-const AT_VALUES: &[&str] =
-    &["text", "checks", "looking closely", "help", "notes", "error against run time"];
+const AT_VALUES: &[&str] = &[
+    "text",
+    "checks",
+    "looking closely",
+    "help",
+    "notes",
+    "pictures",
+    "pictures of arrays",
+    "pictures along beams",
+    "exports",
+    "viewers",
+    "animations",
+];
 
 /// Domains whose results have no derivatives yet.
 const REFUSED: &[&str] = &["equilibrium", "modes"];
