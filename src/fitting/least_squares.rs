@@ -205,7 +205,7 @@ impl LeastSquares {
         slopes: &mut Slopes<'_, E>,
     ) -> Result<Result<Fitted, String>, E> {
         let mut asking = Asking::new(evaluate, slopes);
-        let x: Vec<f64> = self.ranges.iter().map(|range| range.clip(range.start)).collect();
+        let x: Vec<f64> = self.ranges.iter().map(|range| range.first()).collect();
         let Asked { values, derivatives: mut known } = asking.at(&x)?;
         let residuals = match values {
             Ok(residuals) => DVector::from_vec(residuals),

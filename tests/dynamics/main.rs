@@ -15,6 +15,7 @@ mod drag;
 mod drives;
 mod going_back;
 mod invariants;
+mod kinked_laws;
 mod literature;
 mod mean_forces;
 mod meshes;

@@ -29,6 +29,18 @@ pub enum SimulationError {
         /// The method that has no such mean.
         method: &'static str,
     },
+    /// A drive that an equilibrium has moved to where it is at another time than the start.
+    #[error(
+        "the equilibrium holds what '{drive}' moves at {rests}, and its function begins at t = 0 with {begins}: moved on from there it would be where no function has it"
+    )]
+    BeginsElsewhere {
+        /// The name of the drive that rests elsewhere than where its function begins.
+        drive: String,
+        /// Where the drive rests [length, rad].
+        rests: f64,
+        /// Where its function begins [length, rad].
+        begins: f64,
+    },
     /// An end of a run that has passed.
     #[error("the simulation is at t = {now} and cannot run to t = {end}")]
     End {

@@ -77,12 +77,16 @@ impl Simulation {
     /// A simulation that starts at t = 0 from the scene of an equilibrium, at rest as it was found.
     ///
     /// # Errors
-    /// When the step size or the parameter of the method is out of its range.
+    /// When the step size or the parameter of the method is out of its range, or a drive rests elsewhere than where its function begins.
     pub fn start_at_rest(rest: &Equilibrium, settings: Settings) -> Result<Self, SimulationError> {
         let scene = rest.scene().clone();
         let mut model = Model::assemble(&scene)?;
+        if let Some((drive, [rests, begins])) = rest.model().drive_elsewhere() {
+            let drive = drive.to_owned();
+            return Err(SimulationError::BeginsElsewhere { drive, rests, begins });
+        }
         model.restore(&rest.model().state());
-        model.set_given_in_motion();
+        model.begin_drives(&scene);
         Self::of(scene, model, settings)
     }
 
@@ -274,6 +278,8 @@ impl Simulation {
         if !self.scene.releases.is_empty() {
             self.let_go_due()?;
         }
+        let next = self.clock.grid.next(self.time(), limit);
+        self.model.follow_jumps_of_drives(Interval::between(self.time(), next));
         let stepped = match self.adaptive.take() {
             None => self.step_on_grid(limit, monitor),
             Some(mut adaptive) => {

@@ -47,6 +47,9 @@ fn on_simulation(error: &SimulationError) -> Option<String> {
         SimulationError::NoMean { sensor, .. } => {
             format!("record \"{}\"", sensor.replace(".mean_", "."))
         }
+        SimulationError::BeginsElsewhere { .. } => {
+            "take the equilibrium at time 0, or give the drive a function that begins where it is to rest".into()
+        }
         SimulationError::Rattles { .. } => "try ends: \"release\" or \"stop\"".into(),
         SimulationError::FewerSteps { .. } => "sim.rewind(0) leads to the start".into(),
         SimulationError::NotBehind { .. } => {

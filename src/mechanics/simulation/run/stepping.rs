@@ -3,7 +3,7 @@
 use super::Simulation;
 use super::landing::MOST_ARRIVALS;
 use crate::integrators::{Interval, StepError};
-use crate::model::TrackLimit;
+use crate::model::MasterLimit;
 use crate::newton::NewtonReport;
 use crate::simulation::halving::Halving;
 use crate::simulation::{Monitor, SimulationError};
@@ -121,7 +121,7 @@ impl Simulation {
     fn no_step(&self, dt: f64, divisions: u64, source: StepError) -> SimulationError {
         let (time, plight) = (self.time(), self.plight());
         if let StepError::Overshoot { overshoot, .. } = &source {
-            let limit = TrackLimit::of(overshoot.limit);
+            let limit = MasterLimit::of(overshoot.limit);
             let slider = self.scene.sliders[limit.slider].name.clone();
             let end = limit.end.name();
             return SimulationError::Landing { slider, end, time, dt, divisions, plight };

@@ -138,8 +138,7 @@ impl FitOrder<'_> {
                 Derivatives::Differences => problem.solve(&mut evaluate),
             }
         })?;
-        let start: Vec<f64> =
-            self.ranges.ranges.iter().map(|range| range.clip(range.start)).collect();
+        let start: Vec<f64> = self.ranges.ranges.iter().map(|range| range.first()).collect();
         let fitted = fitted.map_err(|reason| question.blame(call, &start, &reason))?;
         let residuals = match &roots {
             None => fitted.residuals.clone(),
@@ -158,8 +157,7 @@ impl FitOrder<'_> {
         if let Some(data) = &self.data {
             function.take(call, "data", data)?;
         }
-        let start: Vec<f64> =
-            self.ranges.ranges.iter().map(|range| range.clip(range.start)).collect();
+        let start: Vec<f64> = self.ranges.ranges.iter().map(|range| range.first()).collect();
         let _ = function.call_here(call, self.key, self.ranges.named(&start))?;
         let residuals = match &self.compared {
             Compared::Model { measured, .. } => vec![0.0; measured.len()],
