@@ -276,8 +276,13 @@ fn the_torque_of_a_motor_is_exact_however_far_it_turns_in_a_step() {
 
 /// A body that is turned about a point of it that is off its centre by one.
 fn swung(motion: PrescribedMotion) -> Scene {
+    swung_at(1.0, motion)
+}
+
+/// A body that is turned about a point of it that is so far off its centre.
+pub fn swung_at(reach: f64, motion: PrescribedMotion) -> Scene {
     let mut scene = Scene::new("swung");
-    let body = add_body(&mut scene, at(1.0, 0.0), 0.0, (2.0, 0.5), &[at(-1.0, 0.0)]);
+    let body = add_body(&mut scene, at(reach, 0.0), 0.0, (2.0, 0.5), &[at(-reach, 0.0)]);
     hinge(&mut scene, point(body, 1), None);
     drive(&mut scene, point(body, 1), &[(Component::Rotation, motion)]);
     scene
