@@ -14,7 +14,6 @@ use super::pace::Pace;
 use super::resistance::{Resistance, Stretched};
 use super::{Exchange, Iterate};
 use crate::beams::{ForceSummary, Movement, RateCollocation};
-use crate::elementary::square;
 use crate::geometry::{Vec2, cross};
 use crate::integrators::Interval;
 use crate::linalg::BandedMatrix;
@@ -291,10 +290,15 @@ impl Resistance for RadialDamper {
     }
 
     /// Small vibration through a way of no length is damped in whatever direction it is.
-    fn dissipation(&self, bodies: &[Body], rates: &[f64]) -> f64 {
-        let velocity = self.apart(bodies, rates);
-        let rate = direction(self.way, velocity).dot(&velocity);
-        self.law.slope_at_rest() * square(rate)
+    fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
+        if !self.law.acts() {
+            return;
+        }
+        let (velocity, damping) = (self.apart(bodies, rates), self.law.slope_at_rest());
+        match self.way == Vec2::zeros() {
+            true => velocity.iter().for_each(|rate| take(damping, *rate)),
+            false => take(damping, direction(self.way, velocity).dot(&velocity)),
+        }
     }
 
     fn let_go(&mut self) {
