@@ -15,7 +15,7 @@ use withy::model::{
     Anchor, ModelError, Origin, ParticleDefinition, RestoringLaw, Scene, Spring, SpringKind,
     StartMotion,
 };
-use withy::simulation::{Invariant, Simulation};
+use withy::simulation::{Invariant, Simulation, Unwatched};
 use withy::statics::{Equilibrium, Loading};
 
 fn function(of: impl Fn(f64) -> f64 + 'static) -> Schedule {
@@ -330,7 +330,7 @@ fn what_is_tied_to_a_controlled_drive_has_its_speed_in_every_step() {
     for step in 1..=300_u32 {
         let speed = (0.1 * f64::from(step)).sin();
         said.set(speed);
-        run(&mut simulation, 0.01 * f64::from(step)).unwrap();
+        simulation.run_to(0.01 * f64::from(step), &mut Unwatched).unwrap();
         let history = simulation.history();
         let kinetic = *history.column("kinetic").unwrap().last().unwrap();
         let expected = 1.25 * speed * speed;
