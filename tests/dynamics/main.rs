@@ -26,6 +26,7 @@ mod rigid_links;
 mod rollers;
 mod same_bits;
 mod saving;
+mod sensitivities;
 mod sensors;
 mod small_ways;
 mod springs;

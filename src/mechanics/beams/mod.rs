@@ -11,6 +11,7 @@ mod dynamics;
 mod error;
 mod force_dashpot;
 mod force_point;
+mod inertia;
 mod kink;
 mod mesh;
 mod moment_dashpot;
@@ -22,6 +23,7 @@ mod section;
 mod section_forces;
 mod section_variation;
 mod sections;
+mod span_loops;
 mod span_points;
 mod station;
 

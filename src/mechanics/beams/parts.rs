@@ -73,13 +73,13 @@ impl Parts {
     pub(super) fn each<const N: usize, S: Send>(
         &self,
         spans: &mut [SpanPoints<N, S>],
-        work: impl Fn(&mut SpanPoints<N, S>) + Sync,
+        work: impl Fn(&mut [SpanPoints<N, S>]) + Sync,
     ) {
         if !self.are_large(spans.len()) {
-            return spans.iter_mut().for_each(work);
+            return work(spans);
         }
         let most = spans.len().div_ceil(self.count());
-        at_once(spans.chunks_mut(most), |part| part.iter_mut().for_each(&work));
+        at_once(spans.chunks_mut(most), work);
     }
 
     /// Works a little on the sums of the control points of each part of a beam, parts at once.

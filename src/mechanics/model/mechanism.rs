@@ -89,7 +89,7 @@ impl Model {
     }
 
     /// Gives what is moved by functions of time the rates with which these begin, in a model that has not taken a step.
-    pub fn set_given_in_motion(&mut self) {
+    pub(super) fn set_given_in_motion(&mut self) {
         let first = self.unknowns.count();
         let prescribed = &self.supports.prescribed().in_step().rates;
         self.motion.rates[first..].copy_from_slice(prescribed);

@@ -10,7 +10,7 @@
 //!
 //! over the prescribed movements, exactly. These are work, impulse and angular impulse of a drive.
 
-use std::borrow::Cow;
+mod at_rest;
 
 use super::bend::Bend;
 use super::supports::Support;
@@ -19,7 +19,7 @@ use crate::beams::RotationIncrement;
 use crate::geometry::{Vec2, cross, larger};
 use crate::integrators::{Interval, PrescribedKinematics};
 use crate::joints::Component;
-use crate::loads::{LoadError, MotionAtStart, PrescribedMotion, Side};
+use crate::loads::{LoadError, MotionAtStart, PrescribedMotion};
 use crate::model::bodies::Body;
 
 /// A supported movement that is prescribed.
@@ -237,6 +237,24 @@ impl PrescribedMovements {
         Ok(())
     }
 
+    /// By how much rates that are prescribed jump at the start of a step, where their degrees of freedom are; none where none of them does. They may at
+    /// times at which a function is said to bend, and wherever a controller speaks.
+    ///
+    /// # Errors
+    /// When a function has no finite value.
+    pub fn jumps(&self, interval: Interval, rates: &[f64]) -> Result<Option<Vec<f64>>, LoadError> {
+        let mut found = None;
+        for (at, movement) in self.movements.iter().enumerate() {
+            let before = rates[self.first + at];
+            let Some(jump) = movement.motion.jump_of_rate(interval.start, interval.end, before)?
+            else {
+                continue;
+            };
+            found.get_or_insert_with(|| vec![0.0; rates.len()])[self.first + at] = jump;
+        }
+        Ok(found)
+    }
+
     /// Room for rates of all movements, filled by a function of their number.
     pub fn fill(&mut self, rate: impl FnMut(usize) -> f64) -> &[f64] {
         self.room.clear();
@@ -311,7 +329,7 @@ impl PrescribedMovements {
         sum
     }
 
-    /// What the drives gave in a blow, with its impulses, at these rates of everything.
+    /// What the drives gave in a blow, with its impulses, at these mean rates of everything, of before and after it.
     pub fn exchange_in_blow(
         &mut self,
         bodies: &[Body],
@@ -329,44 +347,6 @@ impl PrescribedMovements {
             self.drives[movement.drive].work += work;
         }
         sum
-    }
-
-    /// Takes the places that are prescribed at a time, which equilibria put on with their loads.
-    ///
-    /// # Errors
-    /// When a function has no finite value: the name of its drive, and why.
-    pub fn hold_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
-        for (movement, present) in self.movements.iter().zip(&mut self.present) {
-            if let PrescribedMotion::Place(schedule) = &movement.motion {
-                present.goal = schedule
-                    .value(time, Side::After)
-                    .map_err(|error| (self.drives[movement.drive].name.clone(), error))?;
-            }
-        }
-        Ok(())
-    }
-
-    /// Whether something is prescribed that an equilibrium has to put on.
-    pub fn moves_at_rest(&self) -> bool {
-        self.present.iter().any(|present| present.goal != 0.0)
-    }
-
-    /// Movements at rest, those that are prescribed behind the unknown ones: from where they are to their places under a part of the load.
-    pub fn at_rest<'m>(&self, movements: &'m [f64], load_factor: f64) -> Cow<'m, [f64]> {
-        if self.movements.is_empty() {
-            return Cow::Borrowed(movements);
-        }
-        let mut all = movements.to_vec();
-        all.resize(self.first, 0.0);
-        all.extend(self.present.iter().map(|now| load_factor * now.goal - now.placed));
-        Cow::Owned(all)
-    }
-
-    /// Leaves what is prescribed where it is under a part of the load.
-    pub fn place(&mut self, load_factor: f64) {
-        for present in &mut self.present {
-            present.placed = load_factor * present.goal;
-        }
     }
 
     /// Appends the state of the prescribed movements at the start of a step.

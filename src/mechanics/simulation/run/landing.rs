@@ -128,7 +128,7 @@ impl Simulation {
                 if bracket.is_closed() {
                     self.model.aim_at(None);
                     let short = Interval::lasting(interval.start, bracket.before.0);
-                    let report = self.integrator.step(&mut self.model, short)?;
+                    let report = self.stepper.integrator.step(&mut self.model, short)?;
                     return Ok(Landing { step: Some((short, report)), event: Event::JustBefore });
                 }
                 if tries.next().is_none() {
@@ -192,7 +192,7 @@ impl Simulation {
 
     /// Tries a step; one that does not end where it is aimed at is counted, and not taken.
     fn attempt(&mut self, cut: Interval) -> Result<Result<NewtonReport, Overshoot>, StepError> {
-        match self.integrator.step(&mut self.model, cut) {
+        match self.stepper.integrator.step(&mut self.model, cut) {
             Ok(report) => Ok(Ok(report)),
             Err(StepError::Overshoot { overshoot, iterations, .. }) => {
                 self.progress.count_try(iterations);
