@@ -12,7 +12,7 @@ mod track;
 pub use all::Sliders;
 pub use blow::{Bar, Blow};
 pub use connection::Connection;
-pub use kinked_axis::{KinkedAxis, TooFast};
+pub use kinked_axis::{KinkedAxis, MasterKink, TooFast};
 pub use route::{Route, RouteLeg, Seam};
 pub use sliding::{AtRest, InStep, Passing, Sliding};
 pub use track::{Rail, SliderState, TrackEnd, TrackLimit};
