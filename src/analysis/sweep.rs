@@ -65,6 +65,12 @@ impl SweptValues {
             Self::Numbers(_) => None,
         }
     }
+
+    /// The value of a row in words: its number, written so, or the label of its level.
+    pub fn in_words(&self, row: usize, write: impl Fn(f64) -> String) -> String {
+        let label = || self.label(row).unwrap_or_default().to_owned();
+        self.number(row).map_or_else(label, write)
+    }
 }
 
 /// How the rows of a sweep lie among all that they could be.

@@ -133,7 +133,7 @@ impl Design {
             rating
         };
         let start: Vec<f64> =
-            self.ranges.iter().zip(&sizes).map(|(of, size)| of.clip(of.start) / size).collect();
+            self.ranges.iter().zip(&sizes).map(|(of, size)| of.first() / size).collect();
         let bounds: Vec<(f64, f64)> = self
             .ranges
             .iter()

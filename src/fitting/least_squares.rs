@@ -2,8 +2,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::differences::{derivatives, only};
-use super::{Estimate, Evaluate, RELATIVE_STEP, Range};
+use super::asking::{Asked, Asking};
+use super::{Estimate, Evaluate, RELATIVE_STEP, Range, Slopes};
 
 /// Rounds of steps from fresh derivatives.
 const MOST_ROUNDS: usize = 30;
@@ -56,6 +56,10 @@ pub struct Fitted {
     pub settling: Settling,
     /// How often the function was called.
     pub runs: usize,
+    /// How often it was called for its derivatives, which are among all calls.
+    pub gradient_runs: usize,
+    /// Why derivatives are differences of calls, where they are.
+    pub differences: Option<String>,
     /// How many steps made the squares less.
     pub steps: usize,
 }
@@ -170,8 +174,8 @@ impl State {
 enum Round {
     /// The parameters no longer move, or nothing more is promised.
     Rests,
-    /// Derivatives are to be found anew.
-    Goes,
+    /// Derivatives are to be found anew, or are known.
+    Goes(Option<DMatrix<f64>>),
     /// Fresh derivatives promise what no step finds.
     Sticks,
 }
@@ -188,13 +192,22 @@ impl LeastSquares {
     /// # Errors
     /// Those of the function; the inner one tells why it gave nothing where it must.
     pub fn solve<E>(&self, evaluate: &mut Evaluate<'_, E>) -> Result<Result<Fitted, String>, E> {
-        let mut runs = 0;
-        let mut counted = |points: &[Vec<f64>]| {
-            runs += points.len();
-            evaluate(points)
-        };
-        let x: Vec<f64> = self.ranges.iter().map(|range| range.clip(range.start)).collect();
-        let residuals = match only(counted(std::slice::from_ref(&x))?) {
+        self.solve_with(evaluate, &mut |_| Ok(Err("differences are wanted".into())))
+    }
+
+    /// Makes the squares least as [`solve`](Self::solve) does, with the derivatives that the function knows; where it does not, with differences.
+    ///
+    /// # Errors
+    /// As those of [`solve`](Self::solve), and those of the derivatives.
+    pub fn solve_with<E>(
+        &self,
+        evaluate: &mut Evaluate<'_, E>,
+        slopes: &mut Slopes<'_, E>,
+    ) -> Result<Result<Fitted, String>, E> {
+        let mut asking = Asking::new(evaluate, slopes);
+        let x: Vec<f64> = self.ranges.iter().map(|range| range.first()).collect();
+        let Asked { values, derivatives: mut known } = asking.at(&x)?;
+        let residuals = match values {
             Ok(residuals) => DVector::from_vec(residuals),
             Err(reason) => return Ok(Err(reason)),
         };
@@ -204,8 +217,14 @@ impl LeastSquares {
         let least = ROUNDING * state.squares();
         let (mut steps, mut settling) = (0, Settling::Unfinished);
         for _ in 0..MOST_ROUNDS {
-            let here = (state.x.as_slice(), &state.residuals);
-            match derivatives(&self.ranges, here, self.relative_step, &mut counted)? {
+            let found = match known.take() {
+                Some(known) => Ok(known),
+                None => {
+                    let step = self.relative_step;
+                    asking.differences(&self.ranges, &state.x, &state.residuals, step)?
+                }
+            };
+            match found {
                 Ok(found) => state.measure(found),
                 Err(reason) => return Ok(Err(reason)),
             }
@@ -213,8 +232,8 @@ impl LeastSquares {
                 settling = Settling::Settled;
                 break;
             }
-            match self.round(&mut state, least, &mut steps, &mut counted)? {
-                Round::Goes => (),
+            match self.round(&mut state, least, &mut steps, &mut asking)? {
+                Round::Goes(found) => known = found,
                 Round::Sticks => {
                     settling = Settling::Stuck;
                     break;
@@ -228,7 +247,16 @@ impl LeastSquares {
         let free: Vec<bool> = state.free(&self.ranges);
         let estimate = Estimate::of(&state.derivatives, state.squares(), &free);
         let residuals = state.residuals.iter().copied().collect();
-        Ok(Ok(Fitted { parameters: state.x, residuals, estimate, settling, runs, steps }))
+        Ok(Ok(Fitted {
+            parameters: state.x,
+            residuals,
+            estimate,
+            settling,
+            runs: asking.runs,
+            gradient_runs: asking.gradient_runs,
+            differences: asking.differences,
+            steps,
+        }))
     }
 
     /// Steps from fresh derivatives on.
@@ -237,7 +265,7 @@ impl LeastSquares {
         state: &mut State,
         least: f64,
         steps: &mut usize,
-        evaluate: &mut Evaluate<'_, E>,
+        asking: &mut Asking<'_, '_, E>,
     ) -> Result<Round, E> {
         let (mut is_fresh, mut taken, start) = (true, 0, state.x.clone());
         while taken < self.ranges.len() + MORE_STEPS {
@@ -254,14 +282,13 @@ impl LeastSquares {
                 let is_near = (0..start.len()).all(|at| {
                     (state.x[at] - start[at]).abs() <= NEAR * self.ranges[at].size(state.x[at])
                 });
-                return Ok(if is_near { Round::Rests } else { Round::Goes });
+                return Ok(if is_near { Round::Rests } else { Round::Goes(None) });
             }
             let x: Vec<f64> = state.x.iter().zip(step.iter()).map(|(x, step)| x + step).collect();
             // A bound may stand in the way of what the others promise: a shorter step does not reach it.
-            let found = match promised > 0.0 {
-                true => only(evaluate(std::slice::from_ref(&x))?),
-                false => Err("nothing is promised".into()),
-            };
+            let nothing = || Asked { values: Err("nothing is promised".into()), derivatives: None };
+            let Asked { values: found, derivatives } =
+                if promised > 0.0 { asking.at(&x)? } else { nothing() };
             let found = found.ok().filter(|found| found.len() == state.residuals.len());
             let found = found.map(DVector::from_vec);
             let gained =
@@ -276,7 +303,7 @@ impl LeastSquares {
             let Some(found) = found.filter(|_| share > 1e-4) else {
                 // The derivatives may be too old for the step that they promise.
                 if !is_fresh {
-                    return Ok(Round::Goes);
+                    return Ok(Round::Goes(None));
                 }
                 state.damping *= 10.0;
                 if state.damping > DAMPING.2 {
@@ -295,11 +322,12 @@ impl LeastSquares {
             *steps += 1;
             taken += 1;
             is_fresh = false;
-            if state.squares() <= least {
-                return Ok(Round::Goes);
+            // Derivatives that are known are better than corrected ones.
+            if state.squares() <= least || derivatives.is_some() {
+                return Ok(Round::Goes(derivatives));
             }
         }
-        Ok(Round::Goes)
+        Ok(Round::Goes(None))
     }
 }
 

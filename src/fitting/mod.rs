@@ -1,12 +1,14 @@
 //! Parameters found by runs: least squares, the least of a function within constraints, a root. It sees numbers, and a function that gives some.
 //!
 //! ```text
-//! least_squares → differences, estimate → student
+//! least_squares → asking → differences
+//!               → estimate → student
 //! design, root
 //! ```
 
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
+mod asking;
 mod design;
 mod differences;
 mod estimate;
@@ -25,6 +27,12 @@ pub use student::student_quantile;
 
 /// What a function gave at a point: numbers, or why there are none.
 pub type Evaluation = Result<Vec<f64>, String>;
+
+/// The values of a function at a point, each with its derivatives by all parameters, or why it does not know them.
+pub type Sloped = Result<Vec<(f64, Vec<f64>)>, String>;
+
+/// A function that may know its derivatives, asked at a point; an error ends the whole search.
+pub type Slopes<'s, E> = dyn FnMut(&[f64]) -> Result<Sloped, E> + 's;
 
 /// A function that is asked at several points at once, so that they can be worked on beside each other; an error ends the whole search.
 pub type Evaluate<'e, E> = dyn FnMut(&[Vec<f64>]) -> Result<Vec<Evaluation>, E> + 'e;

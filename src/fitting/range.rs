@@ -12,6 +12,11 @@ pub struct Range {
 }
 
 impl Range {
+    /// The value to begin with: the start, or the bound nearest to it.
+    pub fn first(self) -> f64 {
+        self.clip(self.start)
+    }
+
     /// The nearest value within the bounds.
     pub fn clip(self, x: f64) -> f64 {
         x.max(self.low).min(self.high)

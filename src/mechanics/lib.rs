@@ -7,7 +7,8 @@
 //!                                          └→ integrators → newton → linalg
 //! ```
 //!
-//! At the bottom of all stands [`elementary`]: sine, logarithm and power with the same bits on every machine.
+//! At the bottom of all stand [`elementary`]: sine, logarithm and power with the same bits on every machine; and [`threads`], for beams, bands and bodies
+//! that are worked on in parts.
 
 #![forbid(unsafe_code)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
@@ -23,4 +24,5 @@ pub mod model;
 pub mod newton;
 pub mod simulation;
 pub mod statics;
+pub mod threads;
 pub mod vibration;

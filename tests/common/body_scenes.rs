@@ -176,5 +176,6 @@ pub fn all(mesh: &Mesh) -> Vec<Scene> {
         super::release_scenes::bracket(mesh),
         super::roller_scenes::on_rollers(mesh),
         super::scenes::absorbed(mesh),
+        super::steered_scenes::trolley(mesh),
     ]
 }

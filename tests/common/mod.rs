@@ -15,6 +15,7 @@ pub mod roller_scenes;
 pub mod scenes;
 pub mod sliding;
 pub mod sliding_scenes;
+pub mod steered_scenes;
 pub mod tracks;
 pub mod wild_scenes;
 
@@ -23,7 +24,9 @@ use withy::geometry::Vec2;
 use withy::integrators::Method;
 use withy::model::Scene;
 use withy::newton::Tolerance;
-use withy::simulation::{History, Settings, Simulation, SimulationError, StepSize, Unwatched};
+use withy::simulation::{
+    History, Monitor, Settings, Simulation, SimulationError, StepSize, Unwatched,
+};
 
 pub fn at(x: f64, y: f64) -> Vec2 {
     Vec2::new(x, y)
@@ -35,13 +38,43 @@ pub fn settings(method: Method, dt: impl Into<StepSize>) -> Settings {
 
 pub fn simulate(scene: Scene, method: Method, dt: impl Into<StepSize>, end: f64) -> Simulation {
     let (name, dt) = (scene.name.clone(), dt.into());
+    steered_scenes::reset(&scene);
     let mut simulation = Simulation::start(scene, settings(method, dt)).unwrap();
     run(&mut simulation, end).unwrap_or_else(|error| panic!("{name}, {dt}: {error}"));
     simulation
 }
 
+/// Runs to a time; where controllers steer, they are asked before every step.
 pub fn run(simulation: &mut Simulation, end: f64) -> Result<(), SimulationError> {
-    simulation.run_to(end, &mut Unwatched)
+    let is_steered = steered_scenes::is_steered(simulation.scene());
+    loop {
+        steered_scenes::steer(simulation);
+        let until = if is_steered { end - simulation.slack() } else { f64::NEG_INFINITY };
+        let mut pause = Pause { until, is_paused: false };
+        let ran = simulation.run_to(end, &mut pause);
+        if ran.is_ok() || !pause.is_paused {
+            return ran;
+        }
+    }
+}
+
+/// Takes a step of fixed size, which controllers steer if there are some.
+pub fn step(simulation: &mut Simulation) -> Result<(), SimulationError> {
+    steered_scenes::steer(simulation);
+    simulation.step(&mut Unwatched)
+}
+
+/// Stops a run after every step until a time.
+struct Pause {
+    until: f64,
+    is_paused: bool,
+}
+
+impl Monitor for Pause {
+    fn goes_on(&mut self, time: f64) -> bool {
+        self.is_paused = time < self.until;
+        !self.is_paused
+    }
 }
 
 /// `E - W` after each step.

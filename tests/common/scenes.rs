@@ -466,5 +466,6 @@ pub fn all(mesh: &Mesh) -> Vec<Scene> {
         tapered(mesh),
         super::release_scenes::chain(mesh),
         super::machine_scenes::bushed(mesh),
+        super::steered_scenes::arm(mesh),
     ]
 }

@@ -1,11 +1,12 @@
 //! Motions that are given: closed forms with every integrator, places and angles that are exact, and what drives give.
 #![allow(clippy::unwrap_used)]
 
+use std::cell::Cell;
 use std::rc::Rc;
 
 use crate::common::body_scenes::{add_body, hinge, point};
 use crate::common::scenes::{add_beam, drive, line};
-use crate::common::{at, orders, sci, simulate};
+use crate::common::{at, orders, run, sci, settings, simulate};
 use withy::beams::{Mesh, Section, Station};
 use withy::integrators::{EnergyClaim, INTEGRATORS, Method};
 use withy::joints::{Component, Components, JointKind, Partner};
@@ -15,6 +16,7 @@ use withy::model::{
     StartMotion,
 };
 use withy::simulation::{Invariant, Simulation};
+use withy::statics::{Equilibrium, Loading};
 
 fn function(of: impl Fn(f64) -> f64 + 'static) -> Schedule {
     Schedule::Function { function: Rc::new(move |t| Ok(of(t))), breaks: Vec::new() }
@@ -270,4 +272,96 @@ fn the_torque_of_a_motor_is_exact_however_far_it_turns_in_a_step() {
             assert!(history.drift(invariant) < 1e-13, "{name}");
         }
     }
+}
+
+/// A body that is turned about a point of it that is off its centre by one.
+fn swung(motion: PrescribedMotion) -> Scene {
+    let mut scene = Scene::new("swung");
+    let body = add_body(&mut scene, at(1.0, 0.0), 0.0, (2.0, 0.5), &[at(-1.0, 0.0)]);
+    hinge(&mut scene, point(body, 1), None);
+    drive(&mut scene, point(body, 1), &[(Component::Rotation, motion)]);
+    scene
+}
+
+/// At once it has the energy of its new rate, of which the blow is the work, and no moment any more.
+#[test]
+fn what_is_tied_to_a_drive_follows_where_its_rate_jumps() {
+    let bent = || Schedule::table(vec![(0.0, 0.0), (0.5, 0.0), (1.5, 1.0)]).unwrap();
+    let motions = [
+        ("angle", PrescribedMotion::Place(bent())),
+        ("speed", PrescribedMotion::Rate(Schedule::pulse(0.5, 9.0).unwrap())),
+    ];
+    for entry in INTEGRATORS {
+        for (name, motion) in &motions {
+            let simulation = simulate(swung(motion.clone()), entry.method, 0.01, 1.2);
+            let history = simulation.history();
+            let column = |name: &str| history.column(name).unwrap();
+            let what = format!("{} {name}", entry.name);
+            let (times, energies) = (column("t"), column("kinetic"));
+            let (works, moments) = (column("work"), column("move1.angle"));
+            for (row, time) in times.iter().enumerate() {
+                let expected = if *time < 0.505 { 0.0 } else { 1.25 };
+                let (energy, work) = (energies[row], works[row]);
+                assert!((energy - expected).abs() < 2e-3, "{what} {time}: {energy}");
+                assert!((work - expected).abs() < 2e-3, "{what} {time}: {work}");
+                assert!(moments[row].abs() < 0.5, "{what} {time}: {}", moments[row]);
+            }
+            if entry.claims.energy == EnergyClaim::Kept {
+                for (name, invariant) in Invariant::ALL {
+                    let drift = history.drift(invariant);
+                    assert!(drift < 1e-13, "{what} {name}: {drift}");
+                }
+            }
+        }
+    }
+}
+
+/// A controller that speaks before every step is a blow before every step.
+#[test]
+fn what_is_tied_to_a_controlled_drive_has_its_speed_in_every_step() {
+    let said = Rc::new(Cell::new(0.0));
+    let motion = PrescribedMotion::Rate(Schedule::Sampled(Rc::clone(&said)));
+    let mut simulation = simulate(swung(motion), Method::EnergyMomentum, 0.01, 0.0);
+    for step in 1..=300_u32 {
+        let speed = (0.1 * f64::from(step)).sin();
+        said.set(speed);
+        run(&mut simulation, 0.01 * f64::from(step)).unwrap();
+        let history = simulation.history();
+        let kinetic = *history.column("kinetic").unwrap().last().unwrap();
+        let expected = 1.25 * speed * speed;
+        // What a step turns by is right to second order.
+        assert!((kinetic - expected).abs() < 1e-3, "{step}: {kinetic} {expected}");
+    }
+    for (name, invariant) in Invariant::ALL {
+        let drift = simulation.history().drift(invariant);
+        assert!(drift < 1e-12, "{name}: {drift}");
+    }
+}
+
+/// The start of an equilibrium is that of a scene at rest: what a drive sets in motion at once moves as it does there.
+#[test]
+fn drives_begin_at_an_equilibrium_as_in_a_scene_that_rests() {
+    let scene = || {
+        let mut scene = swung(PrescribedMotion::Place(function(|t| 0.5 * t)));
+        scene.gravity = at(0.0, -1.0);
+        scene
+    };
+    let rest = |loading| Equilibrium::find(scene(), loading, &mut |_| true).unwrap();
+    let dynamics = settings(Method::EnergyMomentum, 0.01);
+    let mut begun = Simulation::start_at_rest(&rest(Loading::default()), dynamics).unwrap();
+    run(&mut begun, 1.0).unwrap();
+    let plain = simulate(scene(), Method::EnergyMomentum, 0.01, 1.0);
+    for column in ["kinetic", "work", "move1.angle"] {
+        let of = |simulation: &Simulation| simulation.history().column(column).unwrap().to_vec();
+        for (one, other) in of(&begun).iter().zip(&of(&plain)) {
+            assert!((one - other).abs() < 1e-10, "{column}: {one} {other}");
+        }
+    }
+
+    let later = rest(Loading { time: 2.0, ..Loading::default() });
+    let refused = Simulation::start_at_rest(&later, dynamics).err().unwrap().to_string();
+    assert!(
+        refused.contains("holds what 'move1' moves at 1, and its function begins at t = 0"),
+        "{refused}"
+    );
 }

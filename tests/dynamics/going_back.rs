@@ -5,15 +5,14 @@ use std::collections::HashMap;
 use std::num::NonZeroUsize;
 use std::rc::Rc;
 
-use crate::common::{Random, body_scenes, meshes, run, scenes, settings, sliding_scenes};
+use crate::common::steered_scenes::reset;
+use crate::common::{Random, body_scenes, meshes, run, scenes, settings, sliding_scenes, step};
 use withy::beams::Mesh;
 use withy::integrators::{INTEGRATORS, Method};
 use withy::joints::{EndAction, SlidingRule};
 use withy::loads::{LoadKind, Schedule};
 use withy::model::{Scene, StartMotion};
-use withy::simulation::{
-    Monitor, Recording, Settings, Simulation, SimulationError, Unwatched, WorkCounts,
-};
+use withy::simulation::{Monitor, Recording, Settings, Simulation, SimulationError, WorkCounts};
 
 const PLENTY: usize = 1 << 28;
 
@@ -36,6 +35,7 @@ fn steps_of(simulation: &Simulation) -> usize {
 }
 
 fn start(scene: &Scene, settings: Settings) -> Simulation {
+    reset(scene);
     let mut simulation = Simulation::start(scene.clone(), settings).unwrap();
     simulation.cut_at(3.3 * simulation.dt());
     simulation
@@ -45,7 +45,7 @@ fn start(scene: &Scene, settings: Settings) -> Simulation {
 fn straight(mut simulation: Simulation, steps: usize) -> (HashMap<usize, String>, String) {
     let mut seen = HashMap::from([(0, fingerprint(&simulation))]);
     for _ in 0..steps {
-        simulation.step(&mut Unwatched).unwrap();
+        step(&mut simulation).unwrap();
         // A run may end without a step.
         seen.entry(steps_of(&simulation)).or_insert_with(|| fingerprint(&simulation));
         if simulation.has_ended() {
@@ -98,7 +98,7 @@ fn assert_walk_is_straight(
             _ => {
                 for _ in 0..=choose(4) {
                     if !simulation.has_ended() && steps_of(&simulation) < last {
-                        simulation.step(&mut Unwatched).unwrap();
+                        step(&mut simulation).unwrap();
                     }
                 }
             }
@@ -109,11 +109,11 @@ fn assert_walk_is_straight(
         }
     }
     while !simulation.has_ended() && steps_of(&simulation) < last {
-        simulation.step(&mut Unwatched).unwrap();
+        step(&mut simulation).unwrap();
     }
     // It may have come back to where the straight run ended without a step.
     if fingerprint(&simulation) != end {
-        simulation.step(&mut Unwatched).unwrap();
+        step(&mut simulation).unwrap();
     }
     assert!(fingerprint(&simulation) == end, "{label}: the end at {}", simulation.time());
 }
@@ -250,7 +250,7 @@ fn a_limit_bounds_the_memory_and_forgets_the_oldest_but_the_start() {
     simulation.keep_snapshots(100_000);
     let beginning = fingerprint(&simulation);
     for _ in 0..200 {
-        simulation.step(&mut Unwatched).unwrap();
+        step(&mut simulation).unwrap();
         let (_, bytes) = simulation.snapshots_kept();
         assert!(bytes <= 100_000, "{bytes}");
     }
@@ -275,7 +275,7 @@ fn a_limit_bounds_the_memory_and_forgets_the_oldest_but_the_start() {
     simulation.rewind(0.0).unwrap();
     assert_eq!(fingerprint(&simulation), beginning);
     for _ in 0..200 {
-        simulation.step(&mut Unwatched).unwrap();
+        step(&mut simulation).unwrap();
     }
     assert_eq!(fingerprint(&simulation), end);
     simulation.keep_snapshots(50_000);

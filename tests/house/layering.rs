@@ -21,14 +21,15 @@ const CHAIN: &[&[&str]] = &[
 const BRANCHES: &[(&str, &[&str])] = &[
     ("joints", &["beams", "geometry", "elementary"]),
     ("loads", &["beams", "geometry", "elementary"]),
-    ("beams", &["geometry", "elementary"]),
+    ("beams", &["geometry", "threads", "elementary"]),
     ("geometry", &["elementary"]),
     ("integrators", &["newton", "linalg", "elementary"]),
     ("newton", &["linalg", "elementary"]),
-    ("linalg", &["elementary"]),
+    ("linalg", &["threads", "elementary"]),
     ("sampling", &["elementary"]),
     ("fitting", &["elementary"]),
     ("elementary", &[]),
+    ("threads", &[]),
     ("folders", &[]),
     ("panics", &[]),
 ];

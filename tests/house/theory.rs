@@ -164,7 +164,7 @@ const NUMBERS: &[(&str, &str, &str)] = &[
         "integrators/balance.rs",
         "const SHORTEST_CHORD: f64 = 1e-3;",
     ),
-    ("to `4e-15` of the interval", "model/sliders/track.rs", "const LANDED: f64 = 4e-15;"),
+    ("to `4e-15` of the interval", "model/sliders/rail.rs", "const LANDED: f64 = 4e-15;"),
     ("within `1e-10` of an end", "simulation/run/landing.rs", "const NEAR: f64 = 1e-10;"),
     ("no multiplier is above 8", "linalg/elimination.rs", "const LARGEST_MULTIPLIER: f64 = 8.0;"),
     ("Four columns are eliminated at once", "linalg/elimination.rs", "const LANES: usize = 4;"),

@@ -12,7 +12,7 @@ use withy::joints::{
     Relaxed, Released, SLIDING_RULES, SlidingLaw, Unit,
 };
 use withy::linalg::BorderedMatrix;
-use withy::model::{Model, TrackEnd, TrackLimit};
+use withy::model::{MasterEnd, MasterLimit, Model};
 
 const LAWS: [(&str, &dyn SlidingLaw); 6] = [
     ("kinked", &Kinked),
@@ -322,7 +322,7 @@ fn the_border_of_every_scene_is_the_derivative_of_its_forces_and_equations() {
                 for state in ["sliding", "held", "released"] {
                     for slider in 0..scene.sliders.len() {
                         match state {
-                            "held" => model.hold(TrackLimit { slider, end: TrackEnd::Start }),
+                            "held" => model.hold(MasterLimit { slider, end: MasterEnd::Start }),
                             "released" => model.release(slider),
                             _ => {}
                         }

@@ -8,7 +8,7 @@ use withy::beams::Mesh;
 use withy::integrators::Method;
 use withy::joints::{EndAction, JointKind, Partner, SlidingRule};
 use withy::loads::{Frame, LoadKind, Schedule};
-use withy::model::{Scene, SliderState, TrackEnd};
+use withy::model::{MasterEnd, Scene, SliderState};
 use withy::simulation::{Arrival, ArrivalKind, Invariant, Simulation, SimulationError, Unwatched};
 
 const ROUNDING: f64 = 1e-12;
@@ -70,7 +70,7 @@ fn a_bead_on_a_beam_at_rest_arrives_at_the_exact_time() {
             let off = rows.map(straight).fold(0.0, f64::max);
             let force = simulation.history().column("slider1.force").unwrap();
             let force = force.iter().fold(0.0, |most: f64, force| most.max(force.abs()));
-            assert_eq!(arrival.limit.end, TrackEnd::Start);
+            assert_eq!(arrival.limit.end, MasterEnd::Start);
             println!("{action:?}: time off by {error:.1e}, ξ by {off:.1e}, force {force:.1e}");
             // The force of nothing is what rounding leaves of the gap, over the square of the duration of a part.
             let nothing = if method == Method::FourthOrder { 1e-9 } else { 1e-10 };
@@ -201,7 +201,7 @@ fn a_bead_pressed_against_a_stop_rests_there_until_it_is_lifted() {
             run(&mut simulation, 0.5).unwrap();
             assert_eq!(kinds(&simulation), [ArrivalKind::Rested]);
             assert_eq!(simulation.arrivals()[0].time, 0.0);
-            assert_eq!(simulation.slider_state(0), SliderState::Held(TrackEnd::End));
+            assert_eq!(simulation.slider_state(0), SliderState::Held(MasterEnd::End));
             assert_eq!((position(&simulation), speed(&simulation)), (1.0, 0.0));
             let weight = simulation.model().contact_force(0) - at(0.0, -2.0 * 9.81);
             assert!(weight.norm() < 1e-10, "{weight:?}");

@@ -10,7 +10,7 @@ use crate::common::{
 use withy::beams::Mesh;
 use withy::integrators::{EnergyClaim, INTEGRATORS, Interval, Method, StepError};
 use withy::joints::{RuleClaims, SLIDING_RULES, SlidingRule};
-use withy::model::{Arriving, Model, Scene, TrackEnd, TrackLimit};
+use withy::model::{Arriving, MasterEnd, MasterLimit, Model, Scene};
 use withy::newton::Tolerance;
 use withy::simulation::{Invariant, Simulation, SimulationError};
 
@@ -173,11 +173,11 @@ type Deed = fn(&mut Model, usize);
 const DEEDS: [(&str, Deed); 4] = [
     ("nothing", |_, _| ()),
     ("bounce", |model, slider| {
-        let end = if model.slider_speed(slider) < 0.0 { TrackEnd::Start } else { TrackEnd::End };
-        let strike = vec![TrackLimit { slider, end }];
+        let end = if model.slider_speed(slider) < 0.0 { MasterEnd::Start } else { MasterEnd::End };
+        let strike = vec![MasterLimit { slider, end }];
         model.blow(&Arriving { strike, ..Arriving::default() }, 0.001).unwrap();
     }),
-    ("hold", |model, slider| model.hold(TrackLimit { slider, end: TrackEnd::End })),
+    ("hold", |model, slider| model.hold(MasterLimit { slider, end: MasterEnd::End })),
     ("release", |model, slider| model.release(slider)),
 ];
 

@@ -5,7 +5,7 @@ use crate::common::{Random, meshes, simulate, sliding_scenes};
 use withy::integrators::{Constraints, Forces, Inertia, Interval, Mechanism, Method, Stage};
 use withy::joints::{Hold, Release, SLIDING_RULES, Trigger};
 use withy::linalg::BorderedMatrix;
-use withy::model::{Model, Scene, TrackEnd, TrackLimit};
+use withy::model::{MasterEnd, MasterLimit, Model, Scene};
 use withy::newton::Tolerance;
 use withy::simulation::Invariant;
 
@@ -51,7 +51,7 @@ fn the_solution_is_that_of_a_border() {
                 let mut model = moved(&scene);
                 for slider in 0..scene.sliders.len() {
                     match state {
-                        "held" => model.hold(TrackLimit { slider, end: TrackEnd::Start }),
+                        "held" => model.hold(MasterLimit { slider, end: MasterEnd::Start }),
                         "released" => model.release(slider),
                         _ => {}
                     }

@@ -75,7 +75,8 @@ fn an_overdamped_mass_has_two_rates_and_swings_with_none() {
 /// A bar that only stretches, clamped, with a dashpot at its end: `tanh(λ L/a) = -Z/c`, `Z = EA/a`.
 #[test]
 fn a_bar_with_a_dashpot_at_its_end_has_the_rates_of_its_transcendental_equation() {
-    for (damping, is_soft) in [(3.0, true), (30.0, false)] {
+    let strong = [30.0, 1e3, 1e5, 1e8, 1e12].map(|damping| (damping, false));
+    for (damping, is_soft) in std::iter::once((3.0, true)).chain(strong) {
         let mut scene = Scene::new("bar");
         let section = Section {
             axial_stiffness: 100.0,
@@ -99,6 +100,58 @@ fn a_bar_with_a_dashpot_at_its_end_has_the_rates_of_its_transcendental_equation(
             let frequency = (number as f64 + first) * PI * speed;
             assert!((found.angular_frequency - frequency).abs() < 1e-3, "{found:?} {frequency}");
         }
+    }
+}
+
+/// However strong it is: a dashpot at the end of a coarse cantilever is a support that gives way by its force over `c` times the frequency.
+#[test]
+fn a_strong_dashpot_is_a_support_that_creeps() {
+    let mesh = Mesh::bspline(8, 3, 2).unwrap();
+    let mut propped = scenes::cantilever(&mesh, scenes::rod());
+    let tip = scenes::end_of(&mut propped, 0);
+    propped.join(JointKind::Support(Components::Y), tip, Partner::Ground).unwrap();
+    let modes = Modes::of(&Model::assemble(&propped).unwrap(), 5, &mut || true).unwrap();
+    let mut yielding = Vec::new();
+    for power in [3, 5, 7, 9, 12, 16, 20] {
+        let damping = 10_f64.powi(power);
+        let mut scene = scenes::cantilever(&mesh, scenes::rod());
+        let tip = scenes::end_of(&mut scene, 0);
+        let beyond = Anchor::Ground(at(10.0, 7.0));
+        connect(&mut scene, [beyond, Anchor::Station(tip)], 0.0, damping);
+        let found = damped(&scene, 6).unwrap();
+        // What the held end gives way by is of the second order.
+        let (creeping, vibrating) = found.split_first().unwrap();
+        assert!(creeping.angular_frequency == 0.0 && creeping.decay_rate > 0.0, "{creeping:?}");
+        yielding.push((damping * creeping.decay_rate, damping * vibrating[0].decay_rate));
+        for (found, mode) in vibrating.iter().zip(modes.all()) {
+            let tolerance = 1e-9 + 1e5 / (damping * damping);
+            close(found.angular_frequency, mode.angular_frequency(), tolerance);
+        }
+    }
+    let (creep, yields) = yielding[2];
+    yielding[2..].iter().for_each(|(found, _)| close(*found, creep, 1e-7));
+    // Beyond that it is less than rounding of the frequency.
+    yielding[2..4].iter().for_each(|(_, first)| close(*first, yields, 1e-4));
+}
+
+/// A mass on a spring with a damper of any strength: `λ = (-c ± √(c² - 4 k m))/2m`.
+#[test]
+fn a_mass_with_a_damper_of_any_strength_has_both_roots_of_its_equation() {
+    let (mass, stiffness): (f64, f64) = (2.0, 18.0);
+    for damping in [0.0, 1e-6, 1e-3, 1.0, 20.0, 1e3, 1e6, 1e9, 1e13] {
+        let found = damped(&row(&[(mass, stiffness, damping)]), 1).unwrap();
+        let decay = 0.5 * damping / mass;
+        let square = decay * decay - stiffness / mass;
+        if square < 0.0 {
+            assert!((found[0].decay_rate - decay).abs() < 1e-14, "{damping}: {found:?}");
+            close(found[0].angular_frequency, (-square).sqrt(), 1e-13);
+            continue;
+        }
+        let found = damped(&row(&[(mass, stiffness, damping)]), 2).unwrap();
+        let fast = decay + square.sqrt();
+        close(found[0].decay_rate, stiffness / mass / fast, 1e-12);
+        close(found[1].decay_rate, fast, 1e-12);
+        assert!(found.iter().all(|at| at.angular_frequency == 0.0), "{found:?}");
     }
 }
 

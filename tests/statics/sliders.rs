@@ -15,7 +15,7 @@ use withy::integrators::{Constraints, Mechanism, Method};
 use withy::joints::{EndAction, JointKind, Partner, SLIDING_RULES, Slider, SlidingRule};
 use withy::linalg::BorderedMatrix;
 use withy::loads::{Frame, LoadKind, Schedule};
-use withy::model::{Model, Scene, SliderState, TrackEnd, TrackLimit};
+use withy::model::{MasterEnd, MasterLimit, Model, Scene, SliderState};
 use withy::simulation::Simulation;
 use withy::statics::{ArcLength, Control, Equilibrium, Loading, Stability, StaticsError};
 
@@ -73,7 +73,7 @@ fn the_tangent_of_contacts_at_rest_is_the_derivative_of_their_forces_and_equatio
                 let (movements, shape) = (model.unknowns(), model.constraint_shape());
                 for leans in [false, true] {
                     for slider in (0..scene.sliders.len()).filter(|_| leans) {
-                        model.hold(TrackLimit { slider, end: TrackEnd::End });
+                        model.hold(MasterLimit { slider, end: MasterEnd::End });
                     }
                     let label = format!("{rule:?}, {}, {mesh_name}, leans: {leans}", scene.name);
                     let mut unknowns = random.vector(movements + shape.width, 0.05);
@@ -236,7 +236,7 @@ fn a_slider_leans_on_the_stop_below_and_leaves_where_there_is_none() {
     };
     for ends in [EndAction::Stop, EndAction::Bounce] {
         let rest = slope(ends).unwrap();
-        assert_eq!(rest.model().slider_state(0), SliderState::Held(TrackEnd::End));
+        assert_eq!(rest.model().slider_state(0), SliderState::Held(MasterEnd::End));
         assert_eq!(rest.model().slider_position(0), 1.0);
         let force = rest.model().contact_force(0);
         assert!((force - at(0.0, -2.0 * GRAVITY)).norm() < 1e-8, "{force}");
@@ -327,7 +327,7 @@ fn a_path_of_given_length_follows_a_slider_past_its_limit_load() {
 
 #[test]
 fn a_bead_beside_the_top_of_an_arch_runs_down_and_leans_on_its_end() {
-    for (part, end) in [(0.502, TrackEnd::End), (0.47, TrackEnd::Start)] {
+    for (part, end) in [(0.502, MasterEnd::End), (0.47, MasterEnd::Start)] {
         let mut scene = Scene::new("hill");
         let axis = Curve::arc(at(0.0, 0.0), 2.0, 0.75 * PI, 0.25 * PI).unwrap();
         let hill = add_beam(&mut scene, axis, &smooth(12), section(1e6));

@@ -241,19 +241,23 @@ impl Dashpots {
         sum
     }
 
-    /// Gives the forces that such rates of the control points ask for at the start of the step; the power that is dissipated by them [energy/time].
-    pub fn resist(&self, rates: &[Movement], give: &mut dyn FnMut(usize, Movement)) -> f64 {
-        let mut power = 0.0;
+    /// Gives the forces that such rates of the control points ask for at the start of the step.
+    pub fn resist(&self, rates: &[Movement], give: &mut dyn FnMut(usize, Movement)) {
         for SpanDashpots { first, forces, moments } in &self.spans {
             let rates = &rates[*first..*first + self.order];
-            for dashpot in forces {
-                power += dashpot.resist(rates, *first, give);
-            }
-            for dashpot in moments {
-                power += dashpot.resist(rates, *first, give);
-            }
+            forces.iter().for_each(|dashpot| dashpot.resist(rates, *first, give));
+            moments.iter().for_each(|dashpot| dashpot.resist(rates, *first, give));
         }
-        power
+    }
+
+    /// Gives the rates of strain and curvature at such rates of the control points, at the start of the step, each behind what damps it over the length that its
+    /// point stands for: products of it with squares of rates are powers [energy/time].
+    pub fn each_damped_rate(&self, rates: &[Movement], take: &mut dyn FnMut(f64, f64)) {
+        for SpanDashpots { first, forces, moments } in &self.spans {
+            let rates = &rates[*first..*first + self.order];
+            forces.iter().for_each(|dashpot| dashpot.each_damped_rate(rates, take));
+            moments.iter().for_each(|dashpot| dashpot.each_damped_rate(rates, take));
+        }
     }
 
     /// What such rates of the control points let the dashpots transmit at a place at the start of the step, by the weights with which the

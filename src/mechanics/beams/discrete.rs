@@ -2,18 +2,19 @@
 
 use std::ops::Range;
 
-use pulp::{Arch, Simd, WithSimd};
-
 use super::at_rest::SpanAtRest;
 use super::axis_point::Axis;
-use super::block::Block;
 use super::dynamics::{BlockSink, BodyDynamics, Collocation, ForceSummary, Movement};
 use super::force_point::ForcePoint;
+use super::inertia::InertiaMatrix;
 use super::mesh::QuadratureSpan;
 use super::moment_point::MomentPoint;
 use super::parts::{MOST_PARTS, Parts};
 use super::sections::{MassIntegral, PerPoint, Sections, SectionsOnAxis, Uniform};
-use super::span_points::{SpanPoints, window_mut};
+use super::span_loops::{
+    Advance, Correction, Forces, ForcesFrom, Iterate, Linearisation, MismatchForces, SpanLoop,
+};
+use super::span_points::SpanPoints;
 use super::{
     BeamError, Mesh, RotationIncrement, Section, SectionForces, SectionPlace, SectionVariation,
 };
@@ -28,8 +29,7 @@ struct DiscreteBeam<const N: usize, S: Sections = Uniform> {
     remainders: Vec<Vec2>,
     spans: Vec<SpanPoints<N, S>>,
     parts: Parts,
-    /// `∫ N_a N_{a+k} dX` for k = 0 … N-1 [length], with the inertia where it varies.
-    gram: Vec<[S::MassIntegral; N]>,
+    inertia: InertiaMatrix<N, S::MassIntegral>,
 }
 
 /// A beam with the axis that the control points draw on a mesh, where it is free of stress; `length` is about that of the
@@ -120,53 +120,8 @@ impl<const N: usize, S: Sections> DiscreteBeam<N, S> {
         let remainders = vec![Vec2::zeros(); control_points.len()];
         let parts = Parts::default();
         let section = variation.mean();
-        Ok(Self { section, control_points, remainders, spans, parts, gram })
-    }
-
-    /// The sum over the functions of what belongs to their products with that of every control point.
-    fn lumped(&self, of: impl Fn(S::MassIntegral) -> f64) -> Vec<f64> {
-        let mut sums = vec![0.0; self.gram.len()];
-        for (a, row) in self.gram.iter().enumerate() {
-            for (b, entry) in (a..self.gram.len()).zip(row) {
-                sums[a] += of(*entry);
-                if b > a {
-                    sums[b] += of(*entry);
-                }
-            }
-        }
-        sums
-    }
-
-    /// Adds `factor · M · rates` to the forces on the control points of a range.
-    fn add_inertia_at(
-        &self,
-        points: Range<usize>,
-        factor: f64,
-        rates: &[Movement],
-        forces: &mut [Movement],
-    ) {
-        for (point, force) in points.zip(forces) {
-            let mut add = |entry: S::MassIntegral, rate: &Movement| {
-                let inertia = entry.inertia(factor, &self.section);
-                for ((force, inertia), rate) in force.iter_mut().zip(inertia).zip(rate) {
-                    *force += inertia * rate;
-                }
-            };
-            // Where all neighbours are there, the compiler knows how many.
-            if let Some(first) = (point + 1).checked_sub(N)
-                && let Some(gram) = self.gram[first..].first_chunk::<N>()
-                && let Some(before) = rates[first..].first_chunk::<N>()
-                && let Some(behind) = rates[point..].first_chunk::<N>()
-            {
-                (0..N - 1).for_each(|other| add(gram[other][N - 1 - other], &before[other]));
-                (0..N).for_each(|other| add(gram[N - 1][other], &behind[other]));
-            } else {
-                let before = point.saturating_sub(N - 1)..point;
-                before.for_each(|other| add(self.gram[other][point - other], &rates[other]));
-                let behind = self.gram[point].iter().zip(&rates[point..]);
-                behind.for_each(|(entry, rate)| add(*entry, rate));
-            }
-        }
+        let inertia = InertiaMatrix::new(gram, section);
+        Ok(Self { section, control_points, remainders, spans, parts, inertia })
     }
 }
 
@@ -176,34 +131,6 @@ pub(super) fn move_compensated(point: &mut Vec2, remainder: &mut Vec2, [x, y, _]
     let reached = *point + wanted;
     *remainder = wanted - (reached - *point);
     *point = reached;
-}
-
-/// The work of [`add_linearised_forces`](BodyDynamics::add_linearised_forces) on some spans.
-struct Linearisation<'a, const N: usize, S> {
-    section: &'a Section,
-    spans: &'a mut [SpanPoints<N, S>],
-    at: Collocation,
-    moved: &'a [Movement],
-    weight: f64,
-    /// Of the control points from this one on.
-    first: usize,
-    forces: &'a mut [Movement],
-    tangent: &'a mut dyn FnMut(usize, &[f64]),
-}
-
-impl<const N: usize, S: Sections> WithSimd for Linearisation<'_, N, S> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<V: Simd>(self, simd: V) {
-        let Self { section, spans, at, moved, weight, first, forces, tangent } = self;
-        for span in spans {
-            let forces = window_mut(forces, span.first - first);
-            let mut block = Block::zeros(simd);
-            span.add_linearised_forces(section, at, moved, weight, forces, &mut block);
-            tangent(span.first, block.entries());
-        }
-    }
 }
 
 impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
@@ -229,9 +156,11 @@ impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
     }
 
     fn begin_step(&mut self) {
-        self.parts.each(&mut self.spans, |span| {
-            span.force_points.iter_mut().for_each(ForcePoint::begin_step);
-            span.moment_points.iter_mut().for_each(MomentPoint::begin_step);
+        self.parts.each(&mut self.spans, |spans| {
+            for span in spans {
+                span.force_points.iter_mut().for_each(ForcePoint::begin_step);
+                span.moment_points.iter_mut().for_each(MomentPoint::begin_step);
+            }
         });
     }
 
@@ -243,13 +172,11 @@ impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
         forces: &mut [Movement],
     ) -> ForceSummary {
         let Self { section, spans, parts, .. } = self;
+        let iterate = Iterate { section, at, moved, weight };
         let mut summaries = [ForceSummary::default(); MOST_PARTS];
         let summaries = &mut summaries[..parts.count()];
         parts.sum(spans, forces, summaries, |summary, spans, first, forces| {
-            for span in spans {
-                let forces = window_mut(forces, span.first - first);
-                span.add_forces(section, at, moved, weight, forces, summary);
-            }
+            Forces { iterate, forces: ForcesFrom { first, forces }, summary }.over(spans);
         });
         let mut summary = ForceSummary::default();
         summaries.iter().for_each(|part| summary.join(part));
@@ -265,26 +192,24 @@ impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
         tangents: &mut [BlockSink<'_>],
     ) {
         let Self { section, spans, parts, .. } = self;
+        let iterate = Iterate { section, at, moved, weight };
         parts.sum(spans, forces, tangents, |tangent, spans, first, forces| {
-            let section = &*section;
-            let some = Linearisation { section, spans, at, moved, weight, first, forces, tangent };
-            Arch::new().dispatch(some);
+            Linearisation { iterate, forces: ForcesFrom { first, forces }, tangent }.over(spans);
         });
     }
 
     fn add_mismatch_forces(&mut self, weight: f64, forces: &mut [Movement]) {
         let Self { section, spans, parts, .. } = self;
+        let section = &*section;
         parts.sum_lightly(spans, forces, |spans, first, forces| {
-            for span in spans {
-                let forces = window_mut(forces, span.first - first);
-                span.add_mismatch_forces(section, weight, forces);
-            }
+            MismatchForces { section, weight, forces: ForcesFrom { first, forces } }.over(spans);
         });
     }
 
     fn correct_section_forces(&mut self, correction: &[Movement]) {
         let Self { section, spans, parts, .. } = self;
-        parts.each(spans, |span| span.correct_section_forces(section, correction));
+        let correction = Correction { section, movements: correction };
+        parts.each(spans, |spans| correction.over(spans));
     }
 
     fn advance(&mut self, moved: &[Movement], rotations: RotationIncrement) {
@@ -293,12 +218,13 @@ impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
         {
             move_compensated(point, remainder, movement);
         }
-        self.parts.each(&mut self.spans, |span| span.advance(moved, rotations));
+        let advance = Advance { moved, rotations };
+        self.parts.each(&mut self.spans, |spans| advance.over(spans));
     }
 
     fn add_inertia(&self, factor: f64, rates: &[Movement], forces: &mut [Movement]) {
         self.parts.each_point(forces, |points, forces| {
-            self.add_inertia_at(points, factor, rates, forces);
+            self.inertia.add_product(points, factor, rates, forces);
         });
     }
 
@@ -308,16 +234,7 @@ impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
         points: Range<usize>,
         tangent: &mut dyn FnMut(usize, usize, &[Movement]),
     ) {
-        for point in points {
-            let first = point.saturating_sub(N - 1);
-            let mut row = [Movement::default(); N];
-            for (inertia, other) in row.iter_mut().zip(first..point) {
-                *inertia = self.gram[other][point - other].inertia(factor, &self.section);
-            }
-            tangent(point, first, &row[..point - first]);
-            row = self.gram[point].map(|entry| entry.inertia(factor, &self.section));
-            tangent(point, point, &row[..N.min(self.gram.len() - point)]);
-        }
+        self.inertia.each_row(factor, points, tangent);
     }
 
     fn each_span_at_rest(&self, take: &mut dyn FnMut(&SpanAtRest)) {
@@ -354,11 +271,11 @@ impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
     }
 
     fn lumped_lengths(&self) -> Vec<f64> {
-        self.lumped(|entry| entry.length())
+        self.inertia.lumped(|entry| entry.length())
     }
 
     fn lumped_masses(&self) -> Vec<f64> {
-        let weighed = self.lumped(|entry| entry.inertia(1.0, &self.section)[0]);
+        let weighed = self.inertia.lumped(|entry| entry.inertia(1.0, &self.section)[0]);
         S::masses(&self.section, self.lumped_lengths(), weighed)
     }
 

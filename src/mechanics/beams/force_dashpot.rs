@@ -232,11 +232,15 @@ impl ForceDashpot {
         rates: &[Movement],
         first: usize,
         give: &mut dyn FnMut(usize, Movement),
-    ) -> f64 {
-        let rate = self.rate(rates);
-        let force = self.damping.component_mul(&rate);
+    ) {
+        let force = self.damping.component_mul(&self.rate(rates));
         self.distribute((self.rotation, self.gradient), force, first, give);
-        self.functions.weight * force.dot(&rate)
+    }
+
+    pub(super) fn each_damped_rate(&self, rates: &[Movement], take: &mut dyn FnMut(f64, f64)) {
+        for (damping, rate) in self.damping.iter().zip(self.rate(rates).iter()) {
+            take(self.functions.weight * damping, *rate);
+        }
     }
 
     pub(super) fn save(&self, state: &mut Vec<f64>) {

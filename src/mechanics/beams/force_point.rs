@@ -135,7 +135,7 @@ impl<const N: usize> ForcePoint<N> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn add_forces(
         &mut self,
         section: &Section,
@@ -212,7 +212,7 @@ impl<const N: usize> ForcePoint<N> {
     }
 
     /// Adds the forces `C m` of the strain mismatch `m` at this point, in the directions of the last linearisation.
-    #[inline]
+    #[inline(always)]
     pub(super) fn add_mismatch_forces(
         &self,
         section: &Section,
@@ -225,7 +225,7 @@ impl<const N: usize> ForcePoint<N> {
     }
 
     /// Corrects the section force at this point: `N ← N + C (m + σ δΓ1)`, `δΓ1 = Λ1ᵀ δg - J (Γ1 + e1) δω/q`.
-    #[inline]
+    #[inline(always)]
     pub(super) fn correct_section_force(&mut self, section: &Section, correction: &[Movement; N]) {
         let (gradient, rotation) = self.interpolate(correction);
         let Configuration { end_rotation, end_strain, inverse_q, stress, .. } = self.linearised_at;
@@ -281,6 +281,7 @@ impl<const N: usize> ForcePoint<N> {
         [0.5 * self.axis.weight * energies.x, 0.5 * self.axis.weight * energies.y]
     }
 
+    #[inline(always)]
     pub(super) fn advance(&mut self, moved: &[Movement; N], rotations: RotationIncrement) {
         let (change, increment) = self.interpolate(moved);
         self.last_force = self.force;
@@ -312,19 +313,19 @@ impl<const N: usize> ForcePoint<N> {
 }
 
 /// `Γ = Λᵀ x' - e1`
-#[inline]
+#[inline(always)]
 fn strain_of(rotation: Rotation, gradient: Vec2) -> Vec2 {
     rotation.to_section(gradient) - Vec2::x()
 }
 
 /// `C Γ`
-#[inline]
+#[inline(always)]
 fn force_of(section: &Section, strain: Vec2) -> Vec2 {
     Vec2::new(section.axial_stiffness * strain.x, section.shear_stiffness * strain.y)
 }
 
 /// `C⁻¹ N`
-#[inline]
+#[inline(always)]
 fn strain_from(section: &Section, force: Vec2) -> Vec2 {
     Vec2::new(force.x / section.axial_stiffness, force.y / section.shear_stiffness)
 }

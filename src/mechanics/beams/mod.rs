@@ -11,6 +11,7 @@ mod dynamics;
 mod error;
 mod force_dashpot;
 mod force_point;
+mod inertia;
 mod kink;
 mod mesh;
 mod moment_dashpot;
@@ -22,6 +23,7 @@ mod section;
 mod section_forces;
 mod section_variation;
 mod sections;
+mod span_loops;
 mod span_points;
 mod station;
 
@@ -32,7 +34,6 @@ pub use dynamics::{BlockSink, BodyDynamics, Collocation, ForceSummary, Movement}
 pub use error::BeamError;
 pub use kink::{MissedKink, missed_kink};
 pub use mesh::{Mesh, PointCounts, Quadrature};
-pub use parts::at_once;
 pub use rigid_points::RigidPoints;
 pub use rotation::{Rotation, RotationIncrement};
 pub use section::{Section, Shape, Solid};

@@ -165,11 +165,14 @@ impl MomentDashpot {
         rates: &[Movement],
         first: usize,
         give: &mut dyn FnMut(usize, Movement),
-    ) -> f64 {
+    ) {
         let (_, _, rate) = self.functions.interpolate(rates);
-        let moment = self.damping * rate;
-        self.distribute(moment, first, give);
-        self.functions.weight * moment * rate
+        self.distribute(self.damping * rate, first, give);
+    }
+
+    pub(super) fn each_damped_rate(&self, rates: &[Movement], take: &mut dyn FnMut(f64, f64)) {
+        let (_, _, rate) = self.functions.interpolate(rates);
+        take(self.functions.weight * self.damping, rate);
     }
 
     pub(super) fn save(&self, state: &mut Vec<f64>) {

@@ -103,7 +103,7 @@ impl<const N: usize> MomentPoint<N> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn add_forces(
         &mut self,
         section: &Section,
@@ -160,7 +160,7 @@ impl<const N: usize> MomentPoint<N> {
     }
 
     /// Adds the moments `EI m` of the curvature mismatch `m` at this point, in the directions of the last linearisation.
-    #[inline]
+    #[inline(always)]
     pub(super) fn add_mismatch_forces(
         &self,
         section: &Section,
@@ -172,7 +172,7 @@ impl<const N: usize> MomentPoint<N> {
     }
 
     /// Corrects the moment at this point for a correction of the movements: `M ← M + EI (m + σ δκ1)`.
-    #[inline]
+    #[inline(always)]
     pub(super) fn correct_moment(&mut self, section: &Section, correction: &[Movement; N]) {
         let (slope, rotation) = self.interpolate(correction);
         let (by_slope, by_rotation) = self.linearised_at.curvature_by();
@@ -186,6 +186,7 @@ impl<const N: usize> MomentPoint<N> {
         span.add_strain(self.axis.weight * section.bending_stiffness, row);
     }
 
+    #[inline(always)]
     pub(super) fn advance(&mut self, moved: &[Movement; N], rotations: RotationIncrement) {
         let (slope, rotation) = self.interpolate(moved);
         self.last_moment = self.moment;

@@ -5,11 +5,10 @@
 //! therefore count for the control points behind it before the parts are worked on, and for those before it afterwards.
 
 use std::ops::Range;
-use std::sync::{Mutex, PoisonError};
-use std::thread;
 
 use super::dynamics::Movement;
 use super::span_points::{SpanPoints, window, window_mut};
+use crate::threads::at_once;
 
 /// What a part of a beam has for itself: what its work needs, its spans, its first control point and its sums.
 type PartOf<'a, const N: usize, S, C> =
@@ -37,27 +36,6 @@ struct Cut {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Parts {
     cuts: Vec<Cut>,
-}
-
-/// Works on all tasks at once: on the first one here, on each other one in a thread of its own, or here where the system gives
-/// no thread.
-pub fn at_once<T: Send>(tasks: impl IntoIterator<Item = T>, work: impl Fn(T) + Sync) {
-    let mut tasks = tasks.into_iter();
-    let first = tasks.next();
-    let others: Vec<Mutex<Option<T>>> = tasks.map(|task| Mutex::new(Some(task))).collect();
-    let take = |task: &Mutex<Option<T>>| {
-        let taken = task.lock().unwrap_or_else(PoisonError::into_inner).take();
-        taken.into_iter().for_each(&work);
-    };
-    thread::scope(|scope| {
-        let take = &take;
-        for task in &others {
-            let _ = thread::Builder::new().spawn_scoped(scope, move || take(task));
-        }
-        first.into_iter().for_each(&work);
-        // What no thread has taken.
-        others.iter().for_each(take);
-    });
 }
 
 impl Parts {
@@ -95,13 +73,13 @@ impl Parts {
     pub(super) fn each<const N: usize, S: Send>(
         &self,
         spans: &mut [SpanPoints<N, S>],
-        work: impl Fn(&mut SpanPoints<N, S>) + Sync,
+        work: impl Fn(&mut [SpanPoints<N, S>]) + Sync,
     ) {
         if !self.are_large(spans.len()) {
-            return spans.iter_mut().for_each(work);
+            return work(spans);
         }
         let most = spans.len().div_ceil(self.count());
-        at_once(spans.chunks_mut(most), |part| part.iter_mut().for_each(&work));
+        at_once(spans.chunks_mut(most), work);
     }
 
     /// Works a little on the sums of the control points of each part of a beam, parts at once.

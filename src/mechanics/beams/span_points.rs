@@ -21,14 +21,14 @@ pub(super) struct SpanPoints<const N: usize, S = Uniform> {
 }
 
 /// The movements of the `N` control points from `first` on.
-#[inline]
+#[inline(always)]
 pub(super) fn window<const N: usize>(movements: &[Movement], first: usize) -> &[Movement; N] {
     movements[first..]
         .first_chunk()
         .expect("a span has as many control points as its basis has functions")
 }
 
-#[inline]
+#[inline(always)]
 pub(super) fn window_mut<const N: usize>(
     movements: &mut [Movement],
     first: usize,
@@ -40,7 +40,7 @@ pub(super) fn window_mut<const N: usize>(
 
 impl<const N: usize, S: Sections> SpanPoints<N, S> {
     /// Adds the forces of this span on its control points; `moved` are the movements of all control points of the beam.
-    #[inline]
+    #[inline(always)]
     pub(super) fn add_forces(
         &mut self,
         section: &Section,
@@ -86,7 +86,7 @@ impl<const N: usize, S: Sections> SpanPoints<N, S> {
     }
 
     /// Adds the forces that would close the strain mismatch in this span.
-    #[inline]
+    #[inline(always)]
     pub(super) fn add_mismatch_forces(
         &self,
         section: &Section,
@@ -103,7 +103,7 @@ impl<const N: usize, S: Sections> SpanPoints<N, S> {
     }
 
     /// Updates the section forces of this span for a correction of the movements of all control points.
-    #[inline]
+    #[inline(always)]
     pub(super) fn correct_section_forces(&mut self, section: &Section, correction: &[Movement]) {
         let correction = window(correction, self.first);
         let Self { sections, force_points, moment_points, .. } = self;
@@ -116,6 +116,7 @@ impl<const N: usize, S: Sections> SpanPoints<N, S> {
     }
 
     /// Accepts the movements of all control points, as far as they are of this span.
+    #[inline(always)]
     pub(super) fn advance(&mut self, moved: &[Movement], rotations: RotationIncrement) {
         let moved = window(moved, self.first);
         self.force_points.iter_mut().for_each(|point| point.advance(moved, rotations));

@@ -38,7 +38,7 @@ impl Rule {
 /// `z` are the unknowns of constraints and `G` their forces, for the whole step. The unknown of the movements is the deviation `d` from coasting, not the
 /// increment `u`: `v1 = v0 + 2/Δt d` then rounds like the change
 /// of the velocity, so that momenta do not creep over many steps.
-struct StepBalance<'a> {
+pub(super) struct StepBalance<'a> {
     mechanism: &'a mut dyn Mechanism,
     rule: Rule,
     duration: f64,
@@ -197,6 +197,29 @@ impl StepSolver {
         interval: Interval,
         rule: Rule,
     ) -> Result<NewtonReport, StepError> {
+        self.solve_by(mechanism, interval, rule, |newton, balance, unknowns, residual| {
+            newton.solve(balance, unknowns, residual)
+        })
+    }
+
+    /// Begins to solve a balance from the solution of one near by.
+    pub(super) fn begin_at(&mut self, solution: &[f64]) {
+        self.unknowns.copy_from_slice(solution);
+    }
+
+    /// Solves the balance of the step for the increments in a way of Newton's method: with its solver, the equations, their unknowns and their residual.
+    pub(super) fn solve_by(
+        &mut self,
+        mechanism: &mut dyn Mechanism,
+        interval: Interval,
+        rule: Rule,
+        way: impl FnOnce(
+            &mut Newton,
+            &mut StepBalance<'_>,
+            &mut [f64],
+            &mut [f64],
+        ) -> Result<NewtonReport, NewtonError>,
+    ) -> Result<NewtonReport, StepError> {
         self.take_prescribed(mechanism, rule.prescribed);
         self.balanced.push((rule.stage, rule.weight));
         let mut balance = StepBalance {
@@ -208,7 +231,7 @@ impl StepSolver {
             increments: &mut self.increments,
             movements: self.coasting.len(),
         };
-        let solved = self.newton.solve(&mut balance, &mut self.unknowns, &mut self.residual);
+        let solved = way(&mut self.newton, &mut balance, &mut self.unknowns, &mut self.residual);
         let report = match solved {
             Ok(report) => report,
             Err(source) => {

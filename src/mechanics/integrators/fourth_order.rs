@@ -51,21 +51,30 @@ impl Integrator for FourthOrder {
         mechanism: &mut dyn Mechanism,
         interval: Interval,
     ) -> Result<NewtonReport, StepError> {
-        mechanism.checkpoint().keep();
-        let mut whole = NewtonReport::default();
-        let mut behind = 0.0;
-        for end in ENDS {
-            match self.part.step(mechanism, interval.part(behind, end)) {
-                Ok(report) => whole = whole.then(report),
-                Err(error) => {
-                    mechanism.checkpoint().go_back();
-                    return Err(error.of_whole(interval, whole.iterations));
-                }
-            }
-            behind = end;
-        }
-        Ok(whole)
+        in_parts(mechanism, interval, |mechanism, part| self.part.step(mechanism, part))
     }
+}
+
+/// Takes the parts of a step one after the other; a mechanism that fails in one of them goes back to the start of the step.
+pub(super) fn in_parts(
+    mechanism: &mut dyn Mechanism,
+    interval: Interval,
+    mut step: impl FnMut(&mut dyn Mechanism, Interval) -> Result<NewtonReport, StepError>,
+) -> Result<NewtonReport, StepError> {
+    mechanism.checkpoint().keep();
+    let mut whole = NewtonReport::default();
+    let mut behind = 0.0;
+    for end in ENDS {
+        match step(mechanism, interval.part(behind, end)) {
+            Ok(report) => whole = whole.then(report),
+            Err(error) => {
+                mechanism.checkpoint().go_back();
+                return Err(error.of_whole(interval, whole.iterations));
+            }
+        }
+        behind = end;
+    }
+    Ok(whole)
 }
 
 #[cfg(test)]

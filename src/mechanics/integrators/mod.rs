@@ -1,6 +1,7 @@
 //! Time steps over an abstract mechanism: predict, solve, correct. No integrator mentions a beam.
 
 mod balance;
+mod company;
 mod energy_decaying;
 mod energy_momentum;
 mod error;
@@ -13,6 +14,7 @@ mod prescribed;
 mod registry;
 mod trapezoidal;
 
+pub use company::{Accompanied, Company};
 pub use energy_decaying::EnergyDecaying;
 pub use energy_momentum::EnergyMomentum;
 pub use error::{Cause, Culprit, StepError};

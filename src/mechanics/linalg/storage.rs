@@ -50,17 +50,15 @@ pub(super) struct Factors<'a> {
 
 impl Storage {
     pub(super) fn zeros(size: usize, half_bandwidth: usize) -> Self {
-        let reach = half_bandwidth.max(SMALLEST_REACH);
         let mut storage = Self {
-            size,
-            reach,
+            size: 0,
+            reach: 0,
             rows: Vec::new(),
-            pivots: vec![0; size],
-            last_columns: vec![0; size],
-            multipliers: vec![[0.0; PANEL]; reach],
+            pivots: Vec::new(),
+            last_columns: Vec::new(),
+            multipliers: Vec::new(),
         };
-        storage.rows = vec![0.0; (size + PANEL + reach) * storage.stride()];
-        storage.end_with_the_identity();
+        storage.remake(size, half_bandwidth);
         storage
     }
 

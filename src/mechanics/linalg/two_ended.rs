@@ -4,15 +4,13 @@
 //! what both leave in the middle is a small full matrix (the twisted or "burn at both ends" factorisation: Golub & Van Loan, Matrix Computations,
 //! 4th ed., section 4.3; van der Vorst, Parallel Computing 5 (1987) 45–54). The order of operations, and so every bit, is the same with one thread.
 
-use std::sync::{Mutex, PoisonError};
-use std::thread;
-
 use pulp::Arch;
 
-use super::elimination::{Elimination, PANEL};
-use super::storage::{Factors, Rows, Storage};
+use super::elimination::{Elimination, PANEL, SMALLEST_REACH};
+use super::storage::{Factors, Rows};
 use super::substitution::{Backward, Forward};
 use super::{BandedLu, BandedMatrix, LinearError};
+use crate::threads::both;
 
 /// Bands of so many rows are eliminated from both ends: fewer gain little by a second thread, and keep the bits of elimination from one end.
 const FEWEST_ROWS: usize = 6000;
@@ -87,7 +85,7 @@ impl TwoEnded {
     }
 
     fn new(size: usize, half_bandwidth: usize) -> Self {
-        let reach = Storage::zeros(0, half_bandwidth).reach;
+        let reach = half_bandwidth.max(SMALLEST_REACH);
         let cut = Cut::new(size, reach);
         let middle = cut.middle();
         Self {
@@ -125,8 +123,8 @@ impl TwoEnded {
         let Self { cut, threads, multipliers, middle, right, turned } = self;
         let (cut, threads) = (*cut, *threads);
         let Cut { size, reach, .. } = cut;
-        let (stride, centre) = (3 * reach + PANEL, reach + PANEL - 1);
         let storage = band.storage_mut();
+        let (stride, centre) = (storage.stride(), storage.centre());
         let (before, behind) = (cut.upper_rows(), size - cut.lower_rows());
         // A row that is turned around has its diagonal elsewhere; at the end of the row between there are zeros for that, which nothing fills.
         let shift = 2 * reach - centre;
@@ -164,16 +162,16 @@ impl TwoEnded {
         of_lower.map_err(|error| error.at(size - 1 - error.unknown(), size))?;
 
         let entry = |row: usize, column: usize| {
+            let (first, row, column) = match row < behind {
+                true => (0, row, column),
+                false => (behind, size - 1 - row, size - 1 - column),
+            };
             // Elimination fills in as far as twice the half-bandwidth.
-            let rows = &storage.rows;
-            if row < behind {
-                let is_stored = column <= row + 2 * reach;
-                if is_stored { rows[row * stride + column + centre - row] } else { 0.0 }
+            let is_stored = column <= row + 2 * reach;
+            if is_stored {
+                storage.rows[(first + row) * stride + column + centre - row]
             } else {
-                let (row, column) = (size - 1 - row, size - 1 - column);
-                let first = behind * stride;
-                let is_stored = column <= row + 2 * reach;
-                if is_stored { rows[first + row * stride + column + centre - row] } else { 0.0 }
+                0.0
             }
         };
         middle.clear();
@@ -244,24 +242,6 @@ impl TwoEndedLu<'_> {
             },
         );
     }
-}
-
-/// Does both: at once where there are two threads, or here where the system gives no other.
-fn both(threads: usize, one: impl FnOnce(), other: impl FnOnce() + Send) {
-    if threads < 2 {
-        one();
-        return other();
-    }
-    let other = Mutex::new(Some(other));
-    let take = || {
-        let taken = other.lock().unwrap_or_else(PoisonError::into_inner).take();
-        taken.into_iter().for_each(|other| other());
-    };
-    thread::scope(|scope| {
-        let _ = thread::Builder::new().spawn_scoped(scope, take);
-        one();
-        take();
-    });
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::continuity::{jump_at_start, jump_between};
 use super::{LoadError, Schedule, Side};
+use crate::geometry::larger;
 
 /// A motion that is given: by its place or by its rate.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -49,6 +50,9 @@ const RATE_AT_END: [f64; 5] = [0.5, 2.0 / (-1.0 - INNER), 2.0, 2.0 / (INNER - 1.
 
 /// Its second derivative there.
 const BENT_AT_END: [f64; 5] = [5.0, 12.0 * INNER - 20.0, 18.0, -12.0 * INNER - 20.0, 17.0];
+
+/// Rates that miss each other by less than this part of them, at a time at which a function may bend, are those of a smooth motion.
+const SMOOTH: f64 = 1e-6;
 
 /// How many roundings of its values a rate is off by at most, in parts of a step.
 const ROUNDINGS: f64 = 1e3;
@@ -112,6 +116,32 @@ impl PrescribedMotion {
                 Ok(MotionInStep { moved, first_rate, rounding, rate: last, accelerations })
             }
         }
+    }
+
+    /// By how much the rate jumps at the start of a step, where it was `before` in the last one [length/time, rad/time]: at times at which the function
+    /// is said to bend, and wherever a controller speaks; none where it goes on.
+    ///
+    /// # Errors
+    /// When the function fails, or a value is not finite.
+    pub fn jump_of_rate(
+        &self,
+        start: f64,
+        end: f64,
+        before: f64,
+    ) -> Result<Option<f64>, LoadError> {
+        let schedule = self.schedule();
+        if !schedule.is_sampled() && !schedule.may_bend_at(start) {
+            return Ok(None);
+        }
+        let (after, rounding) = match self {
+            Self::Place(_) => {
+                let step = self.over(start, end, end - start)?;
+                (step.first_rate, step.rounding)
+            }
+            Self::Rate(schedule) => (schedule.value(start, Side::After)?, 0.0),
+        };
+        let negligible = SMOOTH * larger(before.abs(), after.abs()) + rounding;
+        Ok(Some(after - before).filter(|jump| jump.abs() > negligible))
     }
 
     /// Refuses a motion whose place, or whose rate where that is given, jumps just after the start.

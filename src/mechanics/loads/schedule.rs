@@ -287,6 +287,17 @@ impl Schedule {
         }
     }
 
+    /// Whether a time is one of those at which the schedule jumps or bends.
+    pub fn may_bend_at(&self, time: f64) -> bool {
+        match self {
+            Self::Constant(_) | Self::Sine { .. } | Self::Sampled(_) => false,
+            Self::Table(rows) => rows.iter().any(|(bend, _)| *bend == time),
+            Self::SmoothPulse { duration } => time == 0.0 || time == *duration,
+            Self::Function { breaks, .. } => breaks.contains(&time),
+            Self::Combined { parts, .. } => parts.0.may_bend_at(time) || parts.1.may_bend_at(time),
+        }
+    }
+
     /// Whether the schedule may have different values just before and just after a time.
     pub fn may_jump_at(&self, time: f64) -> bool {
         match self {

@@ -36,7 +36,7 @@ use super::bodies::Bodies;
 use super::elements::{Elements, Exchange, Supports};
 use super::links::Links;
 use super::motion::{Motion, Resolution, Step, Unknowns};
-use super::sliders::{Sliders, Sliding, TrackLimit};
+use super::sliders::{MasterLimit, Sliders, Sliding};
 use crate::loads::LoadError;
 
 /// The mechanism of a scene: assembled, with its state of motion, and ready to be advanced by an integrator.
@@ -89,7 +89,7 @@ impl Model {
     }
 
     /// Gives what is moved by functions of time the rates with which these begin, in a model that has not taken a step.
-    pub fn set_given_in_motion(&mut self) {
+    pub(super) fn set_given_in_motion(&mut self) {
         let first = self.unknowns.count();
         let prescribed = &self.supports.prescribed().in_step().rates;
         self.motion.rates[first..].copy_from_slice(prescribed);
@@ -158,7 +158,7 @@ impl Model {
     }
 
     /// Makes steps end where a slider reaches a limit of its master, or lets them go where they lead again.
-    pub fn aim_at(&mut self, limit: Option<TrackLimit>) {
+    pub fn aim_at(&mut self, limit: Option<MasterLimit>) {
         self.sliders.aim_at(limit);
     }
 
@@ -169,7 +169,7 @@ impl Model {
     }
 
     /// Lets a slider rest against the stop at a limit, until the stop would have to pull.
-    pub fn hold(&mut self, limit: TrackLimit) {
+    pub fn hold(&mut self, limit: MasterLimit) {
         let slider = &mut self.sliders[limit.slider];
         slider.hold(limit.end);
         slider.clings = slider.left_at == self.motion.time;
@@ -177,7 +177,7 @@ impl Model {
     }
 
     /// Whether the present velocities lead a slider beyond a limit at which it is.
-    pub fn leads_beyond(&self, limit: TrackLimit) -> bool {
+    pub fn leads_beyond(&self, limit: MasterLimit) -> bool {
         let rate = self.sliders[limit.slider].rate(&self.bodies, &self.motion.rates);
         rate * limit.end.outward() > 0.0
     }

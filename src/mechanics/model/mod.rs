@@ -28,7 +28,7 @@ pub use scene::{
     BeamDefinition, ParticleDefinition, Probe, Quantity, RigidBodyDefinition, Scene, Sensor,
     StartMotion, StationVelocity, Value,
 };
-pub use sliders::{Blow, SliderState, TrackEnd, TrackLimit};
+pub use sliders::{Blow, MasterEnd, MasterLimit, SliderState};
 pub use words::{
     Approach, ModelError, SliderError, SliderParts, TrackError, Turning, refusal as refusal_of_name,
 };

@@ -12,6 +12,12 @@ const NEAR: f64 = 1e-4;
 /// So many corrections cost about as much as an iteration with new factors, which squares the imbalance.
 const MOST_CORRECTIONS: i32 = 5;
 
+/// With the factors of equations near by so many corrections are tried; each should gain some digits.
+const MOST_FOLLOWING: usize = 12;
+
+/// Imbalances [-] below this are small enough beside equations near by: what is left of them is a billionth of the change that is looked for.
+const FOLLOWED: f64 = 1e-14;
+
 /// A correction that leaves more than this part of an imbalance has met rounding.
 const STANDSTILL: f64 = 0.1;
 
@@ -119,6 +125,20 @@ impl Newton {
         u: &mut [f64],
         residual: &mut [f64],
     ) -> Result<NewtonReport, NewtonError> {
+        self.solve_and(equations, u, residual, |_, _| ())
+    }
+
+    /// Improves `u` as [`solve`](Self::solve) does, and hands on the solution and the factors that it was last corrected with, before these are lost.
+    ///
+    /// # Errors
+    /// As those of [`solve`](Self::solve); then nothing is handed on.
+    pub fn solve_and(
+        &mut self,
+        equations: &mut impl Equations,
+        u: &mut [f64],
+        residual: &mut [f64],
+        hand_on: impl FnOnce(&[f64], &mut BorderedLu<'_>),
+    ) -> Result<NewtonReport, NewtonError> {
         self.history.clear();
         let mut corrections = 0;
         while self.history.len() < self.tolerance.iterations {
@@ -150,10 +170,44 @@ impl Newton {
             }
             if self.tolerance.accepts(&imbalance) {
                 let iterations = self.history.len();
+                hand_on(u, &mut factors);
                 return Ok(NewtonReport { iterations, corrections, imbalance });
             }
         }
         Err(NewtonError::NotConverged { history: self.history.clone() })
+    }
+
+    /// Improves `u`, which solves equations near by, with the factors of these, nearly to rounding; where that does not get on, as [`solve`](Self::solve)
+    /// does.
+    ///
+    /// # Errors
+    /// As those of [`solve`](Self::solve).
+    pub fn follow(
+        &mut self,
+        equations: &mut impl Equations,
+        factors: &mut BorderedLu<'_>,
+        u: &mut [f64],
+        residual: &mut [f64],
+    ) -> Result<NewtonReport, NewtonError> {
+        self.tangent.clear();
+        residual.fill(0.0);
+        // The tangent is not needed; what hidden unknowns are condensed by is.
+        equations.linearise(u, residual, &mut self.tangent);
+        let mut before = f64::INFINITY;
+        for corrections in 1..=MOST_FOLLOWING {
+            let imbalance = correct(equations, factors, &mut self.correction, u, residual);
+            let largest = imbalance.largest();
+            let stands_still = largest > STANDSTILL * before;
+            if self.tolerance.accepts(&imbalance) && (largest <= FOLLOWED || stands_still) {
+                return Ok(NewtonReport { iterations: 0, corrections, imbalance });
+            }
+            if !imbalance.is_finite() || largest >= before {
+                break;
+            }
+            before = largest;
+            equations.condense(residual);
+        }
+        self.solve(equations, u, residual)
     }
 }
 

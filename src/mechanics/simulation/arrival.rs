@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::model::TrackLimit;
+use crate::model::MasterLimit;
 
 /// What happened to a slider at the end of its master.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -25,7 +25,7 @@ pub struct Arrival {
     /// The time of the arrival [time].
     pub time: f64,
     /// The slider that arrived, and the end of its master.
-    pub limit: TrackLimit,
+    pub limit: MasterLimit,
     /// The beam of that end, by its index, for a slider on a track.
     pub beam: Option<usize>,
     /// What happened to the slider at the end.

@@ -1,6 +1,6 @@
 //! Why a run could not start or go on.
 
-use super::StepSizeError;
+use super::{DerivativeError, StepSizeError};
 use crate::integrators::{MethodError, StepError};
 use crate::model::ModelError;
 
@@ -16,6 +16,9 @@ pub enum SimulationError {
     /// The step size of a run is not positive, or its tolerance cannot be kept.
     #[error(transparent)]
     StepSize(#[from] StepSizeError),
+    /// A run has no derivatives by parameters of its scene.
+    #[error(transparent)]
+    Derivative(#[from] DerivativeError),
     /// The mean of a step of a method that balances accelerations of its own.
     #[error(
         "'{sensor}' is the mean over a step, by which momenta change, and {method} balances accelerations of its own instead: it has none; record the force at the present moment, or take another method"
@@ -25,6 +28,18 @@ pub enum SimulationError {
         sensor: String,
         /// The method that has no such mean.
         method: &'static str,
+    },
+    /// A drive that an equilibrium has moved to where it is at another time than the start.
+    #[error(
+        "the equilibrium holds what '{drive}' moves at {rests}, and its function begins at t = 0 with {begins}: moved on from there it would be where no function has it"
+    )]
+    BeginsElsewhere {
+        /// The name of the drive that rests elsewhere than where its function begins.
+        drive: String,
+        /// Where the drive rests [length, rad].
+        rests: f64,
+        /// Where its function begins [length, rad].
+        begins: f64,
     },
     /// An end of a run that has passed.
     #[error("the simulation is at t = {now} and cannot run to t = {end}")]

@@ -1,6 +1,8 @@
 //! What is kept of a run: rows of its history, configurations of its trajectory.
 
-use super::columns::{extra_columns, extra_values};
+use std::collections::HashSet;
+
+use super::columns::{ExtraColumn, FIXED, extra_columns, extra_values};
 use super::progress::StepTaken;
 use super::{History, Recording, Sample, Scales, Trajectory};
 use crate::geometry::Vec2;
@@ -21,11 +23,13 @@ impl Record {
     /// The record of a run whose first row is the start of a scene.
     ///
     /// # Errors
-    /// When a sensor has nothing to read.
+    /// When a sensor has nothing to read, or a name is that of two columns.
     pub(super) fn new(scene: &Scene, model: &mut Model) -> Result<Self, ModelError> {
+        let columns = extra_columns(scene);
+        check_names(&columns)?;
         let points = model.control_points().map(<[Vec2]>::len).sum::<usize>();
         let mut record = Self {
-            history: History::new(scales(scene, model), extra_columns(scene)),
+            history: History::new(scales(scene, model), columns),
             trajectory: Trajectory::new(2 * points),
             recording: Recording::default(),
             rows_kept: 0,
@@ -82,6 +86,17 @@ impl Record {
         self.rows_kept = rows;
         self.history.truncate(rows);
         self.trajectory.go_back(rows);
+    }
+}
+
+/// Refuses two columns of one name: what is recorded may be called as something is that a scene adds by itself, before or later.
+fn check_names(columns: &[ExtraColumn]) -> Result<(), ModelError> {
+    let mut names: HashSet<&str> = FIXED.iter().map(|column| column.name).collect();
+    match columns.iter().find(|column| !names.insert(&column.name)) {
+        Some(ExtraColumn { name, .. }) => {
+            Err(ModelError::DuplicateSensor { name: name.to_owned() })
+        }
+        None => Ok(()),
     }
 }
 

@@ -4,6 +4,7 @@ mod adapting;
 mod back;
 mod blaming;
 mod content;
+mod derivatives;
 mod explain;
 mod frames;
 mod landing;
@@ -27,8 +28,9 @@ use super::halving::Halving;
 use super::progress::Progress;
 use super::record::Record;
 use super::snapshots::Snapshots;
+use super::stepper::Stepper;
 use super::{History, Monitor, SimulationError, StepSize, TimeGrid, Trajectory, WorkCounts, cores};
-use crate::integrators::{Constraints, Integrator, Interval, Mechanism, Method};
+use crate::integrators::{Constraints, Interval, Mechanism, Method};
 use crate::model::{Model, Scene};
 use crate::newton::Tolerance;
 use crate::statics::Equilibrium;
@@ -52,7 +54,7 @@ pub struct Simulation {
     scene: Scene,
     settings: Settings,
     model: Model,
-    integrator: Box<dyn Integrator>,
+    stepper: Stepper,
     /// What finds the size of steps, where it varies.
     adaptive: Option<Box<Adaptive>>,
     clock: Clock,
@@ -75,12 +77,16 @@ impl Simulation {
     /// A simulation that starts at t = 0 from the scene of an equilibrium, at rest as it was found.
     ///
     /// # Errors
-    /// When the step size or the parameter of the method is out of its range.
+    /// When the step size or the parameter of the method is out of its range, or a drive rests elsewhere than where its function begins.
     pub fn start_at_rest(rest: &Equilibrium, settings: Settings) -> Result<Self, SimulationError> {
         let scene = rest.scene().clone();
         let mut model = Model::assemble(&scene)?;
+        if let Some((drive, [rests, begins])) = rest.model().drive_elsewhere() {
+            let drive = drive.to_owned();
+            return Err(SimulationError::BeginsElsewhere { drive, rests, begins });
+        }
         model.restore(&rest.model().state());
-        model.set_given_in_motion();
+        model.begin_drives(&scene);
         Self::of(scene, model, settings)
     }
 
@@ -112,7 +118,7 @@ impl Simulation {
             scene,
             settings,
             model,
-            integrator,
+            stepper: Stepper::of(integrator),
             adaptive,
             progress: Progress::default(),
             snapshots: Snapshots::default(),
@@ -253,6 +259,9 @@ impl Simulation {
             self.keep_present();
             self.ask(monitor)?;
         }
+        if let Some(sensitivities) = &mut self.stepper.sensitivities {
+            sensitivities.pretend_to(end);
+        }
         if rows > 0 {
             self.pretend_arrivals();
             self.pretend_releases()?;
@@ -269,6 +278,8 @@ impl Simulation {
         if !self.scene.releases.is_empty() {
             self.let_go_due()?;
         }
+        let next = self.clock.grid.next(self.time(), limit);
+        self.model.follow_jumps_of_drives(Interval::between(self.time(), next));
         let stepped = match self.adaptive.take() {
             None => self.step_on_grid(limit, monitor),
             Some(mut adaptive) => {

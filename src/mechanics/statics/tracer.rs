@@ -8,7 +8,7 @@ use super::{ArcLength, Control, Loading, Path, PathPoint, StaticsError};
 use crate::elementary::square;
 use crate::integrators::{Constraints, Mechanism};
 use crate::linalg::{BorderShape, BorderedMatrix};
-use crate::model::{Model, Scene, TrackEnd, UnknownKind};
+use crate::model::{MasterEnd, Model, Scene, UnknownKind};
 use crate::newton::Newton;
 
 /// A step that finds no equilibrium is halved so often.
@@ -333,7 +333,7 @@ pub(super) fn settle_on_stops(
     unknowns: &[f64],
     factor: f64,
 ) -> Result<bool, Miss> {
-    let leaves = |(slider, end): (usize, TrackEnd)| Miss::Leaves {
+    let leaves = |(slider, end): (usize, MasterEnd)| Miss::Leaves {
         slider: scene.sliders[slider].name.clone(),
         end: end.name(),
     };

@@ -125,7 +125,7 @@ fn inertia_root(pencil: &Pencil) -> DMatrix<f64> {
 }
 
 /// Turns columns in pairs until all are orthogonal; the squares of their sizes.
-fn rotate(
+pub(super) fn rotate(
     columns: &mut DMatrix<f64>,
     goes_on: &mut dyn FnMut() -> bool,
 ) -> Result<Vec<f64>, VibrationError> {

@@ -7,7 +7,9 @@ mod error;
 mod lanczos;
 mod modes;
 mod pencil;
+mod quadratic;
 mod refinement;
+mod resolvent;
 mod search;
 
 pub use damped::DampedMode;

@@ -1,6 +1,7 @@
 //! What makes Rhai the language of withy: reading, operators, arrays, constants, names that are refused.
 
 pub mod constants;
+pub mod derivatives;
 pub mod elements;
 pub mod foundation;
 pub mod naming;

@@ -6,7 +6,7 @@ use rhai::{Dynamic, Engine, FnPtr, INT, ImmutableString, Map, OptimizationLevel}
 
 use crate::analysis::is_out_of_patience;
 use crate::script::dialect::{
-    constants, elements, foundation, operators, repetitions, replacing, sorting,
+    constants, derivatives, elements, foundation, operators, repetitions, replacing, sorting,
 };
 use crate::script::rows::catalog::Catalog;
 use crate::script::rows::register::register;
@@ -37,6 +37,7 @@ pub fn build(catalog: &Catalog, context: &Context) -> Result<Engine, String> {
     let asked = context.clone();
     let reader = syntax::install(&mut engine, move || asked.stopped_by())?;
     operators::install(&mut engine);
+    derivatives::install(&mut engine);
     sorting::install(&mut engine, context);
     repetitions::install(&mut engine, context);
     replacing::install(&mut engine);

@@ -1,9 +1,12 @@
 //! A beam of a scene that a script holds.
 
+use std::rc::Rc;
+
 use super::scene::SceneHandle;
 use crate::output::significant;
 use crate::script::looks::details;
 use crate::script::rows::kind::{Details, Scripted};
+use crate::script::rows::lifting::Family;
 use crate::script::words::error::ScriptError;
 
 /// A handle on a beam of a scene.
@@ -50,5 +53,9 @@ impl Scripted for BeamHandle {
 
     fn details(&self) -> Details {
         details::of_beam(&self.scene.scene().borrow(), self.index)
+    }
+
+    fn family(&self) -> Option<Rc<Family>> {
+        self.scene.family()
     }
 }

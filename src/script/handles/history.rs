@@ -114,4 +114,8 @@ impl Scripted for HistoryHandle {
     fn details(&self) -> Details {
         self.read(details::of_history)
     }
+
+    fn family(&self) -> Option<std::rc::Rc<crate::script::rows::lifting::Family>> {
+        Scripted::family(&self.of)
+    }
 }

@@ -1,7 +1,10 @@
 //! A joint of a scene that a script holds.
 
+use std::rc::Rc;
+
 use super::scene::SceneHandle;
 use crate::script::rows::kind::{Details, Scripted};
+use crate::script::rows::lifting::Family;
 
 /// A handle on a joint of a scene.
 #[derive(Clone)]
@@ -35,5 +38,9 @@ impl Scripted for JointHandle {
 
     fn details(&self) -> Details {
         Vec::new()
+    }
+
+    fn family(&self) -> Option<Rc<Family>> {
+        self.scene.family()
     }
 }

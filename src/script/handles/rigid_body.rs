@@ -1,10 +1,13 @@
 //! A rigid body of a scene that a script holds.
 
+use std::rc::Rc;
+
 use super::scene::SceneHandle;
 use super::station::StationHandle;
 use crate::beams::Station;
 use crate::script::looks::details;
 use crate::script::rows::kind::{Details, Scripted};
+use crate::script::rows::lifting::Family;
 use crate::script::words::error::ScriptError;
 
 /// A handle on a rigid body of a scene.
@@ -53,5 +56,9 @@ impl Scripted for RigidBodyHandle {
 
     fn details(&self) -> Details {
         details::of_rigid_body(&self.scene.scene().borrow(), self.index)
+    }
+
+    fn family(&self) -> Option<Rc<Family>> {
+        self.scene.family()
     }
 }

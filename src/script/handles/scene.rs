@@ -1,6 +1,6 @@
 //! A scene that a script holds.
 
-use std::cell::{Cell, RefCell};
+use std::cell::{Cell, OnceCell, RefCell};
 use std::rc::Rc;
 
 use super::station::StationHandle;
@@ -8,19 +8,40 @@ use crate::beams::Station;
 use crate::model::Scene;
 use crate::script::looks::details;
 use crate::script::rows::kind::{Details, Scripted};
+use crate::script::rows::lifting::{Family, Present, Varied, present};
 use crate::script::rows::stored::StoredFunction;
 use crate::script::words::error::{Place, ScriptError};
+use crate::simulation::Variation;
+
+/// What to do where the shape of a scene depends on a parameter.
+const SHAPED: &str = "numbers of sections, loads, springs, masses and velocities may depend on scene.parameter(…); for shapes and places give plain numbers and take central differences, as fit does";
 
 /// A handle on a scene that a script holds.
 #[derive(Clone)]
 pub struct SceneHandle {
-    scene: Rc<RefCell<Scene>>,
+    variants: Rc<Variants>,
     /// Functions that fill columns, in the order of the columns.
     functions: Rc<RefCell<Vec<Rc<StoredFunction>>>>,
     /// Functions that loads and drives are told by at the start of every step.
     controllers: Rc<RefCell<Vec<Rc<Controller>>>>,
     /// Functions that say when something lets go, with the index of its release.
     conditions: Rc<RefCell<Vec<Condition>>>,
+}
+
+/// A scene, and those that it is beside the values of its parameters.
+struct Variants {
+    scene: Rc<RefCell<Scene>>,
+    /// Parameters that were declared by the scene.
+    declared: RefCell<Option<Rc<Family>>>,
+    /// From the first call on in which something depends on a parameter.
+    beside: OnceCell<Beside>,
+}
+
+/// The scenes beside one, at parameters plus and minus a distance.
+struct Beside {
+    family: Rc<Family>,
+    /// In the order of the variants, from 1.
+    scenes: Vec<Rc<RefCell<Scene>>>,
 }
 
 /// A function of the simulation that says whether something lets go.
@@ -44,42 +65,134 @@ impl SceneHandle {
     /// A new handle on a scene.
     pub fn new(scene: Scene) -> Self {
         let scene = Rc::new(RefCell::new(scene));
+        let variants =
+            Variants { scene, declared: RefCell::default(), beside: OnceCell::default() };
         Self {
-            scene,
+            variants: Rc::new(variants),
             functions: Rc::default(),
             controllers: Rc::default(),
             conditions: Rc::default(),
         }
     }
 
-    /// The scene of the handle, to look at or to change it.
+    /// The scene of the handle, to look at or to change it, in the variant that the present call is made for.
     pub fn scene(&self) -> &RefCell<Scene> {
-        &self.scene
+        self.of_present()
     }
 
-    /// The scene of the handle, shared with it.
+    /// The scene of the handle, shared with it, in the variant that the present call is made for.
     pub fn shared(&self) -> Rc<RefCell<Scene>> {
-        Rc::clone(&self.scene)
+        Rc::clone(self.of_present())
+    }
+
+    fn of_present(&self) -> &Rc<RefCell<Scene>> {
+        let Variants { scene, beside, .. } = &*self.variants;
+        let Some(Present { family, variant }) = present().filter(|of| of.variant > 0) else {
+            return scene;
+        };
+        // It has not been changed by the present call yet, which is made for the scene itself last.
+        let beside = beside.get_or_init(|| {
+            let copy = |_| Rc::new(RefCell::new(scene.borrow().clone()));
+            Beside { scenes: (1..family.variants()).map(copy).collect(), family }
+        });
+        beside.scenes.get(variant - 1).unwrap_or(scene)
+    }
+
+    /// The parameters that the scene depends on, if it does.
+    pub fn family(&self) -> Option<Rc<Family>> {
+        self.variants.beside.get().map(|beside| Rc::clone(&beside.family))
+    }
+
+    /// A parameter of the scene with its value, as a number that knows what depends on it.
+    ///
+    /// # Errors
+    /// When there is one of that name, or others are in use.
+    pub fn declare(&self, name: &str, value: f64) -> Result<Varied, ScriptError> {
+        let family = self.family();
+        let mut declared = self.variants.declared.borrow_mut();
+        family
+            .as_ref()
+            .unwrap_or_else(|| declared.get_or_insert_with(Family::new))
+            .declare(name, value)
+    }
+
+    /// How the scene varies with its parameters.
+    ///
+    /// # Errors
+    /// When something depends on one that a run cannot take along.
+    pub fn variations(&self) -> Result<Vec<Variation>, ScriptError> {
+        let Some(Beside { family, scenes }) = self.variants.beside.get() else {
+            return Ok(Vec::new());
+        };
+        if !self.functions.borrow().is_empty() {
+            let told =
+                "columns that functions |q| … fill have no derivatives by parameters of a scene";
+            let hint = "leave scene.record(name, |q| …) out, and ask the simulation when it is there: sim.position(…), sim.history.column(…)";
+            return Err(ScriptError::new(told).hint(hint));
+        }
+        self.expect_unasked_beside()?;
+        let own = self.variants.scene.borrow();
+        let length = |scene: &Scene, beam: usize| scene.beams.get(beam).map(|of| of.axis.length());
+        for scene in scenes.iter().map(|scene| scene.borrow()) {
+            let changed = (0..own.beams.len()).find(|of| length(&own, *of) != length(&scene, *of));
+            if let Some(beam) = changed {
+                let told =
+                    format!("the length of beam '{}' depends on a parameter", own.beams[beam].name);
+                return Err(ScriptError::new(told).hint(SHAPED));
+            }
+            if own.stations != scene.stations {
+                let told = "a place on a beam depends on a parameter";
+                return Err(ScriptError::new(told).hint(SHAPED));
+            }
+        }
+        let mut pairs = scenes.chunks_exact(2);
+        let variation = |(name, distance): (String, f64)| {
+            let [plus, minus] = pairs.next()? else { return None };
+            let scenes = [plus, minus].map(|scene| scene.borrow().clone());
+            Some(Variation { name, distance, scenes })
+        };
+        Ok(family.parameters().into_iter().map_while(variation).collect())
+    }
+
+    /// Whether functions are to be kept in the present call: one that is made for many variants keeps them once.
+    fn keeps(&self) -> bool {
+        present().is_none_or(|present| present.variant == 0)
+    }
+
+    /// Refuses parameters in a scene of which functions are asked between steps.
+    fn expect_unasked_beside(&self) -> Result<(), ScriptError> {
+        if self.controllers.borrow().is_empty() && self.conditions.borrow().is_empty() {
+            return Ok(());
+        }
+        let told = "what functions of the simulation do, |t, q| … of a controller or when: |q| … of a release, has no derivatives by parameters of a scene";
+        let hint = "give functions of time, |t| …, or plain numbers in the place of scene.parameter(…) and take central differences, as fit does";
+        Err(ScriptError::new(told).hint(hint))
     }
 
     /// Keeps a function that fills the last column that was described.
     pub fn keep_function(&self, function: StoredFunction) {
-        self.functions.borrow_mut().push(Rc::new(function));
+        if self.keeps() {
+            self.functions.borrow_mut().push(Rc::new(function));
+        }
     }
 
     /// Keeps a function that is asked at the start of every step; gives where its value will be.
     pub fn keep_controller(&self, function: StoredFunction) -> Rc<Cell<f64>> {
         let value = Rc::new(Cell::new(0.0));
         let controller = Controller { function, value: Rc::clone(&value) };
-        self.controllers.borrow_mut().push(Rc::new(controller));
+        if self.keeps() {
+            self.controllers.borrow_mut().push(Rc::new(controller));
+        }
         value
     }
 
     /// Keeps a function that says when the release that was described last happens.
     pub fn keep_condition(&self, function: StoredFunction) {
-        let release = self.scene.borrow().releases.len() - 1;
+        let release = self.scene().borrow().releases.len() - 1;
         let condition = Condition { function: Rc::new(function), release };
-        self.conditions.borrow_mut().push(condition);
+        if self.keeps() {
+            self.conditions.borrow_mut().push(condition);
+        }
     }
 
     /// The functions that say when something lets go.
@@ -118,10 +231,10 @@ impl SceneHandle {
 
     /// Refuses a thing of another scene than this; `what` is the kind of the thing.
     pub fn expect_same(&self, other: &Self, what: &str) -> Result<(), ScriptError> {
-        if Rc::ptr_eq(&self.scene, &other.scene) {
+        if Rc::ptr_eq(&self.variants, &other.variants) {
             return Ok(());
         }
-        let (mine, other) = (&self.scene.borrow().name, &other.scene.borrow().name);
+        let (mine, other) = (&self.scene().borrow().name, &other.scene().borrow().name);
         let told = match mine == other {
             true => format!("the {what} belongs to another scene that is called '{other}' too"),
             false => format!("the {what} belongs to the scene '{other}', not to '{mine}'"),
@@ -135,7 +248,7 @@ impl Scripted for SceneHandle {
     const DOC: &'static str = "A description of beams, particles, joints, masses and loads.";
 
     fn show(&self) -> String {
-        let scene = self.scene.borrow();
+        let scene = self.scene().borrow();
         let count = |(number, what): (usize, &str)| {
             format!("{number} {what}{}", if number == 1 { "" } else { "s" })
         };
@@ -150,6 +263,10 @@ impl Scripted for SceneHandle {
     }
 
     fn details(&self) -> Details {
-        details::of_scene(&self.scene.borrow())
+        details::of_scene(&self.scene().borrow())
+    }
+
+    fn family(&self) -> Option<Rc<Family>> {
+        Self::family(self)
     }
 }

@@ -15,13 +15,14 @@ use super::scene::SceneHandle;
 use crate::script::looks::details;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::{Details, Scripted};
+use crate::script::rows::lifting::{Family, lose, present};
 use crate::script::rows::stored::StoredFunction;
 use crate::script::state::context::Context;
 use crate::script::state::settings::Mode;
 use crate::script::words::error::ScriptError;
 use crate::script::words::numbers::format_number;
 use crate::script::words::stop::Stop;
-use crate::simulation::{Monitor, Simulation, SimulationError, StepSize};
+use crate::simulation::{Monitor, Side, Simulation, SimulationError, StepSize};
 use crate::vibration::{Modes, VibrationError};
 use sensing::Sensing;
 
@@ -121,6 +122,12 @@ impl SimulationHandle {
 
     /// A copy of the simulation that goes its own way from here, with the same functions for times to come.
     pub fn fork(&self, name: String, context: &Context) -> Result<Self, ScriptError> {
+        if self.simulation().parameters().next().is_some() {
+            let told =
+                "a copy of the simulation would have no derivatives by the parameters of its scene";
+            let hint = "build the scene with plain numbers in the place of scene.parameter(…)";
+            return Err(ScriptError::new(told).hint(hint));
+        }
         let simulation = self.simulation().fork()?;
         let fork = Self::new(simulation, self.0.scene.clone(), name, self.0.notes.clone(), context);
         fork.0.events.replace(self.0.events.borrow().clone());
@@ -151,9 +158,20 @@ impl SimulationHandle {
         self.0.events.borrow().waiting()
     }
 
-    /// The simulation of the handle, to look at it.
+    /// The simulation of the handle, to look at it, in the variant that the present call is made for.
     pub fn simulation(&self) -> Ref<'_, Simulation> {
-        self.0.simulation.borrow()
+        let variant = present().map_or(0, |present| present.variant);
+        Ref::map(self.0.simulation.borrow(), |run| {
+            let Some((parameter, is_plus)) = Family::beside(variant) else { return run };
+            if run.parameters().next().is_none() {
+                return run;
+            }
+            let side = if is_plus { Side::Plus } else { Side::Minus };
+            run.beside(parameter, side).unwrap_or_else(|reason| {
+                lose(&reason.to_string());
+                run
+            })
+        })
     }
 
     /// The scene that the simulation was started from.
@@ -365,5 +383,10 @@ impl Scripted for SimulationHandle {
 
     fn details(&self) -> Details {
         details::of_simulation(&self.simulation())
+    }
+
+    fn family(&self) -> Option<Rc<Family>> {
+        let has = self.0.simulation.try_borrow().is_ok_and(|of| of.parameters().next().is_some());
+        self.0.scene.family().filter(|_| has)
     }
 }

@@ -13,6 +13,7 @@ use crate::model::Scene;
 use crate::script::looks::details;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::{Details, Scripted};
+use crate::script::rows::lifting::Family;
 use crate::script::words::error::ScriptError;
 
 /// A handle on a station of a body of a scene.
@@ -69,6 +70,10 @@ impl Scripted for StationHandle {
 
     fn details(&self) -> Details {
         details::of_station(&self.scene.scene().borrow(), &self.station)
+    }
+
+    fn family(&self) -> Option<Rc<Family>> {
+        self.scene.family()
     }
 }
 

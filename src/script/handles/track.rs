@@ -1,10 +1,13 @@
 //! A track of a scene that a script holds.
 
+use std::rc::Rc;
+
 use super::scene::SceneHandle;
 use crate::joints::Course;
 use crate::output::significant;
 use crate::script::looks::details;
 use crate::script::rows::kind::{Details, Scripted};
+use crate::script::rows::lifting::Family;
 use crate::script::words::error::ScriptError;
 
 /// A handle on a track of a scene.
@@ -61,5 +64,9 @@ impl Scripted for TrackHandle {
 
     fn details(&self) -> Details {
         details::of_track(&self.scene.scene().borrow(), self.index)
+    }
+
+    fn family(&self) -> Option<Rc<Family>> {
+        self.scene.family()
     }
 }

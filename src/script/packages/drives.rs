@@ -1,11 +1,11 @@
 //! Supports of single movements, and motions that are given: stations that follow functions of time, motors.
 
-use rhai::{Dynamic, ImmutableString};
+use rhai::{Dynamic, FnPtr, ImmutableString};
 
 use super::scenes::{JOINT, SCENE, STATION, newest_joint};
 use super::schedules::{SCHEDULE_KINDS, controlled_schedule_of, schedule_of};
 use crate::joints::{Component, Components, JointKind, Partner};
-use crate::loads::{LoadKind, PrescribedMotion};
+use crate::loads::{LoadKind, PrescribedMotion, Schedule};
 use crate::model::{Drive, DriveKind, ModelError};
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::station::here;
@@ -132,7 +132,11 @@ fn drive(call: &mut Call) -> Result<Dynamic, ScriptError> {
     for (motion, component) in motions.iter_mut().zip(Component::ALL) {
         let key = component.name();
         if options.has(key) {
-            *motion = Some(PrescribedMotion::Place(schedule_of(call, &options, key)?));
+            let rate = match component {
+                Component::Rotation => "scene.motor(station, #{ speed: |t, q| … })".to_owned(),
+                _ => format!("{key}_speed: |t, q| …"),
+            };
+            *motion = Some(PrescribedMotion::Place(place_of(call, &options, key, &rate)?));
         }
     }
     for (motion, key) in motions.iter_mut().zip(SPEEDS).filter(|(_, key)| options.has(key)) {
@@ -155,6 +159,22 @@ fn drive(call: &mut Call) -> Result<Dynamic, ScriptError> {
     add(call, DriveKind::Move, motions, &options)
 }
 
+/// The schedule of a place; a controller of it is told of the rate that it may have instead.
+fn place_of(
+    call: &Call,
+    options: &Options,
+    key: &str,
+    rate: &str,
+) -> Result<Schedule, ScriptError> {
+    let function = options.get_if::<FnPtr>(key);
+    if function.is_some_and(|function| call.arguments_of(&function) == Some(2)) {
+        let told = format!("{key} is a place, which would jump wherever a controller speaks");
+        let hint = format!("let it give a rate, {rate}");
+        return Err(call.error(told).hint(hint).at(Place::Key(key.into())));
+    }
+    schedule_of(call, options, key)
+}
+
 fn motor(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let options = call.options("options")?;
     let mut given = ["angle", "speed", "torque"].into_iter().filter(|key| options.has(key));
@@ -168,7 +188,7 @@ fn motor(call: &mut Call) -> Result<Dynamic, ScriptError> {
         return Err(call.error(told).hint(format!("leave out {odd}")).at(Place::Key(odd.into())));
     }
     let schedule = match key {
-        "angle" => schedule_of(call, &options, key)?,
+        "angle" => place_of(call, &options, key, "speed: |t, q| …")?,
         _ => controlled_schedule_of(call, &options, key, &call.receiver::<SceneHandle>()?)?,
     };
     match key {

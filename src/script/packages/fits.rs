@@ -11,14 +11,14 @@ use crate::script::rows::kind::{Scripted, Type};
 use crate::script::rows::option_set::option_set;
 use crate::script::rows::options::Options;
 use crate::script::rows::parameter::{
-    Parameter, Presence, anything, callback, name, number, numbers, options, text, whole,
+    Parameter, Presence, anything, callback, choice, name, number, numbers, options, text, whole,
 };
 use crate::script::rows::returns::{Returns, ValueKind};
 use crate::script::rows::table::{Body, Row, Table, function, method, property};
 use crate::script::state::settings::Mode;
 use crate::script::studies::desk::print_table;
 use crate::script::studies::fits::design::{BestDesign, DesignOrder, Goal, Limit};
-use crate::script::studies::fits::fit::{Compared, Fit, FitOrder};
+use crate::script::studies::fits::fit::{Compared, Derivatives, Fit, FitOrder};
 use crate::script::studies::fits::ranges::Ranges;
 use crate::script::studies::plan::{at_key, study_name};
 use crate::script::words::error::{Place, ScriptError};
@@ -39,7 +39,9 @@ pub const TABLE: Table = Table {
             .doc(
                 "Either `residuals`, a function of a map of parameters that gives an array of differences, or `model`, which gives what should have been \
                  `measured`, at the places `over`. With `data` the function is called with that as its second argument. The sum of the squares, \
-                 each times its weight, is made least by Levenberg's and Marquardt's method; bounds are kept. Derivatives are central differences of runs, second \
+                 each times its weight, is made least by Levenberg's and Marquardt's method; bounds are kept. Derivatives are those that a run knows of itself: the parameters \
+                 come as numbers that know what depends on them, as those of scene.parameter do, and a simulation finds with its steps how it changes with them. Where the function \
+                 does what has no derivatives, `found.derivatives` says so, and they are central differences of runs, second \
                  order: `step` times the size of a parameter (its value, or a hundredth of its range where it is near zero), 1e-4 unless given, which \
                  leaves about eight digits of a run that repeats to 1e-12; with adaptive steps give 1e-3. They are found at the start and at the \
                  end and corrected by what each step shows between (Broyden). Errors are the standard ones, s² (JᵀJ)⁻¹ with s from the residuals, and \
@@ -90,6 +92,10 @@ pub const TABLE: Table = Table {
             .returns(Returns::WHOLE)
             .summary("How often the function was called.")
             .example("check(found.runs <= 20);"),
+        of_fit("derivatives", |call| Ok(fit(call)?.derivatives().into()))
+            .returns(Returns::TEXT)
+            .summary("What derivatives were made of: of what the runs know of themselves, or of central differences of runs, and why.")
+            .example("check(found.derivatives == \"those of the runs\");"),
         method(FIT, "plot", &[], |call| {
             let fit = fit(call)?;
             call.context().write_file(&format!("{}-fit.svg", fit.name), fit.picture()?.as_bytes())?;
@@ -175,6 +181,8 @@ option_set! {
         confidence: f64 = number("confidence").between(0.5, 0.9999).or(Presence::Number(0.95)).doc("with which parameters lie in their intervals"),
         /// Of differences.
         step: f64 = number("step").between(1e-8, 0.1).or(Presence::Number(RELATIVE_STEP)).doc("of differences, as a part of the size of a parameter"),
+        /// What derivatives are made of.
+        derivatives: String = choice("derivatives", &["known", "differences"]).or(Presence::Text("known")).doc("those that runs know of themselves, or differences of runs always"),
         /// How long a run may take [s].
         patience: f64 = PATIENCE,
     }
@@ -309,6 +317,7 @@ fn make_fit(call: &mut Call) -> Result<Dynamic, ScriptError> {
         weights: options.weights,
         confidence: options.confidence,
         step: options.step,
+        derivatives: Derivatives::of(&options.derivatives),
         wall: wall(options.patience),
     };
     let fit = match call.context().mode() {

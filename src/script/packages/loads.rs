@@ -38,7 +38,7 @@ pub const TABLE: Table = Table {
 A function of two arguments, |t, q| …, is a sampled controller: it is asked at the start of every step with the simulation, as \
               scene.record asks, and its value holds for the step, so that the feedback is late by half a step in the mean, of first order in dt; adaptive steps ask it in their middle too, and see what it misses. Its work is counted like that \
               of any load. A function that changes a variable of its own has a memory which does not go back with the simulation: it is asked again when a step of varying size is rejected, after sim.back and sim.rewind, and \
-              when earlier states are looked at, so let it depend on t and q, and keep sums in what moves (an integral of the error is the angle of a free body under a moment), or take fixed steps and go only forward. With a name the history has work.NAME and NAME.force.")
+              when earlier states are looked at, and another simulation of the scene, or a copy, finds it as the last one left it; so let it depend on t and q, and keep sums in what moves (an integral of the error is the angle of a free body under a moment), or take fixed steps and go only forward. With a name the history has work.NAME and NAME.force.")
         .example("scene.force(rod.end, [8, 0], hold_for(2.5));\nscene.force(rod.end, [0, 1], 1, #{ frame: \"follower\" });\n\
                  scene.force(rod.end, [0, 1], |t, q| -2 * q.velocity(rod.end).y, #{ name: \"brake\" });\n\
                  let sim = scene.start(#{ dt: 0.05 });\nsim.run_to(1);\n\

@@ -6,6 +6,7 @@ mod bodies;
 mod checking;
 mod convergence_studies;
 mod cost_studies;
+mod derivatives;
 mod drag;
 mod drives;
 mod equilibria;
@@ -77,6 +78,7 @@ pub const TABLES: &[&Table] = &[
     &equilibria::TABLE,
     &modes::TABLE,
     &simulations::TABLE,
+    &derivatives::TABLE,
     &notes::TABLE,
     &recording::TABLE,
     &sensors::TABLE,

@@ -148,6 +148,12 @@ fn save(call: &mut Call) -> Result<Dynamic, ScriptError> {
             handle.name()
         ));
     }
+    if handle.simulation().parameters().next().is_some() {
+        call.context().tell(&format!(
+            "note: simulation '{}' was saved without the derivatives by the parameters of its scene; the one that load_simulation gives has none",
+            handle.name()
+        ));
+    }
     Ok(Dynamic::UNIT)
 }
 

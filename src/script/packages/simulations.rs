@@ -245,7 +245,11 @@ const fn count(name: &'static str, body: crate::script::rows::table::Body) -> Ro
 fn start(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let handle = call.receiver::<SceneHandle>()?;
     let scene = handle.scene().borrow().clone();
-    begin(call, handle, |settings| Simulation::start(scene, settings))
+    let variations = handle.variations()?;
+    begin(call, handle, |settings| match variations.is_empty() {
+        true => Simulation::start(scene, settings),
+        false => Simulation::start_with_derivatives(scene, settings, variations),
+    })
 }
 
 /// Starts a simulation as the options of a call ask for it.

@@ -234,6 +234,10 @@ impl Scripted for SliderHandle {
     fn details(&self) -> Details {
         details::of_slider(&self.scene.scene().borrow(), self.index)
     }
+
+    fn family(&self) -> Option<std::rc::Rc<crate::script::rows::lifting::Family>> {
+        self.scene.family()
+    }
 }
 
 impl Scripted for SlidingRule {

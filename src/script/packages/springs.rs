@@ -239,6 +239,10 @@ impl Scripted for SpringHandle {
         };
         self.described(of).unwrap_or_default()
     }
+
+    fn family(&self) -> Option<std::rc::Rc<crate::script::rows::lifting::Family>> {
+        self.scene.family()
+    }
 }
 
 /// The place of a call at which a spring is attached.

@@ -109,3 +109,10 @@ fn reserved_words_are_recognised() {
     }
     assert!(can_be_written("hold_for"));
 }
+
+#[test]
+fn domains_that_follow_parameters_are_there() {
+    for name in crate::script::rows::lifting::NAMED.into_iter().flatten() {
+        assert!(TABLES.iter().any(|table| table.name == *name), "{name}");
+    }
+}

@@ -27,6 +27,9 @@ pub fn hint(kind: &Kind, value: &Dynamic, given: &str) -> Option<String> {
         Kind::Point => of_point(value, given),
         Kind::Array | Kind::Numbers => of_array(value),
         Kind::Points => of_points(value),
+        Kind::Function if value.is::<Map>() => {
+            Some("options come last: give what is asked for here before them, such as |t| 1".into())
+        }
         Kind::Function if !value.is::<FnPtr>() => Some(
             "write |t| and what it gives, such as |t| sin(t); a named function f is |t| f(t)"
                 .into(),

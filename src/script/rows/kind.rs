@@ -2,9 +2,11 @@
 
 use std::any::TypeId;
 use std::fmt;
+use std::rc::Rc;
 
 use rhai::{Dynamic, Engine};
 
+use super::lifting::{self, Family};
 use super::parameter::Parameter;
 use crate::script::words::nouns::with_article;
 
@@ -24,6 +26,11 @@ pub trait Scripted: Clone + 'static {
 
     /// What a value of another type stands for where one of this type is asked for, if for any.
     fn meant_by(_value: &Dynamic) -> Option<Self> {
+        None
+    }
+
+    /// The parameters that the value depends on, or the scene that it is a thing of, if any.
+    fn family(&self) -> Option<Rc<Family>> {
         None
     }
 
@@ -107,6 +114,7 @@ impl Type {
 
 fn register<T: Scripted>(engine: &mut Engine) {
     engine.register_type_with_name::<T>(T::NAME);
+    lifting::know(TypeId::of::<T>(), |value| value.read_lock::<T>().and_then(|of| of.family()));
     for name in ["to_string", "to_debug"] {
         engine.register_fn(name, |value: &mut T| value.show());
     }

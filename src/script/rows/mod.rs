@@ -9,6 +9,7 @@ pub mod catalog;
 pub mod instead;
 pub mod key_sets;
 pub mod kind;
+pub mod lifting;
 pub mod option_set;
 pub mod options;
 pub mod parameter;

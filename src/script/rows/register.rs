@@ -8,6 +8,7 @@ use super::accept::{accept, blame_argument};
 use super::arguments::Arguments;
 use super::call::Call;
 use super::kind::{Kind, Type};
+use super::lifting::{Family, Lifting, lift, lifting_of, present};
 use super::parameter::Parameter;
 use super::table::{Body, Form, Row, Table};
 use crate::geometry::Vec2;
@@ -21,43 +22,40 @@ pub fn register(engine: &mut Engine, table: &'static Table, context: &Context) {
         context.know(of.busy());
     }
     for row in table.rows {
-        register_row(engine, row, context);
+        register_row(engine, row, lifting_of(table, row), context);
     }
 }
 
-fn register_row(engine: &mut Engine, row: &'static Row, context: &Context) {
+fn register_row(engine: &mut Engine, row: &'static Row, lifting: Lifting, context: &Context) {
+    let binding = Binding::of(row, lifting, context);
     match row.form {
         Form::Function => {
             for count in row.required()..=row.parameters.len() {
                 let types = vec![TypeId::of::<Dynamic>(); count];
-                add(engine, row.name.into(), types, Binding::of(row, context));
+                add(engine, row.name.into(), types, binding.clone());
             }
             for types in numbers_only(row.parameters) {
-                add(engine, row.name.into(), types, Binding::of(row, context));
+                add(engine, row.name.into(), types, binding.clone());
             }
         }
         Form::Method(of) => {
             for count in row.required()..=row.parameters.len() {
                 let types = with_receiver(of, count);
-                add(engine, row.name.into(), types, Binding::of(row, context));
+                add(engine, row.name.into(), types, binding.clone());
             }
         }
         Form::Property(of) => {
             let getter = format!("get${}", row.name);
-            add(engine, getter, with_receiver(of, 0), Binding::of(row, context));
+            add(engine, getter, with_receiver(of, 0), binding.clone());
             if let Some(setter) = row.setter {
                 let name = format!("set${}", row.name);
-                let binding = Binding {
-                    parameters: setter.value,
-                    body: setter.body,
-                    ..Binding::of(row, context)
-                };
+                let binding = Binding { parameters: setter.value, body: setter.body, ..binding };
                 add(engine, name, with_receiver(of, 1), binding);
             }
         }
         Form::Operator => {
             for types in operand_types(row.parameters) {
-                add(engine, row.name.into(), types, Binding::of(row, context));
+                add(engine, row.name.into(), types, binding.clone());
             }
         }
     }
@@ -119,12 +117,14 @@ struct Binding {
     row: &'static Row,
     parameters: &'static [Parameter],
     body: Body,
+    lifting: Lifting,
     context: Context,
 }
 
 impl Binding {
-    fn of(row: &'static Row, context: &Context) -> Self {
-        Self { row, parameters: row.parameters, body: row.body, context: context.clone() }
+    fn of(row: &'static Row, lifting: Lifting, context: &Context) -> Self {
+        let (parameters, body) = (row.parameters, row.body);
+        Self { row, parameters, body, lifting, context: context.clone() }
     }
 }
 
@@ -140,7 +140,7 @@ fn perform(
     native: &NativeCallContext,
     values: &mut [&mut Dynamic],
 ) -> Result<Dynamic, ScriptError> {
-    let Binding { row, parameters, body, context } = binding;
+    let Binding { row, parameters, context, .. } = binding;
     context.enter(native.global_runtime_state().level);
     if context.is_calling_back() {
         refuse_busy(row, context, values)?;
@@ -149,13 +149,35 @@ fn perform(
         (Some(_), [receiver, given @ ..]) => (Some(&mut **receiver), given),
         (_, given) => (None, given),
     };
+    // Cloned, not taken: the first value may be the script's own variable.
+    let given = given.iter().map(|value| (**value).clone().flatten());
+    if !Family::is_any() {
+        return make(binding, native, receiver, given);
+    }
+    let again = &mut |receiver: Option<&mut Dynamic>, given: &[Dynamic]| {
+        let made = || make(binding, native, receiver, given.iter().cloned());
+        // What is told is told once.
+        match present() {
+            Some(beside) if beside.variant > 0 => context.silently(made),
+            _ => made(),
+        }
+    };
+    lift((row, binding.lifting), receiver, (parameters, given.collect()), again)
+}
+
+/// Makes a call with the values that were given for its parameters.
+fn make(
+    binding: &Binding,
+    native: &NativeCallContext,
+    receiver: Option<&mut Dynamic>,
+    given: impl Iterator<Item = Dynamic>,
+) -> Result<Dynamic, ScriptError> {
+    let Binding { row, parameters, body, context, .. } = binding;
     let accepted = parameters
         .iter()
         .zip(given)
         .enumerate()
         .map(|(number, (parameter, value))| {
-            // Cloned, not taken: the first value may be the script's own variable.
-            let value = value.clone().flatten();
             accept(native.engine(), row.name, parameter, value)
                 .map(Some)
                 .map_err(|error| blame_argument(error, number))

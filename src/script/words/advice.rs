@@ -6,7 +6,7 @@ use crate::beams::BeamError;
 use crate::integrators::StepError;
 use crate::loads::LoadError;
 use crate::model::{Approach, ModelError, SliderError, TrackError, Turning};
-use crate::simulation::{ArchiveError, SimulationError};
+use crate::simulation::{ArchiveError, DerivativeError, SimulationError};
 use crate::statics::{InTime, Miss, StaticsError};
 
 /// What to do about an error, or about the first of its causes that there is advice on.
@@ -47,6 +47,9 @@ fn on_simulation(error: &SimulationError) -> Option<String> {
         SimulationError::NoMean { sensor, .. } => {
             format!("record \"{}\"", sensor.replace(".mean_", "."))
         }
+        SimulationError::BeginsElsewhere { .. } => {
+            "take the equilibrium at time 0, or give the drive a function that begins where it is to rest".into()
+        }
         SimulationError::Rattles { .. } => "try ends: \"release\" or \"stop\"".into(),
         SimulationError::FewerSteps { .. } => "sim.rewind(0) leads to the start".into(),
         SimulationError::NotBehind { .. } => {
@@ -62,6 +65,13 @@ fn on_simulation(error: &SimulationError) -> Option<String> {
             "sim.rewind({first}) leads there, and for more start with scene.start(#{{ …, snapshots: {} }})",
             (4.0 * limit).ceil().max(64.0)
         ),
+        SimulationError::Derivative(error) => match error {
+            DerivativeError::Form { .. } | DerivativeError::Times { .. } => {
+                "give plain numbers in the place of scene.parameter(…) and take central differences, as fit does".into()
+            }
+            DerivativeError::Adaptive => "give dt a number".into(),
+            _ => return None,
+        },
         SimulationError::Method(_)
         | SimulationError::StepSize(_)
         | SimulationError::Landing { .. }

@@ -1,6 +1,9 @@
 //! Vector instructions of any width give the same bits.
 
+use pulp::Arch;
+
 use super::*;
+use crate::beams::span_loops::Over;
 use proptest::prelude::*;
 
 const TANGENT: Collocation =
@@ -15,16 +18,10 @@ fn linearised<const N: usize>(
     let (mut spans, mut forces) = (beam.spans.clone(), vec![[0.0; 3]; moved.len()]);
     let mut found = Vec::new();
     let mut tangent = |_: usize, entries: &[f64]| found.extend(entries.iter().map(|x| x.to_bits()));
-    arch.dispatch(Linearisation {
-        section: &beam.section,
-        spans: &mut spans,
-        at: TANGENT,
-        moved,
-        weight: 0.7,
-        first: 0,
-        forces: &mut forces,
-        tangent: &mut tangent,
-    });
+    let iterate = Iterate { section: &beam.section, at: TANGENT, moved, weight: 0.7 };
+    let forces_from = ForcesFrom { first: 0, forces: &mut forces };
+    let work = Linearisation { iterate, forces: forces_from, tangent: &mut tangent };
+    arch.dispatch(Over { spans: &mut spans, work });
     found.extend(forces.as_flattened().iter().map(|x| x.to_bits()));
     (found, spans)
 }

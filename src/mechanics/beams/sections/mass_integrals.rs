@@ -15,8 +15,18 @@ pub(in crate::beams) trait MassIntegral:
     /// The integral of the product alone, without inertia [length].
     fn length(self) -> f64;
 
+    /// What the inertia of each component is proportional to: the integral itself, or mass and rotary inertia.
+    fn weights(self) -> Movement;
+
+    /// By what the [`weights`](Self::weights) are to be multiplied: mass and rotary inertia per length, or one.
+    fn shares(uniform: &Section) -> Movement;
+
     /// A factor times the inertia that belongs to it.
-    fn inertia(self, factor: f64, uniform: &Section) -> Movement;
+    #[inline]
+    fn inertia(self, factor: f64, uniform: &Section) -> Movement {
+        let (weights, shares) = (self.weights(), Self::shares(uniform));
+        std::array::from_fn(|component| factor * weights[component] * shares[component])
+    }
 }
 
 impl MassIntegral for f64 {
@@ -29,9 +39,13 @@ impl MassIntegral for f64 {
     }
 
     #[inline]
-    fn inertia(self, factor: f64, uniform: &Section) -> Movement {
-        let entry = factor * self;
-        let (mass, rotary) = (entry * uniform.mass_per_length, entry * uniform.rotary_inertia);
+    fn weights(self) -> Movement {
+        [self; 3]
+    }
+
+    #[inline]
+    fn shares(uniform: &Section) -> Movement {
+        let (mass, rotary) = (uniform.mass_per_length, uniform.rotary_inertia);
         [mass, mass, rotary]
     }
 }
@@ -56,8 +70,12 @@ impl MassIntegral for SectionIntegral {
     }
 
     #[inline]
-    fn inertia(self, factor: f64, _uniform: &Section) -> Movement {
-        let (mass, rotary) = (factor * self.mass, factor * self.rotary);
-        [mass, mass, rotary]
+    fn weights(self) -> Movement {
+        [self.mass, self.mass, self.rotary]
+    }
+
+    #[inline]
+    fn shares(_uniform: &Section) -> Movement {
+        [1.0; 3]
     }
 }

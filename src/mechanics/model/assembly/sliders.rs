@@ -133,7 +133,7 @@ impl Model {
     ///
     /// Speeds across a master that strain nothing by more than rounding, as waves go, are none either: `w/c < ε`.
     pub(super) fn settle_start_velocities(&mut self, scene: &Scene) -> Result<(), ModelError> {
-        let negligible = SAME_VELOCITY * self.fastest_speed() + f64::EPSILON * scene.fastest_wave();
+        let negligible = self.negligible_velocity(scene);
         let mut is_projected = false;
         for (index, described) in scene.sliders.iter().enumerate() {
             match described.velocities {
@@ -146,6 +146,17 @@ impl Model {
         }
         self.fit_links_to_drives(negligible);
         Ok(())
+    }
+
+    /// Gives what is moved by functions of time the rates with which these begin, and points of rigid bodies those that fit, in a model at rest that has
+    /// not taken a step.
+    pub fn begin_drives(&mut self, scene: &Scene) {
+        self.set_given_in_motion();
+        self.fit_links_to_drives(self.negligible_velocity(scene));
+    }
+
+    fn negligible_velocity(&self, scene: &Scene) -> f64 {
+        SAME_VELOCITY * self.fastest_speed() + f64::EPSILON * scene.fastest_wave()
     }
 
     fn check_start_velocity(&self, slider: usize, negligible: f64) -> Result<(), ModelError> {

@@ -1,11 +1,11 @@
 //! Start velocities: rigid motions of beams and bodies, which tied movements must share, and velocities of single nodes.
 
 use super::{Assembly, Numbering};
-use crate::beams::{BodyDynamics, BodyIndex};
-use crate::geometry::{Vec2, cross, perpendicular};
+use crate::beams::{BodyDynamics, BodyIndex, Station};
+use crate::geometry::{Vec2, cross, larger, perpendicular};
 use crate::model::elements::Site;
 use crate::model::words::written;
-use crate::model::{ModelError, StartMotion, StationVelocity, Turning};
+use crate::model::{ModelError, Scene, StartMotion, StationVelocity, Turning};
 
 /// Largest difference of tied start velocities, relative to the velocities of the beam.
 const SAME_VELOCITY: f64 = 1e-9;
@@ -25,9 +25,16 @@ fn given_there(rate: f64) -> String {
 }
 
 /// The rate of each unknown, with the beam or the rigid body that has given it; and that which is asked for at a node, if one is.
-struct Shared {
+struct Shared<'a> {
     rates: Vec<Option<(usize, f64)>>,
-    asked: Vec<Option<f64>>,
+    asked: Vec<Option<Asked<'a>>>,
+}
+
+/// A rate that is asked for at a node [length/time, 1/time].
+#[derive(Clone, Copy)]
+struct Asked<'a> {
+    rate: f64,
+    at: &'a Station,
 }
 
 /// The rates with which prescribed movements begin, behind the unknown ones.
@@ -47,7 +54,7 @@ impl Beginnings<'_> {
     }
 }
 
-impl Shared {
+impl Shared<'_> {
     /// Takes a rate of a beam for a degree of freedom; that of another beam, or of the ground, which it does not share, is returned.
     fn take(
         &mut self,
@@ -67,6 +74,12 @@ impl Shared {
         let expected = other.map_or(0.0, |(_, rate)| rate);
         let differs = (rate - expected).abs() > SAME_VELOCITY * size.max(expected.abs());
         differs.then_some(other)
+    }
+}
+
+impl Asked<'_> {
+    fn told(&self, scene: &Scene) -> String {
+        format!("{}, joined there, is given {}", scene.name_of_body(self.at), self.rate)
     }
 }
 
@@ -162,14 +175,18 @@ impl Assembly<'_> {
                     continue;
                 }
                 if let Some(asked) = shared.asked.get(at).copied().flatten() {
-                    // A node of a beam has it, whatever the beam does; a rigid body cannot do otherwise there.
+                    // A node of a beam has it, whatever the beam does; a rigid body cannot do otherwise there, and a beam that moves not with a particle
+                    // that moves differently.
                     let is_rigid = degrees_of_freedom.len() > 1 && index >= self.scene.beams.len();
-                    if is_rigid && (rate - asked).abs() > SAME_START * size.max(asked.abs()) {
+                    let moves_apart = !rests && matches!(asked.at.body, BodyIndex::Particle(_));
+                    let missed = (rate - asked.rate).abs();
+                    if (is_rigid || moves_apart) && missed > SAME_START * size.max(asked.rate.abs())
+                    {
                         return Err(ModelError::StartVelocity {
                             body: self.name_of(index),
                             place: format!("joint ({component})"),
                             velocity: rate,
-                            other: format!("the node there is given {asked}"),
+                            other: asked.told(self.scene),
                         });
                     }
                     continue;
@@ -191,19 +208,32 @@ impl Assembly<'_> {
     }
 
     /// The rates that are asked for at single nodes, for each unknown.
-    fn asked_rates(&self, numbering: &Numbering) -> Result<Vec<Option<f64>>, ModelError> {
-        let mut asked = vec![None; numbering.unknowns];
+    ///
+    /// # Errors
+    /// When two stations that are joined are given different ones.
+    fn asked_rates(&self, numbering: &Numbering) -> Result<Vec<Option<Asked<'_>>>, ModelError> {
+        let mut asked: Vec<Option<Asked>> = vec![None; numbering.unknowns];
         for StationVelocity { station, velocity, spin } in &self.scene.velocities {
             if let BodyIndex::Rigid(..) = station.body {
                 continue;
             }
             let place = self.place(station)?;
             let degrees = numbering.degrees_of_freedom[place.body][place.nearest_control_point()];
-            for (at, value) in degrees.into_iter().zip([Some(velocity.x), Some(velocity.y), *spin])
-            {
-                if let (Some(rate), Some(value)) = (asked.get_mut(at), value) {
-                    *rate = Some(value);
+            let values = [Some(velocity.x), Some(velocity.y), *spin];
+            for ((at, value), component) in degrees.into_iter().zip(values).zip(COMPONENTS) {
+                let (Some(taken), Some(rate)) = (asked.get_mut(at), value) else { continue };
+                if let Some(other) = taken
+                    && other.at != station
+                    && (rate - other.rate).abs() > SAME_START * larger(rate.abs(), other.rate.abs())
+                {
+                    return Err(ModelError::StartVelocity {
+                        body: self.scene.name_of_body(station),
+                        place: format!("joint ({component})"),
+                        velocity: rate,
+                        other: other.told(self.scene),
+                    });
                 }
+                *taken = Some(Asked { rate, at: station });
             }
         }
         Ok(asked)

@@ -6,10 +6,11 @@ use std::ops::Range;
 use super::Momenta;
 use super::places::{Places, rows_of_parts};
 use crate::beams::{
-    BlockSink, BodyDynamics, Collocation, ForceSummary, Movement, Place, RotationIncrement, at_once,
+    BlockSink, BodyDynamics, Collocation, ForceSummary, Movement, Place, RotationIncrement,
 };
 use crate::geometry::{Vec2, cross};
 use crate::linalg::BandRows;
+use crate::threads::at_once;
 
 /// A beam or a particle with the places of its movements in the vectors of the mechanism.
 pub struct Body {

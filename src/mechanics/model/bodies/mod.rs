@@ -6,6 +6,7 @@ mod halves;
 mod momenta;
 mod places;
 mod tracker;
+mod work;
 
 pub use all::Bodies;
 pub use body::Body;

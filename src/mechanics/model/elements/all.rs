@@ -225,9 +225,9 @@ impl Elements {
         self.resistances().for_each(|resistance| resistance.add_forces_now(bodies, rates, out));
     }
 
-    /// The power that is dissipated at such rates of the unknowns, at the start of the step [energy/time].
-    pub fn dissipation(&self, bodies: &[Body], rates: &[f64]) -> f64 {
-        self.resistances().map(|resistance| resistance.dissipation(bodies, rates)).sum()
+    /// Gives each rate that is damped at such rates of the unknowns, at the start of the step, behind what damps it.
+    pub fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
+        self.resistances().for_each(|resistance| resistance.each_damped_rate(bodies, rates, take));
     }
 
     /// Gives how springs resist small movements at rest: degrees of freedom, and their rows.

@@ -159,8 +159,8 @@ impl Resistance for CentralSpring {
         self.parts().for_each(|part| part.add_forces_now(bodies, rates, out));
     }
 
-    fn dissipation(&self, bodies: &[Body], rates: &[f64]) -> f64 {
-        self.parts().map(|part| part.dissipation(bodies, rates)).sum()
+    fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
+        self.parts().for_each(|part| part.each_damped_rate(bodies, rates, take));
     }
 
     fn at_rest(&self, bodies: &[Body], take: &mut dyn FnMut(&[usize], &SpanAtRest)) {

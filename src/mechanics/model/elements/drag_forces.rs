@@ -158,10 +158,6 @@ impl Resistance for DragForces {
         self.pace.end();
     }
 
-    fn stored(&self) -> f64 {
-        0.0
-    }
-
     fn dissipated(&self) -> f64 {
         self.dissipated
     }
@@ -178,14 +174,18 @@ impl Resistance for DragForces {
         }
     }
 
-    fn dissipation(&self, bodies: &[Body], rates: &[f64]) -> f64 {
-        let still = Surroundings { law: self.surroundings.law.linear(), wind: Vec2::zeros() };
-        let power = |point: &DragPoint| {
+    /// Small vibration meets what is linear in velocities.
+    fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
+        let damping = self.surroundings.law.linear();
+        for point in &self.points {
             let body = &bodies[point.body];
-            let rate = |at: usize| body.vector_at(at, rates);
-            point.resisting(&still, body, rate).dot(&point.velocity(rate))
-        };
-        self.points.iter().map(power).sum()
+            let components = point.across_and_along(body, |at| body.vector_at(at, rates));
+            for (damping, rate) in damping.iter().zip(components.iter()) {
+                if *damping > 0.0 {
+                    take(point.weight() * damping, *rate);
+                }
+            }
+        }
     }
 
     fn save(&self, state: &mut Vec<f64>) {

@@ -112,14 +112,11 @@ impl DragLaw {
         }
     }
 
-    /// The same law without what is quadratic in velocities.
-    pub fn linear(&self) -> Self {
-        let linear = |law: &SpeedLaw| SpeedLaw { quadratic: 0.0, ..*law };
+    /// The coefficients of what is linear in velocities, across and along a line [force·time/length; of a line force·time/length²].
+    pub fn linear(&self) -> Vec2 {
         match self {
-            Self::Point(law) => Self::Point(linear(law)),
-            Self::Line { normal, tangent } => {
-                Self::Line { normal: linear(normal), tangent: linear(tangent) }
-            }
+            Self::Point(law) => Vec2::repeat(law.linear),
+            Self::Line { normal, tangent } => Vec2::new(normal.linear, tangent.linear),
         }
     }
 

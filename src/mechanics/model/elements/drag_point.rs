@@ -65,13 +65,18 @@ impl Met {
 
     /// What resists a velocity where a line has a tangent of any length.
     fn new(law: &DragLaw, velocity: Vec2, gradient: Vec2, rates: (f64, f64)) -> Self {
-        let length = gradient.norm();
-        let (tangent, inverse) = match length > 0.0 {
-            true => (gradient / length, 1.0 / length),
-            false => (Vec2::x(), 0.0),
-        };
+        let (tangent, inverse) = unit_tangent(gradient);
         let resisted = law.resist(velocity, tangent);
         Self { tangent, resisted, turn_by_gradient: perpendicular(tangent) * inverse, rates }
+    }
+}
+
+/// The unit tangent along a gradient, and one over the size of that [1/length]; where there is none, any.
+fn unit_tangent(gradient: Vec2) -> (Vec2, f64) {
+    let length = gradient.norm();
+    match length > 0.0 {
+        true => (gradient / length, 1.0 / length),
+        false => (Vec2::x(), 0.0),
     }
 }
 
@@ -124,6 +129,17 @@ impl DragPoint {
     /// The velocity of the point at rates of control points [length/time].
     pub fn velocity(&self, rate: impl Fn(usize) -> Vec2) -> Vec2 {
         self.combine(&self.shape, rate)
+    }
+
+    /// The components of the velocity of the point across and along its line at the start of a step, at rates of control points [length/time].
+    pub fn across_and_along(&self, body: &Body, rate: impl Fn(usize) -> Vec2) -> Vec2 {
+        let (velocity, tangent) = (self.velocity(rate), unit_tangent(self.gradient(body)).0);
+        Vec2::new(perpendicular(tangent).dot(&velocity), tangent.dot(&velocity))
+    }
+
+    /// The length that the point stands for [length]; 1 of a point.
+    pub fn weight(&self) -> f64 {
+        self.weight
     }
 
     /// The tangent of the axis at the start of the step.

@@ -8,14 +8,17 @@
 //! places are advanced by increments, so that they do not depend on how far from the origin everything has moved; and so is the elongation itself, as
 //! what it has grown by since the start: a length less one at ease would carry the rounding of the length, which may be millions of times as large.
 
+mod part;
+
+use self::part::{Part, RelativeTurn};
+use super::coordinate::Coordinate;
 use super::{Iterate, collocation};
 use crate::beams::{Movement, Place, RotationIncrement};
-use crate::elementary::atan;
 use crate::geometry::{Vec2, larger};
 use crate::model::bodies::Body;
 
-/// Rotation increments of two sections that differ by less are taken as one, to second order [rad].
-const SAME_TURN: f64 = 1e-5;
+/// Movements that a change is a difference of are off by so many times their last digit at most.
+const MOST_ROUNDING: f64 = 16.0;
 
 /// Where an elongation is taken: a place of a body, or the ground.
 #[derive(Debug, Clone)]
@@ -24,6 +27,16 @@ pub enum Terminal {
     Moving(Place),
     /// A place that does not.
     Ground,
+}
+
+impl Terminal {
+    /// What it has of a vector of the control points of each body, by body and point: none on the ground.
+    pub fn combine(&self, of_point: impl Fn(usize, usize) -> Vec2) -> Vec2 {
+        let Self::Moving(place) = self else { return Vec2::zeros() };
+        place
+            .weights()
+            .fold(Vec2::zeros(), |sum, (point, share)| sum + of_point(place.body, point) * share)
+    }
 }
 
 /// Which movements of a place count.
@@ -48,11 +61,14 @@ pub struct Elongation {
     /// What is measured in the scene as it was built [length, rad].
     drawn: f64,
     /// By how much it has grown since, up to the start of the step [length, rad].
-    grown: f64,
+    grown: Coordinate,
     /// The movements in the iterate, a number for each coordinate.
     moved: Vec<f64>,
     /// The change `Δq` of what is measured in the step [length, rad].
     pub change: f64,
+    /// The same of the iterate whose force was settled last, and how much more it is as the force has it, without rounding of movements, of which a stiff spring would
+    /// store something [length, rad].
+    settled: (f64, f64),
     /// The secant `g` with `Σ g u = Δq`; at the end of a step the derivative there [-].
     pub secant: Vec<f64>,
     /// The derivative `∂Δq/∂u` by the movements [-].
@@ -90,9 +106,10 @@ impl Elongation {
             measure,
             terminals,
             drawn,
-            grown: 0.0,
+            grown: Coordinate::default(),
             moved: vec![0.0; coordinates],
             change: 0.0,
+            settled: (0.0, 0.0),
             secant: vec![0.0; coordinates],
             slope: vec![0.0; coordinates],
             bend: vec![0.0; coordinates * coordinates],
@@ -108,7 +125,7 @@ impl Elongation {
 
     /// `q` at the start of the step [length, rad].
     pub fn value(&self) -> f64 {
-        self.drawn + self.grown
+        self.drawn + self.grown.value
     }
 
     /// `q` in the scene as it was built [length, rad].
@@ -116,8 +133,8 @@ impl Elongation {
         self.drawn
     }
 
-    /// By how much `q` has grown from the scene as it was built to the start of the step, right to its own rounding [length, rad].
-    pub fn grown(&self) -> f64 {
+    /// By how much `q` has grown from the scene as it was built to the start of the step, right beyond its own rounding [length, rad].
+    pub fn grown(&self) -> Coordinate {
         self.grown
     }
 
@@ -130,6 +147,19 @@ impl Elongation {
             // It is advanced by movements that may be larger by far.
             Measure::Component(..) => self.moved.iter().fold(after, |size, by| size.max(by.abs())),
         }
+    }
+
+    /// How far the change may be off by rounding of the movements that it is a difference of [length, rad].
+    fn rounding(&self) -> f64 {
+        let moved = self.moved.iter().fold(0.0, |most, by| larger(most, by.abs()));
+        MOST_ROUNDING * f64::EPSILON * moved
+    }
+
+    /// Takes the change of the iterate that was taken last for so much more, if rounding of its movements may be that; whether it may.
+    pub fn settle(&mut self, missing: f64) -> bool {
+        let is_rounding = missing.abs() <= self.rounding();
+        self.settled = (self.change, if is_rounding { missing } else { 0.0 });
+        is_rounding
     }
 
     /// Whether it is one component of a way.
@@ -283,7 +313,12 @@ impl Elongation {
             sum
         });
         self.compare(rotations);
-        self.grown += self.change;
+        let (change, missing) = self.settled;
+        let is_settled = (change - self.change).abs() <= self.rounding();
+        self.grown = match is_settled {
+            true => self.grown.after(change).after(missing),
+            false => self.grown.after(self.change),
+        };
         if let Measure::Way(parts) = &mut self.measure {
             for (part, ends) in parts.iter_mut().zip(self.moved.windows(4).step_by(2)) {
                 *part += Vec2::new(ends[2] - ends[0], ends[3] - ends[1]);
@@ -312,79 +347,16 @@ impl Elongation {
     }
 
     pub fn save(&self, state: &mut Vec<f64>) {
-        state.push(self.grown);
+        state.extend([self.grown.value, self.grown.rest]);
         if let Measure::Way(parts) = &self.measure {
             state.extend(parts.iter().flat_map(|part| [part.x, part.y]));
         }
     }
 
     pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
-        self.grown = next();
+        self.grown = Coordinate { value: next(), rest: next() };
         if let Measure::Way(parts) = &mut self.measure {
             parts.iter_mut().for_each(|part| *part = Vec2::new(next(), next()));
         }
-    }
-}
-
-/// A part of a way in an iterate.
-struct Part {
-    change: f64,
-    secant: Vec2,
-    slope: Vec2,
-    /// `∂e/∂d₁ = (I - e⊗s) by this` [1/length].
-    inverse: f64,
-}
-
-impl Part {
-    fn new(start: Vec2, moved: Vec2, rotations: RotationIncrement) -> Self {
-        let end = start + moved;
-        let (before, after) = (start.norm(), end.norm());
-        let direction =
-            |d: Vec2, length: f64| if length > 0.0 { d / length } else { Vec2::zeros() };
-        let both = before + after;
-        let mean = direction(start + end, both);
-        let slope = direction(end, after);
-        // Increments of angles are taken where forces are taken at the end.
-        let (secant, inverse) = match rotations {
-            RotationIncrement::TangentScaled => (mean, both),
-            RotationIncrement::Angle => (slope, after),
-        };
-        let inverse = if inverse > 0.0 { 1.0 / inverse } else { 0.0 };
-        Self { change: mean.dot(&moved), secant, slope, inverse }
-    }
-
-    fn bend(&self, component: usize, by: usize) -> f64 {
-        let one = if component == by { 1.0 } else { 0.0 };
-        (one - self.secant[component] * self.slope[by]) * self.inverse
-    }
-}
-
-/// `r = (Δθ_b - Δθ_a)/(Δω_b - Δω_a)` with its derivatives by `Δω_a` and `Δω_b`.
-struct RelativeTurn {
-    ratio: f64,
-    derivatives: [f64; 2],
-}
-
-impl RelativeTurn {
-    fn new(a: f64, b: f64, rotations: RotationIncrement) -> Self {
-        if rotations == RotationIncrement::Angle {
-            return Self { ratio: 1.0, derivatives: [0.0; 2] };
-        }
-        let (difference, mean) = (b - a, 0.5 * (a + b));
-        if difference.abs() < SAME_TURN {
-            // The mean of dθ/dω between both, by its value in their middle.
-            let (rate, slope) = rotations.rates(mean);
-            return Self { ratio: rate, derivatives: [0.5 * slope; 2] };
-        }
-        // 2 atan x - 2 atan y = 2 atan((x - y)/(1 + x y)), but for the other side of the circle.
-        let product = 1.0 + 0.25 * a * b;
-        let turned = match product > 0.0 {
-            true => 2.0 * atan(0.5 * difference / product),
-            false => rotations.angle(b) - rotations.angle(a),
-        };
-        let ratio = turned / difference;
-        let by_a = (ratio - rotations.rate(a)) / difference;
-        let by_b = (rotations.rate(b) - ratio) / difference;
-        Self { ratio, derivatives: [by_a, by_b] }
     }
 }

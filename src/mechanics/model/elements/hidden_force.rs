@@ -11,8 +11,10 @@ pub struct HiddenForce {
     pub last: f64,
     /// What the configuration asks for, less the force.
     pub mismatch: f64,
-    /// The derivative by `Δq` of what the configuration asks for.
+    /// The derivative by `Δq` of what the configuration asks for, of the last linearisation.
     pub stiffness: f64,
+    /// The same of the configuration that was compared last.
+    asked: f64,
     /// Where the iteration of the step has been.
     search: Search,
 }
@@ -38,9 +40,15 @@ impl HiddenForce {
     /// Compares it with a configuration; how far it is off, as a part of such a length or angle.
     pub fn compare(&mut self, target: Target, extent: f64) -> f64 {
         self.mismatch = target.force - self.force;
+        self.asked = target.stiffness;
         let size =
             larger(target.stiffness.abs() * extent, larger(target.force.abs(), self.force.abs()));
         if self.mismatch == 0.0 { 0.0 } else { self.mismatch.abs() / size }
+    }
+
+    /// The change of `Δq` after which the configuration that was compared last would ask for the force as it is, to first order; none where it asks for none.
+    pub fn missing_change(&self) -> f64 {
+        if self.asked > 0.0 { -self.mismatch / self.asked } else { 0.0 }
     }
 
     /// Begins a step with the force of the last one.

@@ -152,10 +152,6 @@ impl Resistance for DampedMaterial {
         self.pace.end();
     }
 
-    fn stored(&self) -> f64 {
-        0.0
-    }
-
     fn dissipated(&self) -> f64 {
         self.dissipated
     }
@@ -177,9 +173,9 @@ impl Resistance for DampedMaterial {
         self.dashpots.resist(&rates[self.beam], &mut scatter(degrees, out));
     }
 
-    fn dissipation(&self, bodies: &[Body], rates: &[f64]) -> f64 {
+    fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
         let rates: Vec<Movement> = bodies[self.beam].by_control_point(rates).collect();
-        self.dashpots.resist(&rates, &mut |_, _| ())
+        self.dashpots.each_damped_rate(&rates, take);
     }
 
     fn save(&self, state: &mut Vec<f64>) {

@@ -5,6 +5,7 @@ mod all;
 mod bend;
 mod central_spring;
 mod contact_watch;
+mod coordinate;
 mod damping_law;
 mod drag;
 mod drag_forces;

@@ -22,6 +22,9 @@ use crate::joints::Component;
 use crate::loads::{LoadError, MotionAtStart, PrescribedMotion, Side};
 use crate::model::bodies::Body;
 
+/// Places that differ by less than this part of them are one [-].
+const SAME_PLACE: f64 = 1e-12;
+
 /// A supported movement that is prescribed.
 pub struct PrescribedMovement {
     /// The support whose movement is prescribed.
@@ -237,6 +240,24 @@ impl PrescribedMovements {
         Ok(())
     }
 
+    /// By how much rates that are prescribed jump at the start of a step, where their degrees of freedom are; none where none of them does. They may at
+    /// times at which a function is said to bend, and wherever a controller speaks.
+    ///
+    /// # Errors
+    /// When a function has no finite value.
+    pub fn jumps(&self, interval: Interval, rates: &[f64]) -> Result<Option<Vec<f64>>, LoadError> {
+        let mut found = None;
+        for (at, movement) in self.movements.iter().enumerate() {
+            let before = rates[self.first + at];
+            let Some(jump) = movement.motion.jump_of_rate(interval.start, interval.end, before)?
+            else {
+                continue;
+            };
+            found.get_or_insert_with(|| vec![0.0; rates.len()])[self.first + at] = jump;
+        }
+        Ok(found)
+    }
+
     /// Room for rates of all movements, filled by a function of their number.
     pub fn fill(&mut self, rate: impl FnMut(usize) -> f64) -> &[f64] {
         self.room.clear();
@@ -311,7 +332,7 @@ impl PrescribedMovements {
         sum
     }
 
-    /// What the drives gave in a blow, with its impulses, at these rates of everything.
+    /// What the drives gave in a blow, with its impulses, at these mean rates of everything, of before and after it.
     pub fn exchange_in_blow(
         &mut self,
         bodies: &[Body],
@@ -344,6 +365,19 @@ impl PrescribedMovements {
             }
         }
         Ok(())
+    }
+
+    /// The first drive that rests at another place than that with which its function begins at t = 0: its name, and both places.
+    pub fn rests_elsewhere(&self) -> Option<(&str, [f64; 2])> {
+        self.movements.iter().zip(&self.present).find_map(|(movement, present)| {
+            let PrescribedMotion::Place(schedule) = &movement.motion else { return None };
+            // What has no value at the start is refused when the scene is built.
+            let begins = schedule.value(0.0, Side::After).ok()?;
+            let size = larger(begins.abs(), present.goal.abs());
+            let is_there = (present.goal - begins).abs() <= SAME_PLACE * size;
+            let name = self.drives[movement.drive].name.as_str();
+            (!is_there).then_some((name, [present.goal, begins]))
+        })
     }
 
     /// Whether something is prescribed that an equilibrium has to put on.

@@ -14,7 +14,6 @@ use super::pace::Pace;
 use super::resistance::{Resistance, Stretched};
 use super::{Exchange, Iterate};
 use crate::beams::{ForceSummary, Movement, RateCollocation};
-use crate::elementary::square;
 use crate::geometry::{Vec2, cross};
 use crate::integrators::Interval;
 use crate::linalg::BandedMatrix;
@@ -104,25 +103,20 @@ impl RadialDamper {
 
     /// The difference of values of the unknowns.
     fn apart(&self, bodies: &[Body], values: &[f64]) -> Vec2 {
-        self.difference(|terminal| vector_of(terminal, bodies, values))
+        let value = |body: usize, point: usize| bodies[body].vector_at(point, values);
+        self.difference(|terminal| terminal.combine(value))
     }
 
     /// The largest size that such a difference is one of.
     fn size(&self, bodies: &[Body], values: &[f64]) -> f64 {
-        self.terminals.iter().map(|terminal| vector_of(terminal, bodies, values).norm()).sum()
+        let value = |body: usize, point: usize| bodies[body].vector_at(point, values);
+        self.terminals.iter().map(|terminal| terminal.combine(value).norm()).sum()
     }
 
     /// The movement from the first to the second terminal in the step of the movements that the bodies gathered last.
     fn movement(&self, bodies: &[Body]) -> Vec2 {
-        self.difference(|terminal| match terminal {
-            Terminal::Ground => Vec2::zeros(),
-            Terminal::Moving(place) => {
-                let moved = bodies[place.body].moved();
-                place.weights().fold(Vec2::zeros(), |sum, (point, share)| {
-                    sum + Vec2::new(moved[point][0], moved[point][1]) * share
-                })
-            }
-        })
+        let moved = |body: usize, point: usize| in_the_plane(bodies[body].moved()[point]);
+        self.difference(|terminal| terminal.combine(moved))
     }
 
     fn meet(&self, at: Iterate<'_>, rates: RateCollocation) -> Met {
@@ -170,14 +164,8 @@ fn direction(way: Vec2, moved: Vec2) -> Vec2 {
     if length > 0.0 { along / length } else { Vec2::zeros() }
 }
 
-fn vector_of(terminal: &Terminal, bodies: &[Body], values: &[f64]) -> Vec2 {
-    match terminal {
-        Terminal::Ground => Vec2::zeros(),
-        Terminal::Moving(place) => {
-            let [x, y, _] = bodies[place.body].at(place, values);
-            Vec2::new(x, y)
-        }
-    }
+fn in_the_plane([x, y, _]: Movement) -> Vec2 {
+    Vec2::new(x, y)
 }
 
 impl Resistance for RadialDamper {
@@ -286,10 +274,6 @@ impl Resistance for RadialDamper {
         self.pace.end();
     }
 
-    fn stored(&self) -> f64 {
-        0.0
-    }
-
     fn dissipated(&self) -> f64 {
         self.dissipated
     }
@@ -300,23 +284,21 @@ impl Resistance for RadialDamper {
     }
 
     fn add_forces_now(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]) {
-        let velocity = self.difference(|terminal| match terminal {
-            Terminal::Ground => Vec2::zeros(),
-            Terminal::Moving(place) => {
-                let rates = &rates[place.body];
-                place.weights().fold(Vec2::zeros(), |sum, (point, share)| {
-                    sum + Vec2::new(rates[point][0], rates[point][1]) * share
-                })
-            }
-        });
+        let rate = |body: usize, point: usize| in_the_plane(rates[body][point]);
+        let velocity = self.difference(|terminal| terminal.combine(rate));
         self.scatter(bodies, self.resisting(velocity), out);
     }
 
     /// Small vibration through a way of no length is damped in whatever direction it is.
-    fn dissipation(&self, bodies: &[Body], rates: &[f64]) -> f64 {
-        let velocity = self.apart(bodies, rates);
-        let rate = direction(self.way, velocity).dot(&velocity);
-        self.law.slope_at_rest() * square(rate)
+    fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
+        if !self.law.acts() {
+            return;
+        }
+        let (velocity, damping) = (self.apart(bodies, rates), self.law.slope_at_rest());
+        match self.way == Vec2::zeros() {
+            true => velocity.iter().for_each(|rate| take(damping, *rate)),
+            false => take(damping, direction(self.way, velocity).dot(&velocity)),
+        }
     }
 
     fn let_go(&mut self) {

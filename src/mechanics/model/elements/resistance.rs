@@ -58,7 +58,9 @@ pub trait Resistance {
     fn advance(&mut self, bodies: &[Body]);
 
     /// The energy that is stored in it at the start of the step [energy].
-    fn stored(&self) -> f64;
+    fn stored(&self) -> f64 {
+        0.0
+    }
 
     /// What it has dissipated since the start of the simulation [energy].
     fn dissipated(&self) -> f64;
@@ -92,8 +94,9 @@ pub trait Resistance {
     /// Adds the forces of such rates of the bodies to those on them, at the start of the step.
     fn add_forces_now(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]);
 
-    /// The power that it dissipates at such rates of the unknowns, at the start of the step [energy/time].
-    fn dissipation(&self, bodies: &[Body], rates: &[f64]) -> f64;
+    /// Gives each rate that it damps at such rates of the unknowns, at the start of the step, behind what damps small ones: products of either with the square
+    /// of the other add up to the power that it dissipates. As many are given, in the same order, at any rates.
+    fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64));
 
     /// Gives how it resists small movements at rest: degrees of freedom, and its rows.
     fn at_rest(&self, _bodies: &[Body], _take: &mut dyn FnMut(&[usize], &SpanAtRest)) {}

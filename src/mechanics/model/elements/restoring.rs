@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::coordinate::Coordinate;
 use crate::geometry::larger;
 
 /// A force is none that is no more than this part of the largest of its law.
@@ -42,22 +43,25 @@ pub struct MeanForce {
 
 impl RestoringLaw {
     /// The force `U'(q)` [force, force·length].
-    pub fn force(&self, q: f64) -> f64 {
+    pub fn force(&self, q: impl Into<Coordinate>) -> f64 {
+        let q = q.into();
         match self {
-            Self::Linear { stiffness, natural } => stiffness * (q - natural),
+            Self::Linear { stiffness, natural } => stiffness * (q.value - natural),
             Self::Table { points } | Self::Sampled { points, .. } => {
-                let [(q0, f0), _] = segment(points, q);
-                f0 + self.slope(q) * (q - q0)
+                // From the smaller of both forces on: nothing is left of a larger one but its rounding.
+                let [first, second] = segment(points, q);
+                let (at, force) = if first.1.abs() <= second.1.abs() { first } else { second };
+                force + self.slope(q) * q.beyond(at)
             }
         }
     }
 
     /// The stiffness `U''(q)`; at a corner of a table that of the segment beyond it [force/length, force·length/rad].
-    pub fn slope(&self, q: f64) -> f64 {
+    pub fn slope(&self, q: impl Into<Coordinate>) -> f64 {
         match self {
             Self::Linear { stiffness, .. } => *stiffness,
             Self::Table { points } | Self::Sampled { points, .. } => {
-                let [(q0, f0), (q1, f1)] = segment(points, q);
+                let [(q0, f0), (q1, f1)] = segment(points, q.into());
                 (f1 - f0) / (q1 - q0)
             }
         }
@@ -71,6 +75,16 @@ impl RestoringLaw {
                 .windows(2)
                 .map(|pair| ((pair[1].1 - pair[0].1) / (pair[1].0 - pair[0].0)).abs())
                 .fold(0.0, larger),
+        }
+    }
+
+    /// Whether it has corners, and a force that falls nowhere.
+    pub fn rises_with_corners(&self) -> bool {
+        match self {
+            Self::Linear { .. } => false,
+            Self::Table { points } | Self::Sampled { points, .. } => {
+                points.windows(2).all(|pair| pair[0].1 <= pair[1].1)
+            }
         }
     }
 
@@ -95,51 +109,71 @@ impl RestoringLaw {
     }
 
     /// The stored energy `U(q)`, zero at ease; where a table has no such place, at its first point [energy].
-    pub fn energy(&self, q: f64) -> f64 {
+    pub fn energy(&self, q: impl Into<Coordinate>) -> f64 {
+        let q = q.into();
         match self {
-            Self::Linear { stiffness, natural } => 0.5 * stiffness * (q - natural) * (q - natural),
+            Self::Linear { stiffness, natural } => {
+                0.5 * stiffness * (q.value - natural) * (q.value - natural)
+            }
             Self::Table { points } | Self::Sampled { points, .. } => {
-                self.work(points, ease(points), q)
+                self.work(points, ease(points).into(), q)
             }
         }
     }
 
     /// The work `∫ F dq` from one elongation of a table to another, corner by corner: no difference of large numbers.
-    fn work(&self, points: &[(f64, f64)], from: f64, to: f64) -> f64 {
-        let (low, high) = (from.min(to), from.max(to));
+    fn work(&self, points: &[(f64, f64)], from: Coordinate, to: Coordinate) -> f64 {
+        let rises = to.beyond_other(from) >= 0.0;
+        let (low, high) = if rises { (from, to) } else { (to, from) };
         let [first, last] = [
-            points.partition_point(|(q, _)| *q <= low),
-            points.partition_point(|(q, _)| *q < high),
+            points.partition_point(|(q, _)| low.beyond(*q) >= 0.0),
+            points.partition_point(|(q, _)| high.beyond(*q) > 0.0),
         ];
-        let corners = points[first..last.max(first)].iter().map(|(q, _)| *q);
+        let corners = points[first..last.max(first)].iter().map(|(q, _)| Coordinate::from(*q));
         let (mut at, mut force, mut sum) = (low, self.force(low), 0.0);
         for next in corners.chain([high]) {
             let next_force = self.force(next);
-            sum += 0.5 * (force + next_force) * (next - at);
+            sum += 0.5 * (force + next_force) * next.beyond_other(at);
             (at, force) = (next, next_force);
         }
-        if from <= to { sum } else { -sum }
+        if rises { sum } else { -sum }
     }
 
     /// The mean force between two elongations, the second of which is the first and a change.
-    pub fn mean(&self, q: f64, change: f64) -> MeanForce {
-        let end = q + change;
+    pub fn mean(&self, q: impl Into<Coordinate>, change: f64) -> MeanForce {
+        let q = q.into();
+        let end = q.after(change);
         match self {
             Self::Linear { stiffness, natural } => MeanForce {
-                force: stiffness * ((q - natural) + 0.5 * change),
+                force: stiffness * ((q.value - natural) + 0.5 * change),
                 slope: 0.5 * stiffness,
             },
             Self::Table { points } | Self::Sampled { points, .. }
-                if segment(points, q) != segment(points, end) && q != end =>
+                if segment(points, q) != segment(points, end) && change != 0.0 =>
             {
-                let force = self.work(points, q, end) / (end - q);
-                MeanForce { force, slope: (self.force(end) - force) / (end - q) }
+                let force = self.work(points, q, end) / change;
+                MeanForce { force, slope: (self.force(end) - force) / change }
             }
             Self::Table { .. } | Self::Sampled { .. } => {
                 let slope = self.slope(end);
                 MeanForce { force: self.force(q) + 0.5 * slope * change, slope: 0.5 * slope }
             }
         }
+    }
+
+    /// The same law with a corner wherever its force is none, from which it is counted there to all digits.
+    pub fn with_ease(mut self) -> Self {
+        if let Self::Table { points } | Self::Sampled { points, .. } = &mut self {
+            let crossing = |pair: &[(f64, f64)]| {
+                let at = zero(pair[0], pair[1]);
+                let is_inside = pair[0].1 * pair[1].1 < 0.0 && pair[0].0 < at && at < pair[1].0;
+                is_inside.then_some((at, 0.0))
+            };
+            let corners: Vec<_> = points.windows(2).filter_map(crossing).collect();
+            points.extend(corners);
+            points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        }
+        self
     }
 
     /// The same law with its elongations counted from another origin, which is this far below.
@@ -181,17 +215,23 @@ fn moved(points: &[(f64, f64)], by: f64) -> Vec<(f64, f64)> {
 }
 
 /// The ends of the segment of a table that an elongation lies on, or is nearest to; at a corner the one beyond it.
-fn segment(points: &[(f64, f64)], q: f64) -> [(f64, f64); 2] {
-    let beyond = points.partition_point(|(at, _)| *at <= q).clamp(1, points.len() - 1);
+fn segment(points: &[(f64, f64)], q: Coordinate) -> [(f64, f64); 2] {
+    let beyond = points.partition_point(|(at, _)| q.beyond(*at) >= 0.0);
+    let beyond = beyond.clamp(1, points.len() - 1);
     [points[beyond - 1], points[beyond]]
+}
+
+/// Where the line through two points has no force; the first point of a level line.
+fn zero((q0, f0): (f64, f64), (q1, f1): (f64, f64)) -> f64 {
+    match (f1 == f0, f1 == 0.0) {
+        (true, _) => q0,
+        (false, true) => q1,
+        (false, false) => q0 - f0 * (q1 - q0) / (f1 - f0),
+    }
 }
 
 /// Where the force of a table passes from below to above zero, or beyond its ends would: the least energy. The first point if it does not.
 fn ease(points: &[(f64, f64)]) -> f64 {
-    let zero = |(q0, f0): (f64, f64), (q1, f1): (f64, f64)| match f1 == f0 {
-        true => q0,
-        false => q0 - f0 * (q1 - q0) / (f1 - f0),
-    };
     let passes = |pair: &&[(f64, f64)]| pair[0].1 <= 0.0 && pair[1].1 >= 0.0;
     let last = points.len() - 1;
     match points.windows(2).find(passes) {

@@ -16,11 +16,14 @@ use super::restoring::RestoringLaw;
 use super::spring_at_rest::law_at_rest;
 use super::{Exchange, Iterate, collocation};
 use crate::beams::{ForceSummary, Movement, RotationIncrement, SpanAtRest};
-use crate::elementary::square;
 use crate::geometry::{Vec2, cross, larger};
 use crate::integrators::{Interval, Stage};
 use crate::linalg::BandedMatrix;
 use crate::model::bodies::Body;
+
+/// A part of what rounding of an elongation is relative to. Forces of a law with corners are to fit to so small a part of it: what is left does not die out by
+/// itself, as it does where the law is a line, which the next iteration meets.
+const SHARP: f64 = 2e-4;
 
 /// A spring, a damper, or both beside each other.
 #[derive(Debug, Clone)]
@@ -33,6 +36,8 @@ pub struct SpringDamper {
     grounds: Vec<Option<Vec2>>,
     /// Over what the elongation has grown by since the scene was built.
     law: Option<RestoringLaw>,
+    /// Whether the law has corners and falls nowhere.
+    rises: bool,
     /// The law in words, over elongations as they are counted in the scene.
     words: Option<String>,
     /// `d(q̇)`.
@@ -65,8 +70,9 @@ impl SpringDamper {
     ) -> Self {
         let coordinates = elongation.secant.len();
         let words = law.as_ref().map(|(law, origin)| law.shifted(*origin).describe());
-        let law = law.map(|(law, origin)| law.shifted(origin - elongation.drawn()));
+        let law = law.map(|(law, origin)| law.shifted(origin - elongation.drawn()).with_ease());
         let stiffness = law.as_ref().map_or(0.0, RestoringLaw::largest_slope);
+        let rises = law.as_ref().is_some_and(RestoringLaw::rises_with_corners);
         let extent = elongation.extent();
         let mut new = Self {
             name,
@@ -74,6 +80,7 @@ impl SpringDamper {
             linearised: [(); 3].map(|()| vec![0.0; coordinates]),
             grounds,
             law,
+            rises,
             words,
             damping,
             released: None,
@@ -166,8 +173,14 @@ impl Resistance for SpringDamper {
         }
         let extent = self.elongation.extent();
         let (restoring, damping) = (self.restoring(at.stage), self.damping(at));
-        let mismatch =
-            larger(self.spring.compare(restoring, extent), self.damper.compare(damping, extent));
+        let of_spring = if self.rises { SHARP * extent } else { extent };
+        let mut missed = self.spring.compare(restoring, of_spring);
+        let has_mean = matches!(at.stage, Stage::Midpoint | Stage::DampedMidpoint(_));
+        let missing = if has_mean { self.spring.missing_change() } else { 0.0 };
+        if self.elongation.settle(missing) && has_mean && self.rises {
+            missed = 0.0;
+        }
+        let mismatch = larger(missed, self.damper.compare(damping, extent));
         let force = self.weighted(at, self.spring.force, self.damper.force);
         self.note(at.stage, force, self.damper.force);
         self.scatter(at.bodies, &self.elongation.secant, force, out);
@@ -183,7 +196,7 @@ impl Resistance for SpringDamper {
         tangent: &mut BandedMatrix,
     ) {
         self.take(at);
-        let (restoring, damping) = (self.restoring(at.stage), self.aimed_damping(at));
+        let (restoring, damping) = (self.aimed_restoring(at.stage), self.aimed_damping(at));
         self.spring.linearise(restoring);
         self.damper.linearise(damping);
         let Self { elongation, linearised: [secant, slope, lag], .. } = self;
@@ -287,10 +300,13 @@ impl Resistance for SpringDamper {
         self.scatter(bodies, &elongation.slope, force, out);
     }
 
-    fn dissipation(&self, bodies: &[Body], rates: &[f64]) -> f64 {
-        let mut elongation = self.elongation.clone();
-        elongation.rest();
-        self.damping.slope_at_rest() * square(elongation.along(&elongation.slope, bodies, rates))
+    fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
+        if self.damping.acts() {
+            let mut elongation = self.elongation.clone();
+            elongation.rest();
+            let rate = elongation.along(&elongation.slope, bodies, rates);
+            take(self.damping.slope_at_rest(), rate);
+        }
     }
 
     fn at_rest(&self, bodies: &[Body], take: &mut dyn FnMut(&[usize], &SpanAtRest)) {

@@ -9,6 +9,11 @@ impl Model {
         self.supports().prescribed().states()
     }
 
+    /// The first drive that rests at another place than that with which its function begins at t = 0: its name, and both places [length, rad].
+    pub fn drive_elsewhere(&self) -> Option<(&str, [f64; 2])> {
+        self.supports().prescribed().rests_elsewhere()
+    }
+
     /// The drives whose motion bends within a step, by name, each with its sharpest bend.
     pub fn bends(&self) -> impl Iterator<Item = (&str, Bend)> {
         self.supports().prescribed().bends()

@@ -4,7 +4,7 @@ use crate::geometry::Vec2;
 use crate::integrators::Mechanism;
 use crate::joints::EndAction;
 use crate::model::Model;
-use crate::model::sliders::{SliderState, TrackLimit};
+use crate::model::sliders::{MasterLimit, SliderState};
 
 impl Model {
     /// The names of the sliders, in the order of the scene.
@@ -63,12 +63,12 @@ impl Model {
     }
 
     /// How far a slider is from a limit, as a part of the parameters of its master [-].
-    pub fn distance_to(&self, limit: TrackLimit) -> f64 {
+    pub fn distance_to(&self, limit: MasterLimit) -> f64 {
         self.slider(limit.slider).distance_to(limit.end)
     }
 
     /// Whether a slider is at a limit.
-    pub fn is_at(&self, limit: TrackLimit) -> bool {
+    pub fn is_at(&self, limit: MasterLimit) -> bool {
         self.slider(limit.slider).is_at(limit.end)
     }
 

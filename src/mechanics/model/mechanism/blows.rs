@@ -9,7 +9,7 @@ use crate::elementary::square;
 use crate::geometry::{Vec2, perpendicular};
 use crate::linalg::LinearError;
 use crate::model::ModelError;
-use crate::model::sliders::{Blow, SliderState, TrackLimit};
+use crate::model::sliders::{Blow, MasterLimit, SliderState};
 
 /// A slider that is as near to its end as this, as a part of its master, arrives together with one that is there.
 const TOGETHER: f64 = 1e-12;
@@ -37,11 +37,11 @@ struct Hit {
 #[derive(Debug, Clone, Default)]
 pub struct Arriving {
     /// The limits at which sliders strike and bounce.
-    pub strike: Vec<TrackLimit>,
+    pub strike: Vec<MasterLimit>,
     /// The limits on which sliders come to lean.
-    pub lean: Vec<TrackLimit>,
+    pub lean: Vec<MasterLimit>,
     /// The limits beyond which sliders go on along their tracks.
-    pub pass: Vec<TrackLimit>,
+    pub pass: Vec<MasterLimit>,
 }
 
 impl Arriving {
@@ -50,7 +50,7 @@ impl Arriving {
         self.strike.is_empty() && self.lean.is_empty()
     }
 
-    fn law(&self, model: &Model, limit: TrackLimit) -> Option<Law> {
+    fn law(&self, model: &Model, limit: MasterLimit) -> Option<Law> {
         let restitution = model.sliders[limit.slider].restitution;
         let strikes = self.strike.contains(&limit).then_some(Law::Strikes(restitution));
         strikes.or(self.lean.contains(&limit).then_some(Law::Ends))
@@ -60,9 +60,9 @@ impl Arriving {
 impl Model {
     /// The limits that sliders reach at the present moment together with one that does, in the order of the scene: as near to them as rounding
     /// can tell, and led beyond.
-    pub fn arriving_with(&self, limit: TrackLimit) -> Vec<TrackLimit> {
-        let limits = (0..self.sliders.len()).flat_map(TrackLimit::both);
-        let arrives = |other: &TrackLimit| {
+    pub fn arriving_with(&self, limit: MasterLimit) -> Vec<MasterLimit> {
+        let limits = (0..self.sliders.len()).flat_map(MasterLimit::both);
+        let arrives = |other: &MasterLimit| {
             let slider = &self.sliders[other.slider];
             let is_there = slider.is_sliding() && slider.distance_to(other.end) <= TOGETHER;
             *other == limit || (is_there && self.leads_beyond(*other))
@@ -74,7 +74,7 @@ impl Model {
     ///
     /// # Errors
     /// When the impulse of a blow is not determined.
-    pub fn approaches(&mut self, limit: TrackLimit, dt: f64) -> Result<bool, ModelError> {
+    pub fn approaches(&mut self, limit: MasterLimit, dt: f64) -> Result<bool, ModelError> {
         let direction = (limit.slider, self.inward(limit));
         let approach = |model: &mut Self| -> Result<f64, LinearError> {
             let mut inertia = model.banded_inertia();
@@ -90,7 +90,7 @@ impl Model {
     ///
     /// # Errors
     /// When the impulse of a blow is not determined.
-    pub fn resolves_blow(&mut self, limit: TrackLimit, dt: f64) -> Result<bool, ModelError> {
+    pub fn resolves_blow(&mut self, limit: MasterLimit, dt: f64) -> Result<bool, ModelError> {
         let direction = (limit.slider, self.inward(limit));
         let mut inertia = self.banded_inertia();
         let inertia = inertia.factorise().map_err(|_| self.sliders.overdetermined())?;
@@ -106,7 +106,7 @@ impl Model {
     }
 
     /// The direction in which the stop at a limit pushes the slave [-].
-    fn inward(&self, limit: TrackLimit) -> Vec2 {
+    fn inward(&self, limit: MasterLimit) -> Vec2 {
         self.sliders[limit.slider].along_contact(&self.bodies) * -limit.end.outward()
     }
 
@@ -221,16 +221,16 @@ impl Model {
 
     /// The directions [-] in which all contacts transmit impulses: across masters that do not give way, and along them where sliders lean on stops or
     /// have a law at a limit.
-    fn hits(&self, law: impl Fn(&Self, TrackLimit) -> Option<Law>) -> Vec<Hit> {
+    fn hits(&self, law: impl Fn(&Self, MasterLimit) -> Option<Law>) -> Vec<Hit> {
         let mut hits = Vec::new();
         for (at, slider) in self.sliders.iter().enumerate() {
-            let mut limits = TrackLimit::both(at).into_iter();
+            let mut limits = MasterLimit::both(at).into_iter();
             let own = limits.find_map(|limit| law(self, limit).map(|law| (limit, law)));
             let stop = match slider.state {
                 SliderState::Released => continue,
                 SliderState::Sliding => own,
                 SliderState::Held(end) => {
-                    own.or(Some((TrackLimit { slider: at, end }, Law::Leans)))
+                    own.or(Some((MasterLimit { slider: at, end }, Law::Leans)))
                 }
             };
             if stop.is_some() || !slider.gives_way() {

@@ -17,7 +17,7 @@ use crate::elementary::{atan2, sin_cos};
 use crate::geometry::{Vec2, cross, perpendicular};
 use crate::linalg::{BandedMatrix, LinearError};
 use crate::model::ModelError;
-use crate::model::sliders::{Seam, TrackEnd, TrackLimit};
+use crate::model::sliders::{MasterEnd, MasterLimit, Seam};
 
 /// Tangents whose directions differ by less than this angle are one: rounding [rad].
 const STRAIGHT: f64 = 1e-13;
@@ -73,7 +73,7 @@ impl Response {
 
 impl Model {
     /// Whether the track of a slider goes on beyond a limit, so that it does not end there.
-    pub fn goes_on(&self, limit: TrackLimit) -> bool {
+    pub fn goes_on(&self, limit: MasterLimit) -> bool {
         self.sliders[limit.slider].seam(&self.bodies, limit.end).is_some()
     }
 
@@ -86,24 +86,21 @@ impl Model {
     ///
     /// # Errors
     /// When the impulses are not determined.
-    pub fn pass_seams(&mut self, limits: &[TrackLimit], dt: f64) -> Result<(), ModelError> {
-        let passing = limits.iter().filter_map(|&TrackLimit { slider, end }| {
+    pub fn pass_seams(&mut self, limits: &[MasterLimit], dt: f64) -> Result<(), ModelError> {
+        let passing = limits.iter().filter_map(|&MasterLimit { slider, end }| {
             Some((slider, end, self.sliders[slider].seam(&self.bodies, end)?))
         });
-        let passing: Vec<(usize, TrackEnd, Seam)> = passing.collect();
+        let passing: Vec<(usize, MasterEnd, Seam)> = passing.collect();
         let corners = passing.iter().filter_map(|(slider, end, seam)| {
             let [comes, goes] = self.sliders[*slider].corner(&self.bodies, *end, *seam)?;
-            let turned = turned(comes, self.sections_at(*slider, *end, *seam)?);
-            Some((Corner { slider: *slider, comes, goes: turned }, turned, goes))
+            let with_sections = turned(comes, self.sections_at(*slider, *end, *seam)?);
+            let corner = |comes, goes| Corner { slider: *slider, comes, goes };
+            Some((corner(comes, with_sections), corner(with_sections, goes)))
         });
-        let corners: Vec<(Corner, Vec2, Vec2)> = corners.collect();
-        let of_sections: Vec<Corner> = corners.iter().map(|(corner, ..)| *corner).collect();
-        let of_shear =
-            corners.iter().map(|&(corner, comes, goes)| Corner { comes, goes, ..corner });
-        let of_shear: Vec<Corner> = of_shear.collect();
-        let turned = self.turn(&of_sections, Some(RIGID * dt));
-        let turned = turned.and_then(|()| self.turn(&of_shear, None));
-        turned.map_err(|_| self.sliders.overdetermined())?;
+        let (of_sections, of_shear): (Vec<Corner>, Vec<Corner>) = corners.unzip();
+        self.turn(&of_sections, Some(RIGID * dt))
+            .and_then(|()| self.turn(&of_shear, None))
+            .map_err(|_| self.sliders.overdetermined())?;
         let time = self.motion.time;
         for (slider, _, seam) in passing {
             self.sliders[slider].pass(seam);
@@ -115,9 +112,9 @@ impl Model {
 
     /// Sliders that are at ends of kinked axes, where no kink has an energy, turn onto the axes as they are: what their kinks vibrate with goes into the
     /// motion along.
-    pub(super) fn straighten_kinks(&mut self, limits: &[TrackLimit]) -> Result<(), LinearError> {
+    pub(super) fn straighten_kinks(&mut self, limits: &[MasterLimit]) -> Result<(), LinearError> {
         let rates = &self.motion.rates;
-        let corner = |&TrackLimit { slider, end }: &TrackLimit| {
+        let corner = |&MasterLimit { slider, end }: &MasterLimit| {
             let [comes, goes] = self.sliders[slider].off_kink(&self.bodies, rates, end)?;
             Some(Corner { slider, comes, goes })
         };
@@ -128,9 +125,9 @@ impl Model {
     }
 
     /// The directions of the axis, as sections have them that are not sheared, in which a slider leaves the one side of a seam and comes to the other [-].
-    fn sections_at(&self, slider: usize, end: TrackEnd, seam: Seam) -> Option<[Vec2; 2]> {
+    fn sections_at(&self, slider: usize, end: MasterEnd, seam: Seam) -> Option<[Vec2; 2]> {
         let slider = &self.sliders[slider];
-        let along = |beam: usize, end: TrackEnd| {
+        let along = |beam: usize, end: MasterEnd| {
             let (sine, cosine) = sin_cos(self.section_angle(2 * beam + end as usize)?);
             Some(Vec2::new(cosine, sine) * end.outward())
         };

@@ -7,7 +7,7 @@
 use super::Model;
 use super::rigidity::Rigidity;
 use crate::geometry::{Vec2, cross};
-use crate::integrators::{Inertia, Mechanism};
+use crate::integrators::{Inertia, Interval, Mechanism};
 use crate::linalg::{BandedLu, LinearError, Pairing, complementary};
 use crate::model::ModelError;
 use crate::model::elements::Exchange;
@@ -84,8 +84,10 @@ pub(super) struct Encounter {
     pub(super) response: Vec<Vec<f64>>,
     /// `w⁻` [length/time].
     before: Vec<f64>,
-    /// What changes without impulses of contacts: where points of rigid bodies move beside these.
+    /// What changes without impulses of contacts: where points of rigid bodies move beside these, and beside what jumps.
     change: Vec<f64>,
+    /// By how much the rates of prescribed movements jump, where their degrees of freedom are; empty where none does.
+    jumps: Vec<f64>,
 }
 
 /// The impulses of an impact, one for each direction.
@@ -168,6 +170,24 @@ impl Model {
         }
     }
 
+    /// Where the rate of a drive jumps at the start of a step, all that is tied to it by more than strains follows at once: points of rigid bodies, and
+    /// sliders. It would alternate from step to step without end, as all rates do that do not fit. The blow keeps the energy but for the work of
+    /// drives: what is tied moves after it as it did before, but for the sign of what it lacked (theory.md 9.5).
+    pub fn follow_jumps_of_drives(&mut self, interval: Interval) {
+        if self.links.count() == 0 && self.sliders.iter().next().is_none() {
+            return;
+        }
+        // A function that fails is told by the step that begins.
+        let prescribed = self.supports.prescribed();
+        let Ok(Some(jumps)) = prescribed.jumps(interval, &self.motion.rates) else { return };
+        let directions = self.sliders.directions(&self.bodies);
+        let laws = vec![Law::Reverses; directions.len()];
+        // So is a matrix that cannot be factorised.
+        let Ok(encounter) = self.encounter_of(&directions, -2.0, None, jumps) else { return };
+        let Ok(impulses) = encounter.impulses(&laws) else { return };
+        self.apply(encounter, &impulses.values);
+    }
+
     /// How fast a slave and its place on the master move in a direction by such rates [length/time].
     pub(super) fn speeds(&self, (slider, unit): Direction, rates: &[f64]) -> (f64, f64) {
         let slider = &self.sliders[slider];
@@ -235,6 +255,17 @@ impl Model {
         links: f64,
         rigid_within: Option<f64>,
     ) -> Result<Encounter, LinearError> {
+        self.encounter_of(directions, links, rigid_within, Vec::new())
+    }
+
+    /// The same where the rates of prescribed movements jump; contacts and links are met by rates half-way through that.
+    fn encounter_of(
+        &mut self,
+        directions: &[Direction],
+        links: f64,
+        rigid_within: Option<f64>,
+        jumps: Vec<f64>,
+    ) -> Result<Encounter, LinearError> {
         let mut inertia = self.banded_inertia();
         let inertia = inertia.factorise()?;
         let answers = match rigid_within {
@@ -242,20 +273,28 @@ impl Model {
             Some(dt) => self.answers_within(&inertia, directions, dt)?,
         };
         let mut change = vec![0.0; self.unknowns()];
-        let rates = &self.motion.rates;
+        if !jumps.is_empty() {
+            let mut pulled = vec![0.0; self.degrees_of_freedom()];
+            self.add_inertia(-1.0, &jumps, &mut pulled);
+            change.copy_from_slice(&pulled[..self.unknowns()]);
+        }
+        let mut rates = self.motion.rates.clone();
+        rates.iter_mut().zip(&jumps).for_each(|(rate, jump)| *rate += 0.5 * jump);
         if self.links.forces() > 0 {
-            self.links.set_velocity_violation(&self.bodies, rates, links, &mut change);
+            self.links.set_velocity_violation(&self.bodies, &rates, links, &mut change);
+        }
+        if self.links.forces() > 0 || !jumps.is_empty() {
             inertia.solve(&mut change);
         }
         let response = response(&answers);
-        let before = answers.iter().map(|answer| answer.velocity(rates)).collect();
+        let before = answers.iter().map(|answer| answer.velocity(&rates)).collect();
         let directions = directions.to_vec();
-        Ok(Encounter { directions, answers, response, before, change })
+        Ok(Encounter { directions, answers, response, before, change, jumps })
     }
 
     /// Changes the velocities by the impulses of an encounter.
     pub(super) fn apply(&mut self, encounter: Encounter, impulses: &[f64]) {
-        let Encounter { directions, answers, mut change, .. } = encounter;
+        let Encounter { directions, answers, mut change, jumps, .. } = encounter;
         let mut passed_on = vec![0.0; answers.first().map_or(0, |answer| answer.passed_on.len())];
         let mut residual = vec![0.0; self.degrees_of_freedom()];
         for (impulse, Answer { forces, rates, .. }) in impulses.iter().zip(&answers) {
@@ -266,6 +305,7 @@ impl Model {
             let own = passed_on.iter_mut().zip(&answer.passed_on);
             own.for_each(|(sum, passed)| *sum += impulse * passed);
         }
+        change.extend(jumps.iter().skip(change.len()));
         // What is left of `M (v⁺ - v⁻) - Gᵀ P` at supports is their impulse.
         self.add_inertia(1.0, &change, &mut residual);
         self.links.transmit(&self.bodies, &change, &mut residual);
@@ -281,9 +321,11 @@ impl Model {
         self.motion.jump(&change);
         self.exchanged.total += self.supports.exchange_in_blow(&self.bodies, &residual);
         if self.supports.prescribed().count() > 0 {
+            let mut mean_rates = self.motion.rates.clone();
+            mean_rates.iter_mut().zip(&jumps).for_each(|(rate, jump)| *rate -= 0.5 * jump);
             let movements = self.supports.prescribed_mut();
             self.exchanged.total +=
-                movements.exchange_in_blow(&self.bodies, &residual, &self.motion.rates);
+                movements.exchange_in_blow(&self.bodies, &residual, &mean_rates);
         }
     }
 

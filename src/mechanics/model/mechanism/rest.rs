@@ -9,7 +9,7 @@ use crate::geometry::{Vec2, larger};
 use crate::integrators::Stage;
 use crate::linalg::BorderedMatrix;
 use crate::model::links::ArmRule;
-use crate::model::sliders::{AtRest, TrackEnd};
+use crate::model::sliders::{AtRest, MasterEnd};
 
 /// The largest of the forces that meet in a model at rest.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -90,7 +90,7 @@ impl Model {
         &mut self,
         unknowns: &[f64],
         load_factor: f64,
-    ) -> Result<bool, (usize, TrackEnd)> {
+    ) -> Result<bool, (usize, MasterEnd)> {
         let (movements, contacts) = unknowns.split_at(self.unknowns.count());
         let movements = &*self.supports.prescribed().at_rest(movements, load_factor);
         self.sliders.settle_on_stops(&self.bodies, movements, contacts)

@@ -29,6 +29,31 @@ impl ModelState {
         }
     }
 
+    /// Whether the state has as many numbers and sliders as another one.
+    pub fn is_shaped_like(&self, other: &Self) -> bool {
+        self.numbers.len() == other.numbers.len() && self.sliders.len() == other.sliders.len()
+    }
+
+    /// Becomes the state that differs from another one by `amount` times a change of its numbers.
+    pub fn displace(&mut self, from: &Self, change: &[f64], amount: f64) {
+        let Self { numbers, trend, knows_accelerations, sliders } = self;
+        numbers.clear();
+        numbers.extend(from.numbers.iter().zip(change).map(|(own, by)| own + amount * by));
+        (*trend, *knows_accelerations) = (from.trend, from.knows_accelerations);
+        sliders.clear();
+        sliders.extend_from_slice(&from.sliders);
+    }
+
+    /// Writes by how much the numbers of the state change from those of another one over a distance, for each unit of it.
+    pub fn change_from(&self, other: &Self, distance: f64, change: &mut Vec<f64>) {
+        let per_unit = |(own, other): (&f64, &f64)| match own == other || own.is_nan() {
+            true => 0.0,
+            false => (own - other) / distance,
+        };
+        change.clear();
+        change.extend(self.numbers.iter().zip(&other.numbers).map(per_unit));
+    }
+
     /// The memory that the state takes besides itself [bytes].
     pub fn bytes(&self) -> usize {
         self.numbers.capacity() * size_of::<f64>()

@@ -41,7 +41,15 @@ impl Model {
     /// The power that dampers, damped materials and drag dissipate at such rates of the unknowns in the present configuration, as at rest there
     /// [energy/time].
     pub fn dissipation(&self, rates: &[f64]) -> f64 {
-        self.elements.dissipation(&self.bodies, rates)
+        let mut power = 0.0;
+        self.each_damped_rate(rates, &mut |damping, rate| power += damping * square(rate));
+        power
+    }
+
+    /// Gives each rate that dampers, damped materials and drag resist at such rates of the unknowns in the present configuration, as at rest there, behind what
+    /// damps it: its product with the square of the rate is the power that it dissipates [energy/time]. As many are given, in the same order, at any rates.
+    pub fn each_damped_rate(&self, rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
+        self.elements.each_damped_rate(&self.bodies, rates, take);
     }
 
     /// How far from the diagonal the stiffness of a configuration has entries, where rigid links couple points and bodies without forces between them.

@@ -293,7 +293,7 @@ impl Scene {
                 )));
             }
             return Err(refused(
-                "it must begin with the name of a beam, a particle, a body, a slider or a joint (hinge1, clamp1, rigid1) of the scene".to_owned(),
+                "it must begin with the name of a beam, a particle, a body, a slider or a joint (hinge1, clamp1, rigid1) that the scene has by now".to_owned(),
             ));
         };
         let find = |known: &'static [Quantity], rest: &str| {

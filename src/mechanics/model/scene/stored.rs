@@ -80,22 +80,16 @@ impl TryFrom<StoredScene> for Scene {
         for element in stored.elements {
             scene.add_element(element)?;
         }
-        if stored.sliders.len() > MOST_SLIDERS {
-            return Err(ModelError::Value {
-                object: format!("scene '{}'", scene.name),
-                name: "number of sliders",
-                value: stored.sliders.len() as f64,
-                allowed: "at most 2000 in a file",
-            });
-        }
-        if stored.tracks.len() > MOST_TRACKS {
-            return Err(ModelError::Value {
-                object: format!("scene '{}'", scene.name),
-                name: "number of tracks",
-                value: stored.tracks.len() as f64,
-                allowed: "at most 1000 in a file",
-            });
-        }
+        scene.check_count(
+            stored.sliders.len(),
+            MOST_SLIDERS,
+            ("number of sliders", "at most 2000 in a file"),
+        )?;
+        scene.check_count(
+            stored.tracks.len(),
+            MOST_TRACKS,
+            ("number of tracks", "at most 1000 in a file"),
+        )?;
         for track in stored.tracks {
             scene.add_stored_track(track)?;
         }
@@ -119,15 +113,28 @@ impl TryFrom<StoredScene> for Scene {
         scene.velocities = stored.velocities;
         finite("scene", "gravity", stored.gravity.as_slice())?;
         scene.gravity = stored.gravity;
-        if stored.sensors.len() > MOST_SENSORS {
-            return Err(ModelError::Value {
-                object: format!("scene '{}'", scene.name),
-                name: "number of sensors",
-                value: stored.sensors.len() as f64,
-                allowed: "at most 10000 in a file",
-            });
-        }
+        scene.check_count(
+            stored.sensors.len(),
+            MOST_SENSORS,
+            ("number of sensors", "at most 10000 in a file"),
+        )?;
         stored.sensors.iter().try_for_each(|sensor| scene.record(sensor))?;
         Ok(scene)
+    }
+}
+
+impl Scene {
+    /// Checks how many there are of something that a file could hold too much of.
+    fn check_count(
+        &self,
+        count: usize,
+        most: usize,
+        (name, allowed): (&'static str, &'static str),
+    ) -> Result<(), ModelError> {
+        if count <= most {
+            return Ok(());
+        }
+        let object = format!("scene '{}'", self.name);
+        Err(ModelError::Value { object, name, value: count as f64, allowed })
     }
 }

@@ -2,8 +2,8 @@
 
 use std::ops::{Deref, DerefMut};
 
-use super::track::LANDED;
-use super::{Passing, SliderState, Sliding, TrackEnd, TrackLimit};
+use super::rail::LANDED;
+use super::{MasterEnd, MasterLimit, Passing, SliderState, Sliding};
 use crate::beams::SpanAtRest;
 use crate::geometry::{Vec2, larger};
 use crate::integrators::{Ending, Interval, Overshoot, StepError};
@@ -19,7 +19,7 @@ pub struct Sliders {
     /// Their contacts, where they are eliminated one by one.
     blocks: Option<BlockLayout>,
     /// The limit at which the next step is to end.
-    aim: Option<TrackLimit>,
+    aim: Option<MasterLimit>,
 }
 
 impl Deref for Sliders {
@@ -53,7 +53,7 @@ impl Sliders {
     }
 
     /// Makes steps end at a limit, or lets them go where they lead again.
-    pub fn aim_at(&mut self, limit: Option<TrackLimit>) {
+    pub fn aim_at(&mut self, limit: Option<MasterLimit>) {
         self.aim = limit;
     }
 
@@ -130,7 +130,7 @@ impl Sliders {
         bodies: &[Body],
         movements: &[f64],
         unknowns: &[f64],
-    ) -> Result<bool, (usize, TrackEnd)> {
+    ) -> Result<bool, (usize, MasterEnd)> {
         let mut changed = false;
         for (index, slider) in self.iter_mut().enumerate() {
             if let Some(end) = slider.passes(unknowns) {
@@ -189,7 +189,7 @@ impl Sliders {
     pub fn check(&mut self, unknowns: &[f64], ending: Ending) -> Result<(), Overshoot> {
         let mut furthest: Option<Overshoot> = None;
         let aim = self.aim.filter(|_| ending == Ending::OfStep);
-        let limits = (0..self.len()).flat_map(TrackLimit::both);
+        let limits = (0..self.len()).flat_map(MasterLimit::both);
         for limit in limits.filter(|limit| self[limit.slider].is_sliding()) {
             let distance = self[limit.slider].beyond(unknowns, limit.end);
             let overshoot = Overshoot { limit: limit.number(), distance };
@@ -203,7 +203,7 @@ impl Sliders {
         self.iter_mut().for_each(|slider| slider.note_pull(ending));
         let pulled = self.iter().position(|slider| slider.is_pulled);
         let leaves = pulled.and_then(|slider| match self[slider].state {
-            SliderState::Held(end) => Some(TrackLimit { slider, end }),
+            SliderState::Held(end) => Some(MasterLimit { slider, end }),
             SliderState::Sliding | SliderState::Released => None,
         });
         let leaves = leaves.map(|limit| Overshoot { limit: limit.number(), distance: 0.0 });

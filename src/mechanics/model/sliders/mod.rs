@@ -5,14 +5,14 @@ mod all;
 mod blow;
 mod connection;
 mod kinked_axis;
+mod rail;
 mod route;
 mod sliding;
-mod track;
 
 pub use all::Sliders;
 pub use blow::{Bar, Blow};
 pub use connection::Connection;
 pub use kinked_axis::{KinkedAxis, MasterKink, TooFast};
+pub use rail::{MasterEnd, MasterLimit, Rail, SliderState};
 pub use route::{Route, RouteLeg, Seam};
 pub use sliding::{AtRest, InStep, Passing, Sliding};
-pub use track::{Rail, SliderState, TrackEnd, TrackLimit};

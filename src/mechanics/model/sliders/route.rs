@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Bar, Rail, TrackEnd};
+use super::{Bar, MasterEnd, Rail};
 use crate::geometry::{Basis, Passage, Vec2};
 use crate::joints::{Course, Heading};
 use crate::model::bodies::Body;
@@ -49,7 +49,7 @@ pub struct Seam {
     /// The number of the beam on which it goes on, among those of the track.
     pub leg: usize,
     /// The end of that beam.
-    pub end: TrackEnd,
+    pub end: MasterEnd,
     /// By how much the number of turns changes.
     turns: f64,
 }
@@ -94,17 +94,17 @@ impl Route {
     }
 
     /// Where the track goes on beyond an end of the present beam, if it does and the beams meet there.
-    pub fn seam(&self, bodies: &[Body], end: TrackEnd) -> Option<Seam> {
+    pub fn seam(&self, bodies: &[Body], end: MasterEnd) -> Option<Seam> {
         self.beyond(end).filter(|seam| self.meet(bodies, end, *seam))
     }
 
     /// Whether the track went on beyond an end of the present beam, and the beams have come apart there.
-    pub fn is_torn(&self, bodies: &[Body], end: TrackEnd) -> bool {
+    pub fn is_torn(&self, bodies: &[Body], end: MasterEnd) -> bool {
         self.beyond(end).is_some_and(|seam| !self.meet(bodies, end, seam))
     }
 
     /// Where the track goes on beyond an end of the present beam as drawn.
-    fn beyond(&self, end: TrackEnd) -> Option<Seam> {
+    fn beyond(&self, end: MasterEnd) -> Option<Seam> {
         let last = self.legs.len() - 1;
         let leads_on = end == self.present().leaves_at();
         let (leg, turns) = match (leads_on, self.leg) {
@@ -119,7 +119,7 @@ impl Route {
     }
 
     /// Whether the beams of a seam beyond an end of the present beam are at one place there.
-    fn meet(&self, bodies: &[Body], end: TrackEnd, seam: Seam) -> bool {
+    fn meet(&self, bodies: &[Body], end: MasterEnd, seam: Seam) -> bool {
         let next = &self.legs[seam.leg];
         let (here, there) =
             (self.present().end_point(bodies, end), next.end_point(bodies, seam.end));
@@ -154,7 +154,7 @@ impl Route {
 impl RouteLeg {
     /// A beam of a track, by its index, along which this leads so.
     pub fn new(beam: usize, heading: Heading, rail: Rail, mut passage: Passage, bar: Bar) -> Self {
-        let slopes = [TrackEnd::Start, TrackEnd::End].map(|end| {
+        let slopes = [MasterEnd::Start, MasterEnd::End].map(|end| {
             passage.go(rail.end(end), rail.end(end));
             (passage.first(), passage.slope().to_vec())
         });
@@ -162,24 +162,24 @@ impl RouteLeg {
     }
 
     /// The end of the beam at which the track leaves it.
-    fn leaves_at(&self) -> TrackEnd {
+    fn leaves_at(&self) -> MasterEnd {
         match self.heading {
-            Heading::Forward => TrackEnd::End,
-            Heading::Backward => TrackEnd::Start,
+            Heading::Forward => MasterEnd::End,
+            Heading::Backward => MasterEnd::Start,
         }
     }
 
     /// Where an end of the beam is [length].
-    fn end_point(&self, bodies: &[Body], end: TrackEnd) -> Vec2 {
+    fn end_point(&self, bodies: &[Body], end: MasterEnd) -> Vec2 {
         let points = bodies[self.beam].dynamics.control_points();
         match end {
-            TrackEnd::Start => points[0],
-            TrackEnd::End => points[points.len() - 1],
+            MasterEnd::Start => points[0],
+            MasterEnd::End => points[points.len() - 1],
         }
     }
 
     /// The derivative of the place on the beam by its parameter at an end, after movements of all bodies by such increments, none if there are none [length].
-    pub fn end_tangent(&self, bodies: &[Body], increments: &[f64], end: TrackEnd) -> Vec2 {
+    pub fn end_tangent(&self, bodies: &[Body], increments: &[f64], end: MasterEnd) -> Vec2 {
         let (first, slopes) = &self.slopes[end as usize];
         let body = &bodies[self.beam];
         let points = body.dynamics.control_points();

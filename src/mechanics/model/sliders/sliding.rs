@@ -1,6 +1,6 @@
 //! Sliders of the model: where they are, and what they add to the equations of a step.
 
-use super::{Bar, Connection, KinkedAxis, Rail, Route, SliderState, TooFast, TrackEnd};
+use super::{Bar, Connection, KinkedAxis, MasterEnd, Rail, Route, SliderState, TooFast};
 use crate::geometry::{Basis, Passage, Vec2, larger};
 use crate::integrators::{Ending, Interval, StepError};
 use crate::joints::{
@@ -298,6 +298,7 @@ impl Sliding {
         let (pressing, chord) = (contact.unknowns.force, P::chord(&contact));
         let force = pressing.norm();
         let push = match state {
+            // What pulls without end lets go at once.
             SliderState::Held(_) if leans_on_nothing => f64::NEG_INFINITY,
             SliderState::Held(end) => contact.push(end.outward()),
             SliderState::Sliding | SliderState::Released => 0.0,
@@ -341,7 +342,7 @@ impl Sliding {
     }
 
     /// How far beyond an end of the master the unknowns of the contact lead, relative to the master's parameters [-].
-    pub fn beyond(&self, unknowns: &[f64], end: TrackEnd) -> f64 {
+    pub fn beyond(&self, unknowns: &[f64], end: MasterEnd) -> f64 {
         self.rail.beyond(self.parameter + self.read(unknowns).way, end)
     }
 

@@ -122,7 +122,7 @@ impl Simulation {
     fn try_step(&mut self, adaptive: &mut Adaptive, plan: &Plan) -> Result<Doubled, Failed> {
         let Adaptive { doubling, resampling, .. } = adaptive;
         let between = resampling.as_mut().map(Resampling::middle_mut);
-        doubling.step(&mut *self.integrator, &mut self.model, plan.interval, between)
+        doubling.step(&mut *self.stepper.integrator, &mut self.model, plan.interval, between)
     }
 
     /// Takes the second half of a step that waits in its middle, if one does.
@@ -132,7 +132,7 @@ impl Simulation {
     ) -> Option<(Plan, Result<Doubled, Failed>)> {
         let Adaptive { doubling, resampling, controller, .. } = adaptive;
         let order = controller.order;
-        resampling.as_mut()?.go_on(doubling, &mut *self.integrator, &mut self.model, order)
+        resampling.as_mut()?.go_on(doubling, &mut *self.stepper.integrator, &mut self.model, order)
     }
 
     /// Whether a step of the simulation waits in its middle for those who control loads and drives: who has stopped the run goes on with it, or

@@ -116,6 +116,7 @@ impl Simulation {
     /// # Errors
     /// When the scene cannot be built, which it could before.
     pub(super) fn stand_at(&mut self, snapshot: &Snapshot) -> Result<(), SimulationError> {
+        self.leave_derivatives("going back");
         self.stand_released(&snapshot.let_go)?;
         self.model.restore(&snapshot.state);
         self.clock.grid.go_back(snapshot.passed);

@@ -4,7 +4,7 @@ use super::Simulation;
 use crate::elementary::whole_power;
 use crate::integrators::{Interval, Overshoot, StepError};
 use crate::joints::EndAction;
-use crate::model::{Arriving, SliderState, TrackEnd, TrackLimit};
+use crate::model::{Arriving, MasterEnd, MasterLimit, SliderState};
 use crate::newton::NewtonReport;
 use crate::simulation::{Arrival, ArrivalKind, SimulationError};
 
@@ -35,7 +35,7 @@ pub(super) struct Landing {
 /// What ends a step before its time, or keeps it from beginning.
 enum Event {
     /// A slider reaches a limit.
-    Reaches(TrackLimit),
+    Reaches(MasterLimit),
     /// A slider would pass a limit by a jump: the step ends just before it.
     JustBefore,
     /// Sliders leave stops that would have to pull.
@@ -115,7 +115,7 @@ impl Simulation {
         let mut tries = 0..MOST_TRIES;
         // Once for each slider that turns out to arrive before the one aimed at.
         loop {
-            let limit = TrackLimit::of(overshoot.limit);
+            let limit = MasterLimit::of(overshoot.limit);
             if let SliderState::Held(_) = self.model.slider_state(limit.slider) {
                 return Ok(Landing { step: None, event: Event::Leaves });
             }
@@ -128,7 +128,7 @@ impl Simulation {
                 if bracket.is_closed() {
                     self.model.aim_at(None);
                     let short = Interval::lasting(interval.start, bracket.before.0);
-                    let report = self.integrator.step(&mut self.model, short)?;
+                    let report = self.stepper.integrator.step(&mut self.model, short)?;
                     return Ok(Landing { step: Some((short, report)), event: Event::JustBefore });
                 }
                 if tries.next().is_none() {
@@ -155,7 +155,7 @@ impl Simulation {
     fn prospect(
         &mut self,
         interval: Interval,
-        limit: TrackLimit,
+        limit: MasterLimit,
         distance: f64,
     ) -> Result<Prospect, StepError> {
         let mut after = (interval.duration(), distance);
@@ -192,7 +192,7 @@ impl Simulation {
 
     /// Tries a step; one that does not end where it is aimed at is counted, and not taken.
     fn attempt(&mut self, cut: Interval) -> Result<Result<NewtonReport, Overshoot>, StepError> {
-        match self.integrator.step(&mut self.model, cut) {
+        match self.stepper.integrator.step(&mut self.model, cut) {
             Ok(report) => Ok(Ok(report)),
             Err(StepError::Overshoot { overshoot, iterations, .. }) => {
                 self.progress.count_try(iterations);
@@ -203,7 +203,7 @@ impl Simulation {
     }
 
     /// Whether a slider that is at a limit and led beyond it does something there other than to rest: by what steps follow of its motion, it strikes.
-    fn strikes(&mut self, limit: TrackLimit) -> bool {
+    fn strikes(&mut self, limit: MasterLimit) -> bool {
         let dt = self.dt();
         self.model.end_action(limit.slider) != EndAction::Bounce
             || self.model.goes_on(limit)
@@ -269,7 +269,7 @@ impl Simulation {
     /// is resolved by the steps to come, or every step leads it beyond although it does not approach.
     fn leans(
         &mut self,
-        limit: TrackLimit,
+        limit: MasterLimit,
         landing: &Landing,
         dt: f64,
     ) -> Result<bool, SimulationError> {
@@ -283,13 +283,13 @@ impl Simulation {
     }
 
     /// Whether a slider at a seam comes to lean on it, and not to pass: both sides lead it back at once, or it passes to and fro within few steps.
-    fn stays_at_seam(&self, limit: TrackLimit, landing: &Landing, dt: f64) -> bool {
+    fn stays_at_seam(&self, limit: MasterLimit, landing: &Landing, dt: f64) -> bool {
         let is_led_back = landing.step.is_none() && self.model.came_to_seam_now(limit.slider);
         is_led_back || self.passes_to_and_fro(limit, dt)
     }
 
     /// Whether a slider has passed the same seam to and fro so often within as many steps that nothing is resolved of what is between.
-    fn passes_to_and_fro(&self, limit: TrackLimit, dt: f64) -> bool {
+    fn passes_to_and_fro(&self, limit: MasterLimit, dt: f64) -> bool {
         let since = self.time() - CHATTER as f64 * dt;
         let own = self.progress.arrivals.iter().rev();
         let own = own.filter(|arrival| arrival.limit.slider == limit.slider);
@@ -298,20 +298,20 @@ impl Simulation {
         let place = |arrival: &Arrival| (arrival.limit.end, arrival.beam);
         let places: Vec<_> = passed.map(place).take(2 * CHATTER).collect();
         let here = (limit.end, Some(self.model.slider_beam(limit.slider)));
-        let alternates = |pair: &[(TrackEnd, Option<usize>)]| pair[0] != here && pair[1] == here;
-        let back = |pair: &[(TrackEnd, Option<usize>)]| pair[0] == places[0] && alternates(pair);
+        let alternates = |pair: &[(MasterEnd, Option<usize>)]| pair[0] != here && pair[1] == here;
+        let back = |pair: &[(MasterEnd, Option<usize>)]| pair[0] == places[0] && alternates(pair);
         places.len() == 2 * CHATTER && places.chunks_exact(2).all(back)
     }
 
     /// The arrival of a slider at a limit at the present moment.
-    fn arrival(&self, limit: TrackLimit, kind: ArrivalKind) -> Arrival {
+    fn arrival(&self, limit: MasterLimit, kind: ArrivalKind) -> Arrival {
         let is_on_track = self.scene.sliders[limit.slider].track.is_some();
         let beam = is_on_track.then(|| self.model.slider_beam(limit.slider));
         Arrival { time: self.model.time(), limit, beam, kind }
     }
 
     /// Whether a slider has struck the same end so often within as many steps that nothing is resolved of its flights between.
-    fn chatters(&self, limit: TrackLimit, dt: f64) -> bool {
+    fn chatters(&self, limit: MasterLimit, dt: f64) -> bool {
         let own = self.progress.arrivals.iter().rev();
         let mut last = own.filter(|arrival| arrival.limit.slider == limit.slider).take(CHATTER);
         let since = self.time() - CHATTER as f64 * dt;
@@ -322,7 +322,7 @@ impl Simulation {
     /// Lets every slider arrive at the end of its master, for a pretended run: scripts may wait for that.
     pub(super) fn pretend_arrivals(&mut self) {
         let arrival = |slider: usize| {
-            let limit = TrackLimit { slider, end: TrackEnd::End };
+            let limit = MasterLimit { slider, end: MasterEnd::End };
             let kind = match self.model.end_action(slider) {
                 _ if self.scene.goes_round(slider) => ArrivalKind::Passed,
                 EndAction::Stop => ArrivalKind::Stopped,

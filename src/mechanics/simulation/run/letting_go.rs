@@ -37,6 +37,7 @@ impl Simulation {
         if self.has_let_go(release) {
             return Ok(());
         }
+        self.lose_derivatives("something lets go");
         let before = self.holds_released(&self.progress.let_go);
         self.model.let_go(&self.scene, &before, hold)?;
         let gone = LetGo { release, time: self.time() };
@@ -76,8 +77,8 @@ impl Simulation {
 
     /// Gives the method work space for a model whose movements have other numbers, and finds again what is recorded.
     fn take_up_model(&mut self) -> Result<(), SimulationError> {
-        let Self { settings, model, record, scene, .. } = self;
-        self.integrator = settings.method.build(model, settings.tolerance);
+        let Self { settings, model, record, scene, stepper, .. } = self;
+        stepper.integrator = settings.method.build(model, settings.tolerance);
         Ok(record.look_again(scene, model)?)
     }
 

@@ -12,6 +12,9 @@ impl Simulation {
     /// Changes which states of the simulation are recorded, from here on.
     pub fn record(&mut self, recording: Recording) {
         self.record.recording = recording;
+        if let Some(sensitivities) = &mut self.stepper.sensitivities {
+            sensitivities.record(recording);
+        }
     }
 
     /// Whether the history has a row for every step.
@@ -26,8 +29,11 @@ impl Simulation {
     }
 
     /// Gives the present state of the simulation a row of the history that stays.
-    pub(super) fn keep_row(&mut self) {
+    pub(in crate::simulation) fn keep_row(&mut self) {
         self.record.keep_row(&mut self.model, self.progress.last_step);
+        if let Some(sensitivities) = &mut self.stepper.sensitivities {
+            sensitivities.keep_row();
+        }
     }
 
     /// Records the state of the simulation that was just reached, if it is due, and remembers it, if states are kept.
@@ -39,10 +45,13 @@ impl Simulation {
     }
 
     /// Gives the present state of the simulation a row of the history until it is past, unless it has one, or is the middle of a step.
-    pub(super) fn show_present(&mut self) {
+    pub(in crate::simulation) fn show_present(&mut self) {
         if self.is_half_way() {
             return;
         }
         self.record.show_present(&mut self.model, self.progress.last_step);
+        if let Some(sensitivities) = &mut self.stepper.sensitivities {
+            sensitivities.show_present();
+        }
     }
 }

@@ -3,7 +3,7 @@
 use super::Simulation;
 use super::landing::MOST_ARRIVALS;
 use crate::integrators::{Interval, StepError};
-use crate::model::TrackLimit;
+use crate::model::MasterLimit;
 use crate::newton::NewtonReport;
 use crate::simulation::halving::Halving;
 use crate::simulation::{Monitor, SimulationError};
@@ -51,9 +51,10 @@ impl Simulation {
     ) -> Result<Covered, SimulationError> {
         while !halving.is_done() {
             let interval = halving.next();
-            let mut stepped = self.integrator.step(&mut self.model, interval);
+            let mut stepped = self.stepper.step(&mut self.model, interval);
             if let Err(StepError::Overshoot { overshoot, iterations, .. }) = stepped {
                 self.progress.count_try(iterations);
+                self.lose_derivatives("a slider arrives at an end of its way or leaves a stop");
                 match self.land(interval, overshoot) {
                     Ok(landing) => {
                         self.clock.under_way = None;
@@ -97,9 +98,17 @@ impl Simulation {
     }
 
     /// Counts a step that succeeded after some failed tries.
-    pub(super) fn count_step(&mut self, interval: Interval, report: NewtonReport, retries: usize) {
+    pub(in crate::simulation) fn count_step(
+        &mut self,
+        interval: Interval,
+        report: NewtonReport,
+        retries: usize,
+    ) {
         self.progress.count_step(interval, report, retries);
         self.model.end_step(interval.duration());
+        if let Some(sensitivities) = &mut self.stepper.sensitivities {
+            sensitivities.count_step(interval, report);
+        }
     }
 
     /// Asks the monitor whether the run goes on.
@@ -112,7 +121,7 @@ impl Simulation {
     fn no_step(&self, dt: f64, divisions: u64, source: StepError) -> SimulationError {
         let (time, plight) = (self.time(), self.plight());
         if let StepError::Overshoot { overshoot, .. } = &source {
-            let limit = TrackLimit::of(overshoot.limit);
+            let limit = MasterLimit::of(overshoot.limit);
             let slider = self.scene.sliders[limit.slider].name.clone();
             let end = limit.end.name();
             return SimulationError::Landing { slider, end, time, dt, divisions, plight };

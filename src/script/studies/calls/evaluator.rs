@@ -2,14 +2,16 @@
 
 use std::time::Duration;
 
-use rhai::{Dynamic, Map};
+use rhai::{Array, Dynamic, Map};
 
 use super::calling::{Called, Made, call, thrown};
 use super::function::RunFunction;
-use crate::fitting::Evaluation;
+use crate::fitting::{Evaluation, Sloped};
 use crate::script::engine::workers::{Blueprint, Crew, News, with_crew};
 use crate::script::rows::call::Call;
+use crate::script::rows::lifting::{Family, Varied};
 use crate::script::words::error::ScriptError;
+use crate::script::words::numbers::as_number;
 
 /// Why a function of a study writes no files.
 const NO_FILES: &str = "a run of a study writes no files: give what is to be kept as its result";
@@ -41,9 +43,18 @@ pub struct Question<'q> {
     pub wall: Duration,
 }
 
+/// What is asked of a function.
+#[derive(Clone)]
+enum Point {
+    /// What it gives at a point.
+    Value(Vec<f64>),
+    /// The derivatives of what it gives at a point; with each parameter the distance that is small for it.
+    Slopes(Vec<(f64, f64)>),
+}
+
 /// Who answers.
 enum Whom<'w> {
-    Workers(&'w Crew<'w, Vec<f64>, Made<Answer>>),
+    Workers(&'w Crew<'w, Point, Made<Answer>>),
     ThisThread,
 }
 
@@ -56,9 +67,29 @@ pub struct Evaluator<'w> {
 }
 
 impl Question<'_> {
-    fn values(&self, point: &[f64]) -> Map {
-        let pairs = self.names.iter().zip(point);
-        pairs.map(|(name, x)| (name.as_str().into(), Dynamic::from(*x))).collect()
+    fn values(&self, point: &Point) -> Map {
+        let named = |(name, value): (&String, Dynamic)| (name.as_str().into(), value);
+        match point {
+            Point::Value(point) => {
+                let values = point.iter().map(|x| Dynamic::from(*x));
+                self.names.iter().zip(values).map(named).collect()
+            }
+            Point::Slopes(point) => {
+                let family = Family::new();
+                let values = self.names.iter().zip(point).map(|(name, (x, distance))| {
+                    let varied = family.declare_within(name, *x, *distance);
+                    varied.map_or(Dynamic::from(*x), Dynamic::from)
+                });
+                self.names.iter().zip(values.collect::<Vec<_>>()).map(named).collect()
+            }
+        }
+    }
+
+    fn read(&self, point: &Point, given: &Dynamic) -> Answer {
+        match point {
+            Point::Value(_) => (self.read)(given),
+            Point::Slopes(_) => slopes_of(given, self.names.len()),
+        }
     }
 
     /// Lets `drive` ask the function.
@@ -74,13 +105,13 @@ impl Question<'_> {
             return drive(&mut Evaluator::of(calling, self, Whom::ThisThread));
         };
         let wall = format!("{} s, which is its patience", self.wall.as_secs_f64());
-        let work = |worker: &_, point: Vec<f64>| {
+        let work = |worker: &_, point: Point| {
             call(
                 worker,
                 self.function,
                 |_| self.values(&point),
                 &wall,
-                |called| self.answer(called),
+                |called| self.answer(&point, called),
             )
         };
         let panicked = |told: String| Made {
@@ -92,9 +123,9 @@ impl Question<'_> {
         })?
     }
 
-    fn answer(&self, called: Called) -> Answer {
+    fn answer(&self, point: &Point, called: Called) -> Answer {
         match called {
-            Called::Given(given) => (self.read)(&given),
+            Called::Given(given) => self.read(point, &given),
             Called::Failed(reason) => Answer::Failed(reason),
             Called::Wrong(reason) => Answer::Wrong(reason),
         }
@@ -105,6 +136,10 @@ impl Question<'_> {
     /// # Errors
     /// The function's own, at their places.
     pub fn here(&self, calling: &Call, point: &[f64]) -> Result<Dynamic, ScriptError> {
+        self.asked_here(calling, &Point::Value(point.to_vec()))
+    }
+
+    fn asked_here(&self, calling: &Call, point: &Point) -> Result<Dynamic, ScriptError> {
         self.function.call_here(calling, self.key, self.values(point))
     }
 
@@ -131,12 +166,7 @@ impl<'w> Evaluator<'w> {
     /// # Errors
     /// When the run is stopped, or the script is wrong as long as the function has given nothing.
     pub fn ask(&mut self, points: &[Vec<f64>]) -> Result<Vec<Evaluation>, ScriptError> {
-        let answers = match self.whom {
-            Whom::Workers(crew) => self.ask_workers(crew, points)?,
-            Whom::ThisThread => {
-                points.iter().map(|point| self.ask_here(point)).collect::<Result<_, _>>()?
-            }
-        };
+        let answers = self.answers(points.iter().cloned().map(Point::Value).collect())?;
         let mut found = Vec::with_capacity(points.len());
         for (answer, point) in answers.into_iter().zip(points) {
             found.push(match answer {
@@ -153,10 +183,37 @@ impl<'w> Evaluator<'w> {
         Ok(found)
     }
 
+    /// What the function gives at a point, each number with its derivatives by all parameters, from one call with numbers that know what depends on them. With each parameter stands the distance that is small for it. The inner error tells why there are none.
+    ///
+    /// # Errors
+    /// When the run is stopped.
+    pub fn slopes(&mut self, point: &[(f64, f64)]) -> Result<Sloped, ScriptError> {
+        let answers = match self.answers(vec![Point::Slopes(point.to_vec())]) {
+            Err(error) if self.call.context().is_stopped() => return Err(error),
+            Err(error) => return Ok(Err(in_words(error))),
+            Ok(answers) => answers,
+        };
+        Ok(match answers.into_iter().next() {
+            Some(Answer::Numbers(numbers)) => {
+                let rows = numbers.chunks(1 + point.len());
+                Ok(rows.filter_map(|row| Some((*row.first()?, row[1..].to_vec()))).collect())
+            }
+            Some(Answer::Failed(reason) | Answer::Wrong(reason)) => Err(reason),
+            None => Err("nothing was found".into()),
+        })
+    }
+
+    fn answers(&self, points: Vec<Point>) -> Result<Vec<Answer>, ScriptError> {
+        match self.whom {
+            Whom::Workers(crew) => self.ask_workers(crew, &points),
+            Whom::ThisThread => points.iter().map(|point| self.ask_here(point)).collect(),
+        }
+    }
+
     fn ask_workers(
         &self,
-        crew: &Crew<Vec<f64>, Made<Answer>>,
-        points: &[Vec<f64>],
+        crew: &Crew<Point, Made<Answer>>,
+        points: &[Point],
     ) -> Result<Vec<Answer>, ScriptError> {
         let context = self.call.context();
         let mut answers: Vec<Option<Answer>> = points.iter().map(|_| None).collect();
@@ -176,15 +233,48 @@ impl<'w> Evaluator<'w> {
         Ok(answers.into_iter().flatten().collect())
     }
 
-    fn ask_here(&self, point: &[f64]) -> Result<Answer, ScriptError> {
+    fn ask_here(&self, point: &Point) -> Result<Answer, ScriptError> {
         let context = self.call.context();
-        match context.tracelessly(NO_FILES, || self.question.here(self.call, point)) {
-            Ok(given) => Ok((self.question.read)(&given)),
+        match context.tracelessly(NO_FILES, || self.question.asked_here(self.call, point)) {
+            Ok(given) => Ok(self.question.read(point, &given)),
             Err(ScriptError::Engine(error)) if !context.is_stopped() => match thrown(&error) {
                 Some(reason) => Ok(Answer::Failed(reason)),
                 None => Err(ScriptError::Engine(error)),
             },
             Err(error) => Err(error),
         }
+    }
+}
+
+/// The numbers of an array, each followed by its derivatives by so many parameters.
+fn slopes_of(given: &Dynamic, parameters: usize) -> Answer {
+    let Some(array) = given.read_lock::<Array>() else {
+        return Answer::Wrong("it gives no array of numbers".into());
+    };
+    let mut slopes = Vec::with_capacity(array.len() * (1 + parameters));
+    for value in array.iter() {
+        match as_number(&Varied::project(value, 0)).filter(|number| number.is_finite()) {
+            Some(number) => slopes.push(number),
+            None => return Answer::Wrong("it gives something that is no finite number".into()),
+        }
+        let Some(varied) = value.read_lock::<Varied>() else {
+            slopes.extend(std::iter::repeat_n(0.0, parameters));
+            continue;
+        };
+        for parameter in 0..parameters {
+            match varied.derivative(parameter) {
+                Ok(slope) => slopes.push(as_number(&slope).unwrap_or(f64::NAN)),
+                Err(error) => return Answer::Failed(in_words(error)),
+            }
+        }
+    }
+    Answer::Numbers(slopes)
+}
+
+fn in_words(error: ScriptError) -> String {
+    match error {
+        ScriptError::Failure(failure) => failure.message,
+        ScriptError::Engine(error) => thrown(&error).unwrap_or_else(|| error.to_string()),
+        _ => "the run was stopped".into(),
     }
 }

@@ -164,8 +164,7 @@ impl DesignOrder<'_> {
             read: values,
             wall: self.wall,
         };
-        let start: Vec<f64> =
-            self.ranges.ranges.iter().map(|range| range.clip(range.start)).collect();
+        let start: Vec<f64> = self.ranges.ranges.iter().map(|range| range.first()).collect();
         // The names of the results, and what is wrong with the first run, where it is wrong.
         let results = names(&call.context().silently(|| question.here(call, &start))?);
         let place = |name: &str| {
@@ -240,8 +239,7 @@ impl DesignOrder<'_> {
     /// Those of the function.
     pub fn pretend(self, call: &Call) -> Result<BestDesign, ScriptError> {
         let function = RunFunction::read(call, "run", self.function)?;
-        let start: Vec<f64> =
-            self.ranges.ranges.iter().map(|range| range.clip(range.start)).collect();
+        let start: Vec<f64> = self.ranges.ranges.iter().map(|range| range.first()).collect();
         let given = function.call_here(call, "run", self.ranges.named(&start))?;
         let results = given.read_lock::<Map>().map(|map| {
             map.iter()

@@ -1,13 +1,15 @@
 //! Fits: parameters for which what a function gives is nearest to data.
 
+use std::cell::RefCell;
 use std::time::Duration;
 
 use rhai::{Array, Dynamic, FnPtr};
 
 use super::ranges::Ranges;
-use crate::fitting::{Estimate, Fitted, LeastSquares, Settling};
+use crate::fitting::{Estimate, Fitted, LeastSquares, Range, Settling, Sloped};
 use crate::output::{Cell, LineChart, Marker, Page, Panel, Series, Stroke, Table, significant};
 use crate::script::rows::call::Call;
+use crate::script::rows::lifting::RELATIVE_DISTANCE;
 use crate::script::studies::calls::evaluator::{Answer, Question};
 use crate::script::studies::calls::function::RunFunction;
 use crate::script::words::error::ScriptError;
@@ -52,8 +54,19 @@ pub struct FitOrder<'o> {
     pub confidence: f64,
     /// The distance of differences as a part of the size of a parameter.
     pub step: f64,
+    /// What derivatives are made of.
+    pub derivatives: Derivatives,
     /// The longest that a run may take by the clock.
     pub wall: Duration,
+}
+
+/// What the derivatives of a fit are made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Derivatives {
+    /// Of what a run knows of them, and where it does not of differences.
+    Known,
+    /// Of differences of runs.
+    Differences,
 }
 
 /// A finished fit.
@@ -71,6 +84,13 @@ pub struct Fit {
     pub compared: Compared,
     /// The probability with which a parameter lies in its interval.
     pub confidence: f64,
+}
+
+impl Derivatives {
+    /// What is meant by a word of the option.
+    pub fn of(word: &str) -> Self {
+        if word == "differences" { Self::Differences } else { Self::Known }
+    }
 }
 
 impl FitOrder<'_> {
@@ -99,17 +119,26 @@ impl FitOrder<'_> {
             .as_ref()
             .map(|weights| weights.iter().map(|weight| weight.sqrt()).collect());
         let fitted = question.with_evaluator(call, |evaluator| {
+            let evaluator = RefCell::new(evaluator);
             let mut evaluate = |points: &[Vec<f64>]| {
-                let found = evaluator.ask(points)?;
+                let found = evaluator.borrow_mut().ask(points)?;
                 let of = |found: Result<Vec<f64>, String>| -> Result<Vec<f64>, String> {
                     Ok(weighted(roots.as_deref(), self.differences(found?)?))
                 };
                 Ok(found.into_iter().map(of).collect())
             };
-            problem.solve(&mut evaluate)
+            let mut slopes = |x: &[f64]| {
+                let small = |(x, range): (&f64, &Range)| (*x, RELATIVE_DISTANCE * range.size(*x));
+                let point: Vec<(f64, f64)> = x.iter().zip(&self.ranges.ranges).map(small).collect();
+                let found = evaluator.borrow_mut().slopes(&point)?;
+                Ok(found.and_then(|rows| self.differences_with(rows, roots.as_deref())))
+            };
+            match self.derivatives {
+                Derivatives::Known => problem.solve_with(&mut evaluate, &mut slopes),
+                Derivatives::Differences => problem.solve(&mut evaluate),
+            }
         })?;
-        let start: Vec<f64> =
-            self.ranges.ranges.iter().map(|range| range.clip(range.start)).collect();
+        let start: Vec<f64> = self.ranges.ranges.iter().map(|range| range.first()).collect();
         let fitted = fitted.map_err(|reason| question.blame(call, &start, &reason))?;
         let residuals = match &roots {
             None => fitted.residuals.clone(),
@@ -128,8 +157,7 @@ impl FitOrder<'_> {
         if let Some(data) = &self.data {
             function.take(call, "data", data)?;
         }
-        let start: Vec<f64> =
-            self.ranges.ranges.iter().map(|range| range.clip(range.start)).collect();
+        let start: Vec<f64> = self.ranges.ranges.iter().map(|range| range.first()).collect();
         let _ = function.call_here(call, self.key, self.ranges.named(&start))?;
         let residuals = match &self.compared {
             Compared::Model { measured, .. } => vec![0.0; measured.len()],
@@ -143,10 +171,22 @@ impl FitOrder<'_> {
             estimate: Estimate::of(&rows, 0.0, &free),
             settling: Settling::Settled,
             runs: 0,
+            gradient_runs: 0,
+            differences: None,
             steps: 0,
         };
         let Self { name, ranges: Ranges { names, .. }, compared, confidence, .. } = self;
         Ok(Fit { name, names, fitted, residuals, compared, confidence })
+    }
+
+    /// The weighted residuals of what the function gave, with their derivatives.
+    fn differences_with(&self, rows: Vec<(f64, Vec<f64>)>, roots: Option<&[f64]>) -> Sloped {
+        let (values, mut slopes): (Vec<f64>, Vec<Vec<f64>>) = rows.into_iter().unzip();
+        let residuals = weighted(roots, self.differences(values)?);
+        for (row, root) in slopes.iter_mut().zip(roots.into_iter().flatten()) {
+            row.iter_mut().for_each(|slope| *slope *= root);
+        }
+        Ok(residuals.into_iter().zip(slopes).collect())
     }
 
     /// The residuals of what the function gave.
@@ -209,6 +249,15 @@ impl Fit {
             Settling::Settled => "settled",
             Settling::Stuck => "no step is better, though the derivatives promise it",
             Settling::Unfinished => "not settled after the most steps",
+        }
+    }
+
+    /// What derivatives were made of, in words.
+    pub fn derivatives(&self) -> String {
+        match (&self.fitted.differences, self.fitted.gradient_runs) {
+            (None, _) => "those of the runs".into(),
+            (Some(reason), 0) => format!("central differences: {reason}"),
+            (Some(reason), _) => format!("those of the runs, then central differences: {reason}"),
         }
     }
 

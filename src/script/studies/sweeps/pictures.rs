@@ -127,9 +127,7 @@ impl Picture<'_> {
             self.table.sweep().design.parameters.iter().filter(|of| of.name != x_name).collect();
         let name = |row: usize| {
             let words = others.iter().map(|of| {
-                let number = || of.values.number(row).map(|x| significant(x, 4));
-                let value = number().or_else(|| of.values.label(row).map(str::to_owned));
-                format!("{} {}", of.name, value.unwrap_or_default())
+                format!("{} {}", of.name, of.values.in_words(row, |number| significant(number, 4)))
             });
             words.collect::<Vec<_>>().join(", ")
         };

@@ -178,9 +178,7 @@ impl Order<'_> {
     fn row_in_words(&self, row: usize) -> String {
         let of = &self.plan.design.parameters;
         let words = of.iter().map(|of| {
-            let number = || of.values.number(row).map(crate::output::format_number);
-            let value = of.values.label(row).map(str::to_owned).or_else(number);
-            format!("{} = {}", of.name, value.unwrap_or_default())
+            format!("{} = {}", of.name, of.values.in_words(row, crate::output::format_number))
         });
         words.collect::<Vec<_>>().join(", ")
     }

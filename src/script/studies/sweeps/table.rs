@@ -234,9 +234,8 @@ impl Swept {
     /// The values of a row in words.
     fn place(&self, row: usize) -> String {
         let parameters = &self.sweep.design.parameters;
-        let words = parameters.iter().map(|of| match of.values.number(row) {
-            Some(number) => format!("{} {}", of.name, significant(number, 4)),
-            None => format!("{} {}", of.name, of.values.label(row).unwrap_or_default()),
+        let words = parameters.iter().map(|of| {
+            format!("{} {}", of.name, of.values.in_words(row, |number| significant(number, 4)))
         });
         words.collect::<Vec<_>>().join(", ")
     }

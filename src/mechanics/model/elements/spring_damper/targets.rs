@@ -6,6 +6,9 @@ use crate::model::elements::damping_law::DampingLaw;
 use crate::model::elements::hidden_force::Target;
 use crate::model::elements::{Iterate, RestoringLaw};
 
+/// Halvings until nothing is left between two numbers, and some more.
+const MOST_TRIES: usize = 120;
+
 impl SpringDamper {
     pub(super) fn restoring_at_start(&self) -> f64 {
         self.law.as_ref().map_or(0.0, |law| law.force(self.elongation.grown()))
@@ -19,11 +22,19 @@ impl SpringDamper {
 
     /// What the configuration of an iterate asks of the spring.
     pub(super) fn restoring(&self, stage: Stage) -> Target {
+        self.restoring_after(stage, self.elongation.change)
+    }
+
+    /// What the spring would be asked for after such a change of its elongation in the step [length, rad].
+    fn restoring_after(&self, stage: Stage, change: f64) -> Target {
         let Some(law) = &self.law else { return Target::default() };
-        let (q, change) = (self.elongation.grown(), self.elongation.change);
+        let q = self.elongation.grown();
         match stage {
             Stage::Start => Target { force: law.force(q), stiffness: 0.0 },
-            Stage::End => Target { force: law.force(q + change), stiffness: law.slope(q + change) },
+            Stage::End => {
+                let end = q.after(change);
+                Target { force: law.force(end), stiffness: law.slope(end) }
+            }
             Stage::Midpoint => {
                 let mean = law.mean(q, change);
                 Target { force: mean.force, stiffness: mean.slope }
@@ -39,6 +50,36 @@ impl SpringDamper {
                 Target { force: mean.force + late * change, stiffness: mean.slope + late }
             }
         }
+    }
+
+    /// The same for a linearisation. Where the search goes on for long, Newton's method is told of the impedance of all that the spring acts on: at a corner of
+    /// a stiff law it would go to and fro, or halve its way to it at every iteration. The line of that impedance through elongation and force meets the law at one
+    /// place, as long as the law rises, and there it is linearised.
+    pub(super) fn aimed_restoring(&mut self, stage: Stage) -> Target {
+        let (asked, change) = (self.restoring(stage), self.elongation.change);
+        let impedance = self.spring.impedance(change);
+        let Some(impedance) = impedance.filter(|_| self.rises) else { return asked };
+        let force = self.spring.force;
+        let above = |at: f64, of: Target| of.force - force + impedance * (at - change);
+        // As the law rises, it is no farther than where a law without any slope would be met.
+        let reach = change - above(change, asked) / impedance;
+        let (mut low, mut high) = (change.min(reach), change.max(reach));
+        let (mut at, mut met) = (change, asked);
+        for _ in 0..MOST_TRIES {
+            let off = above(at, met);
+            if off > 0.0 {
+                high = at
+            } else {
+                low = at
+            }
+            let next = at - off / (met.stiffness + impedance);
+            let next = if low < next && next < high { next } else { 0.5 * (low + high) };
+            if off == 0.0 || next <= low || next >= high {
+                break;
+            }
+            (at, met) = (next, self.restoring_after(stage, next));
+        }
+        Target { force: met.force + met.stiffness * (change - at), stiffness: met.stiffness }
     }
 
     /// What the configuration asks of the damper, for the whole step.

@@ -8,8 +8,8 @@ use crate::joints::{
     CONTACT_UNKNOWNS, Contact, ContactUnknowns, Equation, Leaning, Released, Resting, SlidingLaw,
 };
 use crate::model::bodies::Body;
-use crate::model::sliders::track::LANDED;
-use crate::model::sliders::{KinkedAxis, SliderState, TrackEnd};
+use crate::model::sliders::rail::LANDED;
+use crate::model::sliders::{KinkedAxis, MasterEnd, SliderState};
 
 impl Passing for AtRest {
     fn iterate<'s>(
@@ -79,8 +79,8 @@ impl Sliding {
     }
 
     /// The end of the master beyond which a movement with these unknowns would lead the slider.
-    pub fn passes(&self, unknowns: &[f64]) -> Option<TrackEnd> {
-        let ends = [TrackEnd::Start, TrackEnd::End].into_iter();
+    pub fn passes(&self, unknowns: &[f64]) -> Option<MasterEnd> {
+        let ends = [MasterEnd::Start, MasterEnd::End].into_iter();
         let mut beyond = ends.filter(|end| self.beyond(unknowns, *end) > LANDED);
         if self.is_sliding() { beyond.next() } else { None }
     }

@@ -3,7 +3,7 @@
 use super::Sliding;
 use crate::geometry::{Vec2, perpendicular};
 use crate::model::bodies::Body;
-use crate::model::sliders::{Connection, KinkedAxis, SliderState, TrackEnd};
+use crate::model::sliders::{Connection, KinkedAxis, SliderState, MasterEnd};
 
 impl Sliding {
     /// The control points of the master with their functions where the slider is.
@@ -40,7 +40,7 @@ impl Sliding {
     }
 
     /// The directions in which the slider moves at an end of its kinked axis, and would move without the kink [-]; none where it has none.
-    pub fn off_kink(&self, bodies: &[Body], rates: &[f64], end: TrackEnd) -> Option<[Vec2; 2]> {
+    pub fn off_kink(&self, bodies: &[Body], rates: &[f64], end: MasterEnd) -> Option<[Vec2; 2]> {
         let axis = self.kinked_axis.as_ref().filter(|axis| self.is_sliding() && !axis.gives())?;
         let velocity = self.relative_velocity(bodies, rates);
         let is_straight = axis.force() == Vec2::zeros() || velocity == Vec2::zeros();

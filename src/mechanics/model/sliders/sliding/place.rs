@@ -3,17 +3,17 @@
 use super::Sliding;
 use crate::joints::Heading;
 use crate::model::bodies::Body;
-use crate::model::sliders::track::LANDED;
-use crate::model::sliders::{Route, SliderState, TrackEnd};
+use crate::model::sliders::rail::LANDED;
+use crate::model::sliders::{MasterEnd, Route, SliderState};
 
 impl Sliding {
     /// How far the slider is from an end of its master, as a part of the parameters of the master [-].
-    pub fn distance_to(&self, end: TrackEnd) -> f64 {
+    pub fn distance_to(&self, end: MasterEnd) -> f64 {
         self.rail.distance(self.parameter, end)
     }
 
     /// Whether the slider is at an end of its master.
-    pub fn is_at(&self, end: TrackEnd) -> bool {
+    pub fn is_at(&self, end: MasterEnd) -> bool {
         self.distance_to(end) <= LANDED
     }
 
@@ -31,10 +31,10 @@ impl Sliding {
 
     fn part_of_master(&self) -> f64 {
         // Arrivals are a few digits short of the end, or beyond it.
-        if self.is_at(TrackEnd::Start) {
+        if self.is_at(MasterEnd::Start) {
             return 0.0;
         }
-        if self.is_at(TrackEnd::End) {
+        if self.is_at(MasterEnd::End) {
             return 1.0;
         }
         self.rail.part_before(self.parameter)

@@ -4,7 +4,7 @@ use super::{Sliding, would_pull};
 use crate::geometry::{Basis, Vec2};
 use crate::joints::{ContactUnknowns, EndAction};
 use crate::model::bodies::Body;
-use crate::model::sliders::{Route, Seam, SliderState, TrackEnd};
+use crate::model::sliders::{MasterEnd, Route, Seam, SliderState};
 
 impl Sliding {
     /// Lets the slider pass from beam to beam along a route, on one of whose beams it is.
@@ -27,7 +27,7 @@ impl Sliding {
     }
 
     /// Where the track goes on beyond an end of the present master, if the slider is on one that does.
-    pub fn seam(&self, bodies: &[Body], end: TrackEnd) -> Option<Seam> {
+    pub fn seam(&self, bodies: &[Body], end: MasterEnd) -> Option<Seam> {
         self.route.as_ref()?.seam(bodies, end)
     }
 
@@ -44,7 +44,7 @@ impl Sliding {
     }
 
     /// The directions in which the slider leaves the one side of a seam beyond an end of its master, and comes to the other [-].
-    pub fn corner(&self, bodies: &[Body], end: TrackEnd, seam: Seam) -> Option<[Vec2; 2]> {
+    pub fn corner(&self, bodies: &[Body], end: MasterEnd, seam: Seam) -> Option<[Vec2; 2]> {
         let leg = self.route.as_ref()?.leg(seam.leg);
         let inward = -seam.end.outward();
         let beyond = leg.end_tangent(bodies, &[], seam.end).normalize() * inward;

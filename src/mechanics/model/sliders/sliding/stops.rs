@@ -3,11 +3,11 @@
 use super::{Sliding, would_pull};
 use crate::integrators::Ending;
 use crate::model::bodies::Body;
-use crate::model::sliders::{Blow, SliderState, TrackEnd};
+use crate::model::sliders::{Blow, MasterEnd, SliderState};
 
 impl Sliding {
     /// Makes the slider rest against the stop at an end of its master.
-    pub fn hold(&mut self, end: TrackEnd) {
+    pub fn hold(&mut self, end: MasterEnd) {
         self.state = SliderState::Held(end);
     }
 

@@ -9,14 +9,14 @@ pub const LANDED: f64 = 4e-15;
 
 /// An end of the master of a slider.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum TrackEnd {
+pub enum MasterEnd {
     /// The end where the parameter of the master starts.
     Start,
     /// The end where the parameter of the master ends.
     End,
 }
 
-impl TrackEnd {
+impl MasterEnd {
     /// The name of the end for messages and scripts, such as `start`.
     pub fn name(self) -> &'static str {
         match self {
@@ -48,7 +48,7 @@ pub enum SliderState {
     /// The slider slides along its master.
     Sliding,
     /// The slider rests against the stop at an end of its master.
-    Held(TrackEnd),
+    Held(MasterEnd),
     /// The slider has left its master.
     Released,
 }
@@ -66,17 +66,17 @@ impl SliderState {
 
 /// The end of a master at which a slider may arrive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub struct TrackLimit {
+pub struct MasterLimit {
     /// The index of the slider.
     pub slider: usize,
     /// The end of the slider's master.
-    pub end: TrackEnd,
+    pub end: MasterEnd,
 }
 
-impl TrackLimit {
+impl MasterLimit {
     /// The ends of the master of a slider, in the order of their numbers.
     pub(in crate::model) fn both(slider: usize) -> [Self; 2] {
-        [TrackEnd::Start, TrackEnd::End].map(|end| Self { slider, end })
+        [MasterEnd::Start, MasterEnd::End].map(|end| Self { slider, end })
     }
 
     /// The number of this limit among those of all sliders.
@@ -115,25 +115,25 @@ impl Rail {
     }
 
     /// The parameter of an end of the master [-].
-    pub fn end(&self, end: TrackEnd) -> f64 {
+    pub fn end(&self, end: MasterEnd) -> f64 {
         match end {
-            TrackEnd::Start => self.domain.0,
-            TrackEnd::End => self.domain.1,
+            MasterEnd::Start => self.domain.0,
+            MasterEnd::End => self.domain.1,
         }
     }
 
     /// How far a parameter is from an end of the master, as a part of all parameters [-].
-    pub fn distance(&self, parameter: f64, end: TrackEnd) -> f64 {
+    pub fn distance(&self, parameter: f64, end: MasterEnd) -> f64 {
         let (first, last) = self.domain;
         (self.end(end) - parameter).abs() / (last - first)
     }
 
     /// How far a parameter lies beyond an end of the master, as a part of all parameters [-]; negative before it.
-    pub fn beyond(&self, parameter: f64, end: TrackEnd) -> f64 {
+    pub fn beyond(&self, parameter: f64, end: MasterEnd) -> f64 {
         let (first, last) = self.domain;
         let distance = match end {
-            TrackEnd::Start => first - parameter,
-            TrackEnd::End => parameter - last,
+            MasterEnd::Start => first - parameter,
+            MasterEnd::End => parameter - last,
         };
         distance / (last - first)
     }
@@ -171,9 +171,9 @@ mod tests {
 
     #[test]
     fn limits_are_numbered_in_their_order() {
-        let limits: Vec<TrackLimit> = (0..3).flat_map(TrackLimit::both).collect();
+        let limits: Vec<MasterLimit> = (0..3).flat_map(MasterLimit::both).collect();
         for (number, limit) in limits.into_iter().enumerate() {
-            assert_eq!((limit.number(), TrackLimit::of(number)), (number, limit));
+            assert_eq!((limit.number(), MasterLimit::of(number)), (number, limit));
         }
     }
 }

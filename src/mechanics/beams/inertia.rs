@@ -1,0 +1,194 @@
+//! The inertia matrix of a beam, by diagonals: each of them multiplies the rates of all control points as one long vector.
+
+use std::ops::Range;
+
+use pulp::{Arch, Simd, WithSimd};
+
+use super::Section;
+use super::dynamics::Movement;
+use super::sections::MassIntegral;
+
+/// The inertia matrix `∫ ρA N_a N_b dX` of x and y, `∫ ρI N_a N_b dX` of rotations, of a beam whose basis has `N` non-zero functions on a span.
+#[derive(Debug, Clone)]
+pub(super) struct InertiaMatrix<const N: usize, I> {
+    /// `∫ N_a N_{a+k} dX` for k = 0 … N-1 [length], with the inertia where it varies.
+    gram: Vec<[I; N]>,
+    /// The integrals of each k for all control points and components, one after another.
+    diagonals: [Vec<f64>; N],
+    /// By what the integrals of a component are multiplied, for all control points.
+    shares: Vec<f64>,
+    section: Section,
+}
+
+impl<const N: usize, I: MassIntegral> InertiaMatrix<N, I> {
+    /// The inertia matrix of a beam with such a section, of the integrals `∫ N_a N_{a+k} dX` for k = 0 … N-1.
+    pub(super) fn new(gram: Vec<[I; N]>, section: Section) -> Self {
+        let diagonal = |k: usize| gram.iter().flat_map(|row| row[k].weights()).collect();
+        let shares = gram.iter().flat_map(|_| I::shares(&section)).collect();
+        Self { diagonals: std::array::from_fn(diagonal), shares, section, gram }
+    }
+
+    /// The sum over the functions of what belongs to their products with that of every control point.
+    pub(super) fn lumped(&self, of: impl Fn(I) -> f64) -> Vec<f64> {
+        let mut sums = vec![0.0; self.gram.len()];
+        for (a, row) in self.gram.iter().enumerate() {
+            for (b, entry) in (a..self.gram.len()).zip(row) {
+                sums[a] += of(*entry);
+                if b > a {
+                    sums[b] += of(*entry);
+                }
+            }
+        }
+        sums
+    }
+
+    /// Adds `factor · M · rates` to the forces on the control points of a range.
+    pub(super) fn add_product(
+        &self,
+        points: Range<usize>,
+        factor: f64,
+        rates: &[Movement],
+        forces: &mut [Movement],
+    ) {
+        let (rates, forces) = (rates.as_flattened(), forces.as_flattened_mut());
+        Arch::new().dispatch(Product { matrix: self, points, factor, rates, forces });
+    }
+
+    /// Gives the rows of some control points in `factor · M` to `take`, in pieces: control point of the row, first one of the columns, and the
+    /// three diagonal entries for each column.
+    pub(super) fn each_row(
+        &self,
+        factor: f64,
+        points: Range<usize>,
+        take: &mut dyn FnMut(usize, usize, &[Movement]),
+    ) {
+        for point in points {
+            let first = point.saturating_sub(N - 1);
+            let mut row = [Movement::default(); N];
+            for (inertia, other) in row.iter_mut().zip(first..point) {
+                *inertia = self.gram[other][point - other].inertia(factor, &self.section);
+            }
+            take(point, first, &row[..point - first]);
+            row = self.gram[point].map(|entry| entry.inertia(factor, &self.section));
+            take(point, point, &row[..N.min(self.gram.len() - point)]);
+        }
+    }
+}
+
+/// The work of [`add_product`](InertiaMatrix::add_product), on numbers of all components one after another.
+struct Product<'a, const N: usize, I> {
+    matrix: &'a InertiaMatrix<N, I>,
+    points: Range<usize>,
+    factor: f64,
+    rates: &'a [f64],
+    forces: &'a mut [f64],
+}
+
+impl<const N: usize, I> WithSimd for Product<'_, N, I> {
+    type Output = ();
+
+    /// Adds diagonal by diagonal, from the first column of a row to its last one.
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self { matrix: InertiaMatrix { gram, diagonals, shares, .. }, points, factor, .. } =
+            self;
+        let (rates, forces) = (self.rates, self.forces);
+        let numbers = |points: Range<usize>| 3 * points.start..3 * points.end;
+        for (k, diagonal) in diagonals.iter().enumerate().skip(1).rev() {
+            let rows = points.start.max(k)..points.end;
+            if !rows.is_empty() {
+                let columns = numbers(rows.start - k..rows.end - k);
+                let factors =
+                    [&diagonal[columns.clone()], &shares[columns.clone()], &rates[columns]];
+                add_products(simd, factor, factors, &mut forces[3 * (rows.start - points.start)..]);
+            }
+        }
+        for (k, diagonal) in diagonals.iter().enumerate() {
+            let rows = points.start..points.end.min(gram.len().saturating_sub(k));
+            if !rows.is_empty() {
+                let columns = numbers(rows.start + k..rows.end + k);
+                let rows = numbers(rows);
+                let forces = &mut forces[..rows.len()];
+                let factors = [&diagonal[rows.clone()], &shares[rows], &rates[columns]];
+                add_products(simd, factor, factors, forces);
+            }
+        }
+    }
+}
+
+/// Adds the products of a factor with three vectors, entry by entry.
+#[inline(always)]
+fn add_products<S: Simd>(simd: S, factor: f64, [one, two, three]: [&[f64]; 3], out: &mut [f64]) {
+    let (head, rest) = S::as_mut_simd_f64s(out);
+    let (one, one_rest) = S::as_simd_f64s(one);
+    let (two, two_rest) = S::as_simd_f64s(two);
+    let (three, three_rest) = S::as_simd_f64s(three);
+    let factors = simd.splat_f64s(factor);
+    for (((out, one), two), three) in head.iter_mut().zip(one).zip(two).zip(three) {
+        let product = simd.mul_f64s(simd.mul_f64s(factors, *one), *two);
+        *out = simd.add_f64s(*out, simd.mul_f64s(product, *three));
+    }
+    for (((out, one), two), three) in rest.iter_mut().zip(one_rest).zip(two_rest).zip(three_rest) {
+        *out += factor * one * two * three;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const SECTION: Section = Section {
+        axial_stiffness: 1.0,
+        shear_stiffness: 1.0,
+        bending_stiffness: 1.0,
+        mass_per_length: 0.7,
+        rotary_inertia: 0.3,
+    };
+
+    /// Row by row and entry by entry, as [`InertiaMatrix::each_row`] gives them.
+    fn by_rows<const N: usize>(
+        matrix: &InertiaMatrix<N, f64>,
+        rates: &[Movement],
+    ) -> Vec<Movement> {
+        let mut forces = vec![Movement::default(); rates.len()];
+        matrix.each_row(1.7, 0..rates.len(), &mut |point, first, row| {
+            for (entry, rate) in row.iter().zip(&rates[first..]) {
+                for component in 0..3 {
+                    forces[point][component] += entry[component] * rate[component];
+                }
+            }
+        });
+        forces
+    }
+
+    fn assert_same<const N: usize>(count: usize, cut: usize, numbers: &[f64]) {
+        let mut numbers = numbers.iter().copied().cycle();
+        let mut next = || numbers.next().unwrap();
+        let gram = (0..count).map(|_| std::array::from_fn(|_| next())).collect();
+        let matrix = InertiaMatrix::<N, f64>::new(gram, SECTION);
+        let rates: Vec<Movement> = (0..count).map(|_| [next(), next(), next()]).collect();
+        let expected = by_rows(&matrix, &rates);
+        for arch in [Arch::Scalar, Arch::new()] {
+            let mut forces = vec![Movement::default(); count];
+            let (before, behind) = forces.split_at_mut(cut.min(count));
+            let cut = before.len();
+            for (points, forces) in [(0..cut, before), (cut..count, behind)] {
+                let (rates, forces) = (rates.as_flattened(), forces.as_flattened_mut());
+                arch.dispatch(Product { matrix: &matrix, points, factor: 1.7, rates, forces });
+            }
+            assert_eq!(forces, expected, "{N} functions, {count} points, cut at {cut}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn diagonals_give_the_same_bits_as_rows_in_any_parts(
+            count in 1_usize..40, cut in 0_usize..40, numbers in prop::collection::vec(-1.0..1.0_f64, 97),
+        ) {
+            assert_same::<2>(count, cut, &numbers);
+            assert_same::<4>(count, cut, &numbers);
+            assert_same::<6>(count, cut, &numbers);
+        }
+    }
+}

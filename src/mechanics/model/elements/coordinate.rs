@@ -1,0 +1,56 @@
+//! A coordinate that is followed by its changes, however many and however small they are.
+
+/// A length, an angle or a rate that changes have been added up to: their sum, and what its rounding has lost.
+///
+/// A rope of 1 m that is stretched by a micrometre in a blow would else know its stretch to ten digits only, and with it the energy that it stores
+/// (compensated summation; N. J. Higham, Accuracy and Stability of Numerical Algorithms (2002), section 4.3).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Coordinate {
+    /// The sum, rounded at each addition.
+    pub value: f64,
+    /// What has to be added to it.
+    pub rest: f64,
+}
+
+impl From<f64> for Coordinate {
+    fn from(value: f64) -> Self {
+        Self { value, rest: 0.0 }
+    }
+}
+
+impl Coordinate {
+    /// The coordinate after a change.
+    pub fn after(self, change: f64) -> Self {
+        let value = self.value + change;
+        let part = value - self.value;
+        let lost = (self.value - (value - part)) + (change - part);
+        Self { value, rest: self.rest + lost }
+    }
+
+    /// How far it is beyond a number, right to the rounding of that difference.
+    pub fn beyond(self, number: f64) -> f64 {
+        (self.value - number) + self.rest
+    }
+
+    /// How far it is beyond another one.
+    pub fn beyond_other(self, other: Self) -> f64 {
+        (self.value - other.value) + (self.rest - other.rest)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn many_small_changes_are_not_lost() {
+        let mut followed = Coordinate::from(1.0);
+        for _ in 0..1000 {
+            followed = followed.after(1e-17);
+        }
+        assert_eq!(followed.value, 1.0);
+        assert!((followed.beyond(1.0) - 1e-14).abs() < 1e-27);
+        let other = Coordinate::from(1.0).after(-3e-20);
+        assert!((followed.beyond_other(other) - 1.000_003e-14).abs() < 1e-27);
+    }
+}

@@ -1,0 +1,188 @@
+//! Derivatives of a run by parameters of its scene, found beside the run by the tangent-linear steps.
+
+mod error;
+mod twins;
+
+use std::fmt;
+
+pub use error::DerivativeError;
+pub(super) use twins::Twins;
+
+use super::{Recording, Simulation, StepSize, Unwatched};
+use crate::integrators::{Accompanied, Company, Integrator, Interval, Mechanism, StepError};
+use crate::model::{Model, ModelState, Scene};
+use crate::newton::NewtonReport;
+
+/// How a scene varies with a parameter: the scene at the parameter plus and minus a distance.
+#[derive(Debug, Clone)]
+pub struct Variation {
+    /// The name of the parameter.
+    pub name: String,
+    /// The distance between the parameter of the scene and those of the scenes beside it, in the units of the parameter.
+    pub distance: f64,
+    /// The scenes at the parameter plus the distance, and minus it.
+    pub scenes: [Scene; 2],
+}
+
+/// A scene beside that of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// The scene at the parameter plus a distance.
+    Plus,
+    /// The scene at the parameter minus a distance.
+    Minus,
+}
+
+/// The work for the derivatives of a run so far.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct DerivativeCounts {
+    /// The number of solves with the factors of the run.
+    pub solves: usize,
+    /// The number of factorisations where those did not do.
+    pub factorisations: usize,
+}
+
+/// The derivatives of a run: the state `s` of a step solves `R(s₁; s₀, p) = 0`, and so its derivative solves `∂R/∂s₁ s₁' = -∂R/∂s₀ s₀' - ∂R/∂p`, with the
+/// matrix that the step has factorised. The right-hand side is the difference of two balances, at `p ± δ` from the states `s₀ ± δ s₀'`.
+pub(super) struct Sensitivities {
+    company: Company,
+    parameters: Vec<Twins>,
+    /// The state of the run at the start of the present step.
+    start: ModelState,
+    counts: DerivativeCounts,
+    lost: Option<DerivativeError>,
+}
+
+impl Sensitivities {
+    /// The derivatives of a run at its start.
+    ///
+    /// # Errors
+    /// When steps of the method cannot be taken in company, or a scene beside that of the run cannot be built or has another form.
+    pub(super) fn new(
+        run: &mut Simulation,
+        variations: Vec<Variation>,
+    ) -> Result<Self, super::SimulationError> {
+        let settings = *run.settings();
+        if let StepSize::Adaptive(_) = settings.dt {
+            return Err(DerivativeError::Adaptive.into());
+        }
+        let name = settings.method.entry().name;
+        let company = Company::of(settings.method, run.model_mut(), settings.tolerance)
+            .ok_or(DerivativeError::Method { method: name })?;
+        let start = run.model().state();
+        let twins = |variation| Twins::start(run, variation, &start);
+        let parameters = variations.into_iter().map(twins).collect::<Result<_, _>>()?;
+        Ok(Self { company, parameters, start, counts: DerivativeCounts::default(), lost: None })
+    }
+
+    /// Takes a step of the run, and of the runs beside it.
+    ///
+    /// # Errors
+    /// Those of the step of the run.
+    pub(super) fn step(
+        &mut self,
+        model: &mut Model,
+        integrator: &mut dyn Integrator,
+        interval: Interval,
+    ) -> Result<NewtonReport, StepError> {
+        if self.lost.is_some() {
+            return integrator.step(model, interval);
+        }
+        model.write_state(&mut self.start);
+        for twins in &mut self.parameters {
+            twins.stand_beside(&self.start);
+        }
+        let models = self.parameters.iter_mut().flat_map(Twins::models);
+        let mut companions: Vec<&mut dyn Mechanism> =
+            models.map(|model| model as &mut dyn Mechanism).collect();
+        let Accompanied { leader, companions } =
+            self.company.step(model, &mut companions, interval)?;
+        match companions {
+            Ok(work) => {
+                self.counts.solves += work.corrections + work.iterations;
+                self.counts.factorisations += work.iterations;
+                self.parameters.iter_mut().for_each(Twins::differentiate);
+            }
+            Err(source) => {
+                let time = interval.start;
+                self.lost = Some(DerivativeError::NoStep { time, source: Box::new(source) });
+            }
+        }
+        Ok(leader)
+    }
+
+    /// Counts a step that succeeded.
+    pub(super) fn count_step(&mut self, interval: Interval, report: NewtonReport) {
+        self.each(|twin| twin.count_step(interval, report, 0));
+    }
+
+    /// Gives the present states beside the run rows of their histories that stay.
+    pub(super) fn keep_row(&mut self) {
+        self.each(Simulation::keep_row);
+    }
+
+    /// Gives the present states beside the run rows of their histories until they are past.
+    pub(super) fn show_present(&mut self) {
+        self.each(Simulation::show_present);
+    }
+
+    /// Lets time pass beside the run as steps would.
+    pub(super) fn pretend_to(&mut self, end: f64) {
+        self.each(|twin| {
+            // What would stop it stops the run itself.
+            let _: Result<(), super::SimulationError> = twin.pretend_to(end, &mut Unwatched);
+        });
+    }
+
+    /// Records the runs beside as the run is recorded.
+    pub(super) fn record(&mut self, recording: Recording) {
+        self.each(|twin| twin.record(recording));
+    }
+
+    fn each(&mut self, what: impl FnMut(&mut Simulation)) {
+        if self.lost.is_none() {
+            self.parameters.iter_mut().flat_map(Twins::runs).for_each(what);
+        }
+    }
+
+    /// There are no derivatives from here on; the first reason is kept.
+    pub(super) fn lose(&mut self, reason: DerivativeError) {
+        let _: &mut DerivativeError = self.lost.get_or_insert(reason);
+    }
+}
+
+impl fmt::Debug for Sensitivities {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Sensitivities").field("counts", &self.counts).finish_non_exhaustive()
+    }
+}
+
+impl Sensitivities {
+    /// The names of the parameters, with the distances of the runs beside.
+    pub(super) fn parameters(&self) -> impl Iterator<Item = (&str, f64)> {
+        self.parameters.iter().map(|twins| (twins.name.as_str(), twins.distance))
+    }
+
+    /// The run beside at a parameter, by its index.
+    ///
+    /// # Errors
+    /// When there are no derivatives (any more).
+    pub(super) fn beside(
+        &self,
+        parameter: usize,
+        side: Side,
+    ) -> Result<&Simulation, DerivativeError> {
+        match &self.lost {
+            Some(reason) => Err(reason.clone()),
+            None => {
+                let twins = self.parameters.get(parameter).ok_or(DerivativeError::None)?;
+                Ok(twins.run(side))
+            }
+        }
+    }
+
+    /// The work so far.
+    pub(super) fn counts(&self) -> DerivativeCounts {
+        self.counts
+    }
+}

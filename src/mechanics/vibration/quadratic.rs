@@ -1,0 +1,130 @@
+//! `λ² + λ B Bᵀ + Ω² = 0`: the numbers of damped vibration, the slowest first, however far apart they are.
+//!
+//! What damps may be of any strength: a dashpot that is as good as a support creeps back 10¹² times as slowly as the beam vibrates, and a damped material lets the fastest vibrations
+//! of a fine mesh decay 10¹⁴ times as fast as the slowest. All numbers are those of one matrix, of which only the largest are exact; so they are looked for from shifts
+//! on the positive real axis, from the slowest on ([`Resolvent`]), each of which tells those within a factor of about 10⁶.
+
+use nalgebra::{Complex, DMatrix};
+
+use super::VibrationError;
+use super::resolvent::Resolvent;
+use crate::elementary::hypot;
+use crate::geometry::larger;
+
+/// Numbers `λ` are as exact as they should be up to so many times the shift they are seen from.
+const REACH: f64 = 1e6;
+
+/// The next number beyond those may be known so badly that it is only believed up to so many times the shift.
+const FARTHEST: f64 = 1e12;
+
+/// What a free movement moves at a damper is rounding below this part of what any mode moves there.
+const ROUNDING: f64 = 1e-13;
+
+pub(super) type Number = Complex<f64>;
+
+/// The size of a complex number.
+pub(super) fn size(at: Number) -> f64 {
+    hypot(at.re, at.im)
+}
+
+/// Damped vibration in the modes of the undamped model.
+pub(super) struct Quadratic {
+    /// The squares of the frequencies of the undamped modes, the diagonal `Ω²` [1/time²].
+    pub(super) squares: Vec<f64>,
+    /// `B`: a row for each mode, a column for each rate that is damped, or as few columns with the same `B Bᵀ` [1/time^½].
+    pub(super) dampers: DMatrix<f64>,
+}
+
+impl Quadratic {
+    pub(super) fn new(squares: Vec<f64>, mut dampers: DMatrix<f64>) -> Self {
+        for mut column in dampers.column_iter_mut() {
+            let least = ROUNDING * column.amax();
+            let free = column.iter_mut().zip(&squares).filter(|(_, square)| **square == 0.0);
+            free.filter(|(rate, _)| rate.abs() <= least).for_each(|(rate, _)| *rate = 0.0);
+        }
+        if dampers.ncols() > dampers.nrows() {
+            // `Bᵀ = Q R`: rows keep their own rounding, which is squared in what damps nothing.
+            dampers = dampers.transpose().qr().r().transpose();
+        }
+        Self { squares, dampers }
+    }
+
+    /// How much of the square of a mode is damped, `(B Bᵀ)_ii` [1/time].
+    fn damping(&self, mode: usize) -> f64 {
+        self.dampers.row(mode).norm_squared()
+    }
+
+    /// Whether a mode is neither held nor damped: both of its numbers are zero.
+    pub(super) fn is_loose(&self, mode: usize) -> bool {
+        self.squares[mode] == 0.0 && self.damping(mode) == 0.0
+    }
+
+    /// So many numbers of the slowest, of each pair the one above the real axis [1/time].
+    ///
+    /// # Errors
+    /// When there are not so many, or the search does not end.
+    pub(super) fn slowest(
+        &self,
+        count: usize,
+        goes_on: &mut dyn FnMut() -> bool,
+    ) -> Result<Vec<Number>, VibrationError> {
+        let modes = 0..self.squares.len();
+        let free = modes.clone().filter(|mode| self.squares[*mode] == 0.0).count();
+        let zeros = free + modes.filter(|mode| self.is_loose(*mode)).count();
+        let all = 2 * self.squares.len() - zeros;
+        let wanted = if count == 0 { usize::MAX } else { count.saturating_sub(zeros) };
+        let (mut known, mut told, mut shift) = (0, 0, self.slowest_shift());
+        let mut seen: Vec<(Resolvent, Vec<Number>)> = Vec::new();
+        while known < all && told < wanted {
+            let resolvent = Resolvent::of(self, shift, goes_on)?;
+            let numbers = resolvent.numbers()?;
+            let reached = match shift >= self.fastest() {
+                true => all,
+                false => whole_pairs(&numbers, numbers.partition_point(|at| size(*at) <= REACH)),
+            };
+            if let Some(next) = numbers.get(reached) {
+                shift *= size(*next).clamp(REACH, FARTHEST);
+            }
+            let new = numbers[known.min(reached)..reached].iter();
+            let new: Vec<Number> = new.copied().filter(|at| at.im >= 0.0).collect();
+            (known, told) = (known.max(reached), told + new.len());
+            seen.push((resolvent, new));
+        }
+        let available = zeros + told;
+        if count == 0 || count > available {
+            return Err(VibrationError::Count { asked: count, available });
+        }
+        let moving = seen.iter().flat_map(|(resolvent, numbers)| {
+            numbers.iter().map(|at| resolvent.corrected(*at) * resolvent.shift)
+        });
+        Ok(std::iter::repeat_n(Number::new(0.0, 0.0), zeros).chain(moving).take(count).collect())
+    }
+
+    /// A shift that no number is much below: with `x` scaled by `Ω`, what is held obeys `ẏ = A y` with `|A⁻¹| ≤ |Ω⁻¹ B|² + |Ω⁻¹|` [1/time].
+    fn slowest_shift(&self) -> f64 {
+        let modes = || self.squares.iter().enumerate();
+        let held = modes().filter(|(_, square)| **square != 0.0);
+        let compliance: f64 =
+            held.clone().map(|(mode, square)| self.damping(mode) / square.abs()).sum();
+        let slowest = held.map(|(_, square)| square.abs().sqrt()).fold(f64::INFINITY, f64::min);
+        let free =
+            modes().filter(|(_, square)| **square == 0.0).map(|(mode, _)| self.damping(mode));
+        let free = free.filter(|damping| *damping > 0.0).fold(f64::INFINITY, f64::min);
+        // What is unstable has to be positive definite with the square of the shift.
+        let unstable = self.squares.iter().fold(0.0, |most, square| larger(most, -square));
+        larger((1.0 / (compliance + 1.0 / slowest)).min(free), 2.0 * unstable.sqrt())
+    }
+
+    /// No number is faster [1/time].
+    fn fastest(&self) -> f64 {
+        let vibration = self.squares.iter().fold(0.0, |most, square| larger(most, square.abs()));
+        2.0 * vibration.sqrt() + self.dampers.norm_squared()
+    }
+}
+
+/// So many of the first numbers, or one less where a pair would be torn apart.
+fn whole_pairs(numbers: &[Number], first: usize) -> usize {
+    let numbers = numbers[..first].iter();
+    let above = numbers.clone().filter(|at| at.im > 0.0).count();
+    first - usize::from(above != numbers.filter(|at| at.im < 0.0).count())
+}

@@ -1,0 +1,237 @@
+//! Damped vibration about a shift: the numbers of `λ² + λ B Bᵀ + Ω²` near it.
+//!
+//! With `y = (Ω x, ẋ)` the vibration is `ẏ = A y`, `A = [0 Ω; -Ω -B Bᵀ]`, which takes energy and never gives any: for `σ > 0` no vector is longer than `1/σ` times itself after
+//! `(A - σ)⁻¹`, however strong the damping is (Lumer & Phillips, Pacific J. Math. 11 (1961) 679–698). With the diagonals `e = (σ² + Ω²)^-½`, `w = Ω e` and `t = σ e`, `w² + t² = 1`,
+//!
+//! ```text
+//! σ (A - σ)⁻¹ = [ -(t² + w P w)   -w (1 - P) t ]        P = G (1 + Gᵀ G)⁻¹ Gᵀ,   G = √σ e B
+//!               [  t (1 - P) w    -t (1 - P) t ]
+//! ```
+//!
+//! has no large entry: a dashpot of any strength is a projection `P`. With the singular vectors `U` and values `s` of `G`, of which one-sided rotations find small ones beside large
+//! ones, it is `U s²/(1 + s²) Uᵀ`. The eigenvalues `θ` of the matrix give `λ = σ (1 + 1/θ)`; each that is told is corrected by inverse iteration with the Rayleigh quotient of the quadratic
+//! problem, in which the forces of strong dashpots are unknowns, divided by what damps (F. Tisseur & K. Meerbergen, SIAM Review 43 (2001) 235–286, sections 2 and 3.4).
+
+use nalgebra::{DMatrix, DVector, Schur};
+
+use super::VibrationError;
+use super::dense::rotate;
+use super::quadratic::{Number, Quadratic, size};
+use crate::elementary::square;
+
+/// Most sweeps of the search for all `θ`, for each of them; it takes a few.
+const MOST_SWEEPS: usize = 40;
+
+/// What couples `θ` is none below these parts of what is beside it: the next one is taken where the search does not end.
+const DECOUPLED: [f64; 3] = [f64::EPSILON, 1e-14, 1e-12];
+
+/// Corrections of each `λ` that is told.
+const CORRECTIONS: usize = 4;
+
+/// A correction that moves `λ` by a larger part of it has gone to another one, and is not taken,
+const FAR: f64 = 1e-4;
+
+/// nor one that moves it by more than this part, where it is next to the shift, and so many times as much as rounding may: those crowd whose shapes it mixes.
+const NEAR: f64 = 1e-10;
+const SPARE: f64 = 1e-12;
+
+/// So far beside `λ`, as a part of it, inverse iteration stands, where nothing is singular.
+const BESIDE: f64 = 1e-8;
+
+/// Damping `s²` above which a force is an unknown of its own: as a part of a matrix it would take so many digits of what it damps little.
+const STRONG: f64 = 1e4;
+
+/// Damped vibration about a shift.
+pub(super) struct Resolvent {
+    /// The shift `σ` [1/time].
+    pub(super) shift: f64,
+    /// `w` and `t` of each mode, and the sign of its square.
+    scales: Vec<(f64, f64, f64)>,
+    /// The modes whose places count, those that are held, and whose velocities do, those that are not loose.
+    places: Vec<usize>,
+    velocities: Vec<usize>,
+    /// `U`, a column for each `s²`.
+    directions: DMatrix<f64>,
+    damping: Vec<f64>,
+}
+
+impl Resolvent {
+    /// A problem about a shift whose square makes what is unstable positive.
+    ///
+    /// # Errors
+    /// When the search is stopped.
+    pub(super) fn of(
+        problem: &Quadratic,
+        shift: f64,
+        goes_on: &mut dyn FnMut() -> bool,
+    ) -> Result<Self, VibrationError> {
+        let modes = 0..problem.squares.len();
+        let scale = |square: &f64| {
+            let inverse = 1.0 / (shift * shift + square).sqrt();
+            (square.abs().sqrt() * inverse, shift * inverse, square.signum())
+        };
+        let scales: Vec<_> = problem.squares.iter().map(scale).collect();
+        let mut directions = problem.dampers.clone();
+        for (mut row, (_, time, _)) in directions.row_iter_mut().zip(&scales) {
+            row *= time / shift.sqrt();
+        }
+        let damping = rotate(&mut directions, goes_on)?;
+        let acting: Vec<usize> = (0..damping.len()).filter(|at| damping[*at] > 0.0).collect();
+        let mut directions = directions.select_columns(&acting);
+        let damping: Vec<f64> = acting.iter().map(|at| damping[*at]).collect();
+        for (mut column, square) in directions.column_iter_mut().zip(&damping) {
+            column /= square.sqrt();
+        }
+        let places = modes.clone().filter(|mode| problem.squares[*mode] != 0.0).collect();
+        let velocities = modes.filter(|mode| !problem.is_loose(*mode)).collect();
+        Ok(Self { shift, scales, places, velocities, directions, damping })
+    }
+
+    /// All numbers `λ/σ`, the smallest first; those next to it are exact.
+    ///
+    /// # Errors
+    /// When the search does not end.
+    pub(super) fn numbers(&self) -> Result<Vec<Number>, VibrationError> {
+        let matrix = self.matrix();
+        let count = matrix.nrows();
+        if count == 0 {
+            return Ok(Vec::new());
+        }
+        // A matrix is found to be decoupled where what couples is small beside its diagonal: beside numbers of no interest, which are next to nothing, it may never be. Then
+        // all are moved away from zero, by as much as the largest.
+        let search = |part: f64, moved: f64| {
+            let mut matrix = matrix.clone();
+            (0..count).for_each(|at| matrix[(at, at)] -= moved);
+            let schur = Schur::try_new(matrix, part, MOST_SWEEPS * count)?;
+            Some(schur.complex_eigenvalues().iter().map(|at| at + moved).collect())
+        };
+        let either = |part: f64| search(part, 0.0).or_else(|| search(part, 1.0));
+        let found: Option<Vec<Number>> = DECOUPLED.into_iter().find_map(either);
+        let found = found.ok_or(VibrationError::Damping)?;
+        if found.iter().any(|at| !(at.re.is_finite() && at.im.is_finite())) {
+            return Err(VibrationError::Damping);
+        }
+        let one = Number::new(1.0, 0.0);
+        let number = |at: Number| match size(at) {
+            0.0 => Number::new(f64::INFINITY, 0.0),
+            _ => one + one / at,
+        };
+        let mut found: Vec<Number> = found.into_iter().map(number).collect();
+        found.sort_by(|a, b| size(*a).total_cmp(&size(*b)));
+        Ok(found)
+    }
+
+    /// `σ (A - σ)⁻¹`.
+    fn matrix(&self) -> DMatrix<f64> {
+        let Self { scales, places, velocities, .. } = self;
+        let held = self.weighted(|square| square / (1.0 + square));
+        let rows = places.iter().map(|mode| (true, *mode));
+        let rows: Vec<_> = rows.chain(velocities.iter().map(|mode| (false, *mode))).collect();
+        DMatrix::from_fn(rows.len(), rows.len(), |row, column| {
+            let ((of_place, at), (by_place, by)) = (rows[row], rows[column]);
+            let ((w, t, _), (by_w, by_t, sign)) = (scales[at], scales[by]);
+            let own = if at == by { 1.0 } else { 0.0 };
+            let free = own - held[(at, by)];
+            match (of_place, by_place) {
+                (true, true) => -(own * t * t + w * held[(at, by)] * by_w * sign),
+                (true, false) => -w * free * by_t,
+                (false, true) => t * free * by_w * sign,
+                (false, false) => -t * free * by_t,
+            }
+        })
+    }
+
+    /// `U f(s²) Uᵀ`.
+    fn weighted(&self, of: impl Fn(f64) -> f64) -> DMatrix<f64> {
+        let mut weighted = self.directions.clone();
+        for (mut column, square) in weighted.column_iter_mut().zip(&self.damping) {
+            column *= of(*square);
+        }
+        weighted * self.directions.transpose()
+    }
+
+    /// A number `λ/σ`, corrected.
+    pub(super) fn corrected(&self, start: Number) -> Number {
+        let complex = |value: f64| Number::new(value, 0.0);
+        let modes = self.scales.len();
+        let weak = self.weighted(|square| if square > STRONG { 0.0 } else { square });
+        let strong: Vec<usize> =
+            (0..self.damping.len()).filter(|at| self.damping[*at] > STRONG).collect();
+        let mut at = start;
+        // `λ - σ` is one over what was found.
+        let rounding = SPARE * square(size(start - complex(1.0))) / size(start);
+        let trusted = (NEAR + rounding).min(FAR) * size(start);
+        let unknowns = modes + strong.len();
+        let mut shape = DVector::from_fn(unknowns, |row, _| {
+            complex(if row < modes { 1.0 + 0.1 * (row % 7) as f64 } else { 0.0 })
+        });
+        for _ in 0..CORRECTIONS {
+            let beside = at * (1.0 + BESIDE);
+            let mut matrix = DMatrix::from_element(unknowns, unknowns, complex(0.0));
+            matrix.view_mut((0, 0), (modes, modes)).copy_from(&weak.map(|entry| beside * entry));
+            for (row, (w, t, sign)) in self.scales.iter().enumerate() {
+                matrix[(row, row)] += beside * beside * (t * t) + sign * w * w;
+            }
+            for (force, damper) in (modes..).zip(&strong) {
+                for row in 0..modes {
+                    let along = complex(self.directions[(row, *damper)]);
+                    (matrix[(row, force)], matrix[(force, row)]) = (along, along);
+                }
+                matrix[(force, force)] = -complex(1.0) / (beside * self.damping[*damper]);
+            }
+            let Some(next) = matrix.lu().solve(&shape) else { return at };
+            let moving = next.rows(0, modes);
+            let largest = moving.iter().map(|value| size(*value)).fold(0.0, f64::max);
+            if !(largest.is_finite() && largest > 0.0) {
+                return at;
+            }
+            let next = next / complex(largest);
+            let (mut inertia, mut stiffness) = (complex(0.0), complex(0.0));
+            for (value, (w, t, sign)) in next.iter().zip(&self.scales) {
+                inertia += value * value * (t * t);
+                stiffness += value * value * (sign * w * w);
+            }
+            let moving = next.rows(0, modes).into_owned();
+            let resisted = weak.map(complex) * &moving;
+            let mut damped = moving.iter().zip(resisted.iter()).map(|(a, b)| a * b).sum::<Number>();
+            for (force, damper) in (modes..).zip(&strong) {
+                // The rate follows from the force, without a difference.
+                let rate = next[force] / (beside * self.damping[*damper]);
+                damped += rate * rate * self.damping[*damper];
+            }
+            let root = root(damped * damped - inertia * stiffness * 4.0);
+            // The sum that is no difference gives both.
+            let [sum, difference] = [damped + root, damped - root];
+            let sum = if size(sum) > size(difference) { sum } else { difference };
+            let nearest = [-sum / (inertia * 2.0), -stiffness * 2.0 / sum];
+            let nearest = match size(nearest[0] - at) < size(nearest[1] - at) {
+                true => nearest[0],
+                false => nearest[1],
+            };
+            // Where two meet, the quotient of their shape has no value.
+            let moved = size(nearest - start);
+            if moved.is_nan() || moved > trusted {
+                return start;
+            }
+            at = nearest;
+            shape = next;
+            shape.rows_mut(modes, strong.len()).fill(complex(0.0));
+        }
+        at
+    }
+}
+
+/// A square root.
+fn root(of: Number) -> Number {
+    let size = size(of);
+    if size == 0.0 {
+        return of;
+    }
+    let larger = (0.5 * (size + of.re.abs())).sqrt();
+    let smaller = 0.5 * of.im.abs() / larger;
+    let sign = if of.im < 0.0 { -1.0 } else { 1.0 };
+    match of.re >= 0.0 {
+        true => Number::new(larger, sign * smaller),
+        false => Number::new(smaller, sign * larger),
+    }
+}

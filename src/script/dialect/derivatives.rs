@@ -1,0 +1,97 @@
+//! Operators on numbers and vectors that depend on parameters of a scene: what they do to numbers, in each variant.
+
+use std::any::TypeId;
+use std::rc::Rc;
+
+use rhai::{Dynamic, Engine, NativeCallContext};
+
+use crate::elementary::power;
+use crate::script::rows::lifting::{Family, Varied, gathered, present};
+use crate::script::source::syntax::{LONGEST_CHAIN, OWN, power_name};
+use crate::script::words::error::{EngineResult, ScriptError};
+use crate::script::words::numbers::as_number;
+
+/// An operator on numbers.
+type OnNumbers = fn(f64, f64) -> f64;
+
+/// Registers the operators, under the names that the language writes them by.
+pub fn install(engine: &mut Engine) {
+    let arithmetic: [(String, OnNumbers); 5] = [
+        ("+".into(), |x, y| x + y),
+        ("-".into(), |x, y| x - y),
+        ("*".into(), |x, y| x * y),
+        ("%".into(), |x, y| x % y),
+        (format!("{OWN}/"), |x, y| x / y),
+    ];
+    let powers = (0..LONGEST_CHAIN).map(|chain| (power_name(chain), power as OnNumbers));
+    for (name, numbers) in arithmetic.into_iter().chain(powers) {
+        for types in with_one() {
+            let own = name.clone();
+            engine.register_raw_fn(&name, types, move |context: NativeCallContext, operands| {
+                in_each(&context, &own, numbers, operands)
+            });
+        }
+    }
+    let varied = [TypeId::of::<Varied>()];
+    engine.register_raw_fn("-", varied, |context: NativeCallContext, operands| {
+        let mut values = vec![&mut *operands[0]];
+        let mut minus = Dynamic::from(-1.0);
+        values.push(&mut minus);
+        in_each(&context, "*", |x, y| x * y, &mut values)
+    });
+    engine.register_raw_fn("+", varied, |_, operands| -> EngineResult<Dynamic> {
+        Ok(operands[0].clone())
+    });
+    for symbol in ["<", ">", "<=", ">=", "==", "!="] {
+        for name in [symbol.to_owned(), format!("{OWN}{symbol}")] {
+            for types in with_one() {
+                let own = name.clone();
+                engine.register_raw_fn(
+                    &name,
+                    types,
+                    move |context: NativeCallContext, operands| {
+                        let [left, right] = operands else { return Ok(Dynamic::UNIT) };
+                        let at = present().map_or(0, |present| present.variant);
+                        let [mut left, mut right] = [left, right].map(|of| Varied::project(of, at));
+                        context.call_native_fn_raw(&own, false, &mut [&mut left, &mut right])
+                    },
+                );
+            }
+        }
+    }
+}
+
+/// Two operands of which one at least depends on parameters.
+fn with_one() -> [[TypeId; 2]; 3] {
+    let (varied, any) = (TypeId::of::<Varied>(), TypeId::of::<Dynamic>());
+    [[varied, varied], [varied, any], [any, varied]]
+}
+
+fn in_each(
+    context: &NativeCallContext,
+    name: &str,
+    numbers: OnNumbers,
+    operands: &mut [&mut Dynamic],
+) -> EngineResult<Dynamic> {
+    let [left, right] = operands else { return Ok(Dynamic::UNIT) };
+    let (left, right) = ((**left).clone().flatten(), (**right).clone().flatten());
+    let at = |variant: usize| -> EngineResult<Dynamic> {
+        let [mut left, mut right] = [&left, &right].map(|of| Varied::project(of, variant));
+        match (as_number(&left), as_number(&right)) {
+            (Some(left), Some(right)) => Ok(numbers(left, right).into()),
+            _ => context.call_native_fn_raw(name, false, &mut [&mut left, &mut right]),
+        }
+    };
+    if let Some(present) = present() {
+        return at(present.variant);
+    }
+    let position = context.call_position();
+    let found = Family::common(&[&left, &right]);
+    let family: Rc<Family> = match found.map_err(|error| error.into_engine(position))? {
+        Some(family) => family,
+        None => return at(0),
+    };
+    let all = (0..family.variants()).map(at).collect::<EngineResult<Vec<_>>>()?;
+    let gathered: Result<Dynamic, ScriptError> = gathered(&family, &all, &[&left, &right]);
+    gathered.map_err(|error| error.into_engine(position))
+}

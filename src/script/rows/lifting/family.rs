@@ -1,0 +1,177 @@
+//! Parameters that belong together: those of one scene. For each there is a variant of everything at the parameter plus and minus a distance.
+
+use std::any::TypeId;
+use std::cell::{Cell, RefCell};
+use std::collections::HashMap;
+use std::rc::Rc;
+
+use rhai::Dynamic;
+
+use super::varied::Varied;
+use crate::script::words::error::ScriptError;
+
+/// The distance to the variants beside, as a part of the size of a parameter. What is made of it errs by its square and by rounding over it.
+pub const RELATIVE_DISTANCE: f64 = 1e-5;
+
+/// Parameters that belong together. Variant 0 is at their values; 1 and 2 are at the first one plus and minus a distance, 3 and 4 at the second one.
+#[derive(Default)]
+pub struct Family {
+    parameters: RefCell<Vec<Declared>>,
+    /// Whether variants are in use, so that none may be added.
+    is_in_use: Cell<bool>,
+}
+
+/// A parameter of a family.
+#[derive(Clone)]
+struct Declared {
+    name: String,
+    distance: f64,
+}
+
+/// The variant that a call is made for.
+#[derive(Clone)]
+pub struct Present {
+    /// The parameters.
+    pub family: Rc<Family>,
+    /// The variant of them.
+    pub variant: usize,
+}
+
+thread_local! {
+    /// Whether there has been a family in this thread.
+    static ANY: Cell<bool> = const { Cell::new(false) };
+    /// How things of a scene tell the parameters that it depends on, by their types.
+    static THINGS: RefCell<HashMap<TypeId, FamilyOf>> = RefCell::default();
+    static PRESENT: RefCell<Option<Present>> = const { RefCell::new(None) };
+    /// Why what is asked beside is not known.
+    static LOST: RefCell<Option<Rc<str>>> = const { RefCell::new(None) };
+}
+
+/// The parameters that a thing of a scene depends on, if it does.
+type FamilyOf = fn(&Dynamic) -> Option<Rc<Family>>;
+
+/// Keeps how values of a type tell the parameters that they depend on.
+pub fn know(id: TypeId, family_of: FamilyOf) {
+    let _: Option<FamilyOf> = THINGS.with_borrow_mut(|known| known.insert(id, family_of));
+}
+
+/// The parameters that a thing of a scene depends on, if the value is one and does.
+pub(super) fn of_thing(value: &Dynamic) -> Option<Rc<Family>> {
+    let known = THINGS.with_borrow(|known| known.get(&value.type_id()).copied());
+    known.and_then(|family_of| family_of(value))
+}
+
+/// The variant that the present call is made for; none where it is made once.
+pub fn present() -> Option<Present> {
+    PRESENT.with_borrow(Clone::clone)
+}
+
+/// What is asked beside is not known: why.
+pub fn lose(reason: &str) {
+    LOST.set(Some(reason.into()));
+}
+
+/// Why what was asked beside since the last time is not known, if so.
+pub(super) fn take_lost() -> Option<Rc<str>> {
+    LOST.take()
+}
+
+/// Calls are made for a variant as long as this lives.
+pub(super) struct Within;
+
+impl Within {
+    pub(super) fn of(family: &Rc<Family>, variant: usize) -> Self {
+        PRESENT.set(Some(Present { family: Rc::clone(family), variant }));
+        Self
+    }
+}
+
+impl Drop for Within {
+    fn drop(&mut self) {
+        PRESENT.set(None);
+    }
+}
+
+impl Family {
+    /// A family without parameters yet.
+    pub fn new() -> Rc<Self> {
+        ANY.set(true);
+        Rc::default()
+    }
+
+    /// Whether there may be values that depend on a parameter: without any, calls are made as they are.
+    pub fn is_any() -> bool {
+        ANY.get()
+    }
+
+    /// Adds a parameter with its value; gives the number that depends on it.
+    ///
+    /// # Errors
+    /// When there is one of that name, or variants of the others are in use.
+    pub fn declare(self: &Rc<Self>, name: &str, value: f64) -> Result<Varied, ScriptError> {
+        let size = if value == 0.0 { 1.0 } else { value.abs() };
+        self.declare_within(name, value, RELATIVE_DISTANCE * size)
+    }
+
+    /// Adds a parameter with its value, and variants at a distance; gives the number that depends on it.
+    ///
+    /// # Errors
+    /// As those of [`declare`](Self::declare).
+    pub fn declare_within(
+        self: &Rc<Self>,
+        name: &str,
+        value: f64,
+        distance: f64,
+    ) -> Result<Varied, ScriptError> {
+        if self.is_in_use.get() {
+            let told = format!("parameter '{name}' comes after others of its scene are in use");
+            return Err(ScriptError::new(told).hint("declare all parameters of a scene first"));
+        }
+        if self.number_of(name).is_some() {
+            let told = format!("there is a parameter '{name}' already");
+            return Err(ScriptError::new(told).hint("use the number that it gave, or another name"));
+        }
+        // What is so near can be told apart exactly.
+        let distance = 0.5 * ((value + distance) - (value - distance));
+        let mut values = vec![Dynamic::from(value); self.variants()];
+        values.extend([value + distance, value - distance].map(Dynamic::from));
+        self.parameters.borrow_mut().push(Declared { name: name.to_owned(), distance });
+        Ok(Varied::new(self, values, None))
+    }
+
+    /// No parameter is added any more.
+    pub fn use_variants(&self) {
+        self.is_in_use.set(true);
+    }
+
+    /// The number of variants.
+    pub fn variants(&self) -> usize {
+        1 + 2 * self.parameters.borrow().len()
+    }
+
+    /// The names of the parameters, with the distances of their variants.
+    pub fn parameters(&self) -> Vec<(String, f64)> {
+        let parameters = self.parameters.borrow();
+        parameters.iter().map(|of| (of.name.clone(), of.distance)).collect()
+    }
+
+    /// The number of a parameter by its name, from 0.
+    pub fn number_of(&self, name: &str) -> Option<usize> {
+        self.parameters.borrow().iter().position(|of| of.name == name)
+    }
+
+    /// The parameter that a variant beside is about, by its number, and whether it is the one at plus the distance.
+    pub fn beside(variant: usize) -> Option<(usize, bool)> {
+        let beside = variant.checked_sub(1)?;
+        Some((beside / 2, beside % 2 == 0))
+    }
+
+    /// What a variant is at, in words: `EI = … + 1e-3`; empty for the one at the values.
+    pub fn describe(&self, variant: usize) -> String {
+        let parameters = self.parameters.borrow();
+        let of = Self::beside(variant).and_then(|(at, plus)| Some((parameters.get(at)?, plus)));
+        of.map_or_else(String::new, |(of, plus)| {
+            format!("'{}' {} {:e}", of.name, if plus { "plus" } else { "minus" }, of.distance)
+        })
+    }
+}

@@ -1,0 +1,16 @@
+//! Calls for each value of the parameters of a scene: a call with a number that depends on one is made for the scene and for those beside it.
+//!
+//! So derivatives go through whatever is made of them: sections, loads, simulations, functions of what these tell.
+
+mod family;
+mod gather;
+mod lift;
+mod policy;
+mod varied;
+
+pub use family::{Family, Present, RELATIVE_DISTANCE, know, lose, present};
+pub use lift::{gathered, lift};
+#[cfg(test)]
+pub use policy::NAMED;
+pub use policy::{Lifting, lifting_of};
+pub use varied::Varied;

@@ -1,0 +1,147 @@
+//! Laws with corners, ropes that go slack and buffers that are left, and laws that were sampled: at any stiffness the ledger closes, without a halved step.
+#![allow(clippy::unwrap_used)]
+
+use crate::common::{at, scenes, simulate};
+use withy::beams::Mesh;
+use withy::integrators::{EnergyClaim, INTEGRATORS, Method};
+use withy::model::{
+    Anchor, Origin, ParticleDefinition, RestoringLaw, Scene, Spring, SpringKind, StartMotion,
+};
+use withy::simulation::{Invariant, Simulation};
+
+/// The stiffness of the beams beside which springs stand: `EA` per length 1.
+const OF_BEAM: f64 = 1e4;
+
+fn add(scene: &mut Scene, anchors: Vec<Anchor>, law: RestoringLaw) {
+    let (name, kind) = (scene.free_name("spring"), SpringKind::Way(anchors));
+    let (law, origin) = (Some(law), Origin::Zero);
+    scene.add_spring(Spring { name, kind, law, origin, damping: 0.0.into() }).unwrap();
+}
+
+/// A rope pulls where it is longer than its length, and a buffer pushes where it is shorter.
+fn rope(stiffness: f64, length: f64) -> RestoringLaw {
+    let points = vec![(length - 1.0, 0.0), (length, 0.0), (length + 1.0, stiffness)];
+    RestoringLaw::Table { points }
+}
+
+fn buffer(stiffness: f64, length: f64) -> RestoringLaw {
+    let points = vec![(length - 1.0, -stiffness), (length, 0.0), (length + 1.0, 0.0)];
+    RestoringLaw::Table { points }
+}
+
+/// A hardening spring, asked as a script asks its function.
+fn hardening(stiffness: f64, length: f64) -> RestoringLaw {
+    let force = |e: f64| Ok::<f64, ()>(stiffness * (e + 4.0 * e * e * e));
+    RestoringLaw::sampled((-0.51, 0.62), force).unwrap().shifted(length)
+}
+
+type Law = fn(f64, f64) -> RestoringLaw;
+
+/// A beam that flies and turns, with a law between its ends, `beyond` its length as it begins, and one between places inside.
+fn braced(law: Law, stiffness: f64, beyond: f64) -> Scene {
+    let mut scene = Scene::new("braced");
+    let mesh = Mesh::bspline(8, 3, 2).unwrap();
+    let section = scenes::spaghetti_section(OF_BEAM, 100.0);
+    let beam =
+        scenes::add_beam(&mut scene, scenes::line(at(1.0, 2.0), at(4.0, 6.0)), &mesh, section);
+    scene.beams[beam].motion =
+        StartMotion { velocity: at(3.0, -1.0), spin: 1.5, about: Some(at(1.0, 1.0)) };
+    let places = [0.0, 1.2, 3.9, 5.0].map(|s| Anchor::Station(scene.station(beam, s).unwrap()));
+    add(&mut scene, vec![places[0], places[3]], law(stiffness, 5.0 - beyond));
+    add(&mut scene, vec![places[1], places[2]], law(0.3 * stiffness, 2.7 - beyond));
+    scene
+}
+
+/// A beam on a rope from the ground, which its weight makes taut again and again, with a tendon over three of its places.
+fn hanging(stiffness: f64) -> Scene {
+    let mut scene = Scene::new("hanging");
+    let mesh = Mesh::bspline(8, 3, 2).unwrap();
+    let section = scenes::spaghetti_section(OF_BEAM, 100.0);
+    let beam =
+        scenes::add_beam(&mut scene, scenes::line(at(0.0, 0.0), at(4.0, -1.0)), &mesh, section);
+    let length = scene.beams[beam].axis.length();
+    let places = [0.0, 0.5, 1.0].map(|s| Anchor::Station(scene.station(beam, s * length).unwrap()));
+    let above = [at(0.0, 1.0), at(4.5, 1.0)].map(Anchor::Ground);
+    add(&mut scene, vec![above[0], places[0]], rope(stiffness, 1.3));
+    add(&mut scene, vec![above[1], places[2]], rope(stiffness, 2.4));
+    add(&mut scene, places.to_vec(), rope(stiffness, length + 1e-3));
+    scene.gravity = at(0.0, -9.81);
+    scene
+}
+
+fn worst(simulation: &Simulation) -> f64 {
+    let drift = |(_, invariant): &(&str, Invariant)| simulation.history().drift(*invariant);
+    Invariant::ALL.iter().map(drift).fold(0.0, f64::max)
+}
+
+#[test]
+fn laws_with_corners_of_any_stiffness_keep_the_ledger_in_as_many_steps() {
+    for times in [1e-6, 1.0, 1e3, 1e6, 1e9, 1e12] {
+        let stiffness = times * OF_BEAM;
+        let all = [
+            ("slack rope", braced(rope, stiffness, -0.01)),
+            ("rope", braced(rope, stiffness, 0.0)),
+            ("buffer", braced(buffer, stiffness, 0.0)),
+            ("hardening", braced(hardening, stiffness, 0.0)),
+            ("hanging", hanging(stiffness)),
+        ];
+        for (name, scene) in all {
+            let simulation = simulate(scene, Method::EnergyMomentum, 0.05, 2.5);
+            let (work, drift) = (simulation.counts(), worst(&simulation));
+            let iterations = work.newton_iterations as f64 / work.steps as f64;
+            let label = format!(
+                "{name} {times:e}: {} steps, {} retries, {iterations:.2} iterations, {drift:.1e}",
+                work.steps, work.retries
+            );
+            println!("{label}");
+            assert!(work.steps == 50 && work.retries == 0 && iterations < 8.0, "{label}");
+            assert!(drift < 1e-12, "{label}");
+        }
+    }
+}
+
+#[test]
+fn every_method_keeps_what_it_claims_with_ropes_that_go_slack() {
+    for entry in INTEGRATORS {
+        for times in [1.0, 1e6, 1e12] {
+            let scene = braced(rope, times * OF_BEAM, -0.01);
+            let simulation = simulate(scene, entry.method, 0.02, 1.5);
+            let drift = |invariant| simulation.history().drift(invariant);
+            let label = format!("{} {times:e}", entry.name);
+            if entry.claims.energy == EnergyClaim::Kept {
+                let energy = drift(Invariant::Energy);
+                assert!(energy < 1e-12, "{label}: {energy:.1e}");
+            }
+            if entry.claims.momentum {
+                let momentum = drift(Invariant::Momentum);
+                assert!(momentum < 1e-12, "{label}: {momentum:.1e}");
+            }
+        }
+    }
+}
+
+/// A bead that falls into a rope which is as good as inextensible, of length 1, from 0.5 above its end: it is thrown back by the step in which the rope is taut with the speed
+/// that it came with, and rises as high again.
+#[test]
+fn a_bead_bounces_on_a_rope_as_on_a_wall() {
+    for stiffness in [1e9, 1e13, 1e17] {
+        let mut scene = Scene::new("bead");
+        let position = at(0.0, -0.5);
+        let bead = ParticleDefinition { name: "bead".to_owned(), position };
+        let bead = Anchor::Station(scene.add_particle(bead, 1.0).unwrap());
+        add(&mut scene, vec![Anchor::Ground(at(0.0, 0.0)), bead], rope(stiffness, 1.0));
+        scene.gravity = at(0.0, -9.81);
+        let simulation = simulate(scene, Method::EnergyMomentum, 1e-3, 2.0);
+        let work = simulation.counts();
+        assert!(work.retries == 0 && work.steps == 2000, "{stiffness:e}: {} retries", work.retries);
+        let drift = simulation.history().drift(Invariant::Energy);
+        assert!(drift < 1e-12, "{stiffness:e}: {drift:.1e}");
+        let column = simulation.history().column("spring1.length").unwrap();
+        let lowest = column.iter().fold(0.0, |most: f64, length| most.max(*length));
+        let last = &column[column.len() - 640..];
+        let highest = last.iter().fold(1.0, |least: f64, length| least.min(*length));
+        assert!(lowest < 1.004, "{stiffness:e}: {lowest}");
+        // A bounce within a step may be off by what it moves in one.
+        assert!((highest - 0.5).abs() < 0.02, "{stiffness:e}: {highest}");
+    }
+}

@@ -1,0 +1,243 @@
+//! Derivatives of runs by parameters: against closed forms, against differences of exact runs, and what they cost.
+#![allow(clippy::unwrap_used)]
+
+use crate::common::{at, body_scenes, run, scenes, settings, simulate, sliding_scenes};
+use withy::beams::{Mesh, SectionVariation};
+use withy::integrators::Method;
+use withy::joints::SlidingRule;
+use withy::loads::{LoadKind, Schedule};
+use withy::model::{
+    Anchor, Element, Origin, ParticleDefinition, RestoringLaw, Scene, Spring, SpringKind,
+};
+use withy::simulation::{
+    DerivativeError, Side, Simulation, SimulationError, StepControl, StepSize, Unwatched, Variation,
+};
+
+const METHODS: [Method; 2] = [Method::EnergyMomentum, Method::FourthOrder];
+
+fn variation(name: &str, distance: f64, scene: impl Fn(f64) -> Scene) -> Variation {
+    Variation { name: name.to_owned(), distance, scenes: [scene(distance), scene(-distance)] }
+}
+
+/// A particle on a spring from the ground, drawn out by `stretch`.
+fn oscillator(stiffness: f64, mass: f64, stretch: f64) -> Scene {
+    let mut scene = Scene::new("oscillator");
+    let particle = ParticleDefinition { name: "bead".to_owned(), position: at(2.0 + stretch, 0.0) };
+    let bead = scene.add_particle(particle, mass).unwrap();
+    let law = Some(RestoringLaw::Linear { stiffness, natural: 2.0 });
+    let kind = SpringKind::Way(vec![Anchor::Ground(at(0.0, 0.0)), Anchor::Station(bead)]);
+    let name = "spring".to_owned();
+    let spring = Spring { name, kind, law, origin: Origin::Zero, damping: 0.0.into() };
+    scene.add_spring(spring).unwrap();
+    scene
+}
+
+fn bead(simulation: &Simulation) -> f64 {
+    simulation.model().control_points().next().unwrap()[0].x
+}
+
+#[test]
+fn a_mass_on_a_spring_has_the_derivatives_of_its_closed_form() {
+    let (stiffness, mass, stretch, dt, steps) = (9.0, 1.3, 0.2, 0.02, 400);
+    // What the method of second order does to an oscillator: it turns by θ in a step, tan(θ/2) = ω Δt/2.
+    let omega = f64::sqrt(stiffness / mass);
+    let tangent = 0.5 * omega * dt;
+    let angle = 2.0 * tangent.atan();
+    let turn = f64::from(steps) * angle;
+    let by_omega = -stretch * turn.sin() * f64::from(steps) * dt / (1.0 + tangent * tangent);
+    let expected = [by_omega * 0.5 * omega / stiffness, -by_omega * 0.5 * omega / mass, turn.cos()];
+    let all = vec![
+        variation("k", 1e-4, |by| oscillator(stiffness + by, mass, stretch)),
+        variation("m", 1e-5, |by| oscillator(stiffness, mass + by, stretch)),
+        variation("stretch", 1e-5, |by| oscillator(stiffness, mass, stretch + by)),
+    ];
+    let scene = oscillator(stiffness, mass, stretch);
+    let settings = settings(Method::EnergyMomentum, dt);
+    let mut simulation = Simulation::start_with_derivatives(scene, settings, all).unwrap();
+    run(&mut simulation, f64::from(steps) * dt).unwrap();
+    assert!((bead(&simulation) - 2.0 - stretch * turn.cos()).abs() < 1e-12);
+    for (parameter, expected) in expected.into_iter().enumerate() {
+        let found = simulation.derivative(parameter, bead).unwrap();
+        println!("{parameter}: {found:.12} and {expected:.12}: {:.1e}", found - expected);
+        assert!((found - expected).abs() < 1e-8 * expected.abs().max(0.1), "{parameter}");
+    }
+}
+
+/// A scene with all bending stiffnesses, springs and dampers, or loads and weight, times one plus a number.
+fn scaled(scene: &Scene, what: usize, by: f64) -> Scene {
+    let mut scene = scene.clone();
+    let factor = 1.0 + by;
+    match what {
+        0 => {
+            for beam in &mut scene.beams {
+                if let SectionVariation::Uniform(section) = &mut beam.section {
+                    section.bending_stiffness *= factor;
+                }
+            }
+        }
+        1 => {
+            for beam in &mut scene.beams {
+                if let SectionVariation::Uniform(section) = &mut beam.section {
+                    section.mass_per_length *= factor;
+                    section.axial_stiffness *= factor;
+                }
+            }
+        }
+        _ => {
+            scene.gravity *= factor;
+            for element in &mut scene.elements {
+                match element {
+                    Element::Load(load) => match &mut load.kind {
+                        LoadKind::Force { force, .. } | LoadKind::Line { force, .. } => {
+                            *force *= factor;
+                        }
+                        LoadKind::Moment { moment, .. } => *moment *= factor,
+                        #[allow(unreachable_patterns)]
+                        _ => (),
+                    },
+                    Element::Spring(spring) => match &mut spring.law {
+                        Some(RestoringLaw::Linear { stiffness, .. }) => *stiffness *= factor,
+                        Some(RestoringLaw::Table { points }) => {
+                            points.iter_mut().for_each(|(_, force)| *force *= factor);
+                        }
+                        _ => (),
+                    },
+                    Element::PointMass(mass) => mass.mass *= factor,
+                    _ => (),
+                }
+            }
+        }
+    }
+    scene
+}
+
+fn places(simulation: &Simulation) -> Vec<f64> {
+    simulation.model().control_points().flatten().flat_map(|point| [point.x, point.y]).collect()
+}
+
+#[test]
+fn derivatives_of_all_scenes_are_those_of_exact_runs() {
+    const DT: f64 = 0.02;
+    const END: f64 = 0.6;
+    let mesh = Mesh::bspline(4, 3, 2).unwrap();
+    let mut compared = 0;
+    for method in METHODS {
+        let bodies = body_scenes::all(&mesh);
+        let sliding = sliding_scenes::all(&mesh, SlidingRule::default());
+        for scene in scenes::all(&mesh).into_iter().chain(bodies).chain(sliding) {
+            let of = |what: usize| variation("p", 1e-5, |by| scaled(&scene, what, by));
+            let start = || {
+                Simulation::start_with_derivatives(
+                    scene.clone(),
+                    settings(method, DT),
+                    vec![of(0), of(1), of(2)],
+                )
+            };
+            let mut simulation = start().unwrap();
+            run(&mut simulation, END).unwrap();
+            let plain = simulate(scene.clone(), method, DT, END);
+            assert_eq!(plain.model().state(), simulation.model().state(), "{}", scene.name);
+            assert_eq!(plain.counts().factorisations, simulation.counts().factorisations);
+            if let Err(reason) = simulation.beside(0, Side::Plus) {
+                assert!(
+                    matches!(reason, DerivativeError::Event { .. }),
+                    "{}: {reason}",
+                    scene.name
+                );
+                println!("{}: {reason}", scene.name);
+                continue;
+            }
+            for what in 0..3 {
+                let exact = |by: f64| places(&simulate(scaled(&scene, what, by), method, DT, END));
+                // Central differences at two distances, extrapolated: fourth order.
+                let at = |h: f64| -> Vec<f64> {
+                    let pairs = exact(h).into_iter().zip(exact(-h));
+                    pairs.map(|(plus, minus)| (plus - minus) / (2.0 * h)).collect()
+                };
+                let h = 4e-4;
+                let expected: Vec<f64> =
+                    at(h).into_iter().zip(at(2.0 * h)).map(|(a, b)| (4.0 * a - b) / 3.0).collect();
+                let [plus, minus] = [Side::Plus, Side::Minus]
+                    .map(|side| places(simulation.beside(what, side).unwrap()));
+                let found = plus.iter().zip(&minus).map(|(a, b)| (a - b) / 2e-5);
+                let largest = expected.iter().fold(1e-3_f64, |most, x| most.max(x.abs()));
+                let error = found.zip(&expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+                println!("{} {what}: {:.1e} of {largest:.1e}", scene.name, error / largest);
+                assert!(error < 1e-6 * largest, "{}, {what}: {error:e} of {largest:e}", scene.name);
+                compared += 1;
+            }
+            let counts = simulation.derivative_counts();
+            let steps = simulation.counts().steps * 6 * if method == METHODS[1] { 7 } else { 1 };
+            println!("{}: {} solves for {steps} steps beside", scene.name, counts.solves);
+            assert_eq!(counts.factorisations, 0, "{}", scene.name);
+        }
+    }
+    assert!(compared > 60, "{compared}");
+}
+
+#[test]
+fn a_derivative_costs_no_factorisation_and_a_few_solves_a_step() {
+    let mesh = Mesh::bspline(14, 3, 2).unwrap();
+    let scene = scenes::spaghetti(&mesh, 1e4);
+    let of = variation("EI", 1e-5, |by| scaled(&scene, 0, by));
+    let settings = settings(Method::EnergyMomentum, 0.05);
+    let mut simulation =
+        Simulation::start_with_derivatives(scene.clone(), settings, vec![of]).unwrap();
+    run(&mut simulation, 5.0).unwrap();
+    let (counts, steps) = (simulation.derivative_counts(), simulation.counts().steps);
+    println!("{} solves in {steps} steps", counts.solves);
+    assert_eq!(counts.factorisations, 0);
+    assert!(counts.solves <= 10 * steps);
+}
+
+#[test]
+fn what_cannot_be_right_is_refused_with_a_reason() {
+    let plain = oscillator(9.0, 1.0, 0.1);
+    let of = || vec![variation("k", 1e-4, |by| oscillator(9.0 + by, 1.0, 0.1))];
+    let refused = |scene: Scene, method: Method, dt: StepSize, of: Vec<Variation>| {
+        let started = Simulation::start_with_derivatives(scene, settings(method, dt), of);
+        match started.map(|_| ()) {
+            Err(SimulationError::Derivative(reason)) => reason,
+            other => panic!("{other:?}"),
+        }
+    };
+    let reason = refused(plain.clone(), Method::Trapezoidal, 0.1.into(), of());
+    assert_eq!(reason, DerivativeError::Method { method: "trapezoidal" });
+    let control = StepControl::to(1e-4).into();
+    let reason = refused(plain.clone(), Method::EnergyMomentum, control, of());
+    assert_eq!(reason, DerivativeError::Adaptive);
+    let mesh = Mesh::bspline(4, 3, 2).unwrap();
+    let other = vec![variation("n", 1.0, |_| scenes::spaghetti(&mesh, 1e4))];
+    let reason = refused(plain.clone(), Method::EnergyMomentum, 0.1.into(), other);
+    assert!(matches!(reason, DerivativeError::Form { .. }), "{reason}");
+    let thrown = |until: f64| {
+        let schedule = Schedule::hold_for(until).unwrap();
+        scenes::thrown(&mesh, scenes::spaghetti_section(1e4, 100.0), schedule, at(0.0, 0.0))
+    };
+    let times = vec![variation("until", 1e-3, |by| thrown(2.5 + by))];
+    let reason = refused(thrown(2.5), Method::EnergyMomentum, 0.1.into(), times);
+    assert_eq!(reason, DerivativeError::Times { parameter: "until".to_owned() });
+    let mut back =
+        Simulation::start_with_derivatives(plain, settings(METHODS[0], 0.1), of()).unwrap();
+    back.keep_snapshots(1 << 20);
+    run(&mut back, 0.5).unwrap();
+    assert!(back.derivative(0, bead).is_ok() && back.derivative(1, bead).is_err());
+    back.back(2).unwrap();
+    assert!(matches!(back.derivative(0, bead), Err(DerivativeError::Way { .. })));
+    back.step(&mut Unwatched).unwrap();
+}
+
+#[test]
+fn histories_beside_a_run_have_its_rows() {
+    let of = vec![variation("k", 1e-4, |by| oscillator(9.0 + by, 1.0, 0.1))];
+    let scene = oscillator(9.0, 1.0, 0.1);
+    let mut simulation =
+        Simulation::start_with_derivatives(scene, settings(METHODS[0], 0.1), of).unwrap();
+    run(&mut simulation, 1.05).unwrap();
+    let beside = simulation.beside(0, Side::Minus).unwrap();
+    let times = |of: &Simulation| -> Vec<f64> {
+        of.history().samples().iter().map(|row| row.measures.time).collect()
+    };
+    assert_eq!(times(beside), times(&simulation));
+    assert_eq!(simulation.parameters().collect::<Vec<_>>(), [("k", 1e-4)]);
+}
