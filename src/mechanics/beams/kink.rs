@@ -23,16 +23,15 @@ pub struct MissedKink {
     pub inertia: f64,
 }
 
-/// What a mesh misses of the kink of the axis that its control points draw, by the kink length `g(ξ)` that control points draw on a mesh [length]: a force `λ` across the beam at `ξ` moves the
-/// axis there by `g λ/GA` more than the mesh lets it.
+/// What a mesh misses of the kink of the axis that control points draw on it; the kink length `g(ξ)` says that a force `λ` across the beam
+/// at `ξ` moves the axis there by `g λ/GA` more than the mesh lets it.
 ///
 /// ```text
 /// g(ξ) = l(ξ)ᵀ M⁻¹ r(ξ)        M = Σ w t tᵀ/|x_ξ|        l = ∫ t dξ up to ξ, r = ∫ t dξ from ξ on
 /// ```
 ///
-/// over the splines `t` of one degree less, with the points and weights of the beam's shear strain: what a string on these functions gives way under a point
-/// load,
-/// taken from what it should, whichever ends are held. A polynomial of twice the degree on each span, zero where the basis is C⁰. None where it is
+/// over the splines `t` of one degree less, with the points and weights of the beam's shear strain: what a string on these functions gives
+/// way under a point load, taken from what it should, whichever ends are held. A polynomial of twice the degree on each span, zero where the basis is C⁰. None where it is
 /// not positive between these places, as with fewer quadrature points than the patch rule has.
 ///
 /// # Errors

@@ -8,8 +8,8 @@ use crate::geometry::{GaussRule, PiecewisePolynomial, Span, Vec2, lower_splines}
 const SAMPLES: usize = 16;
 
 impl SplineString {
-    /// The number `μ` that makes `½ μ ρA g |a|² v²` the energy of motion that the mesh misses, in the mean over places of a kink `a` that runs along with the
-    /// speed `v`: means over spans spread evenly.
+    /// The number `μ` that makes `½ μ ρA g |a|² v²` the energy of motion that the mesh misses, in the mean over places of a kink `a` that runs
+    /// along with the speed `v`: means over spans spread evenly.
     ///
     /// ```text
     /// μ = ∫ (X(L) - s(ξ) - ∫ u² dX) ds/∫ g ds        u = l(X)ᵀ M⁻¹ t(ξ)/|x_ξ|
@@ -64,8 +64,8 @@ impl SplineString {
         missed / lengths
     }
 
-    /// How control points move as a kink runs by a place on a span with such lower splines, as a part of what the end of the string does; and what they lack to
-    /// that.
+    /// How control points move as a kink runs by a place on a span with such lower splines, as a part of what the end of the string does; and
+    /// what they lack to that.
     fn motion(&self, span: &Span, lower: &[f64]) -> Vec<[f64; 2]> {
         let mut strains = vec![0.0; self.stretched.len()];
         strains[span.first..][..lower.len()].copy_from_slice(lower);

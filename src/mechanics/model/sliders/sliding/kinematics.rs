@@ -3,7 +3,7 @@
 use super::Sliding;
 use crate::geometry::{Vec2, perpendicular};
 use crate::model::bodies::Body;
-use crate::model::sliders::{Connection, KinkedAxis, SliderState, MasterEnd};
+use crate::model::sliders::{Connection, KinkedAxis, MasterEnd, SliderState};
 
 impl Sliding {
     /// The control points of the master with their functions where the slider is.
