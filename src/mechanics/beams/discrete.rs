@@ -237,6 +237,15 @@ impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
         self.inertia.each_row(factor, points, tangent);
     }
 
+    fn each_inertia_diagonal(
+        &self,
+        factor: f64,
+        points: Range<usize>,
+        tangent: &mut dyn FnMut(usize, isize, &[f64]),
+    ) {
+        self.inertia.each_diagonal(factor, points, tangent);
+    }
+
     fn each_span_at_rest(&self, take: &mut dyn FnMut(&SpanAtRest)) {
         let mut rows = SpanAtRest::default();
         for span in &self.spans {

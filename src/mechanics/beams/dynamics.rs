@@ -115,6 +115,15 @@ pub trait BodyDynamics: Send + Sync {
         tangent: &mut dyn FnMut(usize, usize, &[Movement]),
     );
 
+    /// Gives the same rows in pieces of diagonals: the first control point of some rows, by how many control points the columns stand behind these
+    /// (before them if negative), and the entries, three for each control point.
+    fn each_inertia_diagonal(
+        &self,
+        factor: f64,
+        points: Range<usize>,
+        tangent: &mut dyn FnMut(usize, isize, &[f64]),
+    );
+
     /// Gives, span by span, how this body resists small movements of its control points at the start of the step, as at rest there.
     fn each_span_at_rest(&self, take: &mut dyn FnMut(&SpanAtRest));
 

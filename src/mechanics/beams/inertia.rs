@@ -8,6 +8,9 @@ use super::Section;
 use super::dynamics::Movement;
 use super::sections::MassIntegral;
 
+/// The rows of so many control points are given at once, so that they stay at hand for all diagonals.
+const AT_ONCE: usize = 16;
+
 /// The inertia matrix `∫ ρA N_a N_b dX` of x and y, `∫ ρI N_a N_b dX` of rotations, of a beam whose basis has `N` non-zero functions on a span.
 #[derive(Debug, Clone)]
 pub(super) struct InertiaMatrix<const N: usize, I> {
@@ -54,6 +57,17 @@ impl<const N: usize, I: MassIntegral> InertiaMatrix<N, I> {
         Arch::new().dispatch(Product { matrix: self, points, factor, rates, forces });
     }
 
+    /// Gives the rows of some control points in `factor · M` to `take`, in pieces of diagonals: the first control point of the rows, by how many control
+    /// points the columns stand behind these, and the entries, three for each control point.
+    pub(super) fn each_diagonal(
+        &self,
+        factor: f64,
+        points: Range<usize>,
+        take: &mut dyn FnMut(usize, isize, &[f64]),
+    ) {
+        Arch::new().dispatch(Diagonals { matrix: self, points, factor, take });
+    }
+
     /// Gives the rows of some control points in `factor · M` to `take`, in pieces: control point of the row, first one of the columns, and the
     /// three diagonal entries for each column.
     pub(super) fn each_row(
@@ -71,6 +85,41 @@ impl<const N: usize, I: MassIntegral> InertiaMatrix<N, I> {
             take(point, first, &row[..point - first]);
             row = self.gram[point].map(|entry| entry.inertia(factor, &self.section));
             take(point, point, &row[..N.min(self.gram.len() - point)]);
+        }
+    }
+}
+
+/// The work of [`each_diagonal`](InertiaMatrix::each_diagonal).
+struct Diagonals<'a, const N: usize, I> {
+    matrix: &'a InertiaMatrix<N, I>,
+    points: Range<usize>,
+    factor: f64,
+    take: &'a mut dyn FnMut(usize, isize, &[f64]),
+}
+
+impl<const N: usize, I> WithSimd for Diagonals<'_, N, I> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self { matrix: InertiaMatrix { gram, diagonals, shares, .. }, points, factor, take } =
+            self;
+        let mut entries = [0.0; 3 * AT_ONCE];
+        for first in points.clone().step_by(AT_ONCE) {
+            let end = points.end.min(first + AT_ONCE);
+            for offset in 1 - N as isize..N as isize {
+                let k = offset.unsigned_abs();
+                // An entry before the diagonal is that of its column behind it.
+                let (first, columns) = if offset < 0 {
+                    (first.max(k), first.max(k) - k..end.max(k) - k)
+                } else {
+                    (first, first..end.min(gram.len().saturating_sub(k)).max(first))
+                };
+                let columns = 3 * columns.start..3 * columns.end;
+                let entries = &mut entries[..columns.len()];
+                multiply(simd, factor, [&diagonals[k][columns.clone()], &shares[columns]], entries);
+                take(first, offset, entries);
+            }
         }
     }
 }
@@ -113,6 +162,21 @@ impl<const N: usize, I> WithSimd for Product<'_, N, I> {
                 add_products(simd, factor, factors, forces);
             }
         }
+    }
+}
+
+/// Writes the products of a factor with two vectors, entry by entry.
+#[inline(always)]
+fn multiply<S: Simd>(simd: S, factor: f64, [one, two]: [&[f64]; 2], out: &mut [f64]) {
+    let (head, rest) = S::as_mut_simd_f64s(out);
+    let (one, one_rest) = S::as_simd_f64s(one);
+    let (two, two_rest) = S::as_simd_f64s(two);
+    let factors = simd.splat_f64s(factor);
+    for ((out, one), two) in head.iter_mut().zip(one).zip(two) {
+        *out = simd.mul_f64s(simd.mul_f64s(factors, *one), *two);
+    }
+    for ((out, one), two) in rest.iter_mut().zip(one_rest).zip(two_rest) {
+        *out = factor * one * two;
     }
 }
 
@@ -179,6 +243,31 @@ mod tests {
             }
             assert_eq!(forces, expected, "{N} functions, {count} points, cut at {cut}");
         }
+        assert_same_entries(count, 0..cut.min(count), &matrix);
+        assert_same_entries(count, cut.min(count)..count, &matrix);
+    }
+
+    /// Entry by entry of a full matrix: as diagonals and as rows have them.
+    fn assert_same_entries<const N: usize>(
+        count: usize,
+        points: Range<usize>,
+        matrix: &InertiaMatrix<N, f64>,
+    ) {
+        let (mut by_rows, mut by_diagonals) =
+            (vec![0.0; 9 * count * count], vec![0.0; 9 * count * count]);
+        let at = |row: usize, column: usize| row * 3 * count + column;
+        matrix.each_row(1.7, points.clone(), &mut |point, first, row| {
+            for (index, entry) in row.as_flattened().iter().enumerate() {
+                by_rows[at(3 * point + index % 3, 3 * first + index)] += entry;
+            }
+        });
+        matrix.each_diagonal(1.7, points, &mut |first, offset, entries| {
+            for (index, entry) in entries.iter().enumerate() {
+                let row = 3 * first + index;
+                by_diagonals[at(row, row.strict_add_signed(3 * offset))] += entry;
+            }
+        });
+        assert_eq!(by_rows, by_diagonals);
     }
 
     proptest! {

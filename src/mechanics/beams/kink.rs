@@ -3,7 +3,7 @@
 //! A force on a shear-flexible beam makes its tangent jump. What a mesh that cannot jump misses is that of a string on the same
 //! functions, with the same points and weights; derived in docs/theory.md, section 10.1.
 
-mod inertia;
+mod running;
 
 use super::{BeamError, Mesh};
 use crate::geometry::{

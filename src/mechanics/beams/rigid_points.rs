@@ -101,6 +101,14 @@ impl BodyDynamics for RigidPoints {
     ) {
     }
 
+    fn each_inertia_diagonal(
+        &self,
+        _factor: f64,
+        _points: Range<usize>,
+        _tangent: &mut dyn FnMut(usize, isize, &[f64]),
+    ) {
+    }
+
     fn each_span_at_rest(&self, _take: &mut dyn FnMut(&SpanAtRest)) {}
 
     fn extent(&self) -> Option<(Section, f64)> {

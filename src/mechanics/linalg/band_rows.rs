@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use pulp::{Arch, Simd, WithSimd};
+
 /// Consecutive rows of a [`BandedMatrix`](super::BandedMatrix), to which entries are added.
 #[derive(Debug)]
 pub struct BandRows<'a> {
@@ -63,9 +65,9 @@ impl BandRows<'_> {
     pub fn add_block(&mut self, first: usize, width: usize, values: &[f64]) {
         // The widths of spans of degree 1 to 3 are known to the compiler.
         match width {
-            6 => self.add_rows::<6>(first, values),
-            9 => self.add_rows::<9>(first, values),
-            12 => self.add_rows::<12>(first, values),
+            6 => self.add_fixed_block::<6>(first, values),
+            9 => self.add_fixed_block::<9>(first, values),
+            12 => self.add_fixed_block::<12>(first, values),
             _ => {
                 for (row, values) in values.chunks_exact(width).enumerate() {
                     self.add_to_row(first + row, first, values);
@@ -74,25 +76,47 @@ impl BandRows<'_> {
         }
     }
 
-    /// Adds diagonal blocks of three rows from `row` on: `blocks[k][i]` at row `row + i` and column `first + 3 k + i`.
-    #[inline]
-    pub fn add_diagonal_blocks(&mut self, row: usize, first: usize, blocks: &[[f64; 3]]) {
-        for component in 0..3 {
-            let at = self.offset(row + component, first + component);
-            let entries = self.entries[at..].iter_mut().step_by(3);
-            entries.zip(blocks).for_each(|(entry, block)| *entry += block[component]);
-        }
+    fn add_fixed_block<const WIDTH: usize>(&mut self, first: usize, values: &[f64]) {
+        let (at, stride) = (self.offset(first, first), self.stride);
+        Arch::new().dispatch(AddBlock::<WIDTH> { entries: self.entries, at, stride, values });
     }
 
+    /// Adds values to entries one below the other, `offset` columns behind the diagonal (before it if negative), from `row` on.
     #[inline]
-    fn add_rows<const WIDTH: usize>(&mut self, first: usize, values: &[f64]) {
-        let (rows, _) = values.as_chunks::<WIDTH>();
-        for (row, values) in rows.iter().enumerate() {
-            let at = self.offset(first + row, first);
-            let (entries, _) = self.entries[at..at + WIDTH].as_chunks_mut::<WIDTH>();
-            for entries in entries {
-                entries.iter_mut().zip(values).for_each(|(entry, value)| *entry += value);
+    pub fn add_to_diagonal(&mut self, row: usize, offset: isize, values: &[f64]) {
+        if !values.is_empty() {
+            let at = self.offset(row, row.strict_add_signed(offset));
+            let entries = self.entries[at..].iter_mut().step_by(self.stride);
+            entries.zip(values).for_each(|(entry, value)| *entry += value);
+        }
+    }
+}
+
+/// Adds a block to square entries of rows of so many stored entries: those of the block's first row begin at `at`, those of each other one to the left of the
+/// ones above.
+struct AddBlock<'a, const WIDTH: usize> {
+    entries: &'a mut [f64],
+    at: usize,
+    stride: usize,
+    values: &'a [f64],
+}
+
+impl<const WIDTH: usize> WithSimd for AddBlock<'_, WIDTH> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let mut at = self.at;
+        for values in self.values.chunks_exact(WIDTH) {
+            let (values, values_rest) = S::as_simd_f64s(values);
+            let (entries, rest) = S::as_mut_simd_f64s(&mut self.entries[at..at + WIDTH]);
+            for (entry, value) in entries.iter_mut().zip(values) {
+                *entry = simd.add_f64s(*entry, *value);
             }
+            for (entry, value) in rest.iter_mut().zip(values_rest) {
+                *entry += value;
+            }
+            at += self.stride - 1;
         }
     }
 }
@@ -121,17 +145,17 @@ mod tests {
     }
 
     #[test]
-    fn diagonal_blocks_are_added_to_every_third_entry_of_their_rows() {
-        let mut matrix = BandedMatrix::zeros(12, 11);
-        matrix.rows_mut().add_diagonal_blocks(
-            3,
-            0,
-            &[[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 9.0]],
-        );
-        for (row, column) in (0..12).flat_map(|row| (0..12).map(move |column| (row, column))) {
-            let is_there = (3..6).contains(&row) && column < 9 && column % 3 == row % 3;
-            let expected = if is_there { (column + 1) as f64 } else { 0.0 };
-            assert_eq!(matrix.get(row, column), expected, "({row}, {column})");
+    fn values_are_added_along_a_diagonal() {
+        for offset in [-3, 0, 2] {
+            let mut matrix = BandedMatrix::zeros(12, 4);
+            let values = [1.0, 2.0, 3.0, 4.0, 5.0];
+            matrix.rows_mut().add_to_diagonal(4, offset, &values);
+            matrix.rows_mut().add_to_diagonal(4, offset, &[]);
+            for (row, column) in (0..12).flat_map(|row| (0..12).map(move |column| (row, column))) {
+                let is_there = (4..9).contains(&row) && column as isize - row as isize == offset;
+                let expected = if is_there { values[row - 4] } else { 0.0 };
+                assert_eq!(matrix.get(row, column), expected, "({row}, {column})");
+            }
         }
     }
 

@@ -190,7 +190,10 @@ fn eliminate_panel<S: Simd>(
     let rows = &mut storage.rows[first * stride..][..(PANEL + below) * stride];
     let (panel, rows_below) = rows.split_at_mut(PANEL * stride);
     let head = |row: usize| row * stride + centre - row;
-    let heads = std::array::from_fn(|row| std::array::from_fn(|column| panel[head(row) + column]));
+    let mut heads = [[0.0; PANEL]; PANEL];
+    for (row, entries) in heads.iter_mut().enumerate() {
+        entries.copy_from_slice(&panel[head(row)..][..PANEL]);
+    }
     let PanelFactors { factors, inverses, is_stable } = PanelFactors::of(heads);
 
     let mut is_small = is_stable;
@@ -242,19 +245,25 @@ pub(super) fn subtract<S: Simd, const COUNT: usize>(
     rows: [&[f64]; COUNT],
     from: &mut [f64],
 ) {
-    let rows = rows.map(|row| S::as_simd_f64s(&row[..from.len()]));
+    // By loops: a closure that the compiler leaves outside has no vector instructions.
+    let mut splat = [simd.splat_f64s(0.0); COUNT];
+    let (mut heads, mut tails): ([&[S::f64s]; COUNT], [&[f64]; COUNT]) =
+        ([&[]; COUNT], [&[]; COUNT]);
+    for index in 0..COUNT {
+        splat[index] = simd.splat_f64s(multipliers[index]);
+        (heads[index], tails[index]) = S::as_simd_f64s(&rows[index][..from.len()]);
+    }
     let (vectors, rest) = S::as_mut_simd_f64s(from);
-    let splat = multipliers.map(|multiplier| simd.splat_f64s(multiplier));
     for (at, vector) in vectors.iter_mut().enumerate() {
         // Not in its place, which could be one of the rows as far as the compiler knows.
         let mut left = *vector;
-        for (multiplier, (row, _)) in splat.iter().zip(&rows) {
+        for (multiplier, row) in splat.iter().zip(&heads) {
             left = simd.sub_f64s(left, simd.mul_f64s(*multiplier, row[at]));
         }
         *vector = left;
     }
     for (at, entry) in rest.iter_mut().enumerate() {
-        for (multiplier, (_, row)) in multipliers.iter().zip(&rows) {
+        for (multiplier, row) in multipliers.iter().zip(&tails) {
             *entry -= multiplier * row[at];
         }
     }

@@ -28,8 +28,10 @@ pub(super) fn eliminate_panel<
     let Some(rows_below) = rows_below.first_chunk_mut::<REACH>() else {
         return false;
     };
-    let heads =
-        std::array::from_fn(|row| std::array::from_fn(|column| panel[row][centre - row + column]));
+    let mut heads = [[0.0; PANEL]; PANEL];
+    for (row, entries) in heads.iter_mut().enumerate() {
+        entries.copy_from_slice(&panel[row][centre - row..][..PANEL]);
+    }
     let PanelFactors { factors, inverses, is_stable } = PanelFactors::of(heads);
 
     let [[_, u01, u02, u03], [_, _, u12, u13], [_, _, _, u23], _] = factors;

@@ -279,7 +279,12 @@ impl Simulation {
             self.let_go_due()?;
         }
         let next = self.clock.grid.next(self.time(), limit);
-        self.model.follow_jumps_of_drives(Interval::between(self.time(), next));
+        let way = Interval::between(self.time(), next);
+        if self.model.follow_jumps_of_drives(way)
+            && let Some(sensitivities) = &mut self.stepper.sensitivities
+        {
+            sensitivities.follow_jumps_of_drives(way);
+        }
         let stepped = match self.adaptive.take() {
             None => self.step_on_grid(limit, monitor),
             Some(mut adaptive) => {

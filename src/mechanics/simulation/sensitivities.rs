@@ -111,6 +111,16 @@ impl Sensitivities {
         Ok(leader)
     }
 
+    /// Lets what is tied to drives follow jumps of their rates beside the run too.
+    pub(super) fn follow_jumps_of_drives(&mut self, way: Interval) {
+        for twins in &mut self.parameters {
+            for model in twins.models() {
+                model.follow_jumps_of_drives(way);
+            }
+            twins.differentiate();
+        }
+    }
+
     /// Counts a step that succeeded.
     pub(super) fn count_step(&mut self, interval: Interval, report: NewtonReport) {
         self.each(|twin| twin.count_step(interval, report, 0));

@@ -1,7 +1,7 @@
 //! Damped vibration: `(λ² M + λ D + K) x = 0` of a small model, in all of its modes.
 //!
-//! With all shapes `φ` of the undamped model, `φᵀ M φ = 1`, this is `λ² + λ B Bᵀ + Ω² = 0`, with a column of `B = Φᵀ √d g` for each rate `g·ẋ` that something damps by `d`:
-//! nothing is left out, and the squares `Ω²` are as exact as modes are.
+//! With all shapes `φ` of the undamped model, `φᵀ M φ = 1`, this is `λ² + λ B Bᵀ + Ω² = 0`, with a column of `B = Φᵀ √d g` for each rate `g·ẋ` that
+//! something damps by `d`: nothing is left out, and the squares `Ω²` are as exact as modes are.
 
 use nalgebra::{Complex, DMatrix};
 
@@ -31,8 +31,8 @@ impl DampedMode {
         }
     }
 
-    /// The damped vibrations of a model about its present configuration, taken as one at rest, those of the smallest `|λ|` first: one for each pair of conjugate `λ`, one
-    /// for each that is real.
+    /// The damped vibrations of a model about its present configuration, taken as one at rest, those of the smallest `|λ|` first: one for each pair of
+    /// conjugate `λ`, one for each that is real.
     ///
     /// # Errors
     /// When the model is large, something in it has no inertia, there are not so many, or what [`Modes::of`](super::Modes::of) says of undamped modes.

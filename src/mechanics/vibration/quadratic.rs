@@ -1,8 +1,9 @@
 //! `λ² + λ B Bᵀ + Ω² = 0`: the numbers of damped vibration, the slowest first, however far apart they are.
 //!
-//! What damps may be of any strength: a dashpot that is as good as a support creeps back 10¹² times as slowly as the beam vibrates, and a damped material lets the fastest vibrations
-//! of a fine mesh decay 10¹⁴ times as fast as the slowest. All numbers are those of one matrix, of which only the largest are exact; so they are looked for from shifts
-//! on the positive real axis, from the slowest on ([`Resolvent`]), each of which tells those within a factor of about 10⁶.
+//! What damps may be of any strength: a dashpot that is as good as a support creeps back 10¹² times as slowly as the beam vibrates, and a damped
+//! material lets the fastest vibrations of a fine mesh decay 10¹⁴ times as fast as the slowest. All numbers are those of one matrix, of which only the
+//! largest are exact; so they are looked for from shifts on the positive real axis, from the slowest on ([`Resolvent`]), each of which tells those
+//! within a factor of about 10⁶.
 
 use nalgebra::{Complex, DMatrix};
 

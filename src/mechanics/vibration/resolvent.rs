@@ -1,16 +1,18 @@
 //! Damped vibration about a shift: the numbers of `λ² + λ B Bᵀ + Ω²` near it.
 //!
-//! With `y = (Ω x, ẋ)` the vibration is `ẏ = A y`, `A = [0 Ω; -Ω -B Bᵀ]`, which takes energy and never gives any: for `σ > 0` no vector is longer than `1/σ` times itself after
-//! `(A - σ)⁻¹`, however strong the damping is (Lumer & Phillips, Pacific J. Math. 11 (1961) 679–698). With the diagonals `e = (σ² + Ω²)^-½`, `w = Ω e` and `t = σ e`, `w² + t² = 1`,
+//! With `y = (Ω x, ẋ)` the vibration is `ẏ = A y`, `A = [0 Ω; -Ω -B Bᵀ]`, which takes energy and never gives any: for `σ > 0` no vector is longer than
+//! `1/σ` times itself after `(A - σ)⁻¹`, however strong the damping is (Lumer & Phillips, Pacific J. Math. 11 (1961) 679–698). With the diagonals `e =
+//! (σ² + Ω²)^-½`, `w = Ω e` and `t = σ e`, `w² + t² = 1`,
 //!
 //! ```text
 //! σ (A - σ)⁻¹ = [ -(t² + w P w)   -w (1 - P) t ]        P = G (1 + Gᵀ G)⁻¹ Gᵀ,   G = √σ e B
 //!               [  t (1 - P) w    -t (1 - P) t ]
 //! ```
 //!
-//! has no large entry: a dashpot of any strength is a projection `P`. With the singular vectors `U` and values `s` of `G`, of which one-sided rotations find small ones beside large
-//! ones, it is `U s²/(1 + s²) Uᵀ`. The eigenvalues `θ` of the matrix give `λ = σ (1 + 1/θ)`; each that is told is corrected by inverse iteration with the Rayleigh quotient of the quadratic
-//! problem, in which the forces of strong dashpots are unknowns, divided by what damps (F. Tisseur & K. Meerbergen, SIAM Review 43 (2001) 235–286, sections 2 and 3.4).
+//! has no large entry: a dashpot of any strength is a projection `P`. With the singular vectors `U` and values `s` of `G`, of which one-sided
+//! rotations find small ones beside large ones, it is `U s²/(1 + s²) Uᵀ`. The eigenvalues `θ` of the matrix give `λ = σ (1 + 1/θ)`; each that is told
+//! is corrected by inverse iteration with the Rayleigh quotient of the quadratic problem, in which the forces of strong dashpots are unknowns, divided
+//! by what damps (F. Tisseur & K. Meerbergen, SIAM Review 43 (2001) 235–286, sections 2 and 3.4).
 
 use nalgebra::{DMatrix, DVector, Schur};
 
@@ -31,7 +33,8 @@ const CORRECTIONS: usize = 4;
 /// A correction that moves `λ` by a larger part of it has gone to another one, and is not taken,
 const FAR: f64 = 1e-4;
 
-/// nor one that moves it by more than this part, where it is next to the shift, and so many times as much as rounding may: those crowd whose shapes it mixes.
+/// nor one that moves it by more than this part, where it is next to the shift, and so many times as much as rounding may: those crowd whose shapes it
+/// mixes.
 const NEAR: f64 = 1e-10;
 const SPARE: f64 = 1e-12;
 
@@ -97,8 +100,8 @@ impl Resolvent {
         if count == 0 {
             return Ok(Vec::new());
         }
-        // A matrix is found to be decoupled where what couples is small beside its diagonal: beside numbers of no interest, which are next to nothing, it may never be. Then
-        // all are moved away from zero, by as much as the largest.
+        // A matrix is found to be decoupled where what couples is small beside its diagonal: beside numbers of no interest, which are next to nothing,
+        // it may never be. Then all are moved away from zero, by as much as the largest.
         let search = |part: f64, moved: f64| {
             let mut matrix = matrix.clone();
             (0..count).for_each(|at| matrix[(at, at)] -= moved);

@@ -114,7 +114,9 @@ impl Type {
 
 fn register<T: Scripted>(engine: &mut Engine) {
     engine.register_type_with_name::<T>(T::NAME);
-    lifting::know(TypeId::of::<T>(), |value| value.read_lock::<T>().and_then(|of| of.family()));
+    lifting::know(TypeId::of::<T>(), T::NAME, |value| {
+        value.read_lock::<T>().and_then(|of| of.family())
+    });
     for name in ["to_string", "to_debug"] {
         engine.register_fn(name, |value: &mut T| value.show());
     }

@@ -3,7 +3,7 @@
 use std::ops::{Deref, DerefMut};
 
 use super::halves::Halves;
-use super::{Body, Momenta, Tracker};
+use super::{Body, DegreesOfFreedom, Momenta, Tracker};
 use crate::beams::{Mesh, Movement, Place};
 use crate::geometry::{Vec2, larger};
 
@@ -132,27 +132,27 @@ impl Bodies {
     }
 
     /// Gives every movement of every control point a number of its own, as if nothing were joined; the numbers that they had.
-    pub fn number_apart(&mut self) -> Vec<Vec<[usize; 3]>> {
+    pub fn number_apart(&mut self) -> Vec<DegreesOfFreedom> {
         let mut next = 0;
         let own = self.iter().map(|body| {
             let points = body.degrees_of_freedom.iter().map(|_| {
                 next += 3;
                 [next - 3, next - 2, next - 1]
             });
-            points.collect()
+            points.collect::<Vec<_>>().into()
         });
-        let own = own.collect();
+        let own = own.collect::<Vec<_>>();
         self.number_as(own)
     }
 
     /// Gives the movements of all control points other numbers; the numbers that they had.
-    pub fn number_as(&mut self, numbers: Vec<Vec<[usize; 3]>>) -> Vec<Vec<[usize; 3]>> {
+    pub fn number_as(&mut self, numbers: Vec<DegreesOfFreedom>) -> Vec<DegreesOfFreedom> {
         let bodies = self.all.iter_mut().zip(numbers);
         bodies.map(|(body, own)| std::mem::replace(&mut body.degrees_of_freedom, own)).collect()
     }
 
     /// Exchanges the numbers of the movements of all control points for others.
-    pub fn exchange_numbers(&mut self, numbers: &mut [Vec<[usize; 3]>]) {
+    pub fn exchange_numbers(&mut self, numbers: &mut [DegreesOfFreedom]) {
         let bodies = self.all.iter_mut().zip(numbers);
         bodies.for_each(|(body, own)| std::mem::swap(&mut body.degrees_of_freedom, own));
     }

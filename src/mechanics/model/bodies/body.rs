@@ -3,8 +3,8 @@
 use std::iter::once;
 use std::ops::Range;
 
-use super::Momenta;
 use super::places::{Places, rows_of_parts};
+use super::{DegreesOfFreedom, Momenta};
 use crate::beams::{
     BlockSink, BodyDynamics, Collocation, ForceSummary, Movement, Place, RotationIncrement,
 };
@@ -15,7 +15,7 @@ use crate::threads::at_once;
 /// A beam or a particle with the places of its movements in the vectors of the mechanism.
 pub struct Body {
     pub dynamics: Box<dyn BodyDynamics>,
-    pub degrees_of_freedom: Vec<[usize; 3]>,
+    pub degrees_of_freedom: DegreesOfFreedom,
     /// For each span that moves consecutive unknowns only: the first of them.
     consecutive: Vec<Option<usize>>,
     /// For each control point whether all that share a span with it move consecutive unknowns.
@@ -39,7 +39,7 @@ impl Body {
         let zeros = vec![[0.0; 3]; degrees_of_freedom.len()];
         let mut body = Self {
             dynamics,
-            degrees_of_freedom: Vec::new(),
+            degrees_of_freedom: DegreesOfFreedom::default(),
             consecutive: Vec::new(),
             in_order: Vec::new(),
             unknowns,
@@ -68,7 +68,7 @@ impl Body {
         let neighbours = |point: usize| (point + 1).saturating_sub(order)..count.min(point + order);
         let in_order = (0..count).map(|point| are_consecutive(neighbours(point)).is_some());
         self.in_order = in_order.collect();
-        (self.degrees_of_freedom, self.unknowns) = (degrees_of_freedom, unknowns);
+        (self.degrees_of_freedom, self.unknowns) = (degrees_of_freedom.into(), unknowns);
         self.consecutive = consecutive;
         if !self.parts.is_empty() {
             self.divide(self.parts.len() + 1);
@@ -122,9 +122,7 @@ impl Body {
 
     /// Gathers the values of the unknowns at this body, by control point; supported movements are zero.
     pub fn gather(&mut self, values: &[f64]) -> &[Movement] {
-        for (movement, degrees) in self.moved.iter_mut().zip(&self.degrees_of_freedom) {
-            *movement = degrees.map(|at| values.get(at).copied().unwrap_or(0.0));
-        }
+        self.degrees_of_freedom.gather(values, &mut self.moved);
         &self.moved
     }
 
@@ -169,11 +167,7 @@ impl Body {
 
     /// Hands the forces that were added up on to `out`, and what was met meanwhile.
     pub fn hand_on(&mut self, out: &mut [f64]) -> ForceSummary {
-        for (force, degrees) in self.forces.iter_mut().zip(&self.degrees_of_freedom) {
-            for (value, &at) in force.iter_mut().zip(degrees) {
-                out[at] += std::mem::take(value);
-            }
-        }
+        self.degrees_of_freedom.hand_on(&mut self.forces, out);
         std::mem::take(&mut self.met)
     }
 
@@ -275,21 +269,31 @@ impl Body {
 
     /// Adds `factor · M` of this body to the rows of the tangent that are at hand.
     pub fn add_inertia_tangent(&self, factor: f64, rows: BandRows<'_>) {
-        let add = |points, mut rows: BandRows<'_>| {
+        let add = |points: Range<usize>, mut rows: BandRows<'_>| {
             let at_hand = rows.rows();
-            self.dynamics.add_inertia_tangent(factor, points, &mut |point, first, inertia| {
+            let mut end = points.start;
+            for run in self.in_order[points].chunk_by(|a, b| a == b) {
+                let points = end..end + run.len();
+                end = points.end;
                 let place = |point: usize| self.degrees_of_freedom[point][0];
-                let row = place(point);
-                if self.in_order[point] && at_hand.start <= row && row + 3 <= at_hand.end {
-                    rows.add_diagonal_blocks(row, place(first), inertia);
+                let (first, last) = (place(points.start), place(points.end - 1) + 3);
+                if run[0] && at_hand.start <= first && last <= at_hand.end {
+                    let mut add = |point: usize, offset: isize, entries: &[f64]| {
+                        rows.add_to_diagonal(
+                            first + 3 * (point - points.start),
+                            3 * offset,
+                            entries,
+                        );
+                    };
+                    self.dynamics.each_inertia_diagonal(factor, points.clone(), &mut add);
                 } else {
-                    self.entries_of(point, first, inertia, &mut |row, column, value| {
+                    self.inertia_entries_of(points, factor, &mut |row, column, value| {
                         if at_hand.contains(&row) {
                             rows.add(row, column, value);
                         }
                     });
                 }
-            });
+            }
         };
         let points = self.degrees_of_freedom.len();
         if self.parts.is_empty() {

@@ -2,6 +2,7 @@
 
 mod all;
 mod body;
+mod degrees_of_freedom;
 mod halves;
 mod momenta;
 mod places;
@@ -10,5 +11,6 @@ mod work;
 
 pub use all::Bodies;
 pub use body::Body;
+pub use degrees_of_freedom::DegreesOfFreedom;
 pub use momenta::Momenta;
 pub use tracker::Tracker;

@@ -66,8 +66,8 @@ pub struct Elongation {
     moved: Vec<f64>,
     /// The change `Δq` of what is measured in the step [length, rad].
     pub change: f64,
-    /// The same of the iterate whose force was settled last, and how much more it is as the force has it, without rounding of movements, of which a stiff spring would
-    /// store something [length, rad].
+    /// The same of the iterate whose force was settled last, and how much more it is as the force has it, without rounding of movements, of which a
+    /// stiff spring would store something [length, rad].
     settled: (f64, f64),
     /// The secant `g` with `Σ g u = Δq`; at the end of a step the derivative there [-].
     pub secant: Vec<f64>,

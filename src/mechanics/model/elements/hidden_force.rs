@@ -46,9 +46,14 @@ impl HiddenForce {
         if self.mismatch == 0.0 { 0.0 } else { self.mismatch.abs() / size }
     }
 
-    /// The change of `Δq` after which the configuration that was compared last would ask for the force as it is, to first order; none where it asks for none.
+    /// The change of `Δq` after which the configuration that was compared last would ask for the force as it is, to first order; infinite where no
+    /// change does.
     pub fn missing_change(&self) -> f64 {
-        if self.asked > 0.0 { -self.mismatch / self.asked } else { 0.0 }
+        match self.mismatch == 0.0 {
+            true => 0.0,
+            false if self.asked > 0.0 => -self.mismatch / self.asked,
+            false => f64::INFINITY,
+        }
     }
 
     /// Begins a step with the force of the last one.
@@ -57,7 +62,8 @@ impl HiddenForce {
         self.search = Search::default();
     }
 
-    /// How much the force falls where the rate rises, by all that it acts on, as the last two iterates tell: where the search goes on for long, and not before.
+    /// How much the force falls where the rate rises, by all that it acts on, as the last two iterates tell: where the search goes on for long, and
+    /// not before.
     pub fn impedance(&mut self, rate: f64) -> Option<f64> {
         let Search { linearised, at: (rate_before, force_before) } = self.search;
         self.search = Search { linearised: linearised + 1, at: (rate, self.force) };

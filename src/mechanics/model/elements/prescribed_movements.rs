@@ -10,7 +10,7 @@
 //!
 //! over the prescribed movements, exactly. These are work, impulse and angular impulse of a drive.
 
-use std::borrow::Cow;
+mod at_rest;
 
 use super::bend::Bend;
 use super::supports::Support;
@@ -19,11 +19,8 @@ use crate::beams::RotationIncrement;
 use crate::geometry::{Vec2, cross, larger};
 use crate::integrators::{Interval, PrescribedKinematics};
 use crate::joints::Component;
-use crate::loads::{LoadError, MotionAtStart, PrescribedMotion, Side};
+use crate::loads::{LoadError, MotionAtStart, PrescribedMotion};
 use crate::model::bodies::Body;
-
-/// Places that differ by less than this part of them are one [-].
-const SAME_PLACE: f64 = 1e-12;
 
 /// A supported movement that is prescribed.
 pub struct PrescribedMovement {
@@ -350,57 +347,6 @@ impl PrescribedMovements {
             self.drives[movement.drive].work += work;
         }
         sum
-    }
-
-    /// Takes the places that are prescribed at a time, which equilibria put on with their loads.
-    ///
-    /// # Errors
-    /// When a function has no finite value: the name of its drive, and why.
-    pub fn hold_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
-        for (movement, present) in self.movements.iter().zip(&mut self.present) {
-            if let PrescribedMotion::Place(schedule) = &movement.motion {
-                present.goal = schedule
-                    .value(time, Side::After)
-                    .map_err(|error| (self.drives[movement.drive].name.clone(), error))?;
-            }
-        }
-        Ok(())
-    }
-
-    /// The first drive that rests at another place than that with which its function begins at t = 0: its name, and both places.
-    pub fn rests_elsewhere(&self) -> Option<(&str, [f64; 2])> {
-        self.movements.iter().zip(&self.present).find_map(|(movement, present)| {
-            let PrescribedMotion::Place(schedule) = &movement.motion else { return None };
-            // What has no value at the start is refused when the scene is built.
-            let begins = schedule.value(0.0, Side::After).ok()?;
-            let size = larger(begins.abs(), present.goal.abs());
-            let is_there = (present.goal - begins).abs() <= SAME_PLACE * size;
-            let name = self.drives[movement.drive].name.as_str();
-            (!is_there).then_some((name, [present.goal, begins]))
-        })
-    }
-
-    /// Whether something is prescribed that an equilibrium has to put on.
-    pub fn moves_at_rest(&self) -> bool {
-        self.present.iter().any(|present| present.goal != 0.0)
-    }
-
-    /// Movements at rest, those that are prescribed behind the unknown ones: from where they are to their places under a part of the load.
-    pub fn at_rest<'m>(&self, movements: &'m [f64], load_factor: f64) -> Cow<'m, [f64]> {
-        if self.movements.is_empty() {
-            return Cow::Borrowed(movements);
-        }
-        let mut all = movements.to_vec();
-        all.resize(self.first, 0.0);
-        all.extend(self.present.iter().map(|now| load_factor * now.goal - now.placed));
-        Cow::Owned(all)
-    }
-
-    /// Leaves what is prescribed where it is under a part of the load.
-    pub fn place(&mut self, load_factor: f64) {
-        for present in &mut self.present {
-            present.placed = load_factor * present.goal;
-        }
     }
 
     /// Appends the state of the prescribed movements at the start of a step.

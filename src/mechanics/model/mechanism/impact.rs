@@ -172,20 +172,21 @@ impl Model {
 
     /// Where the rate of a drive jumps at the start of a step, all that is tied to it by more than strains follows at once: points of rigid bodies, and
     /// sliders. It would alternate from step to step without end, as all rates do that do not fit. The blow keeps the energy but for the work of
-    /// drives: what is tied moves after it as it did before, but for the sign of what it lacked (theory.md 9.5).
-    pub fn follow_jumps_of_drives(&mut self, interval: Interval) {
+    /// drives: what is tied moves after it as it did before, but for the sign of what it lacked (theory.md 9.5). Gives whether there was one.
+    pub fn follow_jumps_of_drives(&mut self, interval: Interval) -> bool {
         if self.links.count() == 0 && self.sliders.iter().next().is_none() {
-            return;
+            return false;
         }
         // A function that fails is told by the step that begins.
         let prescribed = self.supports.prescribed();
-        let Ok(Some(jumps)) = prescribed.jumps(interval, &self.motion.rates) else { return };
+        let Ok(Some(jumps)) = prescribed.jumps(interval, &self.motion.rates) else { return false };
         let directions = self.sliders.directions(&self.bodies);
         let laws = vec![Law::Reverses; directions.len()];
         // So is a matrix that cannot be factorised.
-        let Ok(encounter) = self.encounter_of(&directions, -2.0, None, jumps) else { return };
-        let Ok(impulses) = encounter.impulses(&laws) else { return };
+        let Ok(encounter) = self.encounter_of(&directions, -2.0, None, jumps) else { return false };
+        let Ok(impulses) = encounter.impulses(&laws) else { return false };
         self.apply(encounter, &impulses.values);
+        true
     }
 
     /// How fast a slave and its place on the master move in a direction by such rates [length/time].

@@ -13,6 +13,7 @@ use super::rigidity::add_passed_on;
 use super::{Given, Model};
 use crate::geometry::Vec2;
 use crate::integrators::{Inertia, Solution, Stage};
+use crate::model::bodies::DegreesOfFreedom;
 use crate::model::elements::Exchange;
 use crate::model::links::InclinedRoller;
 use crate::model::sliders::InStep;
@@ -29,7 +30,7 @@ pub struct Exchanged {
 /// Impulses on all control points, and room to find them without allocating.
 pub struct Impulses {
     /// Numbers for the movements of every control point that no other one has; the old ones while these are in use.
-    numbers: Vec<Vec<[usize; 3]>>,
+    numbers: Vec<DegreesOfFreedom>,
     /// The numbers of the forces of rigid links, behind those of all movements; the old ones while these are in use.
     links: Vec<[usize; 2]>,
     /// None for each inclined roller, as it acts by itself; their unknowns while the numbers are in use.
@@ -92,7 +93,7 @@ impl Model {
         }
         let joined = self.bodies.number_apart();
         let numbers = self.bodies.number_as(joined);
-        let movements = 3 * numbers.iter().map(Vec::len).sum::<usize>();
+        let movements = 3 * numbers.iter().map(|own| own.len()).sum::<usize>();
         let all = movements + 2 * self.links.count();
         let links = (0..self.links.count()).map(|at| [movements + 2 * at, movements + 2 * at + 1]);
         self.exchanged.impulses = Some(Box::new(Impulses {

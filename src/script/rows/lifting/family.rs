@@ -40,8 +40,8 @@ pub struct Present {
 thread_local! {
     /// Whether there has been a family in this thread.
     static ANY: Cell<bool> = const { Cell::new(false) };
-    /// How things of a scene tell the parameters that it depends on, by their types.
-    static THINGS: RefCell<HashMap<TypeId, FamilyOf>> = RefCell::default();
+    /// The names of types, and how things of a scene tell the parameters that it depends on.
+    static THINGS: RefCell<HashMap<TypeId, (&'static str, FamilyOf)>> = RefCell::default();
     static PRESENT: RefCell<Option<Present>> = const { RefCell::new(None) };
     /// Why what is asked beside is not known.
     static LOST: RefCell<Option<Rc<str>>> = const { RefCell::new(None) };
@@ -50,15 +50,22 @@ thread_local! {
 /// The parameters that a thing of a scene depends on, if it does.
 type FamilyOf = fn(&Dynamic) -> Option<Rc<Family>>;
 
-/// Keeps how values of a type tell the parameters that they depend on.
-pub fn know(id: TypeId, family_of: FamilyOf) {
-    let _: Option<FamilyOf> = THINGS.with_borrow_mut(|known| known.insert(id, family_of));
+/// Keeps the name of a type, and how its values tell the parameters that they depend on.
+pub fn know(id: TypeId, name: &'static str, family_of: FamilyOf) {
+    THINGS.with_borrow_mut(|known| {
+        known.insert(id, (name, family_of));
+    });
+}
+
+/// The name of the type of a value, if it is one of ours.
+pub(super) fn name_of(value: &Dynamic) -> Option<&'static str> {
+    THINGS.with_borrow(|known| known.get(&value.type_id()).map(|(name, _)| *name))
 }
 
 /// The parameters that a thing of a scene depends on, if the value is one and does.
 pub(super) fn of_thing(value: &Dynamic) -> Option<Rc<Family>> {
     let known = THINGS.with_borrow(|known| known.get(&value.type_id()).copied());
-    known.and_then(|family_of| family_of(value))
+    known.and_then(|(_, family_of)| family_of(value))
 }
 
 /// The variant that the present call is made for; none where it is made once.

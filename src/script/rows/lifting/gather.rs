@@ -11,7 +11,7 @@ use crate::script::words::error::ScriptError;
 use crate::script::words::numbers::as_number;
 
 /// One value that is in each variant what `results` are, those of variant 0 first. What is the same in all stays as it is; things of a scene (`is_thing`)
-/// know their variants themselves; truth values and texts are those of variant 0.
+/// know their variants themselves; truth values, texts and whole numbers are those of variant 0.
 ///
 /// # Errors
 /// When arrays or maps differ in more than numbers.
@@ -48,10 +48,10 @@ pub fn gather(
         };
         return Ok(own.keys().enumerate().map(entry).collect::<Result<Map, ScriptError>>()?.into());
     }
-    if lost.is_none() && results.iter().all(|other| are_equal(first, other)) {
+    if results.iter().all(Dynamic::is_int) {
         return Ok(first.clone());
     }
-    if first.is_int() && results.iter().all(|other| are_equal(first, other)) {
+    if lost.is_none() && results.iter().all(|other| are_equal(first, other)) {
         return Ok(first.clone());
     }
     Ok(Dynamic::from(Varied::new(family, results.to_vec(), lost.cloned())))

@@ -41,21 +41,32 @@ const EACH: &[&str] = &[
 ];
 
 /// Domains that look at numbers.
-const AT_VALUES: &[&str] =
-    &["text", "checks", "looking closely", "help", "notes", "error against run time"];
+const AT_VALUES: &[&str] = &[
+    "text",
+    "checks",
+    "looking closely",
+    "help",
+    "notes",
+    "pictures",
+    "pictures of arrays",
+    "pictures along beams",
+    "exports",
+    "viewers",
+    "animations",
+];
 
 /// Domains whose results have no derivatives yet.
 const REFUSED: &[&str] = &["equilibrium", "modes"];
 
-/// What makes a simulation go on, which takes its variants along, or gives what is about it alone.
-const ONCE: &[&str] = &["start", "step", "run_to", "at", "invariants", "parameter"];
+/// What makes a simulation go on, which takes its variants along, or gives what is about it alone, as its time is.
+const ONCE: &[&str] = &["start", "step", "run_to", "at", "t", "dt", "invariants", "parameter"];
 
 /// What a row of a domain does with values that depend on parameters.
 pub fn lifting_of(table: &Table, row: &Row) -> Lifting {
     let is_of = |names: &[&str]| names.contains(&table.name);
     match row.form {
         _ if table.name == "derivatives" && row.name != "x" && row.name != "y" => Lifting::Once,
-        Form::Method(of)
+        Form::Method(of) | Form::Property(of)
             if ONCE.contains(&row.name) && ["simulation", "scene"].contains(&of.name()) =>
         {
             Lifting::Once

@@ -4,11 +4,12 @@ use std::rc::Rc;
 
 use rhai::{Array, Dynamic, FnPtr, Map};
 
-use super::family::Family;
+use super::family::{Family, name_of};
 use crate::geometry::Vec2;
 use crate::output::significant;
 use crate::script::rows::kind::Scripted;
 use crate::script::words::error::ScriptError;
+use crate::script::words::nouns::with_article;
 use crate::script::words::numbers::{as_number, format_number};
 
 /// Digits of a derivative where it is shown.
@@ -138,7 +139,7 @@ impl Scripted for Varied {
         let vector = |value: &Dynamic| value.read_lock::<Vec2>().map(|held| held.show());
         let value = &self.values[0];
         let shown = number(value).or_else(|| vector(value));
-        let shown = shown.unwrap_or_else(|| value.type_name().to_owned());
+        let shown = shown.unwrap_or_else(|| with_article(name_of(value).unwrap_or("value")));
         if self.lost.is_some() {
             return shown;
         }

@@ -52,9 +52,9 @@ impl SpringDamper {
         }
     }
 
-    /// The same for a linearisation. Where the search goes on for long, Newton's method is told of the impedance of all that the spring acts on: at a corner of
-    /// a stiff law it would go to and fro, or halve its way to it at every iteration. The line of that impedance through elongation and force meets the law at one
-    /// place, as long as the law rises, and there it is linearised.
+    /// The same for a linearisation. Where the search goes on for long, Newton's method is told of the impedance of all that the spring acts on: at a
+    /// corner of a stiff law it would go to and fro, or halve its way to it at every iteration. The line of that impedance through elongation and
+    /// force meets the law at one place, as long as the law rises, and there it is linearised.
     pub(super) fn aimed_restoring(&mut self, stage: Stage) -> Target {
         let (asked, change) = (self.restoring(stage), self.elongation.change);
         let impedance = self.spring.impedance(change);
