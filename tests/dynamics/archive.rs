@@ -57,7 +57,7 @@ fn every_scene_comes_back_and_goes_on_bit_for_bit() {
                 assert_survives(&label, scene, (entry.method, Recording::default()), 0.05, 0.6);
             }
         }
-        for rule in [SlidingRule::Conserving, SlidingRule::Exact] {
+        for rule in [SlidingRule::Conserving, SlidingRule::Exact, SlidingRule::Kinked] {
             for scene in sliding_scenes::all(&Mesh::bspline(4, 3, 2).unwrap(), rule) {
                 let label = format!("{}, {}", entry.name, scene.name);
                 assert_survives(&label, scene, (entry.method, Recording::Nothing), 0.02, 0.4);

@@ -4,7 +4,7 @@
 use crate::common::probe::{self, STEP, differences};
 use crate::common::{Random, meshes, sliding_scenes};
 use nalgebra::{DMatrix, DVector};
-use withy::beams::{Mesh, kink_length};
+use withy::beams::{Mesh, missed_kink};
 use withy::geometry::{Curve, Passage, PiecewisePolynomial, Vec2, cross, interpolate};
 use withy::integrators::{Constraints, Mechanism, Stage};
 use withy::joints::{
@@ -40,7 +40,7 @@ struct State {
 /// The kink lengths of a mesh of an axis of that length.
 fn kink_of(mesh: &Mesh, length: f64) -> Option<PiecewisePolynomial> {
     let axis = Curve::line(Vec2::zeros(), Vec2::new(length, 0.0)).unwrap();
-    kink_length(mesh, &interpolate(&axis, mesh.basis()).unwrap()).unwrap()
+    missed_kink(mesh, &interpolate(&axis, mesh.basis()).unwrap()).unwrap().map(|kink| kink.length)
 }
 
 /// The arc length along a mesh of a straight axis of that length.

@@ -57,7 +57,12 @@ fn on_kinked_axes_contacts_come_nearer_to_the_references() {
         let is_slow = !reference.starts_with("P8s");
         let [place, point, _, force] = [0, 1, 2, 3].map(|what| slope(&kinked[what]));
         assert!(place > 1.45 && point > 1.4 && force > 0.5, "{reference}: {place} {point} {force}");
-        assert!(times_nearer(1) > if is_slow { 30.0 } else { 2.5 }, "{reference}");
+        assert!(times_nearer(1) > if is_slow { 40.0 } else { 2.5 }, "{reference}");
+        if is_long && is_slow {
+            // Without the inertia that quadrature leaves to the kink this was two, and was to become one.
+            let last = orders(&kinked[1])[2];
+            assert!(last > 2.8 && times_nearer(1) > 200.0, "{reference}: {last}");
+        }
         assert!(times_nearer(2) > 8.0 && times_nearer(3) > 1.4, "{reference}");
     }
 }

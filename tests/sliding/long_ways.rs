@@ -2,14 +2,14 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::common::rails::{bead, bouncing_bead};
-use crate::common::scenes::{add_beam, line};
-use crate::common::sliding::paper_section;
+use crate::common::scenes::{add_beam, end_of, line, spring, start_of};
+use crate::common::sliding::{paper_section, smooth};
 use crate::common::{at, run, sci, settings, simulate};
-use withy::beams::Mesh;
+use withy::beams::{Mesh, Section};
 use withy::geometry::Vec2;
 use withy::integrators::Method;
-use withy::joints::EndAction;
-use withy::model::Scene;
+use withy::joints::{EndAction, SlidingRule};
+use withy::model::{Anchor, RestoringLaw, Scene, SpringKind};
 use withy::simulation::{Invariant, Simulation};
 
 fn drifts(simulation: &Simulation) -> [f64; 4] {
@@ -56,6 +56,58 @@ fn a_bead_passes_a_thousand_element_boundaries_in_three_or_four_iterations_a_ste
         assert!(counts.newton_max <= 4 && counts.retries == 0, "{name}, dt = {dt}");
         assert!(drifts.iter().all(|drift| *drift < 1e-11), "{name}: {drifts:?}");
     }
+}
+
+/// A bead between two springs on a free beam that turns and bends.
+fn shuttle(spans: usize, stiffness: f64) -> Scene {
+    let mut scene = Scene::new("shuttle");
+    let section =
+        Section { mass_per_length: 0.5, rotary_inertia: 0.05, ..paper_section(stiffness) };
+    add_beam(&mut scene, line(Vec2::zeros(), at(2.0, 0.0)), &smooth(spans), section);
+    let motion = &mut scene.beams[0].motion;
+    (motion.velocity, motion.spin, motion.about) = (at(0.1, -0.2), 1.0, Some(at(1.0, 0.0)));
+    bead(&mut scene, 0.35, 1.0, at(1.1, -0.5), EndAction::Stop);
+    let slave = scene.sliders[0].slave;
+    for end in [start_of(&mut scene, 0), end_of(&mut scene, 0)] {
+        let anchors = vec![Anchor::Station(end), Anchor::Station(slave)];
+        let law = RestoringLaw::Linear { stiffness: 12.0, natural: 0.9 };
+        spring(&mut scene, SpringKind::Way(anchors), law, 0.0);
+    }
+    scene.sliders[0].rule = SlidingRule::Kinked;
+    scene
+}
+
+#[test]
+fn on_kinked_axes_a_bead_goes_to_and_fro_for_a_hundred_thousand_steps() {
+    let steps = if std::env::var_os("WITHY_LONG").is_some() { 1e5 } else { 1e4 };
+    for (stiffness, dt) in [(1e2, 0.01), (1e3, 0.01)] {
+        let settings = settings(Method::EnergyMomentum, dt);
+        let mut simulation = Simulation::start(shuttle(3, stiffness), settings).unwrap();
+        run(&mut simulation, 0.5 * steps * dt).unwrap();
+        // From a file it goes on with the same bits.
+        let file = simulation.to_bytes("half way").unwrap();
+        run(&mut simulation, steps * dt).unwrap();
+        let at_end = simulation.model().slider_position(0).to_bits();
+        let (_, mut again) = Simulation::from_bytes(&file).unwrap();
+        run(&mut again, steps * dt).unwrap();
+        assert_eq!(again.model().slider_position(0).to_bits(), at_end);
+        let drifts = drifts(&simulation);
+        println!("EA = {stiffness}: {} steps, drift {}", simulation.counts().steps, sci(&drifts));
+        assert!(drifts.iter().all(|drift| *drift < 2e-11), "{drifts:?}");
+    }
+}
+
+#[test]
+fn on_a_kinked_axis_a_bead_bounces_for_a_hundred_thousand_steps() {
+    let steps = if std::env::var_os("WITHY_LONG").is_some() { 1e5 } else { 2e4 };
+    let mut scene = bouncing_bead(&smooth(2), 1.0);
+    scene.sliders[0].rule = SlidingRule::Kinked;
+    let mut simulation = Simulation::start(scene, settings(Method::EnergyMomentum, 0.01)).unwrap();
+    run(&mut simulation, steps * 0.01).unwrap();
+    let (bounces, drifts) = (simulation.arrivals().len(), drifts(&simulation));
+    println!("{bounces} bounces, drift {}", sci(&drifts));
+    assert!(bounces as f64 > 0.005 * steps, "{bounces}");
+    assert!(drifts.iter().all(|drift| *drift < 2e-11), "{drifts:?}");
 }
 
 #[test]

@@ -3,30 +3,40 @@
 //! A force on a shear-flexible beam makes its tangent jump. What a mesh that cannot jump misses is that of a string on the same
 //! functions, with the same points and weights; derived in docs/theory.md, section 10.1.
 
+mod running;
+
 use super::{BeamError, Mesh};
-use crate::geometry::{PiecewisePolynomial, PositiveBand, Span, Vec2, lower_splines};
+use crate::geometry::{
+    PiecewisePolynomial, PositiveBand, PositiveFactors, Span, Vec2, lower_splines,
+};
 
 /// A length below this part of a span is rounding.
 const ROUNDING: f64 = 1e-11;
 
-/// The kink length `g(ξ)` of the axis that control points draw on a mesh [length]: a force `λ` across the beam at `ξ` moves the
-/// axis there by `g λ/GA` more than the mesh lets it.
+/// What a mesh misses of the kink of its axis under a point force.
+#[derive(Debug, Clone)]
+pub struct MissedKink {
+    /// The kink length `g(ξ)` [length].
+    pub length: PiecewisePolynomial,
+    /// How much heavier a kink that moves along the axis is than its length tells [-]: the energy of motion that the mesh misses is `½ μ ρA g |a|² v²` in
+    /// the mean over the places of the kink, `μ = 1` where strains are integrated exactly.
+    pub inertia: f64,
+}
+
+/// What a mesh misses of the kink of the axis that control points draw on it; the kink length `g(ξ)` says that a force `λ` across the beam
+/// at `ξ` moves the axis there by `g λ/GA` more than the mesh lets it.
 ///
 /// ```text
 /// g(ξ) = l(ξ)ᵀ M⁻¹ r(ξ)        M = Σ w t tᵀ/|x_ξ|        l = ∫ t dξ up to ξ, r = ∫ t dξ from ξ on
 /// ```
 ///
-/// over the splines `t` of one degree less, with the points and weights of the beam's shear strain: what a string on these functions gives way under a point
-/// load,
-/// taken from what it should, whichever ends are held. A polynomial of twice the degree on each span, zero where the basis is C⁰. None where it is
+/// over the splines `t` of one degree less, with the points and weights of the beam's shear strain: what a string on these functions gives
+/// way under a point load, taken from what it should, whichever ends are held. A polynomial of twice the degree on each span, zero where the basis is C⁰. None where it is
 /// not positive between these places, as with fewer quadrature points than the patch rule has.
 ///
 /// # Errors
 /// When the mesh has no quadrature, or the axis a point without a tangent.
-pub fn kink_length(
-    mesh: &Mesh,
-    control_points: &[Vec2],
-) -> Result<Option<PiecewisePolynomial>, BeamError> {
+pub fn missed_kink(mesh: &Mesh, control_points: &[Vec2]) -> Result<Option<MissedKink>, BeamError> {
     let (basis, degree) = (mesh.basis(), mesh.basis().degree());
     let spans = basis.spans();
     let mut products = PositiveBand::zeros(basis.functions() - 1, degree - 1);
@@ -44,16 +54,20 @@ pub fn kink_length(
     let Some(string) = SplineString::new(products, degree) else { return Ok(None) };
     let rows: Vec<Vec<f64>> =
         spans.iter().map(|span| string.polynomial(span, &fractions(mesh, span))).collect();
-    let kink = PiecewisePolynomial::new(&spans, &rows);
+    let length = PiecewisePolynomial::new(&spans, &rows);
     let is_positive = spans.iter().enumerate().all(|(at, span)| {
         let width = span.end - span.start;
         let least = -ROUNDING * control_polygon_length(control_points, span, degree);
         (0..=8 * degree).all(|k| {
             let xi = span.start + width * k as f64 / (8 * degree) as f64;
-            kink.in_span(at, xi)[0] >= least
+            length.in_span(at, xi)[0] >= least
         })
     });
-    Ok(is_positive.then_some(kink))
+    if !is_positive {
+        return Ok(None);
+    }
+    let inertia = string.inertia(mesh, control_points, &length);
+    Ok(Some(MissedKink { length, inertia }))
 }
 
 /// The length of the control polygon of a span [length].
@@ -80,6 +94,7 @@ fn fractions(mesh: &Mesh, span: &Span) -> Vec<Vec<f64>> {
 struct SplineString {
     degree: usize,
     products: PositiveBand,
+    factors: PositiveFactors,
     /// The string under a constant force.
     stretched: Vec<f64>,
     inverse: PositiveBand,
@@ -91,7 +106,7 @@ impl SplineString {
         let mut stretched = vec![1.0; products.size()];
         factors.solve(&mut stretched);
         let inverse = factors.inverse(3 * degree);
-        Some(Self { degree, products, stretched, inverse })
+        Some(Self { degree, products, factors, stretched, inverse })
     }
 
     /// What is left of a load on all splines before number `cut` when these are stretched as a constant force would stretch them: it has a few entries

@@ -119,7 +119,7 @@ pub enum StepError {
     },
     /// A slider runs along its master nearly as fast as the waves by which the master gives way under it.
     #[error(
-        "slider '{slider}' runs along its master at {speed:.4}, more than {limit} of the speed {wave:.4} of the master's shear waves, √(GA/ρA), at t = {}: the kinked rule \
+        "slider '{slider}' runs along its master at {speed:.4}, more than {limit:.2} of the speed {wave:.4} of the master's shear waves, √(GA/ρA), at t = {}: the kinked rule \
          does not know how a beam gives way under so fast a force",
         interval.start
     )]

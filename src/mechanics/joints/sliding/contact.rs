@@ -80,7 +80,7 @@ pub struct KinkMotion {
     pub arc: AlongWay,
     /// The speed `v0` at the start of the step [length/time].
     pub speed: f64,
-    /// `ρA/GA`, one over the square of the speed of shear waves [time²/length²].
+    /// `μ ρA/GA`, one over the square of the speed of shear waves but for what the mesh misses of the motion [time²/length²].
     pub slowness: f64,
     /// The duration `Δt` of the step [time].
     pub duration: f64,

@@ -14,9 +14,10 @@ use crate::elementary::square;
 /// ½ (v0 + v1) Δt = (Δs/Δξ) τ·u/|τ|²                      u = Δξ τ + Δ(g a) - 4 b J r
 /// ```
 ///
-/// The slave is on the axis as the contact force kinks it: the tangent jumps by `a` there, and the kink moves along the master with the speed `v`. The mesh misses
-/// its energy, `½ g |a|² (GA + ρA v²)`. The jump at the end of the step follows from `λ` across the master and from the second line; what is left is the balance
-/// of forces along it. Where there is no [`Kink`] it is the law [`Conserving`]. Derived in docs/theory.md, sections 10 and 10.1.
+/// The slave is on the axis as the contact force kinks it: the tangent jumps by `a` there, and the kink moves along the master with the speed
+/// `v`. The mesh misses its energy, `½ g |a|² (GA + ρA v²)`, with `ρA` a little larger than that of the beam. The jump at the end of the step
+/// follows from `λ` across the master and from the second line; what is left is the balance of forces along it. Where there is no [`Kink`] it is
+/// the law [`Conserving`]. Derived in docs/theory.md, sections 10 and 10.1.
 #[derive(Debug, Clone, Copy)]
 pub struct Kinked;
 

@@ -3,11 +3,13 @@
 use super::{Assembly, Numbering};
 use std::sync::Arc;
 
-use crate::beams::{Station, kink_length};
+use crate::beams::{MissedKink, Station, missed_kink};
 use crate::geometry::{Passage, PiecewisePolynomial, Span};
 use crate::joints::{Leg, Slider, SlidingRule, StartVelocities, Track};
 use crate::model::elements::Site;
-use crate::model::sliders::{Bar, Connection, KinkedAxis, Rail, Route, RouteLeg, Sliding};
+use crate::model::sliders::{
+    Bar, Connection, KinkedAxis, MasterKink, Rail, Route, RouteLeg, Sliding,
+};
 use crate::model::words::SliderError;
 use crate::model::{BeamDefinition, Model, ModelError, Scene};
 
@@ -85,7 +87,7 @@ impl Assembly<'_> {
     fn kinked_axis(
         &self,
         slider: &Slider,
-        found: &mut [Option<Option<[Arc<PiecewisePolynomial>; 2]>>],
+        found: &mut [Option<Option<MasterKink>>],
     ) -> Result<Option<KinkedAxis>, ModelError> {
         let (master, beam) = (slider.master, &self.scene.beams[slider.master]);
         let basis = self.mesh(master).basis();
@@ -97,14 +99,19 @@ impl Assembly<'_> {
         if found[master].is_none() {
             let points = self.bodies[master].control_points();
             let wrap = |source| ModelError::Beam { beam: beam.name.clone(), source };
-            let length = kink_length(self.mesh(master), points).map_err(wrap)?;
+            let missed = missed_kink(self.mesh(master), points).map_err(wrap)?;
             let arc = || {
                 let speed = |span: &Span, xi| basis.evaluate_in(span, xi).combine(1, points).norm();
                 PiecewisePolynomial::integral(&basis.spans(), basis.degree(), speed)
             };
-            found[master] = Some(length.map(|length| [length, arc()].map(Arc::new)));
+            let of = |missed: MissedKink| MasterKink {
+                length: Arc::new(missed.length),
+                arc: Arc::new(arc()),
+                inertia: missed.inertia,
+            };
+            found[master] = Some(missed.map(of));
         }
-        let axis = |functions| KinkedAxis::new(functions, beam.axis.length(), &beam.section.mean());
+        let axis = |kink| KinkedAxis::new(kink, beam.axis.length(), &beam.section.mean());
         Ok(found[master].clone().flatten().map(axis))
     }
 

@@ -116,6 +116,8 @@ impl Model {
     /// # Errors
     /// When the impulses are not determined.
     pub fn blow(&mut self, arriving: &Arriving, dt: f64) -> Result<(), ModelError> {
+        let straightened = self.straighten_kinks(&[&arriving.strike[..], &arriving.lean].concat());
+        straightened.map_err(|_| self.sliders.overdetermined())?;
         let hits = self.hits(|model, limit| arriving.law(model, limit));
         // What a stop holds it must hold as it is, and not as steps follow it.
         let rigid_within = arriving.lean.is_empty().then_some(RIGID * dt);

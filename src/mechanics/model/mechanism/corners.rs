@@ -110,6 +110,20 @@ impl Model {
         Ok(())
     }
 
+    /// Sliders that are at ends of kinked axes, where no kink has an energy, turn onto the axes as they are: what their kinks vibrate with goes into the
+    /// motion along.
+    pub(super) fn straighten_kinks(&mut self, limits: &[MasterLimit]) -> Result<(), LinearError> {
+        let rates = &self.motion.rates;
+        let corner = |&MasterLimit { slider, end }: &MasterLimit| {
+            let [comes, goes] = self.sliders[slider].off_kink(&self.bodies, rates, end)?;
+            Some(Corner { slider, comes, goes })
+        };
+        let corners: Vec<Corner> = limits.iter().filter_map(corner).collect();
+        self.turn(&corners, None)?;
+        corners.iter().for_each(|corner| self.sliders[corner.slider].straighten());
+        Ok(())
+    }
+
     /// The directions of the axis, as sections have them that are not sheared, in which a slider leaves the one side of a seam and comes to the other [-].
     fn sections_at(&self, slider: usize, end: MasterEnd, seam: Seam) -> Option<[Vec2; 2]> {
         let slider = &self.sliders[slider];

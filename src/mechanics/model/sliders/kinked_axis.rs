@@ -12,6 +12,20 @@ const RIGID: f64 = 1e-14;
 /// The largest part of the speed of shear waves with which a kink may move along its master: beyond, little of its stiffness `GA - ρA v²` is left.
 const FASTEST: f64 = 0.8;
 
+/// The largest part of the speed `√(GA/μρA)`, at which nothing is left of that stiffness on the mesh of the master.
+const FASTEST_ON_MESH: f64 = 0.9;
+
+/// What the mesh of a master misses of the kink that a contact force makes, for all sliders on it.
+#[derive(Debug, Clone)]
+pub struct MasterKink {
+    /// The kink length `g(ξ)` [length].
+    pub length: Arc<PiecewisePolynomial>,
+    /// The arc length `s(ξ)` [length].
+    pub arc: Arc<PiecewisePolynomial>,
+    /// How much heavier the kink is on its way than its length tells, `μ` [-].
+    pub inertia: f64,
+}
+
 /// What a contact force does to the axis of its master: it moves the axis by `g p/GA` where it acts.
 #[derive(Debug, Clone)]
 pub struct KinkedAxis {
@@ -21,8 +35,12 @@ pub struct KinkedAxis {
     arc: Arc<PiecewisePolynomial>,
     /// `1/GA` of the master [1/force].
     compliance: f64,
-    /// `ρA/GA` of the master [time²/length²].
+    /// `μ ρA/GA` of the master [time²/length²].
     slowness: f64,
+    /// The speed of shear waves [length/time].
+    wave: f64,
+    /// The part of that speed up to which a kink may move [-].
+    fastest: f64,
     /// A kink length that is none [length].
     none: f64,
     /// `g`, its first and its second derivative by `ξ` where the slider is [length].
@@ -49,18 +67,16 @@ pub struct TooFast {
 }
 
 impl KinkedAxis {
-    /// The axis of a master of such a length as drawn, without a contact force, by its kink length, its arc length and its section.
-    pub fn new(
-        [kink_length, arc]: [Arc<PiecewisePolynomial>; 2],
-        length: f64,
-        section: &Section,
-    ) -> Self {
+    /// The axis of a master of such a length as drawn, without a contact force, by what its mesh misses and by its section.
+    pub fn new(kink: MasterKink, length: f64, section: &Section) -> Self {
         let compliance = 1.0 / section.shear_stiffness;
         Self {
-            length: kink_length,
-            arc,
+            length: kink.length,
+            arc: kink.arc,
             compliance,
-            slowness: section.mass_per_length * compliance,
+            slowness: kink.inertia * section.mass_per_length * compliance,
+            wave: (section.mass_per_length * compliance).sqrt().recip(),
+            fastest: FASTEST.min(FASTEST_ON_MESH / kink.inertia.sqrt()),
             none: RIGID * length,
             here: [0.0; 3],
             stretch: 0.0,
@@ -79,8 +95,8 @@ impl KinkedAxis {
         if !self.is_heavy() {
             self.speed = self.stretch * rate;
         }
-        let (speed, wave) = (self.speed.abs(), self.slowness.sqrt().recip());
-        if speed > FASTEST * wave { Err(TooFast { speed, wave, limit: FASTEST }) } else { Ok(()) }
+        let (speed, wave, limit) = (self.speed.abs(), self.wave, self.fastest);
+        if speed > limit * wave { Err(TooFast { speed, wave, limit }) } else { Ok(()) }
     }
 
     /// Whether the kink has a mass, and with it a speed of its own.

@@ -3,7 +3,7 @@
 use super::Sliding;
 use crate::geometry::{Vec2, perpendicular};
 use crate::model::bodies::Body;
-use crate::model::sliders::{Connection, KinkedAxis, SliderState};
+use crate::model::sliders::{Connection, KinkedAxis, MasterEnd, SliderState};
 
 impl Sliding {
     /// The control points of the master with their functions where the slider is.
@@ -37,6 +37,20 @@ impl Sliding {
         let kink = self.kinked_axis.as_ref().filter(|_| self.is_sliding());
         let slope = kink.map_or(Vec2::zeros(), |axis| axis.slopes().0);
         (self.tangent(bodies) + slope).normalize()
+    }
+
+    /// The directions in which the slider moves at an end of its kinked axis, and would move without the kink [-]; none where it has none.
+    pub fn off_kink(&self, bodies: &[Body], rates: &[f64], end: MasterEnd) -> Option<[Vec2; 2]> {
+        let axis = self.kinked_axis.as_ref().filter(|axis| self.is_sliding() && !axis.gives())?;
+        let velocity = self.relative_velocity(bodies, rates);
+        let is_straight = axis.force() == Vec2::zeros() || velocity == Vec2::zeros();
+        let axis = self.along(bodies) * end.outward();
+        (!is_straight).then(|| [velocity.normalize(), axis])
+    }
+
+    /// Takes the kink of the master away, at an end, where it has no energy.
+    pub fn straighten(&mut self) {
+        self.kinked_axis.iter_mut().for_each(KinkedAxis::straighten);
     }
 
     /// The direction across the master where the slider is [-].

@@ -1,0 +1,83 @@
+//! The energy of motion that a mesh misses of a kink that runs along it.
+
+use super::SplineString;
+use crate::beams::Mesh;
+use crate::geometry::{GaussRule, PiecewisePolynomial, Span, Vec2, lower_splines};
+
+/// On how many spans the mean is taken at most.
+const SAMPLES: usize = 16;
+
+impl SplineString {
+    /// The number `μ` that makes `½ μ ρA g |a|² v²` the energy of motion that the mesh misses, in the mean over places of a kink `a` that runs
+    /// along with the speed `v`: means over spans spread evenly.
+    ///
+    /// ```text
+    /// μ = ∫ (X(L) - s(ξ) - ∫ u² dX) ds/∫ g ds        u = l(X)ᵀ M⁻¹ t(ξ)/|x_ξ|
+    /// ```
+    ///
+    /// With the start held, what lies in front of a kink of one rises with `v` and nothing else moves; the mesh moves with `u v` instead. Beside the kink `u`
+    /// is what it should be, so that the difference is a matter of the spans around it.
+    pub fn inertia(
+        &self,
+        mesh: &Mesh,
+        control_points: &[Vec2],
+        length: &PiecewisePolynomial,
+    ) -> f64 {
+        let Ok(rule) = GaussRule::new(self.degree + 1) else { return 1.0 };
+        let (basis, spans) = (mesh.basis(), mesh.basis().spans());
+        let samples = SAMPLES.min(spans.len());
+        let (mut missed, mut lengths) = (0.0, 0.0);
+        for sample in 0..samples {
+            let at = (2 * sample + 1) * spans.len() / (2 * samples);
+            let span = &spans[at];
+            for (xi, weight) in rule.iter_on(span.start, span.end) {
+                let values = basis.evaluate_in(span, xi);
+                let weight = weight * values.combine(1, control_points).norm();
+                let motion = self.motion(span, &lower_splines(&values).collect::<Vec<f64>>());
+                let squares: f64 = (spans.iter().enumerate())
+                    .map(|(other, around)| {
+                        let fields = rule.iter_on(around.start, around.end).map(|(x, weight)| {
+                            let values = basis.evaluate_in(around, x);
+                            let own = values.values().iter().enumerate();
+                            // How much of the rise is still missing, or is there already.
+                            let (there, missing) =
+                                own.fold((0.0, 0.0), |(there, missing), (a, n)| {
+                                    let [low, high] = motion[around.first + a];
+                                    (there + n * low, missing + n * high)
+                                });
+                            let square =
+                                if other > at { missing * (1.0 + there) } else { -there * there };
+                            weight * values.combine(1, control_points).norm() * square
+                        });
+                        fields.sum::<f64>()
+                    })
+                    .sum();
+                let rest: f64 = (rule.iter_on(xi, span.end))
+                    .map(|(x, weight)| {
+                        weight * basis.evaluate_in(span, x).combine(1, control_points).norm()
+                    })
+                    .sum();
+                missed += weight * (rest + squares);
+                lengths += weight * length.in_span(at, xi)[0];
+            }
+        }
+        missed / lengths
+    }
+
+    /// How control points move as a kink runs by a place on a span with such lower splines, as a part of what the end of the string does; and
+    /// what they lack to that.
+    fn motion(&self, span: &Span, lower: &[f64]) -> Vec<[f64; 2]> {
+        let mut strains = vec![0.0; self.stretched.len()];
+        strains[span.first..][..lower.len()].copy_from_slice(lower);
+        self.factors.solve(&mut strains);
+        let end: f64 = strains.iter().sum();
+        let mut motion = vec![[0.0; 2]; strains.len() + 1];
+        for (at, strain) in strains.iter().enumerate() {
+            motion[at + 1][0] = motion[at][0] + strain / end;
+        }
+        for (at, strain) in strains.iter().enumerate().rev() {
+            motion[at][1] = motion[at + 1][1] + strain / end;
+        }
+        motion
+    }
+}
