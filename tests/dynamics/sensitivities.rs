@@ -1,6 +1,7 @@
 //! Derivatives of runs by parameters: against closed forms, against differences of exact runs, and what they cost.
 #![allow(clippy::unwrap_used)]
 
+use crate::common::steered_scenes::is_steered;
 use crate::common::{at, body_scenes, run, scenes, settings, simulate, sliding_scenes};
 use crate::drives::swung_at;
 use withy::beams::{Mesh, SectionVariation};
@@ -134,6 +135,14 @@ fn derivatives_of_all_scenes_are_those_of_exact_runs() {
                     vec![of(0), of(1), of(2)],
                 )
             };
+            if is_steered(&scene) {
+                let refused = start().map(|_| ()).unwrap_err();
+                assert!(
+                    matches!(refused, SimulationError::Derivative(DerivativeError::Steered { .. })),
+                    "{refused}"
+                );
+                continue;
+            }
             let mut simulation = start().unwrap();
             run(&mut simulation, END).unwrap();
             let plain = simulate(scene.clone(), method, DT, END);

@@ -66,6 +66,10 @@ impl Sensitivities {
         if let StepSize::Adaptive(_) = settings.dt {
             return Err(DerivativeError::Adaptive.into());
         }
+        let steered = run.scene().schedules().find(|(_, schedule)| schedule.is_sampled());
+        if let Some(name) = steered.map(|(name, _)| name.to_owned()) {
+            return Err(DerivativeError::Steered { name }.into());
+        }
         let name = settings.method.entry().name;
         let company = Company::of(settings.method, run.model_mut(), settings.tolerance)
             .ok_or(DerivativeError::Method { method: name })?;

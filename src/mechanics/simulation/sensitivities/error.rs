@@ -18,6 +18,12 @@ pub enum DerivativeError {
         /// The method of the run.
         method: &'static str,
     },
+    /// Something of a scene is steered from outside, step by step.
+    #[error("'{name}' is steered by a controller, whose answers have no derivatives by parameters")]
+    Steered {
+        /// The load or drive of the scene that is steered.
+        name: String,
+    },
     /// A parameter changes the form of a scene.
     #[error(
         "the scene at '{parameter}' plus or minus {distance:e} has another number of unknowns or sliders: only numbers of a scene may depend on a parameter"
