@@ -31,8 +31,8 @@ pub struct MissedKink {
 /// ```
 ///
 /// over the splines `t` of one degree less, with the points and weights of the beam's shear strain: what a string on these functions gives
-/// way under a point load, taken from what it should, whichever ends are held. A polynomial of twice the degree on each span, zero where the basis is C⁰. None where it is
-/// not positive between these places, as with fewer quadrature points than the patch rule has.
+/// way under a point load, taken from what it should, whichever ends are held. A polynomial of twice the degree on each span, zero where the
+/// basis is C⁰. None where it is not positive between these places, as with fewer quadrature points than the patch rule has.
 ///
 /// # Errors
 /// When the mesh has no quadrature, or the axis a point without a tangent.
