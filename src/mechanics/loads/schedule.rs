@@ -1,5 +1,7 @@
 //! A factor over time.
 
+mod breaks;
+
 use serde::{Deserialize, Serialize};
 
 use std::cell::Cell;
@@ -274,40 +276,6 @@ impl Schedule {
             sum += 0.5 * weight * self.value(middle + half * place, Side::After)?;
         }
         Ok(sum)
-    }
-
-    /// The times at which the schedule jumps or bends; steps should end there.
-    pub fn breaks(&self) -> Vec<f64> {
-        match self {
-            Self::Constant(_) | Self::Sine { .. } | Self::Sampled(_) => Vec::new(),
-            Self::Table(rows) => rows.iter().map(|(time, _)| *time).collect(),
-            Self::SmoothPulse { duration } => vec![0.0, *duration],
-            Self::Function { breaks, .. } => breaks.clone(),
-            Self::Combined { parts, .. } => [parts.0.breaks(), parts.1.breaks()].concat(),
-        }
-    }
-
-    /// Whether a time is one of those at which the schedule jumps or bends.
-    pub fn may_bend_at(&self, time: f64) -> bool {
-        match self {
-            Self::Constant(_) | Self::Sine { .. } | Self::Sampled(_) => false,
-            Self::Table(rows) => rows.iter().any(|(bend, _)| *bend == time),
-            Self::SmoothPulse { duration } => time == 0.0 || time == *duration,
-            Self::Function { breaks, .. } => breaks.contains(&time),
-            Self::Combined { parts, .. } => parts.0.may_bend_at(time) || parts.1.may_bend_at(time),
-        }
-    }
-
-    /// Whether the schedule may have different values just before and just after a time.
-    pub fn may_jump_at(&self, time: f64) -> bool {
-        match self {
-            Self::Constant(_) | Self::Sine { .. } | Self::SmoothPulse { .. } | Self::Sampled(_) => {
-                false
-            }
-            Self::Table(rows) => rows.windows(2).any(|pair| pair[0].0 == time && pair[1].0 == time),
-            Self::Function { breaks, .. } => breaks.contains(&time),
-            Self::Combined { parts, .. } => parts.0.may_jump_at(time) || parts.1.may_jump_at(time),
-        }
     }
 
     /// The schedule in the words of the language.

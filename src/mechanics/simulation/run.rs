@@ -247,6 +247,26 @@ impl Simulation {
     ) -> Result<(), SimulationError> {
         self.check_end(end)?;
         self.clock.goal = end;
+        // What runs beside makes rows of its own.
+        let mut beside = self.stepper.sensitivities.take();
+        let pretended = self.pretend_alone_to(end, monitor);
+        if let Some(sensitivities) = &mut beside {
+            sensitivities.pretend_to(end);
+        }
+        self.stepper.sensitivities = beside;
+        if pretended? > 0 {
+            self.pretend_arrivals();
+            self.pretend_releases()?;
+        }
+        Ok(())
+    }
+
+    /// How many rows were pretended.
+    fn pretend_alone_to(
+        &mut self,
+        end: f64,
+        monitor: &mut dyn Monitor,
+    ) -> Result<usize, SimulationError> {
         let mut rows = 0;
         while !self.has_reached(end) {
             rows += 1;
@@ -259,14 +279,7 @@ impl Simulation {
             self.keep_present();
             self.ask(monitor)?;
         }
-        if let Some(sensitivities) = &mut self.stepper.sensitivities {
-            sensitivities.pretend_to(end);
-        }
-        if rows > 0 {
-            self.pretend_arrivals();
-            self.pretend_releases()?;
-        }
-        Ok(())
+        Ok(rows)
     }
 
     fn step_at_most_to(
