@@ -70,6 +70,9 @@ impl Sensitivities {
         if let Some(name) = steered.map(|(name, _)| name.to_owned()) {
             return Err(DerivativeError::Steered { name }.into());
         }
+        if let Some(sensor) = run.scene().sensors.iter().find(|sensor| sensor.is_of_step()) {
+            return Err(DerivativeError::Mean { sensor: sensor.name.clone() }.into());
+        }
         let name = settings.method.entry().name;
         let company = Company::of(settings.method, run.model_mut(), settings.tolerance)
             .ok_or(DerivativeError::Method { method: name })?;
@@ -191,6 +194,20 @@ impl Sensitivities {
             None => {
                 let twins = self.parameters.get(parameter).ok_or(DerivativeError::None)?;
                 Ok(twins.run(side))
+            }
+        }
+    }
+
+    pub(super) fn beside_mut(
+        &mut self,
+        parameter: usize,
+        side: Side,
+    ) -> Result<&mut Simulation, DerivativeError> {
+        match &self.lost {
+            Some(reason) => Err(reason.clone()),
+            None => {
+                let twins = self.parameters.get_mut(parameter).ok_or(DerivativeError::None)?;
+                Ok(twins.run_mut(side))
             }
         }
     }

@@ -160,18 +160,20 @@ impl SimulationHandle {
 
     /// The simulation of the handle, to look at it, in the variant that the present call is made for.
     pub fn simulation(&self) -> Ref<'_, Simulation> {
-        let variant = present().map_or(0, |present| present.variant);
         Ref::map(self.0.simulation.borrow(), |run| {
-            let Some((parameter, is_plus)) = Family::beside(variant) else { return run };
-            if run.parameters().next().is_none() {
-                return run;
-            }
-            let side = if is_plus { Side::Plus } else { Side::Minus };
+            let Some((parameter, side)) = Self::present_side(run) else { return run };
             run.beside(parameter, side).unwrap_or_else(|reason| {
                 lose(&reason.to_string());
                 run
             })
         })
+    }
+
+    /// Which run beside a simulation the present call is made for, if for one.
+    fn present_side(run: &Simulation) -> Option<(usize, Side)> {
+        let (parameter, is_plus) = Family::beside(present()?.variant)?;
+        run.parameters().next()?;
+        Some((parameter, if is_plus { Side::Plus } else { Side::Minus }))
     }
 
     /// The scene that the simulation was started from.

@@ -33,7 +33,7 @@ pub const TABLE: Table = Table {
             "Reckon with it, and give it wherever sections, loads, springs, masses, motors and velocities of the scene take a number; all parameters of a scene are declared \
              before one is used. A simulation that is started then finds with each step how it changes with each parameter, from the equations that the step has factorised: two solves or \
              three for each of two neighbours, no factorisation. Its own steps keep every bit. What is asked of the simulation and of its history are numbers with derivatives, and \
-             so is what is made of them; comparisons, texts and pictures take the numbers without. Steps are fixed, of energy_momentum() or fourth_order(). \
+             so is what is made of them; comparisons, checks, fixed and sci take the numbers without. Steps are fixed, of energy_momentum() or fourth_order(). \
              Shapes, places and times at which loads jump may not depend on a parameter, functions |t, q| … not be in the scene; \
              where a slider arrives, something lets go, or the script goes back, derivatives end, and derivative_by says so.",
         )
@@ -49,7 +49,8 @@ pub const TABLE: Table = Table {
         function("derivative_by", &[X, text("parameter").doc("its name")], derivative_by)
             .returns(Returns::ANYTHING.words("a number, a vector, or an array of them"))
             .summary("The derivative of a number or a vector by a parameter of a scene; of an array those of its elements.")
-            .doc("Zero of what does not depend on a parameter. It is right to about eight digits where the motion is smooth.")
+            .doc("Zero of what does not depend on a parameter, and of all that a simulation tells that was loaded from a file, whose parameters are plain numbers. It is right to about eight digits where the motion is smooth. \
+                  What a function of a load decides by a parameter, such as if t < a, is decided at its value: times at which loads jump have no derivatives.")
             .example(
                 "let scene = new_scene(\"two\");\nlet k = scene.parameter(\"k\", 4);\nlet m = scene.parameter(\"m\", 1);\n\
                  let omega = sqrt(k / m);\ncheck_close(omega.derivative_by(\"k\"), 0.25, 1e-9);\ncheck_close(derivative_by(omega, \"m\"), -1, 1e-8);",

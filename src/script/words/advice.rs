@@ -69,6 +69,7 @@ fn on_simulation(error: &SimulationError) -> Option<String> {
             DerivativeError::Form { .. } | DerivativeError::Times { .. } => {
                 "give plain numbers in the place of scene.parameter(…) and take central differences, as fit does".into()
             }
+            DerivativeError::Mean { .. } => "record the force at the present moment".into(),
             DerivativeError::Adaptive => "give dt a number".into(),
             _ => return None,
         },

@@ -37,6 +37,19 @@ impl Simulation {
         known.beside(parameter, side)
     }
 
+    /// The same, to look at it by way of what may change it for the moment.
+    ///
+    /// # Errors
+    /// When there are no derivatives (any more).
+    pub fn beside_mut(
+        &mut self,
+        parameter: usize,
+        side: Side,
+    ) -> Result<&mut Self, DerivativeError> {
+        let known = self.stepper.sensitivities.as_mut().ok_or(DerivativeError::None)?;
+        known.beside_mut(parameter, side)
+    }
+
     /// The derivative of a number that a simulation tells by a parameter, by its index.
     ///
     /// # Errors

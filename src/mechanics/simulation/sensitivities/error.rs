@@ -24,6 +24,12 @@ pub enum DerivativeError {
         /// The load or drive of the scene that is steered.
         name: String,
     },
+    /// A scene records the mean over a step of what a joint gives, which is summed up along the run itself.
+    #[error("'{sensor}' is the mean over a step, which has no derivatives by parameters")]
+    Mean {
+        /// The recorded column.
+        sensor: String,
+    },
     /// A parameter changes the form of a scene.
     #[error(
         "the scene at '{parameter}' plus or minus {distance:e} has another number of unknowns or sliders: only numbers of a scene may depend on a parameter"

@@ -70,6 +70,14 @@ impl Twins {
         self.runs.iter_mut()
     }
 
+    pub(super) fn run_mut(&mut self, side: Side) -> &mut Simulation {
+        let [plus, minus] = &mut self.runs;
+        match side {
+            Side::Plus => plus,
+            Side::Minus => minus,
+        }
+    }
+
     pub(super) fn run(&self, side: Side) -> &Simulation {
         let [plus, minus] = &self.runs;
         match side {

@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use rhai::Dynamic;
 
-use super::{SimulationHandle, Watch, explain};
+use super::{SimulationHandle, Watch, explain, lose};
 use crate::loads::Schedule;
 use crate::script::handles::scene::{Condition, Controller};
 use crate::script::rows::call::Call;
@@ -49,9 +49,15 @@ impl Sensing {
 }
 
 impl SimulationHandle {
-    /// Looks at the simulation by way of what may change it for the moment.
+    /// Looks at the simulation by way of what may change it for the moment, in the variant that the present call is made for.
     pub fn look<T>(&self, look: impl FnOnce(&mut Simulation) -> T) -> T {
-        look(&mut self.0.simulation.borrow_mut())
+        let run = &mut *self.0.simulation.borrow_mut();
+        let Some((parameter, side)) = Self::present_side(run) else { return look(run) };
+        match run.beside_mut(parameter, side) {
+            Ok(beside) => return look(beside),
+            Err(reason) => lose(&reason.to_string()),
+        }
+        look(run)
     }
 
     /// Lets the functions fill their columns in the last row, unless they have.
