@@ -19,6 +19,9 @@ const EASIER: f64 = 0.2;
 /// Those that find nothing, or move it too far, become more sluggish by so much.
 const HARDER: f64 = 4.0;
 
+/// Most tries of a first pass.
+const MOST_FIRST_PASSES: usize = 60;
+
 /// Most passes.
 const MOST_PASSES: usize = 400;
 
@@ -40,7 +43,7 @@ impl Tracer<'_> {
         movements: usize,
         goes_on: &mut dyn FnMut(f64) -> bool,
     ) -> Result<(), StaticsError> {
-        let mut rate = self.first_rate(factor);
+        let mut rate = self.first_rate(factor, goes_on)?;
         let (mut way, mut iterations, mut leaves, mut miss) = (0.0, 0, 0, Miss::Far);
         for _ in 0..MOST_PASSES {
             self.ask(goes_on)?;
@@ -87,9 +90,14 @@ impl Tracer<'_> {
     }
 
     /// A rate [1/time²] with which the first pass goes downhill, and moves the scene by a small part of itself.
-    fn first_rate(&mut self, factor: f64) -> f64 {
+    fn first_rate(
+        &mut self,
+        factor: f64,
+        goes_on: &mut dyn FnMut(f64) -> bool,
+    ) -> Result<f64, StaticsError> {
         let mut rate = self.model.slowest_bending().unwrap_or(1.0);
-        for _ in 0..60 {
+        for _ in 0..MOST_FIRST_PASSES {
+            self.ask(goes_on)?;
             let found = self.balance_from(factor, rate);
             let is_near = found.is_ok() && self.moved() <= FAR;
             self.go_back();
@@ -98,6 +106,6 @@ impl Tracer<'_> {
             }
             rate *= 100.0;
         }
-        rate
+        Ok(rate)
     }
 }
