@@ -1,4 +1,4 @@
-//! The least of a function within constraints, without derivatives.
+//! The least of a function within constraints: without derivatives here, with them in [`descent`](super::descent).
 
 use std::cell::RefCell;
 
@@ -11,7 +11,7 @@ const FIRST_STEP: f64 = 0.1;
 /// A constraint that is missed by less than this part of its size is met.
 const MET: f64 = 1e-6;
 /// What a run that failed counts as, beside the worst so far.
-const PENALTY: f64 = 10.0;
+pub(super) const PENALTY: f64 = 10.0;
 
 /// A search for the least of a function.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,6 +48,16 @@ pub struct Designed {
     pub is_settled: bool,
     /// How often the function was called.
     pub runs: usize,
+    /// How often it was called for its derivatives too, which are among all calls.
+    pub gradient_runs: usize,
+    /// Why it was searched without derivatives, where it was.
+    pub without: Option<String>,
+}
+
+/// Where a search begins and stays, in parts of the sizes of the parameters.
+pub(super) struct Scaled {
+    pub(super) start: Vec<f64>,
+    pub(super) bounds: Vec<(f64, f64)>,
 }
 
 /// What is known during a search.
@@ -66,12 +76,12 @@ impl Rating {
         missed.fold(0.0, f64::max)
     }
 
-    fn is_feasible(&self) -> bool {
+    pub(super) fn is_feasible(&self) -> bool {
         self.missed() <= MET
     }
 
     /// Whether this one is better: feasible, and then less; else nearer to being feasible.
-    fn is_better_than(&self, other: &Self) -> bool {
+    pub(super) fn is_better_than(&self, other: &Self) -> bool {
         match (self.is_feasible(), other.is_feasible()) {
             (true, true) => self.objective < other.objective,
             (false, false) => self.missed() < other.missed(),
@@ -91,11 +101,8 @@ impl Design {
         &self,
         rate: impl FnMut(&[f64]) -> Result<Option<Rating>, E>,
     ) -> Result<Option<Designed>, E> {
-        let sizes: Vec<f64> = self.ranges.iter().map(|range| range.width()).collect();
-        let unscaled = |u: &[f64]| -> Vec<f64> {
-            let pairs = u.iter().zip(&sizes).zip(&self.ranges);
-            pairs.map(|((u, size), range)| range.clip(u * size)).collect()
-        };
+        let Scaled { start, bounds } = self.scaled();
+        let unscaled = |u: &[f64]| self.unscaled(u);
         let rate = RefCell::new(rate);
         let search =
             RefCell::new(Search { best: None, last: None, worst: 0.0, runs: 0, error: None });
@@ -132,14 +139,6 @@ impl Design {
             search.last = Some((u.to_vec(), rating.clone()));
             rating
         };
-        let start: Vec<f64> =
-            self.ranges.iter().zip(&sizes).map(|(of, size)| of.first() / size).collect();
-        let bounds: Vec<(f64, f64)> = self
-            .ranges
-            .iter()
-            .zip(&sizes)
-            .map(|(of, size)| (of.low / size, of.high / size))
-            .collect();
         let constraint = |which: usize| {
             let rated = &rated;
             move |u: &[f64], _: &mut ()| rated(u).constraints[which]
@@ -169,7 +168,25 @@ impl Design {
             rating,
             is_settled,
             runs,
+            gradient_runs: 0,
+            without: None,
         }))
+    }
+
+    /// Start and bounds of the parameters, in parts of their sizes.
+    pub(super) fn scaled(&self) -> Scaled {
+        let of = |range: &Range| {
+            let size = range.width();
+            (range.first() / size, (range.low / size, range.high / size))
+        };
+        let (start, bounds) = self.ranges.iter().map(of).unzip();
+        Scaled { start, bounds }
+    }
+
+    /// Parameters that are given in parts of their sizes, within their bounds.
+    pub(super) fn unscaled(&self, scaled: &[f64]) -> Vec<f64> {
+        let pairs = scaled.iter().zip(&self.ranges);
+        pairs.map(|(u, range)| range.clip(u * range.width())).collect()
     }
 }
 

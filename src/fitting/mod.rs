@@ -3,12 +3,14 @@
 //! ```text
 //! least_squares → asking → differences
 //!               → estimate → student
-//! design, root
+//! descent → design
+//! root
 //! ```
 
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 mod asking;
+mod descent;
 mod design;
 mod differences;
 mod estimate;
@@ -17,6 +19,7 @@ mod range;
 mod root;
 mod student;
 
+pub use descent::{Rate, RateWithSlopes, SlopedRating, SlopesOfRating};
 pub use design::{Design, Designed, Rating};
 pub use differences::RELATIVE_STEP;
 pub use estimate::Estimate;

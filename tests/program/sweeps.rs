@@ -307,3 +307,20 @@ fn sensitivity_tells_how_many_rows_it_leaves_out() {
     let told = told.lines().find(|line| line.contains("the sensitivity of 'y'")).unwrap();
     assert!(told.contains("of 256 rows") && told.contains("blocks are left out"), "{told}");
 }
+
+/// In full a million rows within 200 MB, in short a tenth of them within 100: a limit that is passed ends the run.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_million_rows_fit_into_200_megabytes() {
+    let (values, megabytes) =
+        if std::env::var_os("WITHY_LONG").is_some() { (1000, "200") } else { (316, "100") };
+    let (_folder, file) = script(&format!(
+        "let values = linspace(0, 1, {values});
+        let sweep = study_sweep(#{{ name: \"many\", parameters: #{{ a: values, b: values }}, run: |p| #{{ y: p.a * p.b, z: p.a - p.b }} }});
+        check(sweep.table.count == {values} * {values});"
+    ));
+    let output = withy(&file, "out").args(["--quiet", "--max-memory", megabytes]).output().unwrap();
+    assert!(output.status.success(), "{}", said(&output));
+    let written = fs::read_to_string(file.with_file_name("out").join("many.csv")).unwrap();
+    assert_eq!(written.lines().filter(|line| !line.starts_with('#')).count(), values * values + 1);
+}

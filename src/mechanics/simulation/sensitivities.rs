@@ -198,6 +198,24 @@ impl Sensitivities {
         }
     }
 
+    /// The run beside at a parameter, by its index, as far as it came: its history has the rows from before derivatives ended.
+    ///
+    /// # Errors
+    /// When there are none of the run as it is now.
+    pub(super) fn beside_so_far(
+        &self,
+        parameter: usize,
+        side: Side,
+    ) -> Result<&Simulation, DerivativeError> {
+        match &self.lost {
+            None | Some(DerivativeError::Event { .. } | DerivativeError::NoStep { .. }) => {
+                let twins = self.parameters.get(parameter).ok_or(DerivativeError::None)?;
+                Ok(twins.run(side))
+            }
+            Some(reason) => Err(reason.clone()),
+        }
+    }
+
     pub(super) fn beside_mut(
         &mut self,
         parameter: usize,

@@ -42,7 +42,10 @@ pub fn part_of_call(
 ) -> Option<Location> {
     let found = match place {
         Place::Call => None,
-        Place::Argument(number) => argument(program, catalog, position, *number),
+        Place::Argument(number) => argument_of(program, catalog, position, *number),
+        Place::ArgumentOfMethod(number) => {
+            inside_call(program, position).and_then(|(call, _)| argument(program, call, *number))
+        }
         Place::Key(key) => key_of_call(program, position, key),
     };
     found.or_else(|| word_at(program, position))
@@ -81,7 +84,8 @@ fn inside_call(program: &Program, position: Position) -> Option<(&[Lexeme], bool
     is_closed.then_some((call, dotted))
 }
 
-fn argument(
+/// An argument of what may be a function.
+fn argument_of(
     program: &Program,
     catalog: &Catalog,
     position: Position,
@@ -92,6 +96,11 @@ fn argument(
     let is_function = catalog.named(called.text()).any(|row| matches!(row.form, Form::Function));
     // In `a.norm()` the first argument of the function stands before the dot.
     let number = if dotted && is_function { number.checked_sub(1)? } else { number };
+    argument(program, call, number)
+}
+
+/// An argument among the tokens of a call.
+fn argument(program: &Program, call: &[Lexeme], number: usize) -> Option<Location> {
     let mut depth = 0;
     let mut seen = 0;
     let mut start = None;

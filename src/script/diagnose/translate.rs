@@ -10,6 +10,8 @@ use super::{Callee, Diagnostic, Step, elsewhere, habits, locate, parsing};
 use crate::script::dialect::naming::not_visible;
 use crate::script::library;
 use crate::script::rows::catalog::Catalog;
+use crate::script::rows::kind::Scripted;
+use crate::script::rows::lifting::Varied;
 use crate::script::rows::register::STEERED;
 use crate::script::rows::sources::{FOLDER, Sources};
 use crate::script::rows::table::{Form, Row};
@@ -65,6 +67,10 @@ pub fn is_waiting(error: &EvalAltResult) -> bool {
     }
 }
 
+/// What to write where a number that depends on parameters is none too many.
+const PLAIN: &str =
+    "value_of(x) is the same without its derivatives; int(x) and round(x) are whole numbers";
+
 impl Explainer<'_> {
     /// The diagnostic for `error`.
     pub fn explain(&self, error: &EvalAltResult) -> Diagnostic {
@@ -91,7 +97,9 @@ impl Explainer<'_> {
         }
         let outline = Outline::of(&program.text);
         let (message, hint) = self.words(inner, &program, &outline, &trace);
-        let hint = hint.map(brief);
+        let is_of_engine = !matches!(inner, EvalAltResult::ErrorRuntime(..));
+        let plain = (is_of_engine && message.contains(Varied::NAME)).then(|| PLAIN.to_owned());
+        let hint = plain.or(hint).map(brief);
         if let Some((caller, at)) = library_called_at {
             let file = Some(program.name.clone());
             let line = inner.position().line();

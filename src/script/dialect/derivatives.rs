@@ -6,7 +6,7 @@ use std::rc::Rc;
 use rhai::{Dynamic, Engine, NativeCallContext};
 
 use crate::elementary::power;
-use crate::script::rows::lifting::{Family, Varied, gathered, present};
+use crate::script::rows::lifting::{Family, Varied, gathered, gathered_without, present};
 use crate::script::source::syntax::{LONGEST_CHAIN, OWN, power_name};
 use crate::script::words::error::{EngineResult, ScriptError};
 use crate::script::words::numbers::as_number;
@@ -42,6 +42,15 @@ pub fn install(engine: &mut Engine) {
     engine.register_raw_fn("+", varied, |_, operands| -> EngineResult<Dynamic> {
         Ok(operands[0].clone())
     });
+    // A number that depends on parameters has a point already.
+    engine.register_fn("to_float", |number: Varied| number);
+    for name in ["to_int", "sign", "is_zero", "is_even", "is_odd"] {
+        engine.register_raw_fn(name, varied, move |context: NativeCallContext, operands| {
+            let variant = present().map_or(0, |present| present.variant);
+            let mut number = Varied::project(operands[0], variant);
+            context.call_native_fn_raw(name, true, &mut [&mut number])
+        });
+    }
     for symbol in ["<", ">", "<=", ">=", "==", "!="] {
         for name in [symbol.to_owned(), format!("{OWN}{symbol}")] {
             for types in with_one() {
@@ -92,6 +101,20 @@ fn in_each(
         None => return at(0),
     };
     let all = (0..family.variants()).map(at).collect::<EngineResult<Vec<_>>>()?;
-    let gathered: Result<Dynamic, ScriptError> = gathered(&family, &all, &[&left, &right]);
+    let gathered: Result<Dynamic, ScriptError> =
+        match jump_of_remainder(name, &family, [&left, &right]) {
+            Some(reason) => gathered_without(&family, &all, reason),
+            None => gathered(&family, &all, &[&left, &right]),
+        };
     gathered.map_err(|error| error.into_engine(position))
+}
+
+/// Why a remainder has no derivatives, if it jumps between the variants of a parameter.
+fn jump_of_remainder(name: &str, family: &Rc<Family>, of: [&Dynamic; 2]) -> Option<Rc<str>> {
+    let whole = |variant: usize| {
+        let [left, right] = of.map(|of| as_number(&Varied::project(of, variant)));
+        Some((left? / right?).trunc())
+    };
+    let jumps = (1..family.variants()).any(|variant| whole(variant) != whole(0));
+    (name == "%" && jumps).then(|| "a remainder, x % y, jumps just there".into())
 }

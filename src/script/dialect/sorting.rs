@@ -8,9 +8,10 @@ use rhai::{Array, Dynamic, Engine, EvalAltResult, FnPtr, NativeCallContext};
 
 use super::elements::array_of;
 use super::repetitions::PULSE;
+use crate::script::rows::lifting::Varied;
 use crate::script::state::context::Context;
 use crate::script::words::error::{EngineResult, ScriptError};
-use crate::script::words::numbers::{as_number, describe};
+use crate::script::words::numbers::describe;
 
 /// What makes of an order the one that is sorted by.
 type Turn = fn(Ordering) -> Ordering;
@@ -84,7 +85,7 @@ fn sorted_naturally(
 
 /// The order of two numbers, texts, characters or truth values; what is not a number comes behind the numbers.
 fn natural_order(x: &Dynamic, y: &Dynamic) -> Option<Ordering> {
-    if let (Some(x), Some(y)) = (as_number(x), as_number(y)) {
+    if let (Some(x), Some(y)) = (Varied::number(x), Varied::number(y)) {
         return Some(x.partial_cmp(&y).unwrap_or_else(|| x.is_nan().cmp(&y.is_nan())));
     }
     if let (Ok(x), Ok(y)) = (x.as_immutable_string_ref(), y.as_immutable_string_ref()) {
@@ -110,13 +111,16 @@ fn is_after(native: &NativeCallContext, order: &Dynamic) -> EngineResult<bool> {
     if let Ok(is_before) = order.as_bool() {
         return Ok(!is_before);
     }
-    as_number(order).filter(|order| !order.is_nan()).map(|order| order > 0.0).ok_or_else(|| {
-        let got = describe(native.engine(), order);
-        let told =
-            format!("the function that compares must give a number or true or false, got {got}");
-        let refusal = ScriptError::new(told);
-        refusal.hint("write |x, y| x - y for rising order").into_engine(native.call_position())
-    })
+    Varied::number(order).filter(|order| !order.is_nan()).map(|order| order > 0.0).ok_or_else(
+        || {
+            let got = describe(native.engine(), order);
+            let told = format!(
+                "the function that compares must give a number or true or false, got {got}"
+            );
+            let refusal = ScriptError::new(told);
+            refusal.hint("write |x, y| x - y for rising order").into_engine(native.call_position())
+        },
+    )
 }
 
 /// Merge sort: stable, and safe with a function that contradicts itself.

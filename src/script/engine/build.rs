@@ -9,6 +9,7 @@ use crate::script::dialect::{
     constants, derivatives, elements, foundation, operators, repetitions, replacing, sorting,
 };
 use crate::script::rows::catalog::Catalog;
+use crate::script::rows::members;
 use crate::script::rows::register::register;
 use crate::script::rows::sources::Sources;
 use crate::script::source::syntax;
@@ -47,6 +48,7 @@ pub fn build(catalog: &Catalog, context: &Context) -> Result<Engine, String> {
     for table in catalog.tables() {
         register(&mut engine, table, context);
     }
+    members::install(&mut engine, catalog, context);
     constants::install(&mut engine, catalog);
     connect(&mut engine, context);
     Ok(engine)

@@ -25,13 +25,7 @@ pub struct HistoryHandle {
 impl HistoryHandle {
     /// Reads the rows of the part of the history.
     pub fn read<T>(&self, read: impl FnOnce(&History) -> T) -> T {
-        let simulation = self.of.simulation();
-        let all = simulation.history();
-        if self.from == f64::NEG_INFINITY && self.to == f64::INFINITY {
-            read(all)
-        } else {
-            read(&all.between(self.from, self.to))
-        }
+        self.of.read_history((self.from, self.to), read)
     }
 
     /// The error of a part of a history in which nothing was recorded.
@@ -59,7 +53,7 @@ impl HistoryHandle {
         argument: usize,
     ) -> Result<String, ScriptError> {
         let name = given.clone().into_string().unwrap_or_default();
-        let simulation = self.of.simulation();
+        let simulation = self.of.own();
         let history = simulation.history();
         if history.dimension(&name).is_some() {
             return Ok(name);

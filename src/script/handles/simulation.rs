@@ -22,7 +22,9 @@ use crate::script::state::settings::Mode;
 use crate::script::words::error::ScriptError;
 use crate::script::words::numbers::format_number;
 use crate::script::words::stop::Stop;
-use crate::simulation::{Monitor, Side, Simulation, SimulationError, StepSize};
+use crate::simulation::{
+    DerivativeError, History, Monitor, Side, Simulation, SimulationError, StepSize,
+};
 use crate::vibration::{Modes, VibrationError};
 use sensing::Sensing;
 
@@ -88,6 +90,17 @@ struct Pretence<'a>(&'a Context);
 impl Monitor for Pretence<'_> {
     fn goes_on(&mut self, _time: f64) -> bool {
         !self.0.is_stopped()
+    }
+}
+
+/// Why there are no derivatives, with where there are some.
+fn in_words(reason: &DerivativeError) -> String {
+    match reason {
+        DerivativeError::Event { time, .. } | DerivativeError::NoStep { time, .. } => {
+            let time = format_number(*time);
+            format!("{reason}; rows up to there have them: sim.history.before({time})")
+        }
+        other => other.to_string(),
     }
 }
 
@@ -163,10 +176,30 @@ impl SimulationHandle {
         Ref::map(self.0.simulation.borrow(), |run| {
             let Some((parameter, side)) = Self::present_side(run) else { return run };
             run.beside(parameter, side).unwrap_or_else(|reason| {
-                lose(&reason.to_string());
+                lose(&in_words(&reason));
                 run
             })
         })
+    }
+
+    /// Reads the rows of the history between two times, in the variant that the present call is made for.
+    pub fn read_history<T>(&self, times: (f64, f64), read: impl FnOnce(&History) -> T) -> T {
+        let run = self.0.simulation.borrow();
+        let beside = Self::present_side(&run);
+        match beside.map(|(parameter, side)| run.history_beside(parameter, side, times)) {
+            Some(Ok(beside)) => return read(&beside),
+            Some(Err(reason)) => lose(&in_words(&reason)),
+            None => {}
+        }
+        match times {
+            (f64::NEG_INFINITY, f64::INFINITY) => read(run.history()),
+            (from, to) => read(&run.history().between(from, to)),
+        }
+    }
+
+    /// The simulation of the handle itself, whichever variant the present call is made for.
+    pub fn own(&self) -> Ref<'_, Simulation> {
+        self.0.simulation.borrow()
     }
 
     /// Which run beside a simulation the present call is made for, if for one.

@@ -4,6 +4,7 @@ use rhai::{Array, Dynamic};
 
 use crate::elementary::{exp, ln};
 use crate::script::rows::call::Call;
+use crate::script::rows::lifting::{where_largest_changes, where_smallest_changes};
 use crate::script::rows::parameter::{Parameter, number, numbers, whole};
 use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Table, function};
@@ -46,11 +47,13 @@ pub const TABLE: Table = Table {
         function("min", &[VALUES], |call| extreme(call, f64::min))
             .returns(Returns::NUMBER)
             .summary("The smallest number of an array.")
-            .example("check(min([3, 1, 2]) == 1);"),
+            .example("check(min([3, 1, 2]) == 1);")
+            .corner(where_smallest_changes),
         function("max", &[VALUES], |call| extreme(call, f64::max))
             .returns(Returns::NUMBER)
             .summary("The largest number of an array.")
-            .example("check(max([3, 1, 2]) == 3);"),
+            .example("check(max([3, 1, 2]) == 3);")
+            .corner(where_largest_changes),
     ],
 };
 

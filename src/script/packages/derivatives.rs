@@ -10,7 +10,7 @@ use crate::script::rows::kind::Type;
 use crate::script::rows::lifting::Varied;
 use crate::script::rows::parameter::{Parameter, anything, name, number, text};
 use crate::script::rows::returns::Returns;
-use crate::script::rows::table::{Table, function, method, property};
+use crate::script::rows::table::{Table, function, method};
 use crate::script::words::error::{Place, ScriptError};
 use crate::script::words::suggest::nearest;
 
@@ -34,7 +34,7 @@ pub const TABLE: Table = Table {
              before one is used. A simulation that is started then finds with each step how it changes with each parameter, from the equations that the step has factorised: two solves or \
              three for each of two neighbours, no factorisation. Its own steps keep every bit. What is asked of the simulation and of its history are numbers with derivatives, and \
              so is what is made of them; comparisons, checks, fixed and sci take the numbers without. Steps are fixed, of energy_momentum() or fourth_order(). \
-             Shapes, places and times at which loads jump may not depend on a parameter, functions |t, q| … not be in the scene; \
+             Places of particles, of points of the ground and of sliders, and whole beams may depend on a parameter; lengths of beams, places on them and times at which loads jump may not, functions |t, q| … not be in the scene; \
              where a slider arrives, something lets go, or the script goes back, derivatives end, and derivative_by says so.",
         )
         .example(
@@ -50,7 +50,9 @@ pub const TABLE: Table = Table {
             .returns(Returns::ANYTHING.words("a number, a vector, or an array of them"))
             .summary("The derivative of a number or a vector by a parameter of a scene; of an array those of its elements.")
             .doc("Zero of what does not depend on a parameter, and of all that a simulation tells that was loaded from a file, whose parameters are plain numbers. It is right to about eight digits where the motion is smooth. \
-                  What a function of a load decides by a parameter, such as if t < a, is decided at its value: times at which loads jump have no derivatives.")
+                  Refused, with the reason: what is neither a number nor a vector nor an array of them, a name that is no parameter, a value at a corner or a jump of a function (abs(x) at 0, max(x, y) where both are equal, x % y), \
+                  and a simulation after a slider has arrived, something has let go, or the script has gone back (sim.history.before(t) has the rows before). \
+                  What a function |t| … decides by a parameter, such as if t < a, is told in a note: where the function jumps there, derivatives are wrong.")
             .example(
                 "let scene = new_scene(\"two\");\nlet k = scene.parameter(\"k\", 4);\nlet m = scene.parameter(\"m\", 1);\n\
                  let omega = sqrt(k / m);\ncheck_close(omega.derivative_by(\"k\"), 0.25, 1e-9);\ncheck_close(derivative_by(omega, \"m\"), -1, 1e-8);",
@@ -63,28 +65,11 @@ pub const TABLE: Table = Table {
                 "let scene = new_scene(\"one\");\nlet k = scene.parameter(\"k\", 4);\ncheck(value_of(2 * k) == 8);",
             )
             .see(&["derivative_by"]),
-        property(VARIED, "x", |call| component(call, |vector| vector.x))
-            .returns(Returns::NUMBER)
-            .summary("The first component of a vector that depends on parameters.")
-            .example("let k = new_scene(\"one\").parameter(\"k\", 4);\ncheck(vec(k, 2 * k).x == 4);"),
-        property(VARIED, "y", |call| component(call, |vector| vector.y))
-            .returns(Returns::NUMBER)
-            .summary("The second component of a vector that depends on parameters.")
-            .example("let k = new_scene(\"one\").parameter(\"k\", 4);\ncheck_close(vec(k, 2 * k).y.derivative_by(\"k\"), 2, 1e-9);"),
     ],
 };
 
 const VARIED: Type = Type::of::<Varied>();
 const X: Parameter = anything("x");
-
-fn component(call: &Call, of: fn(&Vec2) -> f64) -> Result<Dynamic, ScriptError> {
-    match call.receiver::<Vec2>() {
-        Ok(vector) => Ok(of(&vector).into()),
-        Err(_) => {
-            Err(call.error("the value is no vector").hint("only vectors have components x and y"))
-        }
-    }
-}
 
 fn derivative_by(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (value, name) = (call.value("x")?, call.text("parameter")?);

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use rhai::{Array, Dynamic, FnPtr, Map};
 
-use crate::fitting::{RELATIVE_STEP, RootError, root};
+use crate::fitting::RELATIVE_STEP;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::{Scripted, Type};
 use crate::script::rows::option_set::option_set;
@@ -20,9 +20,10 @@ use crate::script::studies::desk::print_table;
 use crate::script::studies::fits::design::{BestDesign, DesignOrder, Goal, Limit};
 use crate::script::studies::fits::fit::{Compared, Derivatives, Fit, FitOrder};
 use crate::script::studies::fits::ranges::Ranges;
+use crate::script::studies::fits::root::find_root;
 use crate::script::studies::plan::{at_key, study_name};
-use crate::script::words::error::{Place, ScriptError};
-use crate::script::words::numbers::{as_number, format_number};
+use crate::script::words::error::ScriptError;
+use crate::script::words::numbers::format_number;
 
 /// The domain of fits.
 pub const TABLE: Table = Table {
@@ -108,8 +109,10 @@ pub const TABLE: Table = Table {
             .summary("Finds the parameters for which a result is least, or largest, within bounds and with constraints on others.")
             .doc(
                 "`run` is a function of a map of parameters that gives a map of numbers. `least` or `largest` names the one that is wanted so, `constraints` the least \
-                 and the largest that others may be. Powell's COBYLA: linear models over a simplex of designs, no derivatives; it \
-                 finds the nearest best, not the best of all. Runs that fail are kept away from. The best of all designs that were tried and meet the constraints is given.",
+                 and the largest that others may be. Where runs know their derivatives (the parameters \
+                 come as numbers that know what depends on them, as in fit), Kraft's SLSQP follows them: quadratic models within linear ones of the constraints. Where they do not, or a search along them is stuck, \
+                 Powell's COBYLA makes linear models over a simplex of designs; `best.derivatives` says why. Both \
+                 find the nearest best, not the best of all. Runs that fail are kept away from. The best of all designs that were tried and meet the constraints is given.",
             )
             .example(
                 "let best = minimise(#{\n    parameters: #{ width: [1, 0.1, 4], height: [1, 0.1, 4] },\n    \
@@ -127,8 +130,12 @@ pub const TABLE: Table = Table {
             .example("check(best.results.y < 1e-6);"),
         of_design("runs", |call| Ok((design(call)?.runs as i64).into()))
             .returns(Returns::WHOLE)
-            .summary("How often the function was called.")
+            .summary("How often the function was called, but for the call by which it tells that it has no derivatives.")
             .example("check(best.runs < 200);"),
+        of_design("derivatives", |call| Ok(design(call)?.derivatives.clone().into()))
+            .returns(Returns::TEXT)
+            .summary("Whether the search used derivatives: those that the runs know of themselves, or none, and why.")
+            .example("check(best.derivatives == \"those of the runs\");"),
         of_design("settled", |call| Ok(design(call)?.is_settled.into()))
             .returns(Returns::TRUTH)
             .summary("Whether the search came to its end before the most runs were made.")
@@ -205,6 +212,8 @@ option_set! {
         tolerance: f64 = number("tolerance").positive().or(Presence::Number(1e-4)).doc("of parameters, as a part of their ranges"),
         /// At most.
         most_runs: usize = whole("most_runs").positive().or(Presence::Whole(500)),
+        /// Whether derivatives are used.
+        derivatives: String = choice("derivatives", &["known", "none"]).or(Presence::Text("known")).doc("those that runs know of themselves, or none"),
         /// How long a run may take [s].
         patience: f64 = PATIENCE,
     }
@@ -349,6 +358,10 @@ fn minimise(call: &mut Call) -> Result<Dynamic, ScriptError> {
         limits: limits.unwrap_or_default(),
         tolerance: options.tolerance,
         most_runs: options.most_runs,
+        derivatives: match options.derivatives.as_str() {
+            "none" => Derivatives::Differences,
+            _ => Derivatives::Known,
+        },
         wall: wall(options.patience),
     };
     let design = match call.context().mode() {
@@ -357,41 +370,4 @@ fn minimise(call: &mut Call) -> Result<Dynamic, ScriptError> {
     };
     print_table(call.context(), &design.text());
     Ok(Dynamic::from(DesignHandle(Rc::new(design))))
-}
-
-fn find_root(call: &mut Call) -> Result<Dynamic, ScriptError> {
-    let (function, from, to) =
-        (call.callback("function")?, call.number("from")?, call.number("to")?);
-    call.expect_arguments(&function, 1, "|x| …")?;
-    let tolerance = call.number_if_given("tolerance").unwrap_or(1e-9 * (to - from).abs());
-    let value = |x: f64| {
-        let given = call.invoke(&function, [Dynamic::from(x)])?;
-        as_number(&given).ok_or_else(|| {
-            let told =
-                format!("the function gives {} at {}", call.describe(&given), format_number(x));
-            call.error(told).hint("its last expression is a number").at(Place::Argument(0))
-        })
-    };
-    if call.context().mode() == Mode::DryBuild {
-        // What a dry build finds has no signs.
-        value(from)?;
-        return Ok(from.into());
-    }
-    let wrong = |told: String, hint: &str| call.error(told).hint(hint).at(Place::Argument(0));
-    match root((from, to), tolerance, value) {
-        Ok(found) => Ok(found.at.into()),
-        Err(RootError::Function(error)) => Err(error),
-        Err(RootError::SameSign(low, high)) => {
-            let [from, to, low, high] = [from, to, low, high].map(format_number);
-            let told = format!("the function is {low} at {from} and {high} at {to}");
-            Err(wrong(told, "give two places at which its signs differ"))
-        }
-        Err(RootError::NotFinite(x, value)) => {
-            let [x, value] = [x, value].map(format_number);
-            Err(wrong(
-                format!("the function is {value} at {x}"),
-                "it must be finite between the two places",
-            ))
-        }
-    }
 }

@@ -4,6 +4,7 @@ use rhai::{Dynamic, INT};
 
 use crate::elementary;
 use crate::script::rows::call::Call;
+use crate::script::rows::lifting::{at_origin, at_whole_numbers, at_zero, where_equal};
 use crate::script::rows::parameter::{Parameter, number, numeric, whole};
 use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Body, Constant, Row, Table, function};
@@ -123,7 +124,8 @@ pub const TABLE: Table = Table {
         .example("check_close(log(81, 3), 4, 1e-15);")
         .see(&["ln", "log10", "log2"]),
         of_x("sqrt", |call| map(call, f64::sqrt), "The square root.", "check(sqrt(16) == 4);")
-            .see(&["hypot"]),
+            .see(&["hypot"])
+            .corner(at_zero),
         of_x(
             "radians",
             |call| map(call, f64::to_radians),
@@ -164,7 +166,8 @@ pub const TABLE: Table = Table {
             "What is left of x without int(x).",
             "check(fraction(2.75) == 0.75);",
         )
-        .see(&["int"]),
+        .see(&["int"])
+        .corner(at_whole_numbers),
         of_x(
             "round",
             |call| round(call, f64::round),
@@ -197,14 +200,16 @@ pub const TABLE: Table = Table {
         function("abs", &[numeric("x")], absolute)
             .returns(Returns::NUMBER.note(", whole if x is"))
             .summary("The magnitude of a number.")
-            .example("check(abs(-3) == 3);"),
+            .example("check(abs(-3) == 3);")
+            .corner(at_zero),
         function("hypot", &[ANY_X, ANY_Y], |call| {
             Ok(elementary::hypot(x(call)?, call.number("y")?).into())
         })
         .returns(Returns::NUMBER)
         .summary("The length of the vector with components x and y, without overflow.")
         .example("check(hypot(3, 4) == 5);")
-        .see(&["norm"]),
+        .see(&["norm"])
+        .corner(at_origin),
         function("atan2", &[ANY_Y, ANY_X], |call| {
             Ok(elementary::atan2(call.number("y")?, x(call)?).into())
         })
@@ -215,11 +220,13 @@ pub const TABLE: Table = Table {
         function("min", &[numeric("x"), numeric("y")], |call| choose(call, |x, y| x < y))
             .returns(Returns::NUMBER)
             .summary("The smaller of two numbers; undefined if one of them is.")
-            .example("check(min(2, 0.5) == 0.5);"),
+            .example("check(min(2, 0.5) == 0.5);")
+            .corner(where_equal),
         function("max", &[numeric("x"), numeric("y")], |call| choose(call, |x, y| x > y))
             .returns(Returns::NUMBER)
             .summary("The larger of two numbers; undefined if one of them is.")
-            .example("check(max(2, 0.5) == 2);"),
+            .example("check(max(2, 0.5) == 2);")
+            .corner(where_equal),
         function("quotient", &[whole("n"), whole("d")], quotient)
             .returns(Returns::WHOLE)
             .summary("How often d goes into n, rounded down: whole-number division, for indices.")

@@ -8,6 +8,7 @@ use crate::output::significant;
 use crate::script::looks::details;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::{Details, Scripted, Type};
+use crate::script::rows::lifting::{at_zero_vector, where_points_meet};
 use crate::script::rows::parameter::{Parameter, number, object, point};
 use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Table, function, operator, property};
@@ -54,7 +55,8 @@ pub const TABLE: Table = Table {
             .returns(Returns::NUMBER)
             .summary("The length of a vector.")
             .example("check(norm([3, 4]) == 5);\ncheck(vec(3, 4).norm() == 5);")
-            .see(&["hypot", "distance"]),
+            .see(&["hypot", "distance"])
+            .corner(at_zero_vector),
         function("angle", &[A], angle)
             .returns(Returns::NUMBER.words("an angle from -PI to PI"))
             .summary("The angle of a vector from the first axis, counter-clockwise.")
@@ -63,7 +65,8 @@ pub const TABLE: Table = Table {
         function("distance", &[A, B], |call| Ok((b(call)? - a(call)?).norm().into()))
             .returns(Returns::NUMBER)
             .summary("The distance of two points.")
-            .example("check(distance([1, 1], [4, 5]) == 5);"),
+            .example("check(distance([1, 1], [4, 5]) == 5);")
+            .corner(where_points_meet),
         operator("+", &[A, B], |call| vector(a(call)? + b(call)?))
             .returns(Returns::object(VECTOR))
             .summary("The sum; one of the two may be an array [x, y].")

@@ -91,36 +91,17 @@ impl<'c, 'r> Call<'c, 'r> {
 
     /// How many arguments a script function takes, if that is known.
     pub fn arguments_of(&self, function: &FnPtr) -> Option<usize> {
-        let libraries = &self.native.global_runtime_state().lib;
-        let known = libraries.iter().find_map(|library| {
-            let library = AST::new_from_module(library.clone());
-            let mut functions = library.iter_functions();
-            functions.find(|known| known.name == function.fn_name()).map(|known| known.params.len())
-        });
-        known.map(|parameters| parameters.saturating_sub(function.curry().len()))
+        arguments_of(self.native, function)
     }
 
     /// The definition of a script function, if it is one of the running file.
     pub fn definition(&self, function: &FnPtr) -> Option<Shared<ScriptFuncDef>> {
-        let libraries = &self.native.global_runtime_state().lib;
-        let parameters = self.arguments_of(function)? + function.curry().len();
-        let defined = |library: &Shared<Module>| {
-            library.get_script_fn(function.fn_name(), parameters).cloned()
-        };
-        libraries.iter().find_map(defined)
+        definition_of(self.native, function)
     }
 
     /// What a script function does, as a syntax tree without anything else in it; an empty one where it is not one of the running file.
     pub fn body(&self, function: &FnPtr) -> AST {
-        let libraries = &self.native.global_runtime_state().lib;
-        let parameters = self.arguments_of(function).unwrap_or(0) + function.curry().len();
-        let has = |library: &&Shared<Module>| {
-            library.get_script_fn(function.fn_name(), parameters).is_some()
-        };
-        let library = libraries.iter().find(has).map(|found| AST::new_from_module(found.clone()));
-        library.unwrap_or_default().clone_functions_only_filtered(|_, _, _, name, count| {
-            name == function.fn_name() && count == parameters
-        })
+        body_of(self.native, function)
     }
 
     /// The script function of this name with so many parameters, captured ones included, without captured values.
@@ -198,4 +179,36 @@ impl<'c, 'r> Call<'c, 'r> {
         // What has no words of its own is shown as the engine shows it.
         shown.map_or_else(|_| value.to_string(), |text| text.to_string())
     }
+}
+
+pub(super) fn arguments_of(native: &NativeCallContext, function: &FnPtr) -> Option<usize> {
+    let libraries = &native.global_runtime_state().lib;
+    let known = libraries.iter().find_map(|library| {
+        let library = AST::new_from_module(library.clone());
+        let mut functions = library.iter_functions();
+        functions.find(|known| known.name == function.fn_name()).map(|known| known.params.len())
+    });
+    known.map(|parameters| parameters.saturating_sub(function.curry().len()))
+}
+
+pub(super) fn definition_of(
+    native: &NativeCallContext,
+    function: &FnPtr,
+) -> Option<Shared<ScriptFuncDef>> {
+    let libraries = &native.global_runtime_state().lib;
+    let parameters = arguments_of(native, function)? + function.curry().len();
+    let defined =
+        |library: &Shared<Module>| library.get_script_fn(function.fn_name(), parameters).cloned();
+    libraries.iter().find_map(defined)
+}
+
+pub(super) fn body_of(native: &NativeCallContext, function: &FnPtr) -> AST {
+    let libraries = &native.global_runtime_state().lib;
+    let parameters = arguments_of(native, function).unwrap_or(0) + function.curry().len();
+    let has =
+        |library: &&Shared<Module>| library.get_script_fn(function.fn_name(), parameters).is_some();
+    let library = libraries.iter().find(has).map(|found| AST::new_from_module(found.clone()));
+    library.unwrap_or_default().clone_functions_only_filtered(|_, _, _, name, count| {
+        name == function.fn_name() && count == parameters
+    })
 }

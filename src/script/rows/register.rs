@@ -7,10 +7,11 @@ use rhai::{Array, Dynamic, Engine, INT, ImmutableString, NativeCallContext};
 use super::accept::{accept, blame_argument};
 use super::arguments::Arguments;
 use super::call::Call;
+use super::decisions;
 use super::kind::{Kind, Type};
 use super::lifting::{Family, Lifting, lift, lifting_of, present};
 use super::parameter::Parameter;
-use super::table::{Body, Form, Row, Table};
+use super::table::{Body, Form, Row, Setter, Table};
 use crate::geometry::Vec2;
 use crate::script::state::context::Context;
 use crate::script::words::error::ScriptError;
@@ -49,8 +50,7 @@ fn register_row(engine: &mut Engine, row: &'static Row, lifting: Lifting, contex
             add(engine, getter, with_receiver(of, 0), binding.clone());
             if let Some(setter) = row.setter {
                 let name = format!("set${}", row.name);
-                let binding = Binding { parameters: setter.value, body: setter.body, ..binding };
-                add(engine, name, with_receiver(of, 1), binding);
+                add(engine, name, with_receiver(of, 1), binding.setting(setter));
             }
         }
         Form::Operator => {
@@ -61,7 +61,7 @@ fn register_row(engine: &mut Engine, row: &'static Row, lifting: Lifting, contex
     }
 }
 
-fn with_receiver(of: Type, count: usize) -> Vec<TypeId> {
+pub(super) fn with_receiver(of: Type, count: usize) -> Vec<TypeId> {
     std::iter::once(of.id()).chain(std::iter::repeat_n(TypeId::of::<Dynamic>(), count)).collect()
 }
 
@@ -113,7 +113,7 @@ fn exact_types(kind: &Kind) -> Vec<TypeId> {
 
 /// A row as one registered function: a property has two of them.
 #[derive(Clone)]
-struct Binding {
+pub(super) struct Binding {
     row: &'static Row,
     parameters: &'static [Parameter],
     body: Body,
@@ -122,9 +122,19 @@ struct Binding {
 }
 
 impl Binding {
-    fn of(row: &'static Row, lifting: Lifting, context: &Context) -> Self {
+    pub(super) fn of(row: &'static Row, lifting: Lifting, context: &Context) -> Self {
         let (parameters, body) = (row.parameters, row.body);
         Self { row, parameters, body, lifting, context: context.clone() }
+    }
+
+    /// The function that assigns the property of the row.
+    pub(super) fn setting(&self, setter: Setter) -> Self {
+        Self { parameters: setter.value, body: setter.body, ..self.clone() }
+    }
+
+    /// The type whose method or property the row is.
+    pub(super) fn receiver(&self) -> Option<Type> {
+        self.row.receiver()
     }
 }
 
@@ -135,7 +145,22 @@ fn add(engine: &mut Engine, name: String, types: Vec<TypeId>, binding: Binding) 
     });
 }
 
-fn perform(
+/// Makes a call of a row with its receiver, if it has one, and its arguments.
+///
+/// # Errors
+/// Those of the row, and of arguments that it does not take.
+pub(super) fn perform(
+    binding: &Binding,
+    native: &NativeCallContext,
+    values: &mut [&mut Dynamic],
+) -> Result<Dynamic, ScriptError> {
+    called(binding, native, values).map_err(|error| match binding.row.form {
+        Form::Method(_) => error.of_method(),
+        _ => error,
+    })
+}
+
+fn called(
     binding: &Binding,
     native: &NativeCallContext,
     values: &mut [&mut Dynamic],
@@ -162,7 +187,11 @@ fn perform(
             _ => made(),
         }
     };
-    lift((row, binding.lifting), receiver, (parameters, given.collect()), again)
+    let given: Vec<Dynamic> = given.collect();
+    if binding.lifting == Lifting::Each && present().is_none() {
+        decisions::tell(native, context, &given);
+    }
+    lift((row, binding.lifting), receiver, (parameters, given), again)
 }
 
 /// Makes a call with the values that were given for its parameters.

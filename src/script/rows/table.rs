@@ -8,6 +8,7 @@ use rhai::Dynamic;
 
 use super::call::Call;
 use super::kind::Type;
+use super::lifting::Corner;
 use super::parameter::Parameter;
 use super::returns::Returns;
 use crate::script::words::error::ScriptError;
@@ -76,6 +77,8 @@ pub struct Row {
     pub body: Body,
     /// The writing half of a property that can be assigned: the new value and what to do with it.
     pub setter: Option<Setter>,
+    /// Where what the row gives has a corner or a jump, and no derivatives by what its arguments depend on.
+    pub corner: Option<Corner>,
 }
 
 /// The writing half of a property.
@@ -130,6 +133,7 @@ impl Row {
             see: &[],
             body,
             setter: None,
+            corner: None,
         }
     }
 
@@ -166,6 +170,12 @@ impl Row {
     /// Lets the property of the row be assigned.
     pub const fn writable(mut self, value: &'static [Parameter; 1], body: Body) -> Self {
         self.setter = Some(Setter { value, body });
+        self
+    }
+
+    /// Says where what the row gives has a corner or a jump.
+    pub const fn corner(mut self, corner: Corner) -> Self {
+        self.corner = Some(corner);
         self
     }
 

@@ -39,8 +39,10 @@ pub struct Failure {
 pub enum Place {
     /// The error is about the called name.
     Call,
-    /// The error is about the argument with this number, from 0.
+    /// The error is about the argument with this number, from 0; that of a function called behind a dot stands before it.
     Argument(usize),
+    /// The error is about the argument of a method with this number, from 0: the receiver does not count.
+    ArgumentOfMethod(usize),
     /// The error is about this key of an option map among the arguments.
     Key(String),
 }
@@ -77,6 +79,16 @@ impl ScriptError {
     pub fn at(mut self, place: Place) -> Self {
         if let Self::Failure(failure) = &mut self {
             failure.place = place;
+        }
+        self
+    }
+
+    /// The same error of a method, whose arguments are counted behind its dot.
+    pub fn of_method(mut self) -> Self {
+        if let Self::Failure(Failure { place, .. }) = &mut self
+            && let Place::Argument(number) = *place
+        {
+            *place = Place::ArgumentOfMethod(number);
         }
         self
     }

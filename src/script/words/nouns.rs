@@ -2,8 +2,9 @@
 
 /// A noun with its article: `a vector`, `an array`; plurals such as `knots` have none.
 pub fn with_article(noun: &str) -> String {
-    // Of a table of costs there is one.
-    let head = noun.split(" of ").next().unwrap_or(noun);
+    // Of a table of costs there is one, and of a value with derivatives.
+    let head =
+        [" of ", " with "].iter().fold(noun, |head, of| head.split(of).next().unwrap_or(head));
     match noun.chars().next() {
         _ if head.ends_with('s') => noun.to_owned(),
         Some('a' | 'e' | 'i' | 'o' | 'A' | 'E' | 'I' | 'O') => format!("an {noun}"),
@@ -23,6 +24,8 @@ pub fn type_word(name: &str) -> &str {
         "Fn" | "FnPtr" => "function",
         "()" => "nothing",
         range if range.starts_with("core::ops::range::Range") => "range",
+        varied if varied.ends_with("::Varied") => "value with derivatives",
+        captured if captured.starts_with("alloc::rc::Rc<") => "variable from outside",
         other => other,
     }
 }

@@ -3,7 +3,9 @@
 use super::{Settings, Simulation};
 use crate::model::{Model, Scene};
 use crate::simulation::sensitivities::Sensitivities;
-use crate::simulation::{DerivativeCounts, DerivativeError, Side, SimulationError, Variation};
+use crate::simulation::{
+    DerivativeCounts, DerivativeError, History, Side, SimulationError, Variation,
+};
 
 impl Simulation {
     /// Builds a scene with those that parameters make of it, and puts the simulation at its start; the derivatives by these parameters are found with its
@@ -48,6 +50,28 @@ impl Simulation {
     ) -> Result<&mut Self, DerivativeError> {
         let known = self.stepper.sensitivities.as_mut().ok_or(DerivativeError::None)?;
         known.beside_mut(parameter, side)
+    }
+
+    /// The part of the history of the run beside this one at a parameter, by its index, plus or minus its distance, that belongs to the rows between two
+    /// times. It is there as well where derivatives have ended behind these.
+    ///
+    /// # Errors
+    /// When there are no derivatives of all of these rows.
+    pub fn history_beside(
+        &self,
+        parameter: usize,
+        side: Side,
+        (from, to): (f64, f64),
+    ) -> Result<History, DerivativeError> {
+        let known = self.stepper.sensitivities.as_ref().ok_or(DerivativeError::None)?;
+        let beside = known.beside_so_far(parameter, side)?.history().between(from, to);
+        let times = |of: &History| -> Vec<f64> {
+            of.samples().iter().map(|row| row.measures.time).collect()
+        };
+        match times(&beside) == times(&self.history().between(from, to)) {
+            true => Ok(beside),
+            false => Err(known.beside(parameter, side).err().unwrap_or(DerivativeError::None)),
+        }
     }
 
     /// The derivative of a number that a simulation tells by a parameter, by its index.

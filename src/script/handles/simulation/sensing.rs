@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use rhai::Dynamic;
 
-use super::{SimulationHandle, Watch, explain, lose};
+use super::{SimulationHandle, Watch, explain, in_words, lose};
 use crate::loads::Schedule;
 use crate::script::handles::scene::{Condition, Controller};
 use crate::script::rows::call::Call;
@@ -55,7 +55,7 @@ impl SimulationHandle {
         let Some((parameter, side)) = Self::present_side(run) else { return look(run) };
         match run.beside_mut(parameter, side) {
             Ok(beside) => return look(beside),
-            Err(reason) => lose(&reason.to_string()),
+            Err(reason) => lose(&in_words(&reason)),
         }
         look(run)
     }

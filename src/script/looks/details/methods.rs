@@ -80,7 +80,9 @@ pub fn of_schedule(schedule: &Schedule) -> Details {
 pub fn of_failure(failure: &Failure) -> Details {
     let place = match &failure.place {
         Place::Call => None,
-        Place::Argument(number) => Some(line("about", format!("argument {}", number + 1))),
+        Place::Argument(number) | Place::ArgumentOfMethod(number) => {
+            Some(line("about", format!("argument {}", number + 1)))
+        }
         Place::Key(key) => Some(line("about", format!("option {key}"))),
     };
     place.into_iter().chain(failure.hint.as_ref().map(|hint| line("help", hint))).collect()

@@ -2,7 +2,7 @@
 
 use std::any::TypeId;
 use std::cell::{Cell, RefCell};
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::rc::Rc;
 
 use rhai::Dynamic;
@@ -19,6 +19,8 @@ pub struct Family {
     parameters: RefCell<Vec<Declared>>,
     /// Whether variants are in use, so that none may be added.
     is_in_use: Cell<bool>,
+    /// The places of the script, by line and column, where a function decides by a parameter.
+    told: RefCell<BTreeSet<(usize, usize)>>,
 }
 
 /// A parameter of a family.
@@ -144,6 +146,16 @@ impl Family {
         values.extend([value + distance, value - distance].map(Dynamic::from));
         self.parameters.borrow_mut().push(Declared { name: name.to_owned(), distance });
         Ok(Varied::new(self, values, None))
+    }
+
+    /// Whether nothing was told of a place of the script so far; now something is.
+    pub fn is_told_first(&self, line: usize, column: usize) -> bool {
+        self.told.borrow_mut().insert((line, column))
+    }
+
+    /// Whether a function of the scene decides by a parameter, so that derivatives are wrong where it jumps.
+    pub fn is_decided_by(&self) -> bool {
+        !self.told.borrow().is_empty()
     }
 
     /// No parameter is added any more.

@@ -54,13 +54,22 @@ pub fn gather(
     if lost.is_none() && results.iter().all(|other| are_equal(first, other)) {
         return Ok(first.clone());
     }
-    Ok(Dynamic::from(Varied::new(family, results.to_vec(), lost.cloned())))
+    let undefined = || is_defined(first) && !results.iter().all(is_defined);
+    let lost = lost.cloned().or_else(|| {
+        undefined().then(|| "it is infinite or undefined as soon as a parameter changes".into())
+    });
+    Ok(Dynamic::from(Varied::new(family, results.to_vec(), lost)))
 }
 
 fn differ(what: &str) -> ScriptError {
     ScriptError::new(format!("the {what} has other places when a parameter changes a little")).hint(
         "only numbers may depend on a parameter; take central differences where more does: plain numbers in the place of scene.parameter(…)",
     )
+}
+
+/// Whether a value is no number that is infinite or undefined.
+fn is_defined(value: &Dynamic) -> bool {
+    as_number(value).is_none_or(f64::is_finite)
 }
 
 /// Whether two values are the same number or vector, to the last bit.

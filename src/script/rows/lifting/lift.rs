@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use rhai::Dynamic;
+use rhai::{Dynamic, FnPtr, Map};
 
 use super::family::{Family, Within, of_thing, present, take_lost};
 use super::gather::gather;
@@ -27,8 +27,7 @@ pub fn lift(
     make: Make<'_>,
 ) -> Result<Dynamic, ScriptError> {
     if let Some(present) = present() {
-        let given: Vec<Dynamic> = given.iter().map(|of| project(of, present.variant)).collect();
-        return make(receiver, &given);
+        return make_at(present.variant, receiver, &given, make);
     }
     let Some(family) = families(receiver.as_deref(), &given)? else {
         return make(receiver, &given);
@@ -36,19 +35,14 @@ pub fn lift(
     let depends = given.iter().position(|of| family_of(of).is_some());
     match (lifting, depends) {
         (Lifting::Each, _) => {}
-        (Lifting::AtValues, _) => {
-            let given: Vec<Dynamic> = given.iter().map(|of| project(of, 0)).collect();
-            return make(receiver, &given);
-        }
-        (Lifting::Once, None) => return make(receiver, &given),
         (Lifting::Once, Some(_)) if row.receiver().is_none() && is_about_derivatives(row) => {
             return make(receiver, &given);
         }
-        (Lifting::Once, Some(at)) => {
-            let name = parameters.get(at).map_or("", |of| of.name);
-            let told = format!("{}: '{name}' may not depend on parameters of a scene", row.name);
-            let hint = "value_of(x) is the number without its derivatives";
-            return Err(ScriptError::new(told).hint(hint).at(Place::Argument(at)));
+        (Lifting::Once, Some(number)) => {
+            return Err(refusal(row, parameters.get(number), &given[number], number));
+        }
+        (Lifting::AtValues, _) | (Lifting::Once, None) => {
+            return make_at(0, receiver, &given, make);
         }
         (Lifting::Refused, _) => {
             let told = format!("{} does not follow parameters of a scene", row.name);
@@ -56,32 +50,117 @@ pub fn lift(
             return Err(ScriptError::new(told).hint(hint));
         }
     }
-    let is_set = matches!(row.form, Form::Property(_)) && !given.is_empty();
-    if is_set && receiver.as_deref().and_then(of_thing).is_none() {
-        let told = format!("'{}' is set to something that depends on parameters", row.name);
-        return Err(ScriptError::new(told).hint("make a new value: vec(x, y)"));
-    }
     family.use_variants();
-    let is_varied = receiver.as_deref().is_some_and(|held| held.is::<Varied>());
+    let is_set = matches!(row.form, Form::Property(_)) && !given.is_empty();
+    let is_thing = |value: &Dynamic| !value.is::<Varied>() && of_thing(value).is_some();
     let mut lost = given.iter().chain(receiver.as_deref()).find_map(lost_in);
     let _: Option<Rc<str>> = take_lost();
+    let mut at = |variant: usize| {
+        let _within = Within::of(&family, variant);
+        let given: Vec<Dynamic> = given.iter().map(|of| project(of, variant)).collect();
+        match &mut receiver {
+            // A thing of a scene has variants of its own.
+            Some(held) if is_thing(held) => make(Some(held), &given),
+            Some(held) => {
+                let mut own = project(held, variant);
+                let made = make(Some(&mut own), &given)?;
+                Ok(if is_set { own } else { made })
+            }
+            None => make(None, &given),
+        }
+    };
     let mut results = Vec::with_capacity(family.variants());
     // The one at the values last: a scene begins to have variants as it was before.
     for variant in (0..family.variants()).rev() {
-        let within = Within::of(&family, variant);
-        let given: Vec<Dynamic> = given.iter().map(|of| project(of, variant)).collect();
-        let made = match &mut receiver {
-            Some(held) if is_varied => make(Some(&mut project(held, variant)), &given),
-            Some(held) => make(Some(held), &given),
-            None => make(None, &given),
-        };
-        drop(within);
-        results.push(made?);
+        match at(variant) {
+            Ok(made) => results.push(made),
+            Err(error) if variant == 0 => return Err(error),
+            // What is wrong at the values too is told with these.
+            Err(beside) => return Err(at(0).err().unwrap_or(beside.said(&family, variant))),
+        }
     }
     results.reverse();
-    lost = lost.or_else(take_lost);
-    let is_thing = |value: &Dynamic| !value.is::<Varied>() && of_thing(value).is_some();
-    gather(&family, &results, lost.as_ref(), &is_thing)
+    lost = lost.or_else(take_lost).or_else(|| corner_in(row, &family, &given));
+    let found = gather(&family, &results, lost.as_ref(), &is_thing)?;
+    match receiver {
+        Some(held) if is_set && !is_thing(held) => {
+            *held = found;
+            Ok(Dynamic::UNIT)
+        }
+        _ => Ok(found),
+    }
+}
+
+/// Makes a call for one variant of what it is made with.
+fn make_at(
+    variant: usize,
+    receiver: Option<&mut Dynamic>,
+    given: &[Dynamic],
+    make: Make<'_>,
+) -> Result<Dynamic, ScriptError> {
+    let given: Vec<Dynamic> = given.iter().map(|of| project(of, variant)).collect();
+    match receiver {
+        Some(held) if held.is::<Varied>() => make(Some(&mut project(held, variant)), &given),
+        receiver => make(receiver, &given),
+    }
+}
+
+/// The error about an argument that depends on parameters where none may: at the option that does, if it is one.
+fn refusal(
+    row: &Row,
+    parameter: Option<&Parameter>,
+    given: &Dynamic,
+    number: usize,
+) -> ScriptError {
+    let (name, value, place) = match option_in(given) {
+        Some((key, value)) => (key.clone(), value, Place::Key(key)),
+        None => {
+            let name = parameter.map_or("", |of| of.name).to_owned();
+            (name, given.clone(), Place::Argument(number))
+        }
+    };
+    let told = format!("{}: '{name}' may not depend on parameters of a scene", row.name);
+    let hint = match value.is::<FnPtr>() {
+        true => {
+            "the function uses a variable from outside that does: let plain = value_of(x); before it is the number without its derivatives"
+        }
+        false => "value_of(x) is the number without its derivatives",
+    };
+    ScriptError::new(told).hint(hint).at(place)
+}
+
+/// The innermost option that depends on parameters, with its name.
+fn option_in(options: &Dynamic) -> Option<(String, Dynamic)> {
+    let map = options.read_lock::<Map>()?;
+    let (key, value) = map.iter().find(|(_, of)| family_of(of).is_some())?;
+    option_in(value).or_else(|| Some((key.to_string(), value.clone())))
+}
+
+/// Why what a call gives has no derivatives although it was made with what has: a corner of its function lies between the variants.
+fn corner_in(row: &Row, family: &Family, given: &[Dynamic]) -> Option<Rc<str>> {
+    let has_corner = row.corner?;
+    let side = |variant| given.iter().map(|of| project(of, variant)).collect::<Vec<_>>();
+    let names = family.parameters().into_iter().enumerate();
+    let mut bent = names.filter(|(at, _)| has_corner(&side(1 + 2 * at), &side(2 + 2 * at)));
+    let (_, (name, _)) = bent.next()?;
+    Some(
+        format!("'{}' has a corner or a jump just there, and no derivative by '{name}'", row.name)
+            .into(),
+    )
+}
+
+impl ScriptError {
+    /// The same error of a call beside that at the values of the parameters, which says so.
+    fn said(self, family: &Family, variant: usize) -> Self {
+        match self {
+            Self::Failure(mut failure) => {
+                let at = family.describe(variant);
+                failure.message = format!("{} (with {at}, for the derivatives)", failure.message);
+                Self::Failure(failure)
+            }
+            other => other,
+        }
+    }
 }
 
 /// Whether a function takes values with their derivatives as they are.
@@ -138,4 +217,17 @@ pub fn gathered(
     family.use_variants();
     let lost = from.iter().find_map(|value| lost_in(value));
     gather(family, results, lost.as_ref(), &|_| false)
+}
+
+/// One value of what was made in each variant, without derivatives: why.
+///
+/// # Errors
+/// When arrays or maps differ in more than numbers.
+pub fn gathered_without(
+    family: &Rc<Family>,
+    results: &[Dynamic],
+    reason: Rc<str>,
+) -> Result<Dynamic, ScriptError> {
+    family.use_variants();
+    gather(family, results, Some(&reason), &|_| false)
 }

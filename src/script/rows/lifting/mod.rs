@@ -2,14 +2,19 @@
 //!
 //! So derivatives go through whatever is made of them: sections, loads, simulations, functions of what these tell.
 
+mod corners;
 mod family;
 mod gather;
 mod lift;
 mod policy;
 mod varied;
 
+pub use corners::{
+    Corner, at_origin, at_whole_numbers, at_zero, at_zero_vector, where_equal,
+    where_largest_changes, where_points_meet, where_smallest_changes,
+};
 pub use family::{Family, Present, RELATIVE_DISTANCE, know, lose, present};
-pub use lift::{gathered, lift};
+pub use lift::{gathered, gathered_without, lift};
 #[cfg(test)]
 pub use policy::NAMED;
 pub use policy::{Lifting, lifting_of};

@@ -58,6 +58,9 @@ const AT_VALUES: &[&str] = &[
 /// Domains whose results have no derivatives yet.
 const REFUSED: &[&str] = &["equilibrium", "modes"];
 
+/// What takes whole numbers, which do not change a little.
+const WHOLE: &[&str] = &["quotient"];
+
 /// What makes a simulation go on, which takes its variants along, or gives what is about it alone, as its time is.
 const ONCE: &[&str] = &["start", "step", "run_to", "at", "t", "dt", "invariants", "parameter"];
 
@@ -65,7 +68,8 @@ const ONCE: &[&str] = &["start", "step", "run_to", "at", "t", "dt", "invariants"
 pub fn lifting_of(table: &Table, row: &Row) -> Lifting {
     let is_of = |names: &[&str]| names.contains(&table.name);
     match row.form {
-        _ if table.name == "derivatives" && row.name != "x" && row.name != "y" => Lifting::Once,
+        _ if table.name == "derivatives" => Lifting::Once,
+        _ if WHOLE.contains(&row.name) => Lifting::AtValues,
         Form::Method(of) | Form::Property(of)
             if ONCE.contains(&row.name) && ["simulation", "scene"].contains(&of.name()) =>
         {

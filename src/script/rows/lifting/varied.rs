@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use rhai::{Array, Dynamic, FnPtr, Map};
 
-use super::family::{Family, name_of};
+use super::family::{Family, name_of, present};
 use crate::geometry::Vec2;
 use crate::output::significant;
 use crate::script::rows::kind::Scripted;
@@ -34,6 +34,17 @@ impl Varied {
     /// What any value is in a variant, arrays, maps and captured values included.
     pub fn project(value: &Dynamic, variant: usize) -> Dynamic {
         project(value, variant)
+    }
+
+    /// The number that a value is, in the variant that the present call is made for.
+    pub fn number(value: &Dynamic) -> Option<f64> {
+        let variant = present().map_or(0, |present| present.variant);
+        as_number(value).or_else(|| as_number(&value.read_lock::<Self>()?.at(variant)))
+    }
+
+    /// The parameters that any value depends on, if it does.
+    pub fn family_of(value: &Dynamic) -> Option<Rc<Family>> {
+        family_of(value)
     }
 
     /// The parameters that it depends on.

@@ -246,13 +246,16 @@ impl<'w> Evaluator<'w> {
     }
 }
 
-/// The numbers of an array, each followed by its derivatives by so many parameters.
+/// The numbers of an array or a map, each followed by its derivatives by so many parameters.
 fn slopes_of(given: &Dynamic, parameters: usize) -> Answer {
-    let Some(array) = given.read_lock::<Array>() else {
-        return Answer::Wrong("it gives no array of numbers".into());
-    };
-    let mut slopes = Vec::with_capacity(array.len() * (1 + parameters));
-    for value in array.iter() {
+    let (array, map) = (given.read_lock::<Array>(), given.read_lock::<Map>());
+    let values = array.iter().flat_map(|array| array.iter());
+    let values: Vec<&Dynamic> = values.chain(map.iter().flat_map(|map| map.values())).collect();
+    if array.is_none() && map.is_none() {
+        return Answer::Wrong("it gives neither an array nor a map of numbers".into());
+    }
+    let mut slopes = Vec::with_capacity(values.len() * (1 + parameters));
+    for value in values {
         match as_number(&Varied::project(value, 0)).filter(|number| number.is_finite()) {
             Some(number) => slopes.push(number),
             None => return Answer::Wrong("it gives something that is no finite number".into()),
@@ -261,6 +264,9 @@ fn slopes_of(given: &Dynamic, parameters: usize) -> Answer {
             slopes.extend(std::iter::repeat_n(0.0, parameters));
             continue;
         };
+        if varied.family().is_decided_by() {
+            return Answer::Failed("a function |t| … compares with a parameter".into());
+        }
         for parameter in 0..parameters {
             match varied.derivative(parameter) {
                 Ok(slope) => slopes.push(as_number(&slope).unwrap_or(f64::NAN)),

@@ -1,13 +1,17 @@
 //! Designs: parameters for which a result is least or largest, within constraints on others.
 
+use std::cell::RefCell;
 use std::time::Duration;
 
 use rhai::{Array, Dynamic, FnPtr, Map};
 
+use super::fit::Derivatives;
 use super::ranges::Ranges;
-use crate::fitting::{Design, Rating};
+use super::scales::Scales;
+use crate::fitting::{Design, Range, Rating, SlopesOfRating};
 use crate::output::{Cell, Table, significant};
 use crate::script::rows::call::Call;
+use crate::script::rows::lifting::{RELATIVE_DISTANCE, Varied};
 use crate::script::studies::calls::evaluator::{Answer, Question};
 use crate::script::studies::calls::function::RunFunction;
 use crate::script::studies::plan::at_key;
@@ -51,6 +55,8 @@ pub struct DesignOrder<'o> {
     pub tolerance: f64,
     /// The most runs.
     pub most_runs: usize,
+    /// Whether derivatives are used.
+    pub derivatives: Derivatives,
     /// The longest that a run may take by the clock.
     pub wall: Duration,
 }
@@ -66,6 +72,8 @@ pub struct BestDesign {
     pub is_settled: bool,
     /// How often the function was called.
     pub runs: usize,
+    /// How it was searched, in words.
+    pub derivatives: String,
 }
 
 impl Goal {
@@ -106,11 +114,22 @@ impl Limit {
     }
 
     /// How far a result is from its ends, in parts of them: negative where it is beyond.
-    fn distances(&self, value: f64) -> impl Iterator<Item = f64> {
+    pub(super) fn distances(&self, value: f64) -> impl Iterator<Item = f64> {
+        let low = self.low.map(|low| (value - low) / self.size());
+        low.into_iter().chain(self.high.map(|high| (high - value) / self.size()))
+    }
+
+    /// The derivatives of these distances, by those of the result.
+    pub(super) fn slopes(&self, slopes: &[f64]) -> impl Iterator<Item = Vec<f64>> {
+        let along = |sign: f64| slopes.iter().map(|slope| sign * slope / self.size()).collect();
+        let low: Option<Vec<f64>> = self.low.map(|_| along(1.0));
+        low.into_iter().chain(self.high.map(|_| along(-1.0)))
+    }
+
+    /// How large the numbers are that it is about.
+    fn size(&self) -> f64 {
         let size = [self.low, self.high].into_iter().flatten().map(f64::abs).fold(0.0, f64::max);
-        let size = if size > 0.0 { size } else { 1.0 };
-        let low = self.low.map(|low| (value - low) / size);
-        low.into_iter().chain(self.high.map(|high| (high - value) / size))
+        if size > 0.0 { size } else { 1.0 }
     }
 
     /// The limit in words.
@@ -134,7 +153,7 @@ fn values(given: &Dynamic) -> Answer {
     };
     let mut numbers = Vec::with_capacity(map.len());
     for (name, value) in map.iter() {
-        match as_number(value) {
+        match Varied::number(value) {
             Some(number) if number.is_finite() => numbers.push(number),
             Some(_) => return Answer::Failed(format!("'{name}' is not a finite number")),
             None => return Answer::Wrong(format!("it gives '{name}', which is no number")),
@@ -185,27 +204,26 @@ impl DesignOrder<'_> {
             tolerance: self.tolerance,
             most_runs: self.most_runs,
         };
-        let mut first_size = None;
+        let scales = Scales::of(&self.goal, goal, &limits);
         let found = question.with_evaluator(call, |evaluator| {
-            let found = design.solve(|x| -> Result<Option<Rating>, ScriptError> {
-                let answer = evaluator.ask(&[x.to_vec()])?.into_iter().next();
+            let evaluator = RefCell::new(evaluator);
+            let mut rate = |x: &[f64]| -> Result<Option<Rating>, ScriptError> {
+                let answer = evaluator.borrow_mut().ask(&[x.to_vec()])?.into_iter().next();
                 let Some(Ok(numbers)) = answer else { return Ok(None) };
-                if numbers.len() != results.len() {
-                    return Ok(None);
-                }
-                // A goal that begins at zero has no size of its own.
-                let own_size =
-                    || Some(numbers[goal].abs()).filter(|size| *size > 0.0).unwrap_or(1.0);
-                let size = *first_size.get_or_insert_with(own_size);
-                let objective = match self.goal {
-                    Goal::Least(_) => numbers[goal] / size,
-                    Goal::Largest(_) => -numbers[goal] / size,
-                };
-                let distances = limits.iter().flat_map(|(at, limit)| limit.distances(numbers[*at]));
-                Ok(Some(Rating { objective, constraints: distances.collect() }))
-            })?;
+                Ok((numbers.len() == results.len()).then(|| scales.rating(&numbers)))
+            };
+            let mut sloped = |x: &[f64]| -> Result<SlopesOfRating, ScriptError> {
+                let small = |(x, range): (&f64, &Range)| (*x, RELATIVE_DISTANCE * range.size(*x));
+                let point: Vec<(f64, f64)> = x.iter().zip(&self.ranges.ranges).map(small).collect();
+                let found = evaluator.borrow_mut().slopes(&point)?;
+                Ok(found.and_then(|rows| scales.with_slopes(rows, results.len())))
+            };
+            let found = match self.derivatives {
+                Derivatives::Known => design.solve_with(&mut sloped, &mut rate)?,
+                Derivatives::Differences => design.solve(&mut rate)?,
+            };
             let Some(found) = found else { return Ok(None) };
-            let again = evaluator.ask(std::slice::from_ref(&found.parameters))?;
+            let again = evaluator.borrow_mut().ask(std::slice::from_ref(&found.parameters))?;
             Ok(Some((found, again)))
         })?;
         let Some((found, again)) = found else {
@@ -228,6 +246,12 @@ impl DesignOrder<'_> {
             results: results.into_iter().zip(numbers).collect(),
             is_settled: found.is_settled,
             runs: found.runs,
+            derivatives: match (self.derivatives, found.without, found.gradient_runs) {
+                (Derivatives::Differences, ..) => "none".into(),
+                (_, None, _) => "those of the runs".into(),
+                (_, Some(reason), 0) => format!("none: {reason}"),
+                (_, Some(reason), _) => format!("those of the runs, then none: {reason}"),
+            },
         })
     }
 }
@@ -243,7 +267,7 @@ impl DesignOrder<'_> {
         let given = function.call_here(call, "run", self.ranges.named(&start))?;
         let results = given.read_lock::<Map>().map(|map| {
             map.iter()
-                .map(|(name, value)| (name.to_string(), as_number(value).unwrap_or(0.0)))
+                .map(|(name, value)| (name.to_string(), Varied::number(value).unwrap_or(0.0)))
                 .collect()
         });
         let parameters = self.ranges.names.into_iter().zip(start).collect();
@@ -252,6 +276,7 @@ impl DesignOrder<'_> {
             results: results.unwrap_or_default(),
             is_settled: true,
             runs: 0,
+            derivatives: "none".into(),
         })
     }
 }

@@ -9,11 +9,10 @@ use super::ranges::Ranges;
 use crate::fitting::{Estimate, Fitted, LeastSquares, Range, Settling, Sloped};
 use crate::output::{Cell, LineChart, Marker, Page, Panel, Series, Stroke, Table, significant};
 use crate::script::rows::call::Call;
-use crate::script::rows::lifting::RELATIVE_DISTANCE;
+use crate::script::rows::lifting::{RELATIVE_DISTANCE, Varied};
 use crate::script::studies::calls::evaluator::{Answer, Question};
 use crate::script::studies::calls::function::RunFunction;
 use crate::script::words::error::ScriptError;
-use crate::script::words::numbers::as_number;
 
 /// Digits of a parameter in the table.
 const DIGITS: usize = 7;
@@ -222,7 +221,7 @@ fn numbers(given: &Dynamic) -> Answer {
     };
     let mut numbers = Vec::with_capacity(array.len());
     for (at, value) in array.iter().enumerate() {
-        match as_number(value) {
+        match Varied::number(value) {
             Some(number) if number.is_finite() => numbers.push(number),
             Some(_) => {
                 return Answer::Failed(format!("number {at} of what it gives is not finite"));

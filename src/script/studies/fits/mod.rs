@@ -3,3 +3,5 @@
 pub mod design;
 pub mod fit;
 pub mod ranges;
+pub mod root;
+mod scales;

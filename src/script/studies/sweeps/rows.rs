@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use rhai::{Dynamic, Map};
 
+use crate::script::rows::lifting::Varied;
 use crate::script::studies::calls::calling::Called;
-use crate::script::words::numbers::as_number;
 
 /// What became of a row.
 #[derive(Clone, Debug)]
@@ -40,7 +40,7 @@ pub fn found(given: &Dynamic) -> Row {
     let mut numbers = Vec::with_capacity(map.len());
     for (name, value) in map.iter() {
         let truth = || value.as_bool().ok().map(|truth| f64::from(u8::from(truth)));
-        match as_number(value).or_else(truth) {
+        match Varied::number(value).or_else(truth) {
             Some(number) if number.is_finite() => numbers.push(number),
             Some(number) if number.is_nan() => {
                 return Row::Failed(format!("'{name}' is not a number"));

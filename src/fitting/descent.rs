@@ -1,0 +1,331 @@
+//! The least of a function within constraints, where it knows its derivatives.
+
+use std::cell::RefCell;
+
+use slsqp::{FailStatus, StopTols, minimize};
+
+use super::design::{PENALTY, Scaled};
+use super::{Design, Designed, Rating};
+
+/// Rounds, each of which leaves constraints a margin if the last one missed one by a little.
+const ROUNDS: usize = 4;
+/// Steps end at this part of the tolerance: near the end each is much shorter than the one before.
+const SHORTER: f64 = 0.1;
+
+/// What a run says of a design, with the derivatives of that by all parameters.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SlopedRating {
+    /// What the run says.
+    pub rating: Rating,
+    /// The derivatives of the objective.
+    pub objective: Vec<f64>,
+    /// The derivatives of each of the constraints.
+    pub constraints: Vec<Vec<f64>>,
+}
+
+/// What a run says of a design with its derivatives, or why it does not know these.
+pub type SlopesOfRating = Result<SlopedRating, String>;
+
+/// What asks for what a run says of a design; it gives none where the run fails.
+pub type Rate<'r, E> = dyn FnMut(&[f64]) -> Result<Option<Rating>, E> + 'r;
+
+/// What asks for that with its derivatives.
+pub type RateWithSlopes<'r, E> = dyn FnMut(&[f64]) -> Result<SlopesOfRating, E> + 'r;
+
+/// What is known during a descent.
+struct Descent<'d, 'f, E> {
+    design: &'d Design,
+    sloped: &'d mut RateWithSlopes<'f, E>,
+    rate: &'d mut Rate<'f, E>,
+    best: Option<(Vec<f64>, Rating)>,
+    /// The last one that was asked for, in parts of the sizes of the parameters.
+    last: Option<(Vec<f64>, SlopedRating)>,
+    worst: f64,
+    runs: usize,
+    gradient_runs: usize,
+    ended: Option<Ended<E>>,
+}
+
+/// Why a descent ended before it came to an end of its own.
+enum Ended<E> {
+    /// A design knows no derivatives: why.
+    Unknown(String),
+    Error(E),
+}
+
+impl<E> Descent<'_, '_, E> {
+    /// What is said of a design that is given in parts of the sizes of the parameters.
+    fn at(&mut self, scaled: &[f64]) -> SlopedRating {
+        if let Some((at, found)) = &self.last
+            && at == scaled
+        {
+            return found.clone();
+        }
+        let found = match self.ended {
+            Some(_) => None,
+            None => self.asked(scaled).unwrap_or_else(|ended| {
+                self.ended = Some(ended);
+                None
+            }),
+        };
+        let found = found.unwrap_or_else(|| self.failed());
+        self.last = Some((scaled.to_vec(), found.clone()));
+        found
+    }
+
+    /// Makes a run; none where it fails.
+    fn asked(&mut self, scaled: &[f64]) -> Result<Option<SlopedRating>, Ended<E>> {
+        let x = self.design.unscaled(scaled);
+        // A call that tells only that there are no derivatives is not a run.
+        self.runs += 1;
+        match (self.sloped)(&x).map_err(Ended::Error)? {
+            Ok(mut found) => {
+                self.gradient_runs += 1;
+                self.keep(x, &found.rating);
+                let sizes: Vec<f64> = self.design.ranges.iter().map(|of| of.width()).collect();
+                for slopes in found.constraints.iter_mut().chain([&mut found.objective]) {
+                    slopes.iter_mut().zip(&sizes).for_each(|(slope, size)| *slope *= size);
+                }
+                Ok(Some(found))
+            }
+            Err(reason) => match (self.rate)(&x).map_err(Ended::Error)? {
+                None => Ok(None),
+                Some(rating) => {
+                    self.keep(x, &rating);
+                    Err(Ended::Unknown(reason))
+                }
+            },
+        }
+    }
+
+    fn keep(&mut self, x: Vec<f64>, rating: &Rating) {
+        self.worst = self.worst.max(rating.objective);
+        if self.best.as_ref().is_none_or(|(_, best)| rating.is_better_than(best)) {
+            self.best = Some((x, rating.clone()));
+        }
+    }
+
+    /// What a run that failed counts as.
+    fn failed(&self) -> SlopedRating {
+        let Design { ranges, constraints, .. } = self.design;
+        SlopedRating {
+            rating: Rating {
+                objective: self.worst + PENALTY,
+                constraints: vec![-1.0; *constraints],
+            },
+            objective: vec![0.0; ranges.len()],
+            constraints: vec![vec![0.0; ranges.len()]; *constraints],
+        }
+    }
+}
+
+impl Design {
+    /// Finds the design as [`solve`](Self::solve) does, where runs know derivatives: D. Kraft's SLSQP (1988), which solves quadratic models of the objective, with
+    /// second derivatives that it learns from the first ones on its way (BFGS), within linear models of the constraints. Where `sloped` does not know them, or
+    /// the method fails, it goes on with `solve` from the best design so far.
+    ///
+    /// # Errors
+    /// The first of `sloped` and `rate`.
+    pub fn solve_with<'f, E>(
+        &self,
+        sloped: &mut RateWithSlopes<'f, E>,
+        rate: &mut Rate<'f, E>,
+    ) -> Result<Option<Designed>, E> {
+        let descent = RefCell::new(Descent {
+            design: self,
+            sloped,
+            rate,
+            best: None,
+            last: None,
+            worst: 0.0,
+            runs: 0,
+            gradient_runs: 0,
+            ended: None,
+        });
+        let came_to_an_end = self.descend(&descent);
+        let Descent { rate, best, runs, gradient_runs, ended, .. } = descent.into_inner();
+        let without = match ended {
+            Some(Ended::Error(error)) => return Err(error),
+            Some(Ended::Unknown(reason)) => Some(reason),
+            None if came_to_an_end || runs >= self.most_runs => None,
+            None => Some("no step along the derivatives makes it better".to_owned()),
+        };
+        let found = best.map(|(parameters, rating)| Designed {
+            parameters,
+            is_feasible: rating.is_feasible(),
+            rating,
+            is_settled: came_to_an_end && runs < self.most_runs,
+            runs,
+            gradient_runs,
+            without: without.clone(),
+        });
+        if without.is_none() || runs >= self.most_runs {
+            return Ok(found);
+        }
+        // It begins where the descent came to, which is known.
+        let mut known = found.as_ref().map(|found| found.rating.clone());
+        let asked_again = usize::from(known.is_some());
+        let mut rest = Self { most_runs: self.most_runs - runs + asked_again, ..self.clone() };
+        if let Some(found) = found.filter(|found| found.gradient_runs > 0) {
+            let starts = rest.ranges.iter_mut().zip(found.parameters);
+            starts.for_each(|(range, x)| range.start = x);
+        }
+        let more = rest.solve(|x| match known.take() {
+            Some(rating) => Ok(Some(rating)),
+            None => rate(x),
+        })?;
+        // The best of all is the best of the rest, which begins with the best so far.
+        Ok(more.map(|more| Designed {
+            runs: runs + more.runs - asked_again,
+            gradient_runs,
+            without,
+            ..more
+        }))
+    }
+
+    /// Descends as long as it is known where; whether it came to the least.
+    fn descend<E>(&self, descent: &RefCell<Descent<'_, '_, E>>) -> bool {
+        let Scaled { mut start, bounds } = self.scaled();
+        let mut margin = 0.0;
+        for _ in 0..ROUNDS {
+            let left = self.most_runs.saturating_sub(descent.borrow().runs);
+            let objective = |u: &[f64], slopes: Option<&mut [f64]>, _: &mut ()| {
+                let found = descent.borrow_mut().at(u);
+                if let Some(slopes) = slopes {
+                    slopes.copy_from_slice(&found.objective);
+                }
+                found.rating.objective
+            };
+            let constraint = |which: usize| {
+                move |u: &[f64], slopes: Option<&mut [f64]>, _: &mut ()| {
+                    let found = descent.borrow_mut().at(u);
+                    if let Some(slopes) = slopes {
+                        let pairs = slopes.iter_mut().zip(&found.constraints[which]);
+                        pairs.for_each(|(slope, known)| *slope = -known);
+                    }
+                    margin - found.rating.constraints[which]
+                }
+            };
+            let constraints: Vec<_> = (0..self.constraints).map(constraint).collect();
+            let shortest = SHORTER * self.tolerance;
+            let stop = StopTols { xtol_abs: vec![shortest; start.len()], ..StopTols::default() };
+            let ended = minimize(objective, &start, &bounds, &constraints, (), left, Some(stop));
+            drop(constraints);
+            let at = match ended {
+                Ok((_, at, _)) | Err((FailStatus::RoundoffLimited, at, _)) => at,
+                Err(_) => return false,
+            };
+            if descent.borrow().ended.is_some() || descent.borrow().runs >= self.most_runs {
+                return false;
+            }
+            let missed = descent.borrow_mut().at(&at);
+            if missed.rating.is_feasible() {
+                return true;
+            }
+            // It ends near the edge, on either side of it.
+            margin += 2.0 * missed.rating.missed();
+            start = at;
+        }
+        false
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::convert::Infallible;
+
+    use super::*;
+    use crate::fitting::Range;
+
+    fn design(ranges: &[(f64, f64, f64)], constraints: usize) -> Design {
+        let ranges =
+            ranges.iter().map(|(start, low, high)| Range { start: *start, low: *low, high: *high });
+        Design { ranges: ranges.collect(), constraints, tolerance: 1e-4, most_runs: 500 }
+    }
+
+    /// Powell's test problem 2 (1994): x y is least on the unit disc at -1/2.
+    fn product(x: &[f64]) -> SlopedRating {
+        SlopedRating {
+            rating: Rating {
+                objective: x[0] * x[1],
+                constraints: vec![1.0 - x[0] * x[0] - x[1] * x[1]],
+            },
+            objective: vec![x[1], x[0]],
+            constraints: vec![vec![-2.0 * x[0], -2.0 * x[1]]],
+        }
+    }
+
+    #[test]
+    fn a_product_on_a_disc_is_least_with_fewer_runs_than_without_derivatives() {
+        let design = design(&[(1.0, -2.0, 2.0), (0.5, -2.0, 2.0)], 1);
+        let Ok(found) = design.solve_with(&mut |x| Ok::<_, Infallible>(Ok(product(x))), &mut |x| {
+            Ok(Some(product(x).rating))
+        });
+        let found = found.unwrap();
+        assert!(found.is_feasible && found.is_settled && found.without.is_none(), "{found:?}");
+        assert!((found.rating.objective + 0.5).abs() < 1e-5, "{found:?}");
+        let Ok(without) = design.solve(|x| Ok::<_, Infallible>(Some(product(x).rating)));
+        assert!(2 * found.runs < without.unwrap().runs, "{found:?}");
+    }
+
+    /// H. H. Rosenbrock's valley (1960), with a bound that cuts the least off: it is then at (0.5, 0.25).
+    #[test]
+    fn a_valley_is_followed_to_its_end_or_to_a_bound() {
+        let rosenbrock = |x: &[f64]| {
+            let (a, b) = (1.0 - x[0], x[1] - x[0] * x[0]);
+            SlopedRating {
+                rating: Rating { objective: a * a + 100.0 * b * b, constraints: vec![] },
+                objective: vec![-2.0 * a - 400.0 * x[0] * b, 200.0 * b],
+                constraints: vec![],
+            }
+        };
+        for (high, least) in [(2.0, [1.0, 1.0]), (0.5, [0.5, 0.25])] {
+            let design = design(&[(-1.2, -2.0, high), (1.0, -2.0, 2.0)], 0);
+            let Ok(found) = design
+                .solve_with(&mut |x| Ok::<_, Infallible>(Ok(rosenbrock(x))), &mut |x| {
+                    Ok(Some(rosenbrock(x).rating))
+                });
+            let found = found.unwrap();
+            for (x, expected) in found.parameters.iter().zip(least) {
+                assert!((x - expected).abs() < 1e-3, "{found:?}");
+            }
+            assert!(found.runs < 60, "{found:?}");
+        }
+    }
+
+    #[test]
+    fn where_derivatives_end_it_goes_on_without_and_failed_runs_are_kept_away_from() {
+        let square = |x: f64| SlopedRating {
+            rating: Rating { objective: (x - 1.0) * (x - 1.0), constraints: vec![] },
+            objective: vec![2.0 * (x - 1.0)],
+            constraints: vec![],
+        };
+        let design = design(&[(3.0, 0.0, 5.0)], 0);
+        let Ok(found) = design.solve_with(
+            &mut |x| {
+                Ok::<_, Infallible>(if x[0] < 1.5 { Err("lost".into()) } else { Ok(square(x[0])) })
+            },
+            &mut |x| Ok((x[0] > 0.8).then(|| square(x[0]).rating)),
+        );
+        let found = found.unwrap();
+        assert!((found.parameters[0] - 1.0).abs() < 1e-3, "{found:?}");
+        assert_eq!(found.without.as_deref(), Some("lost"));
+        let Ok(none) =
+            design.solve_with(&mut |_| Ok::<_, Infallible>(Err("no".into())), &mut |_| Ok(None));
+        assert!(none.is_none());
+    }
+
+    #[test]
+    fn what_cannot_be_met_is_told() {
+        let design = design(&[(0.5, 0.0, 1.0)], 1);
+        let one = |x: f64| SlopedRating {
+            rating: Rating { objective: x, constraints: vec![x - 2.0] },
+            objective: vec![1.0],
+            constraints: vec![vec![1.0]],
+        };
+        let Ok(found) = design.solve_with(&mut |x| Ok::<_, Infallible>(Ok(one(x[0]))), &mut |x| {
+            Ok(Some(one(x[0]).rating))
+        });
+        assert!(!found.unwrap().is_feasible);
+    }
+}

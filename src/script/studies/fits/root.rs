@@ -1,0 +1,51 @@
+//! Where a function of a script is zero.
+
+use rhai::Dynamic;
+
+use crate::fitting::{RootError, root};
+use crate::script::rows::call::Call;
+use crate::script::rows::lifting::Varied;
+use crate::script::state::settings::Mode;
+use crate::script::words::error::{Place, ScriptError};
+use crate::script::words::numbers::format_number;
+
+/// The place between `from` and `to` at which a call's `function` is zero, as well as its `tolerance` says.
+///
+/// # Errors
+/// Those of the function; also when it is not finite, or its signs do not differ.
+pub fn find_root(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let (function, from, to) =
+        (call.callback("function")?, call.number("from")?, call.number("to")?);
+    call.expect_arguments(&function, 1, "|x| …")?;
+    let tolerance = call.number_if_given("tolerance").unwrap_or(1e-9 * (to - from).abs());
+    let value = |x: f64| {
+        let given = call.invoke(&function, [Dynamic::from(x)])?;
+        Varied::number(&given).ok_or_else(|| {
+            let told =
+                format!("the function gives {} at {}", call.describe(&given), format_number(x));
+            call.error(told).hint("its last expression is a number").at(Place::Argument(0))
+        })
+    };
+    if call.context().mode() == Mode::DryBuild {
+        // What a dry build finds has no signs.
+        value(from)?;
+        return Ok(from.into());
+    }
+    let wrong = |told: String, hint: &str| call.error(told).hint(hint).at(Place::Argument(0));
+    match root((from, to), tolerance, value) {
+        Ok(found) => Ok(found.at.into()),
+        Err(RootError::Function(error)) => Err(error),
+        Err(RootError::SameSign(low, high)) => {
+            let [from, to, low, high] = [from, to, low, high].map(format_number);
+            let told = format!("the function is {low} at {from} and {high} at {to}");
+            Err(wrong(told, "give two places at which its signs differ"))
+        }
+        Err(RootError::NotFinite(x, value)) => {
+            let [x, value] = [x, value].map(format_number);
+            Err(wrong(
+                format!("the function is {value} at {x}"),
+                "it must be finite between the two places",
+            ))
+        }
+    }
+}

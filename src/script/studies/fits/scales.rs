@@ -1,0 +1,68 @@
+//! Results of a design as a search for the best sees them: in numbers of about one, the goal to be least and limits not to be negative.
+
+use std::cell::Cell;
+
+use super::design::{Goal, Limit};
+use crate::fitting::{Rating, SlopedRating, SlopesOfRating};
+
+/// How results become what a search sees: numbers of about one.
+pub(super) struct Scales<'s> {
+    goal: &'s Goal,
+    /// The place of the goal among the results.
+    at: usize,
+    limits: &'s [(usize, &'s Limit)],
+    /// The size of the goal in the first run.
+    size: Cell<Option<f64>>,
+}
+
+impl<'s> Scales<'s> {
+    /// Those of a goal, at its place among the results, and of limits at theirs.
+    pub(super) fn of(goal: &'s Goal, at: usize, limits: &'s [(usize, &'s Limit)]) -> Self {
+        Self { goal, at, limits, size: Cell::new(None) }
+    }
+
+    /// What the goal is divided by, so that the least is wanted.
+    fn divisor(&self, goal: f64) -> f64 {
+        // A goal that begins at zero has no size of its own.
+        let own = Some(goal.abs()).filter(|size| *size > 0.0).unwrap_or(1.0);
+        let size = self.size.get().unwrap_or(own);
+        self.size.set(Some(size));
+        match self.goal {
+            Goal::Least(_) => size,
+            Goal::Largest(_) => -size,
+        }
+    }
+
+    /// What a search sees of results.
+    pub(super) fn rating(&self, numbers: &[f64]) -> Rating {
+        let distances = self.limits.iter().flat_map(|(at, limit)| limit.distances(numbers[*at]));
+        let objective = numbers[self.at] / self.divisor(numbers[self.at]);
+        Rating { objective, constraints: distances.collect() }
+    }
+
+    /// What a search sees of results with their derivatives.
+    ///
+    /// # Errors
+    /// When these do not do for a search: the reason.
+    pub(super) fn with_slopes(&self, rows: Vec<(f64, Vec<f64>)>, results: usize) -> SlopesOfRating {
+        if rows.len() != results {
+            return Err("it gives other results".into());
+        }
+        let (numbers, slopes): (Vec<f64>, Vec<Vec<f64>>) = rows.into_iter().unzip();
+        let wanted = || self.limits.iter().map(|(at, _)| *at).chain([self.at]);
+        let parameters = slopes.first().map_or(0, Vec::len);
+        if (0..parameters).any(|by| wanted().all(|at| slopes[at][by] == 0.0)) {
+            return Err("all derivatives by a parameter are zero".into());
+        }
+        if !wanted().all(|at| slopes[at].iter().all(|slope| slope.is_finite())) {
+            return Err("a derivative is not finite".into());
+        }
+        let divisor = self.divisor(numbers[self.at]);
+        let constraints = self.limits.iter().flat_map(|(at, limit)| limit.slopes(&slopes[*at]));
+        Ok(SlopedRating {
+            rating: self.rating(&numbers),
+            objective: slopes[self.at].iter().map(|slope| slope / divisor).collect(),
+            constraints: constraints.collect(),
+        })
+    }
+}

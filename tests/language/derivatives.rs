@@ -1,0 +1,40 @@
+//! What is told of derivatives by parameters beside errors.
+
+use crate::common::notepad::Notepad;
+use withy::script::engine::runner::{Ending, run};
+use withy::script::packages::language;
+use withy::script::source::program::Program;
+use withy::script::state::settings::{Mode, Settings};
+
+/// Runs a script that must run; what it told.
+fn told(text: &str) -> String {
+    let told = Notepad::default();
+    let settings = Settings { told: Box::new(told.clone()), ..Settings::silent(Mode::Run) };
+    let outcome = run(&Program::named("derivatives", text), &language(), settings);
+    assert!(matches!(outcome.ending, Ending::Finished), "{:?}", outcome.ending);
+    assert_eq!(outcome.checks.failed(), []);
+    told.take()
+}
+
+#[test]
+fn a_function_that_decides_by_a_parameter_is_told_of_once_with_its_place() {
+    let scene = "let scene = new_scene(\"driven\");
+let a = scene.parameter(\"a\", 0.55);
+let bead = scene.particle([0, 0], 1, #{ name: \"bead\" });
+let half = a / 2;
+";
+    let once = told(&format!(
+        "{scene}for i in 0..2 {{ scene.force(bead, [0, 1], |t| {{ let u = 2 * t; if u < half {{ 1 }} else {{ 0 }} }}); }}\n"
+    ));
+    assert_eq!(once.matches("note: line 5, column 69: < decides by 'half'").count(), 1, "{once}");
+    assert_eq!(once.lines().count(), 1, "{once}");
+    let inside = told(&format!("{scene}scene.move(bead, #{{ x: |t| floor(t / a) }});\n"));
+    assert!(inside.contains("line 5, column 28: floor decides by 'a'"), "{inside}");
+    // What is decided by the parameter alone, or by the time alone, is decided the same beside.
+    let silent = told(&format!(
+        "{scene}scene.force(bead, [0, 1], |t| if a > 0.3 {{ a * t }} else {{ 0 }});
+scene.force(bead, [0, 1], |t| if t < 0.3 {{ a }} else {{ half * t }});
+scene.force(bead, [0, 1], |t| if t < 0.3 {{ 1 }} else {{ 0 }});\n"
+    ));
+    assert_eq!(silent, "");
+}
