@@ -2,9 +2,10 @@
 
 mod revisit;
 mod sensing;
+mod variants;
 mod visit;
 
-use std::cell::{Cell, Ref, RefCell};
+use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 use rhai::Dynamic;
@@ -15,16 +16,14 @@ use super::scene::SceneHandle;
 use crate::script::looks::details;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::{Details, Scripted};
-use crate::script::rows::lifting::{Family, lose, present};
+use crate::script::rows::lifting::Family;
 use crate::script::rows::stored::StoredFunction;
 use crate::script::state::context::Context;
 use crate::script::state::settings::Mode;
 use crate::script::words::error::ScriptError;
 use crate::script::words::numbers::format_number;
 use crate::script::words::stop::Stop;
-use crate::simulation::{
-    DerivativeError, History, Monitor, Side, Simulation, SimulationError, StepSize,
-};
+use crate::simulation::{Monitor, Simulation, SimulationError, StepSize};
 use crate::vibration::{Modes, VibrationError};
 use sensing::Sensing;
 
@@ -93,17 +92,6 @@ impl Monitor for Pretence<'_> {
     }
 }
 
-/// Why there are no derivatives, with where there are some.
-fn in_words(reason: &DerivativeError) -> String {
-    match reason {
-        DerivativeError::Event { time, .. } | DerivativeError::NoStep { time, .. } => {
-            let time = format_number(*time);
-            format!("{reason}; rows up to there have them: sim.history.before({time})")
-        }
-        other => other.to_string(),
-    }
-}
-
 impl SimulationHandle {
     /// A handle on a simulation at its start, which will be in the report of the run.
     pub fn new(
@@ -169,44 +157,6 @@ impl SimulationHandle {
     /// The number of functions that wait for a time of the simulation.
     pub fn events_waiting(&self) -> usize {
         self.0.events.borrow().waiting()
-    }
-
-    /// The simulation of the handle, to look at it, in the variant that the present call is made for.
-    pub fn simulation(&self) -> Ref<'_, Simulation> {
-        Ref::map(self.0.simulation.borrow(), |run| {
-            let Some((parameter, side)) = Self::present_side(run) else { return run };
-            run.beside(parameter, side).unwrap_or_else(|reason| {
-                lose(&in_words(&reason));
-                run
-            })
-        })
-    }
-
-    /// Reads the rows of the history between two times, in the variant that the present call is made for.
-    pub fn read_history<T>(&self, times: (f64, f64), read: impl FnOnce(&History) -> T) -> T {
-        let run = self.0.simulation.borrow();
-        let beside = Self::present_side(&run);
-        match beside.map(|(parameter, side)| run.history_beside(parameter, side, times)) {
-            Some(Ok(beside)) => return read(&beside),
-            Some(Err(reason)) => lose(&in_words(&reason)),
-            None => {}
-        }
-        match times {
-            (f64::NEG_INFINITY, f64::INFINITY) => read(run.history()),
-            (from, to) => read(&run.history().between(from, to)),
-        }
-    }
-
-    /// The simulation of the handle itself, whichever variant the present call is made for.
-    pub fn own(&self) -> Ref<'_, Simulation> {
-        self.0.simulation.borrow()
-    }
-
-    /// Which run beside a simulation the present call is made for, if for one.
-    fn present_side(run: &Simulation) -> Option<(usize, Side)> {
-        let (parameter, is_plus) = Family::beside(present()?.variant)?;
-        run.parameters().next()?;
-        Some((parameter, if is_plus { Side::Plus } else { Side::Minus }))
     }
 
     /// The scene that the simulation was started from.

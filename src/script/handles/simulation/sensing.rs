@@ -5,10 +5,12 @@ use std::rc::Rc;
 
 use rhai::Dynamic;
 
-use super::{SimulationHandle, Watch, explain, in_words, lose};
+use super::variants::in_words;
+use super::{SimulationHandle, Watch, explain};
 use crate::loads::Schedule;
 use crate::script::handles::scene::{Condition, Controller};
 use crate::script::rows::call::Call;
+use crate::script::rows::lifting::lose;
 use crate::script::rows::stored::StoredFunction;
 use crate::script::words::error::ScriptError;
 use crate::script::words::numbers::{as_number, describe};

@@ -1,0 +1,59 @@
+//! A simulation in the variant of its parameters that the present call is made for.
+
+use std::cell::Ref;
+
+use super::SimulationHandle;
+use crate::script::rows::lifting::{Family, lose, present};
+use crate::script::words::numbers::format_number;
+use crate::simulation::{DerivativeError, History, Side, Simulation};
+
+/// Why there are no derivatives, with where there are some.
+pub(super) fn in_words(reason: &DerivativeError) -> String {
+    match reason {
+        DerivativeError::Event { time, .. } | DerivativeError::NoStep { time, .. } => {
+            let time = format_number(*time);
+            format!("{reason}; rows up to there have them: sim.history.before({time})")
+        }
+        other => other.to_string(),
+    }
+}
+
+impl SimulationHandle {
+    /// The simulation of the handle, to look at it, in the variant that the present call is made for.
+    pub fn simulation(&self) -> Ref<'_, Simulation> {
+        Ref::map(self.0.simulation.borrow(), |run| {
+            let Some((parameter, side)) = Self::present_side(run) else { return run };
+            run.beside(parameter, side).unwrap_or_else(|reason| {
+                lose(&in_words(&reason));
+                run
+            })
+        })
+    }
+
+    /// Reads the rows of the history between two times, in the variant that the present call is made for.
+    pub fn read_history<T>(&self, times: (f64, f64), read: impl FnOnce(&History) -> T) -> T {
+        let run = self.0.simulation.borrow();
+        let beside = Self::present_side(&run);
+        match beside.map(|(parameter, side)| run.history_beside(parameter, side, times)) {
+            Some(Ok(beside)) => return read(&beside),
+            Some(Err(reason)) => lose(&in_words(&reason)),
+            None => {}
+        }
+        match times {
+            (f64::NEG_INFINITY, f64::INFINITY) => read(run.history()),
+            (from, to) => read(&run.history().between(from, to)),
+        }
+    }
+
+    /// The simulation of the handle itself, whichever variant the present call is made for.
+    pub fn own(&self) -> Ref<'_, Simulation> {
+        self.0.simulation.borrow()
+    }
+
+    /// Which run beside a simulation the present call is made for, if for one.
+    pub(super) fn present_side(run: &Simulation) -> Option<(usize, Side)> {
+        let (parameter, is_plus) = Family::beside(present()?.variant)?;
+        run.parameters().next()?;
+        Some((parameter, if is_plus { Side::Plus } else { Side::Minus }))
+    }
+}
