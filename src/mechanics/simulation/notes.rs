@@ -205,7 +205,7 @@ impl fmt::Display for Note {
                 f,
                 "steps are too long for the motion of beam '{beam}', whose material is damped: {} % of its kinetic energy changes within them as they do not \
                  follow. A step (dt = {}) is {} times what it goes on in ({}); take dt below {}. Velocities of the beam alternate from step to step, and \
-                 forces with them: take means of neighbouring rows, sim.history.averaged(column)",
+                 forces with them: means of two neighbouring steps are nearer to what happens",
                 short(100.0 * share),
                 short(*dt),
                 short(dt / period),
