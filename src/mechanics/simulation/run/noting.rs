@@ -137,7 +137,7 @@ impl Simulation {
         let is_much = |energy: f64| larger(energy, others) > MUCH * (larger(energy, others) + left);
         let most = most.filter(|(_, energy)| is_much(*energy));
         let dampers = most.map(|(name, _)| Suspect::Damping(name.to_owned()));
-        let sampled = self.scene.schedules().filter(|(_, schedule)| schedule.is_sampled());
+        let sampled = self.scene.schedules().filter(|(_, schedule)| schedule.is_asked_every_step());
         let controllers =
             sampled.map(|(name, _)| Suspect::Controller(self.scene.source_of_schedule(name)));
         dampers.into_iter().chain(controllers.take(1)).collect()
