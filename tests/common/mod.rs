@@ -22,7 +22,7 @@ pub mod wild_scenes;
 use withy::beams::{Mesh, Quadrature};
 use withy::geometry::Vec2;
 use withy::integrators::Method;
-use withy::model::Scene;
+use withy::model::{Element, Scene};
 use withy::newton::Tolerance;
 use withy::simulation::{
     History, Monitor, Settings, Simulation, SimulationError, StepSize, Unwatched,
@@ -56,6 +56,12 @@ pub fn run(simulation: &mut Simulation, end: f64) -> Result<(), SimulationError>
             return ran;
         }
     }
+}
+
+/// Whether a beam of a scene is of a damped material: where steps do not resolve how it relaxes, a very short step sees rates that alternate, and what is told
+/// of the present does not.
+pub fn is_damped(scene: &Scene) -> bool {
+    scene.elements.iter().any(|element| matches!(element, Element::Damping(_)))
 }
 
 /// Takes a step of fixed size, which controllers steer if there are some.

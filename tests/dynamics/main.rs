@@ -31,5 +31,6 @@ mod sensors;
 mod small_ways;
 mod springs;
 mod tapers;
+mod unresolved_damping;
 mod unused_features;
 mod work_counts;

@@ -3,7 +3,7 @@
 
 use crate::common::steered_scenes::is_steered;
 use crate::common::{
-    at, body_scenes, orders, run, scenes, sci, settings, simulate, sliding_scenes,
+    at, body_scenes, is_damped, orders, run, scenes, sci, settings, simulate, sliding_scenes,
 };
 use withy::beams::{Mesh, Section, Station};
 use withy::geometry::Vec2;
@@ -82,8 +82,9 @@ fn forces_and_accelerations_are_those_of_a_very_short_step() {
     let short = 1e-6;
     // Nothing may let go in the short step: what gave a reaction before it would be gone after it.
     // Nor may a controller say something else in it.
-    let lets_go =
-        |scene: &Scene| is_steered(scene) || scene.release_times().any(|time| time == 0.4);
+    let lets_go = |scene: &Scene| {
+        is_steered(scene) || is_damped(scene) || scene.release_times().any(|time| time == 0.4)
+    };
     for scene in scenes::all(&smooth(5)).into_iter().filter(|scene| !lets_go(scene)) {
         let station = Station::on_beam(0, scene.beams[0].axis.length());
         let name = scene.name.clone();

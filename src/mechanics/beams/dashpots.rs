@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::dynamics::{ForceSummary, Movement};
 use super::force_dashpot::ForceDashpot;
 use super::moment_dashpot::MomentDashpot;
+use super::present_rates::{RatesSeen, RatesWatch};
 use super::sections::SectionsOnAxis;
 use super::{BeamError, Mesh, RotationIncrement, Section, SectionPlace, SectionVariation};
 use crate::geometry::{Vec2, larger};
@@ -93,6 +94,7 @@ struct SpanDashpots {
 pub struct Dashpots {
     order: usize,
     spans: Vec<SpanDashpots>,
+    watch: RatesWatch,
     /// The derivative of the forces of a span, row after row.
     block: Vec<f64>,
 }
@@ -138,7 +140,8 @@ impl Dashpots {
                 forces: quadrature.force_rule.iter().copied().map(point).map(force).collect(),
             });
         }
-        Ok(Self { order, spans, block: vec![0.0; 9 * order * order] })
+        let watch = RatesWatch::default();
+        Ok(Self { order, spans, watch, block: vec![0.0; 9 * order * order] })
     }
 
     /// The number of control points of a span.
@@ -146,20 +149,20 @@ impl Dashpots {
         self.order
     }
 
-    /// Begins a step with the forces of the last one.
-    pub fn begin_step(&mut self) {
-        self.each(ForceDashpot::begin_step, MomentDashpot::begin_step);
+    /// Begins a step with the forces of the last one, in which control points have such rates at its start.
+    pub fn begin_step(&mut self, rates: &[Movement]) {
+        for SpanDashpots { first, forces, moments } in &mut self.spans {
+            let rates = &rates[*first..*first + self.order];
+            forces.iter_mut().for_each(|dashpot| dashpot.begin_step(rates));
+            moments.iter_mut().for_each(|dashpot| dashpot.begin_step(rates));
+        }
     }
 
     /// Begins a movement that takes no time, in which nothing is damped.
     pub fn rest(&mut self) {
-        self.each(ForceDashpot::rest, MomentDashpot::rest);
-    }
-
-    fn each(&mut self, force: fn(&mut ForceDashpot), moment: fn(&mut MomentDashpot)) {
         for span in &mut self.spans {
-            span.forces.iter_mut().for_each(force);
-            span.moments.iter_mut().for_each(moment);
+            span.forces.iter_mut().for_each(ForceDashpot::rest);
+            span.moments.iter_mut().for_each(MomentDashpot::rest);
         }
     }
 
@@ -228,23 +231,29 @@ impl Dashpots {
         rotations: RotationIncrement,
         duration: f64,
     ) -> f64 {
-        let mut sum = 0.0;
+        let (mut sum, mut all) = (0.0, [RatesSeen::default(); 3]);
+        let share = self.watch.share(duration);
         for SpanDashpots { first, forces, moments } in &mut self.spans {
             let moved = &moved[*first..*first + self.order];
             for dashpot in forces {
                 sum += dashpot.advance(moved, rotations, duration);
+                let seen = share.map_or_else(Default::default, |share| dashpot.seen(share));
+                all.iter_mut().zip(seen).for_each(|(all, seen)| all.join(seen));
             }
             for dashpot in moments {
                 sum += dashpot.advance(moved, rotations, duration);
+                all[2].join(share.map(|share| dashpot.seen(share)).unwrap_or_default());
             }
         }
+        self.watch.add(duration, all);
         sum
     }
 
-    /// Gives the forces that such rates of the control points ask for at the start of the step.
+    /// Gives the forces that such rates of the control points ask for at the start of the step; where steps do not resolve them, those of the means of the
+    /// last two steps, carried on.
     pub fn resist(&self, rates: &[Movement], give: &mut dyn FnMut(usize, Movement)) {
         for SpanDashpots { first, forces, moments } in &self.spans {
-            let rates = &rates[*first..*first + self.order];
+            let rates = self.watch.told(&rates[*first..*first + self.order]);
             forces.iter().for_each(|dashpot| dashpot.resist(rates, *first, give));
             moments.iter().for_each(|dashpot| dashpot.resist(rates, *first, give));
         }
@@ -261,11 +270,12 @@ impl Dashpots {
     }
 
     /// What such rates of the control points let the dashpots transmit at a place at the start of the step, by the weights with which the
-    /// quadrature points that they stand beside add up there: a force in space [force] and a moment [force·length].
+    /// quadrature points that they stand beside add up there: a force in space [force] and a moment [force·length]. Where steps do not resolve
+    /// the rates, the means of the last two steps are carried on instead.
     pub fn transmitted(&self, place: &SectionPlace, rates: &[Movement]) -> (Vec2, f64) {
         let of_span = |span: usize| {
             let span = &self.spans[span];
-            (span, &rates[span.first..span.first + self.order])
+            (span, self.watch.told(&rates[span.first..span.first + self.order]))
         };
         let (mut force, mut moment) = (Vec2::zeros(), 0.0);
         for share in &place.force_shares {
@@ -283,6 +293,7 @@ impl Dashpots {
 
     /// Appends the state of the dashpots at the start of a step to `state`.
     pub fn save(&self, state: &mut Vec<f64>) {
+        self.watch.save(state);
         for span in &self.spans {
             span.forces.iter().for_each(|dashpot| dashpot.save(state));
             span.moments.iter().for_each(|dashpot| dashpot.save(state));
@@ -291,6 +302,7 @@ impl Dashpots {
 
     /// Takes the state of the dashpots back, in the order in which it was appended.
     pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
+        self.watch.restore(next);
         for span in &mut self.spans {
             span.forces.iter_mut().for_each(|dashpot| dashpot.restore(next));
             span.moments.iter_mut().for_each(|dashpot| dashpot.restore(next));

@@ -176,7 +176,11 @@ impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
         let mut summaries = [ForceSummary::default(); MOST_PARTS];
         let summaries = &mut summaries[..parts.count()];
         parts.sum(spans, forces, summaries, |summary, spans, first, forces| {
-            Forces { iterate, forces: ForcesFrom { first, forces }, summary }.over(spans);
+            // In memory of this thread: summaries of parts lie beside each other, in lines that caches of several cores would fight for.
+            let mut own = *summary;
+            let forces = ForcesFrom { first, forces };
+            Forces { iterate, forces, summary: &mut own }.over(spans);
+            *summary = own;
         });
         let mut summary = ForceSummary::default();
         summaries.iter().for_each(|part| summary.join(part));

@@ -7,6 +7,7 @@
 
 use super::dashpots::{Functions, RateCollocation, larger_missing};
 use super::dynamics::{ForceSummary, Movement};
+use super::present_rates::{RatesSeen, RatesTold};
 use super::{Rotation, RotationIncrement};
 use crate::geometry::{Vec2, cross, larger, perpendicular};
 
@@ -20,8 +21,11 @@ pub(super) struct ForceDashpot {
     gradient: Vec2,
     /// `Λ0`
     rotation: Rotation,
-    /// `Γ̇` of the step before.
+    /// `Γ̇` of the step before, and of the one before that.
     last_rate: Vec2,
+    rate_before: Vec2,
+    /// `Γ̇` at the start of the step, as movements have it.
+    start_rate: Vec2,
     /// `N` of the iterate.
     force: Vec2,
     /// That of the last step.
@@ -59,6 +63,8 @@ impl ForceDashpot {
             gradient: tangent,
             rotation,
             last_rate: Vec2::zeros(),
+            rate_before: Vec2::zeros(),
+            start_rate: Vec2::zeros(),
             force: Vec2::zeros(),
             last_force: Vec2::zeros(),
             mismatch: Vec2::zeros(),
@@ -74,12 +80,28 @@ impl ForceDashpot {
         }
     }
 
-    pub(super) fn begin_step(&mut self) {
+    pub(super) fn begin_step(&mut self, rates: &[Movement]) {
         self.force = self.last_force;
+        self.start_rate = self.rate(rates);
     }
 
     pub(super) fn rest(&mut self) {
         self.force = Vec2::zeros();
+    }
+
+    /// The mean rates of the last two steps, carried on to the start of the step.
+    fn carried(&self, late: f64) -> Vec2 {
+        self.last_rate + (self.last_rate - self.rate_before) * late
+    }
+
+    /// What is seen of the rates of stretching and shear in the step that was accepted last, which began at such a share between the middles of two.
+    pub(super) fn seen(&self, share: f64) -> [RatesSeen; 2] {
+        let of = |axis: usize| {
+            let means = [self.rate_before[axis], self.last_rate[axis]];
+            let damping = self.functions.weight * self.damping[axis];
+            RatesSeen::of(damping, self.start_rate[axis], means, share)
+        };
+        [of(0), of(1)]
     }
 
     fn configuration(&self, at: RateCollocation, moved: &[Movement]) -> Configuration {
@@ -211,7 +233,8 @@ impl ForceDashpot {
         let change = self.change(by, rotations, increment);
         self.gradient += by;
         self.rotation = self.rotation.turned(rotations, increment).normalised();
-        (self.last_rate, self.last_force) = (change / duration, self.force);
+        (self.rate_before, self.last_rate) = (self.last_rate, change / duration);
+        self.last_force = self.force;
         self.functions.weight * self.force.dot(&change)
     }
 
@@ -221,19 +244,29 @@ impl ForceDashpot {
         self.rotation.to_section(gradient - perpendicular(self.gradient) * spin)
     }
 
-    /// The force in space that such rates ask for at the start of the step [force], and its `w x' × n` [force·length].
-    pub(super) fn transmitted(&self, rates: &[Movement]) -> (Vec2, f64) {
-        let force = self.rotation.to_space(self.damping.component_mul(&self.rate(rates)));
+    /// The rates of strain at the start of the step, as they are told: those of the movements, or those of the last steps.
+    fn told(&self, told: RatesTold<'_>) -> Vec2 {
+        let (present, carried) = (self.rate(told.present), self.carried(told.late));
+        let [axial, shear, _] = told.carried;
+        Vec2::new(
+            if axial { carried.x } else { present.x },
+            if shear { carried.y } else { present.y },
+        )
+    }
+
+    /// The force in space that rates ask for at the start of the step [force], and its `w x' × n` [force·length].
+    pub(super) fn transmitted(&self, rates: RatesTold<'_>) -> (Vec2, f64) {
+        let force = self.rotation.to_space(self.damping.component_mul(&self.told(rates)));
         (force, self.functions.weight * cross(self.gradient, force))
     }
 
     pub(super) fn resist(
         &self,
-        rates: &[Movement],
+        rates: RatesTold<'_>,
         first: usize,
         give: &mut dyn FnMut(usize, Movement),
     ) {
-        let force = self.damping.component_mul(&self.rate(rates));
+        let force = self.damping.component_mul(&self.told(rates));
         self.distribute((self.rotation, self.gradient), force, first, give);
     }
 
@@ -246,6 +279,7 @@ impl ForceDashpot {
     pub(super) fn save(&self, state: &mut Vec<f64>) {
         state.extend([self.gradient.x, self.gradient.y, self.rotation.cos, self.rotation.sin]);
         state.extend([self.last_rate.x, self.last_rate.y, self.last_force.x, self.last_force.y]);
+        state.extend([self.rate_before.x, self.rate_before.y]);
     }
 
     pub(super) fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
@@ -253,5 +287,6 @@ impl ForceDashpot {
         self.rotation = Rotation { cos: next(), sin: next() };
         self.last_rate = Vec2::new(next(), next());
         self.last_force = Vec2::new(next(), next());
+        self.rate_before = Vec2::new(next(), next());
     }
 }

@@ -17,6 +17,7 @@ mod mesh;
 mod moment_dashpot;
 mod moment_point;
 mod parts;
+mod present_rates;
 mod rigid_points;
 mod rotation;
 mod section;

@@ -7,6 +7,7 @@
 use super::RotationIncrement;
 use super::dashpots::{Functions, RateCollocation, strain_missing};
 use super::dynamics::{ForceSummary, Movement};
+use super::present_rates::{RatesSeen, RatesTold};
 
 /// A dashpot for the rate of curvature.
 #[derive(Debug, Clone)]
@@ -14,8 +15,11 @@ pub(super) struct MomentDashpot {
     functions: Functions,
     /// `EI τ` [force·length²·time]
     damping: f64,
-    /// `κ̇` of the step before.
+    /// `κ̇` of the step before, and of the one before that.
     last_rate: f64,
+    rate_before: f64,
+    /// `κ̇` at the start of the step, as movements have it.
+    start_rate: f64,
     /// `M` of the iterate.
     moment: f64,
     /// That of the last step.
@@ -50,6 +54,8 @@ impl MomentDashpot {
             functions,
             damping,
             last_rate: 0.0,
+            rate_before: 0.0,
+            start_rate: 0.0,
             moment: 0.0,
             last_moment: 0.0,
             mismatch: 0.0,
@@ -57,12 +63,24 @@ impl MomentDashpot {
         }
     }
 
-    pub(super) fn begin_step(&mut self) {
+    pub(super) fn begin_step(&mut self, rates: &[Movement]) {
         self.moment = self.last_moment;
+        (_, _, self.start_rate) = self.functions.interpolate(rates);
     }
 
     pub(super) fn rest(&mut self) {
         self.moment = 0.0;
+    }
+
+    /// The mean rates of the last two steps, carried on to the start of the step.
+    fn carried(&self, late: f64) -> f64 {
+        self.last_rate + (self.last_rate - self.rate_before) * late
+    }
+
+    /// What is seen of the rate in the step that was accepted last, which began at such a share between the middles of two.
+    pub(super) fn seen(&self, share: f64) -> RatesSeen {
+        let damping = self.functions.weight * self.damping;
+        RatesSeen::of(damping, self.start_rate, [self.rate_before, self.last_rate], share)
     }
 
     fn bend(&self, at: RateCollocation, moved: &[Movement]) -> Bend {
@@ -151,23 +169,29 @@ impl MomentDashpot {
     ) -> f64 {
         let (_, rotation, slope) = self.functions.interpolate(moved);
         let change = slope * rotations.rate(rotation);
-        (self.last_rate, self.last_moment) = (change / duration, self.moment);
+        (self.rate_before, self.last_rate) = (self.last_rate, change / duration);
+        self.last_moment = self.moment;
         self.functions.weight * self.moment * change
     }
 
-    /// The moment that such rates ask for [force·length].
-    pub(super) fn transmitted(&self, rates: &[Movement]) -> f64 {
-        self.damping * self.functions.interpolate(rates).2
+    /// The moment that rates ask for at the start of the step [force·length].
+    pub(super) fn transmitted(&self, rates: RatesTold<'_>) -> f64 {
+        let [_, _, is_carried] = rates.carried;
+        self.damping
+            * if is_carried {
+                self.carried(rates.late)
+            } else {
+                self.functions.interpolate(rates.present).2
+            }
     }
 
     pub(super) fn resist(
         &self,
-        rates: &[Movement],
+        rates: RatesTold<'_>,
         first: usize,
         give: &mut dyn FnMut(usize, Movement),
     ) {
-        let (_, _, rate) = self.functions.interpolate(rates);
-        self.distribute(self.damping * rate, first, give);
+        self.distribute(self.transmitted(rates), first, give);
     }
 
     pub(super) fn each_damped_rate(&self, rates: &[Movement], take: &mut dyn FnMut(f64, f64)) {
@@ -176,10 +200,11 @@ impl MomentDashpot {
     }
 
     pub(super) fn save(&self, state: &mut Vec<f64>) {
-        state.extend([self.last_rate, self.last_moment]);
+        state.extend([self.last_rate, self.last_moment, self.rate_before]);
     }
 
     pub(super) fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         (self.last_rate, self.last_moment) = (next(), next());
+        self.rate_before = next();
     }
 }

@@ -17,11 +17,11 @@ type PartOf<'a, const N: usize, S, C> =
 /// The largest number of parts of a beam that are worked on at once: a few cores use up the bandwidth of the memory.
 pub(super) const MOST_PARTS: usize = 8;
 
-/// Fewest spans of a part: with half of it the gain of a step is lost in the noise of starting threads (docs/studies.md).
+/// Fewest spans of a part: smaller ones gain little, and lose where the other cores have other work (docs/studies.md).
 const SMALLEST_PART: usize = 4000;
 
 /// Fewest spans of a part for what takes little time at each: less than a tenth of what their tangents take.
-const SMALLEST_LIGHT_PART: usize = 20_000;
+const SMALLEST_LIGHT_PART: usize = 2000;
 
 /// Where one part ends and the next begins.
 #[derive(Debug, Clone, PartialEq)]

@@ -15,9 +15,6 @@ use crate::threads::both;
 /// Bands of so many rows are eliminated from both ends: fewer gain little by a second thread, and keep the bits of elimination from one end.
 const FEWEST_ROWS: usize = 6000;
 
-/// Fewest rows of which each thread solves a half with factors that are there.
-const FEWEST_ROWS_TO_SOLVE: usize = 60_000;
-
 /// What a band that is eliminated from both ends needs besides its own rows.
 #[derive(Debug, Clone)]
 pub(super) struct TwoEnded {
@@ -211,7 +208,7 @@ impl TwoEndedLu<'_> {
     pub(super) fn solve(&mut self, x: &mut [f64]) {
         let Self { cut, threads, upper, lower, middle, right, turned } = self;
         let (cut, upper, lower) = (*cut, *upper, *lower);
-        let threads = if cut.size < FEWEST_ROWS_TO_SOLVE { 1 } else { *threads };
+        let threads = *threads;
         let before = cut.upper_rows();
         let (above, below) = x.split_at_mut(before + 1);
         let turned_rows = &mut turned[..cut.lower_rows()];

@@ -1,5 +1,6 @@
 //! Loads and how they change with time, and motions that are given.
 
+mod beat;
 mod continuity;
 mod error;
 mod load;
@@ -7,6 +8,7 @@ mod prescribed_motion;
 mod schedule;
 mod stored_schedule;
 
+pub use beat::Beat;
 pub use error::{FunctionError, LoadError};
 pub use load::{Frame, Load, LoadKind};
 pub use prescribed_motion::{MotionAtStart, MotionInStep, PrescribedMotion};

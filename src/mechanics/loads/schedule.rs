@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 use std::rc::Rc;
 
 use super::stored_schedule::StoredTerm;
-use super::{FunctionError, LoadError};
+use super::{Beat, FunctionError, LoadError};
 use crate::elementary::{sin, whole_power};
 
 /// A function of time from outside, such as a closure of a script.
@@ -56,6 +56,13 @@ pub enum Schedule {
     },
     /// What a sampled controller says: a value that somebody outside sets at the start of every step, and that holds for it.
     Sampled(Rc<Cell<f64>>),
+    /// What a digital controller says: a value that somebody outside sets where a command of it begins to act, and that holds until the next does.
+    Clocked {
+        /// Where the value is set.
+        value: Rc<Cell<f64>>,
+        /// When the controller is asked, and when what it says acts.
+        beat: Beat,
+    },
     /// A schedule that is the sum or the product of two others.
     Combined {
         /// Whether the two schedules are added or multiplied.
@@ -210,7 +217,7 @@ impl Schedule {
     /// The number of functions from outside that the schedule is made of; [`value`](Self::value) calls each of them once.
     pub fn functions(&self) -> usize {
         match self {
-            Self::Function { .. } | Self::Sampled(_) => 1,
+            Self::Function { .. } | Self::Sampled(_) | Self::Clocked { .. } => 1,
             Self::Combined { parts, .. } => parts.0.functions() + parts.1.functions(),
             _ => 0,
         }
@@ -219,8 +226,19 @@ impl Schedule {
     /// Whether a part of the schedule is what a sampled controller says.
     pub fn is_sampled(&self) -> bool {
         match self {
-            Self::Sampled(_) => true,
+            Self::Sampled(_) | Self::Clocked { .. } => true,
             Self::Combined { parts, .. } => parts.0.is_sampled() || parts.1.is_sampled(),
+            _ => false,
+        }
+    }
+
+    /// Whether a part of the schedule is what a controller says that is asked at every step.
+    pub fn is_asked_every_step(&self) -> bool {
+        match self {
+            Self::Sampled(_) => true,
+            Self::Combined { parts, .. } => {
+                parts.0.is_asked_every_step() || parts.1.is_asked_every_step()
+            }
             _ => false,
         }
     }
@@ -250,7 +268,7 @@ impl Schedule {
                 let time = if from_before { time.next_down() } else { time };
                 function(time).map_err(LoadError::Function)?
             }
-            Self::Sampled(value) => value.get(),
+            Self::Sampled(value) | Self::Clocked { value, .. } => value.get(),
             Self::Combined { operation, parts, .. } => {
                 let (a, b) = (parts.0.value(time, side)?, parts.1.value(time, side)?);
                 match operation {
@@ -294,6 +312,7 @@ impl Schedule {
             Self::SmoothPulse { duration } => format!("smooth_pulse({duration})"),
             Self::Function { .. } => "schedule(|t| …)".to_owned(),
             Self::Sampled(_) => "controller |t, q| …".to_owned(),
+            Self::Clocked { beat, .. } => format!("controller |t, q| …, {beat}"),
             Self::Combined { size, .. } if *size > 8 => format!("combination of {size} schedules"),
             Self::Combined { operation, parts, .. } => match operation {
                 Operation::Sum => format!("({} + {})", parts.0.describe(), parts.1.describe()),

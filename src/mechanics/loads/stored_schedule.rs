@@ -35,7 +35,7 @@ impl Schedule {
                 parts.1.append_terms(terms)?;
                 StoredTerm::Combine(*operation)
             }
-            Self::Function { .. } | Self::Sampled(_) => return None,
+            Self::Function { .. } | Self::Sampled(_) | Self::Clocked { .. } => return None,
         };
         terms.push(term);
         Some(())

@@ -33,7 +33,7 @@ pub use stiffness::add_resistance;
 use impulses::Exchanged;
 
 use super::bodies::Bodies;
-use super::elements::{Elements, Exchange, Supports};
+use super::elements::{Elements, Exchange, Resistance, Supports};
 use super::links::Links;
 use super::motion::{Motion, Resolution, Step, Unknowns};
 use super::sliders::{MasterLimit, Sliders, Sliding};
@@ -86,6 +86,13 @@ impl Model {
         self.exchanged.total = Exchange::default();
         let inertia = self.diagonal_of_inertia();
         self.motion.begin(inertia);
+        // Alone, what all of the model does is what the body does.
+        let bodies = &self.bodies;
+        let damped = self.elements.resistances().filter_map(Resistance::damped_beam);
+        let apart = damped.filter(|_| bodies.len() > 1);
+        let unknowns = self.unknowns.count();
+        let movements = |body: usize| bodies[body].degrees_of_freedom.below(unknowns);
+        self.motion.watch(apart.map(|body| (body, movements(body))));
     }
 
     /// Gives what is moved by functions of time the rates with which these begin, in a model that has not taken a step.
@@ -131,6 +138,11 @@ impl Model {
     /// How far the steps so far resolve the motion of the model.
     pub fn resolution(&self) -> &Resolution {
         self.motion.resolution()
+    }
+
+    /// How far the steps so far resolve the motion of each beam of a damped material, by its number; none where there is no other body.
+    pub fn resolution_by_beam(&self) -> impl Iterator<Item = (usize, &Resolution)> {
+        self.motion.watched().iter().map(|one| (one.body, one.resolution()))
     }
 
     /// The mass of all bodies and point masses [mass].

@@ -58,6 +58,17 @@ pub enum Note {
         /// What else than vibration may change rates within a step.
         suspects: Vec<Suspect>,
     },
+    /// Vibration has a good part of the kinetic energy of a damped beam, of which there is little beside that of other bodies, and steps do not follow it.
+    Beam {
+        /// The name of the beam.
+        beam: String,
+        /// The step size with which its motion is not followed [time].
+        dt: f64,
+        /// The part of its kinetic energy that belongs to motion which steps do not follow [-].
+        share: f64,
+        /// The period of what accelerates it, in the mean over accelerations [time].
+        period: f64,
+    },
     /// Sections turn far in a step.
     Rotation {
         /// The step size with which sections turn far [time].
@@ -121,7 +132,7 @@ impl Note {
     /// How bad it is; only notes of a kind can be compared.
     fn measure(&self) -> f64 {
         match self {
-            Self::Motion { share, .. } => *share,
+            Self::Motion { share, .. } | Self::Beam { share, .. } => *share,
             Self::Rotation { angle, .. } => *angle,
             Self::Way { spans, .. } => *spans,
             Self::Fast { speed, .. } => *speed,
@@ -139,6 +150,7 @@ impl Note {
             Self::Way { slider, .. } | Self::Fast { slider, .. } | Self::Bounce { slider, .. } => {
                 Some(slider)
             }
+            Self::Beam { beam, .. } => Some(beam),
             Self::Bend { drive, .. } => Some(drive),
             Self::Contact { spring, .. } => Some(spring),
         }
@@ -201,6 +213,17 @@ impl fmt::Display for Note {
                     short(shown / ENOUGH)
                 )
             }
+            Self::Beam { beam, dt, share, period } => write!(
+                f,
+                "steps are too long for the motion of beam '{beam}', whose material is damped: {} % of its kinetic energy changes within them as they do not \
+                 follow. A step (dt = {}) is {} times what it goes on in ({}); take dt below {}. Velocities of the beam alternate from step to step, and \
+                 forces with them: means of two neighbouring steps are nearer to what happens",
+                short(100.0 * share),
+                short(*dt),
+                short(dt / period),
+                short(*period),
+                short(period / ENOUGH)
+            ),
             Self::Rotation { dt, angle } => write!(
                 f,
                 "sections turn by up to {} rad in a step (dt = {}): {} steps a turn are few; take dt below {}",

@@ -36,11 +36,11 @@ struct HalfWay {
 }
 
 impl Resampling {
-    /// The comparison for a scene of such a length; none where nothing is sampled.
+    /// The comparison for a scene of such a length; none where none is asked at every step.
     pub(super) fn of(scene: &Scene, length: f64, tolerance: f64) -> Option<Self> {
-        let all = scene.schedules().filter(|(_, schedule)| schedule.is_sampled()).count();
+        let all = scene.schedules().filter(|(_, schedule)| schedule.is_asked_every_step()).count();
         let of_drives = scene.drives.iter().flat_map(Drive::schedules);
-        let rates = of_drives.filter(|schedule| schedule.is_sampled()).count();
+        let rates = of_drives.filter(|schedule| schedule.is_asked_every_step()).count();
         let order = if all > rates { 3 } else { 2 };
         (all > 0).then(|| Self {
             order,

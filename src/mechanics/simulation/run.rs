@@ -105,6 +105,7 @@ impl Simulation {
                 (TimeGrid::of_cuts(0.0, first, cuts), Some(Box::new(adaptive)))
             }
         };
+        let grid = grid.with_beats(scene.schedules().filter_map(|(_, schedule)| schedule.beat()));
         let pace = adaptive.as_ref().map(|adaptive| adaptive.controller.start());
         if !settings.method.entry().claims.momentum
             && let Some(sensor) = scene.sensors.iter().find(|sensor| sensor.is_of_step())

@@ -1,5 +1,7 @@
 //! The times at which steps end.
 
+use crate::loads::Beat;
+
 /// Times closer than this part of a step are one,
 const SAME: f64 = 1e-9;
 
@@ -9,7 +11,7 @@ const ROUNDINGS: f64 = 4.0;
 /// Nobody counts further than that.
 const MOST_POINTS: u64 = 1 << 60;
 
-/// The times at which steps end: `t_n = t_0 + n dt`, cut where schedules jump or bend. Times are never accumulated. For steps of varying size there are
+/// The times at which steps end: `t_n = t_0 + n dt`, cut where schedules jump or bend, and where digital controllers are asked or act. Times are never accumulated. For steps of varying size there are
 /// only cuts.
 #[derive(Debug, Clone, Default)]
 pub struct TimeGrid {
@@ -20,6 +22,8 @@ pub struct TimeGrid {
     slack: f64,
     /// In increasing order.
     cuts: Vec<f64>,
+    /// Those of digital controllers.
+    beats: Vec<Beat>,
     /// The number of grid points passed.
     passed: u64,
 }
@@ -27,12 +31,18 @@ pub struct TimeGrid {
 impl TimeGrid {
     /// A grid of times from `start` on, with steps of `dt` [time]; `cuts` in any order.
     pub fn new(start: f64, dt: f64, cuts: Vec<f64>) -> Self {
-        Self { start, dt, slack: SAME * dt, cuts: Vec::new(), passed: 0 }.with_cuts(cuts)
+        let slack = SAME * dt;
+        Self { start, dt, slack, cuts: Vec::new(), beats: Vec::new(), passed: 0 }.with_cuts(cuts)
     }
 
     /// A grid of cuts alone, for steps that begin with the size `first` [time] and then vary.
     pub fn of_cuts(start: f64, first: f64, cuts: Vec<f64>) -> Self {
         Self { dt: f64::INFINITY, ..Self::new(start, first, cuts) }
+    }
+
+    /// The same grid with steps that end where digital controllers are asked, and where what they say begins to act.
+    pub fn with_beats(self, beats: impl Iterator<Item = Beat>) -> Self {
+        Self { beats: beats.collect(), ..self }
     }
 
     fn with_cuts(self, mut cuts: Vec<f64>) -> Self {
@@ -85,8 +95,10 @@ impl TimeGrid {
     pub fn next(&self, now: f64, limit: f64) -> f64 {
         let grid = self.point(self.passed_by(now) + 1);
         let cut = self.cuts[self.cuts.partition_point(|cut| self.has_reached(now, *cut))..].first();
+        let slack = self.slack(now);
+        let beat = self.beats.iter().map(|beat| beat.next(now, slack)).min_by(f64::total_cmp);
         // The cut comes last: where it and the limit are one, the schedule must see its own time.
-        [Some(limit), cut.copied()].into_iter().flatten().fold(grid, |end, candidate| {
+        [Some(limit), beat, cut.copied()].into_iter().flatten().fold(grid, |end, candidate| {
             if candidate > now && self.has_reached(end, candidate) { candidate } else { end }
         })
     }
@@ -180,6 +192,20 @@ mod tests {
         grid.reach(2.0);
         grid.lay(&[4.0], 3.0);
         assert_eq!((grid.next(3.0, 9.0), grid.passed()), (4.0, 0));
+    }
+
+    #[test]
+    fn the_grid_is_cut_where_controllers_are_asked_and_act() {
+        let beats = [Beat::new(0.5, 0.25).unwrap(), Beat::new(2.0, 0.0).unwrap()];
+        let grid = TimeGrid::new(0.0, 1.0, vec![]).with_beats(beats.into_iter());
+        let (mut now, mut times) = (0.0, Vec::new());
+        while now < 2.0 {
+            now = grid.next(now, 9.0);
+            times.push(now);
+        }
+        assert_eq!(times, [0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0]);
+        let cuts = TimeGrid::of_cuts(0.0, 1e-6, vec![0.3]).with_beats(beats.into_iter().skip(1));
+        assert_eq!((cuts.next(0.0, 9.0), cuts.next(0.3, 9.0)), (0.3, 2.0));
     }
 
     #[test]

@@ -1,10 +1,16 @@
-//! Tasks that are worked on at the same time, each in a thread of its own.
+//! Tasks that are worked on at the same time.
 
+use std::hint::spin_loop;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
-use std::thread;
 
-/// Works on all tasks at once: on the first one here, on each other one in a thread of its own, or here where the system gives
-/// no thread.
+use super::pool::{call, pool, stay_awake};
+
+/// So often is asked whether the other threads are done before this one sleeps till they are: some 50 µs, what falling asleep and waking takes.
+const PATIENCE: usize = 2000;
+
+/// Works on all tasks at once: on the first one here, on each other one in a thread that stands ready, or here where none is free or the system
+/// gives none.
 pub fn at_once<T: Send>(tasks: impl IntoIterator<Item = T>, work: impl Fn(T) + Sync) {
     let mut tasks = tasks.into_iter();
     let first = tasks.next();
@@ -13,14 +19,30 @@ pub fn at_once<T: Send>(tasks: impl IntoIterator<Item = T>, work: impl Fn(T) + S
         let taken = task.lock().unwrap_or_else(PoisonError::into_inner).take();
         taken.into_iter().for_each(&work);
     };
-    thread::scope(|scope| {
-        let take = &take;
+    let Some(pool) = pool().filter(|_| !others.is_empty()) else {
+        first.into_iter().for_each(&work);
+        return others.iter().for_each(take);
+    };
+    let left = AtomicUsize::new(others.len());
+    pool.in_place_scope(|scope| {
+        let (take, left) = (&take, &left);
+        call();
         for task in &others {
-            let _ = thread::Builder::new().spawn_scoped(scope, move || take(task));
+            scope.spawn(move |_| {
+                stay_awake();
+                take(task);
+                left.fetch_sub(1, Ordering::Release);
+            });
         }
         first.into_iter().for_each(&work);
         // What no thread has taken.
         others.iter().for_each(take);
+        for _ in 0..PATIENCE {
+            if left.load(Ordering::Acquire) == 0 {
+                break;
+            }
+            spin_loop();
+        }
     });
 }
 

@@ -10,8 +10,12 @@ use super::pencil::Pencil;
 use super::quadratic::Quadratic;
 use super::search::{is_small, lowest};
 use crate::elementary::hypot;
+use crate::geometry::larger;
 use crate::integrators::Mechanism;
 use crate::model::{Model, UnknownKind};
+
+/// Numbers smaller than this part of the highest frequency are rounding of nothing: what creeps back however slowly is far above it.
+const NOTHING: f64 = 1e-40;
 
 /// A damped natural vibration `exp(-δ t)`, with a frequency unless it only creeps back.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,16 +63,17 @@ impl DampedMode {
             let shape = std::mem::take(&mut mode.shape);
             mode.shape = pencil.order.in_own_order(shape, unknowns);
         }
-        let squares = modes.iter().map(|mode| mode.square).collect();
+        let squares: Vec<f64> = modes.iter().map(|mode| mode.square).collect();
+        let least = NOTHING * squares.iter().copied().fold(0.0, larger).sqrt();
         let shapes: Vec<Vec<f64>> = modes.into_iter().map(|mode| mode.shape).collect();
         let told = Quadratic::new(squares, dampers(model, &shapes)).slowest(count, goes_on)?;
-        Ok(told.into_iter().map(Self::of_number).collect())
+        Ok(told.into_iter().map(|at| Self::of_number(at, least)).collect())
     }
 
-    /// The vibration `exp(λ t)`.
-    fn of_number(at: Complex<f64>) -> Self {
-        // Not minus zero.
-        Self { decay_rate: 0.0 - at.re, angular_frequency: at.im.abs() }
+    /// The vibration `exp(λ t)`; what is no more than `least` is none [1/time].
+    fn of_number(at: Complex<f64>, least: f64) -> Self {
+        let told = |number: f64| if number.abs() > least { number } else { 0.0 };
+        Self { decay_rate: told(-at.re), angular_frequency: told(at.im.abs()) }
     }
 }
 

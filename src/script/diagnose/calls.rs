@@ -238,8 +238,11 @@ impl Unknown<'_> {
         };
         let owner = with_article(of);
         let members = self.catalog.members(of);
-        if text.starts_with("No writable") && members.iter().any(|row| row.name == name) {
-            return (format!("'{name}' of {owner} cannot be assigned"), None);
+        let own = members.iter().find(|row| row.name == name);
+        if let Some(own) = own.filter(|_| text.starts_with("No writable")) {
+            let is_called = !matches!(own.form, Form::Property(_));
+            let hint = is_called.then(|| format!("it is called: {}", own.signature()));
+            return (format!("'{name}' of {owner} cannot be assigned"), hint);
         }
         let message = format!("{owner} has no property '{name}'");
         let is_own = members.iter().any(|row| row.name == name)

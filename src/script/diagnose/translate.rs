@@ -209,6 +209,9 @@ impl Explainer<'_> {
                     }
                     "vector" => Some("the components of a vector are v.x and v.y"),
                     "function" => Some("a function is called by f.call(x)"),
+                    "history" => Some(
+                        "write history.column(\"energy\") for a column, history.last(\"energy\") for its last value",
+                    ),
                     _ => None,
                 };
                 (format!("{} cannot be indexed", with_article(indexed)), hint.map(str::to_owned))

@@ -5,6 +5,7 @@ use std::rc::Rc;
 
 use super::station::StationHandle;
 use crate::beams::Station;
+use crate::loads::Beat;
 use crate::model::Scene;
 use crate::script::looks::details;
 use crate::script::rows::kind::{Details, Scripted};
@@ -53,12 +54,14 @@ pub struct Condition {
     pub release: usize,
 }
 
-/// A function of time and simulation whose value holds for a step.
+/// A function of time and simulation whose value holds for a step, or from one sample to the next.
 pub struct Controller {
     /// The function of a script, called with the time and the simulation.
     pub function: StoredFunction,
     /// The value of the controller for the present step.
     pub value: Rc<Cell<f64>>,
+    /// When it is asked and acts; at every step where there is none.
+    pub beat: Option<Beat>,
 }
 
 impl SceneHandle {
@@ -176,10 +179,10 @@ impl SceneHandle {
         }
     }
 
-    /// Keeps a function that is asked at the start of every step; gives where its value will be.
-    pub fn keep_controller(&self, function: StoredFunction) -> Rc<Cell<f64>> {
+    /// Keeps a function that is asked at the start of every step, or at the samples of a beat; gives where its value will be.
+    pub fn keep_controller(&self, function: StoredFunction, beat: Option<Beat>) -> Rc<Cell<f64>> {
         let value = Rc::new(Cell::new(0.0));
-        let controller = Controller { function, value: Rc::clone(&value) };
+        let controller = Controller { function, value: Rc::clone(&value), beat };
         if self.keeps() {
             self.controllers.borrow_mut().push(Rc::new(controller));
         }

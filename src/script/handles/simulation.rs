@@ -130,6 +130,7 @@ impl SimulationHandle {
         }
         let simulation = self.simulation().fork()?;
         let fork = Self::new(simulation, self.0.scene.clone(), name, self.0.notes.clone(), context);
+        fork.0.sensing.go_on_from(&self.0.sensing);
         fork.0.events.replace(self.0.events.borrow().clone());
         fork.0.is_ending_told.set(self.0.is_ending_told.get());
         Ok(fork)

@@ -200,10 +200,27 @@ fn expect_column(history: &History, name: &str) -> Result<&'static str, ScriptEr
 
 /// What to write instead of a name that is no column of a history.
 pub fn column_hint(history: &History, name: &str) -> String {
+    let missing = MISSING.iter().find(|(kind, _)| name.split('.').next() == Some(kind));
+    let is_there = |kind: &str| history.columns().any(|(column, _)| column == kind);
+    if let Some((_, why)) = missing.filter(|(kind, _)| !is_there(kind)) {
+        return format!("{why}; columns: {}", column_names(history));
+    }
     let meant = nearest(name, history.columns().map(|(name, _)| name));
     let suggestion = meant.map(|name| format!("did you mean \"{name}\"? ")).unwrap_or_default();
     format!("{suggestion}columns: {}", column_names(history))
 }
+
+/// Columns that only some scenes have, and why others have none.
+const MISSING: [(&str, &str); 2] = [
+    (
+        "dissipated",
+        "nothing in the scene dissipates: it has no damper, no damped section, no drag and no slider that loses by its bounces, so that it would be 0 all along",
+    ),
+    (
+        "stored",
+        "nothing in the scene stores energy but beams (strain) and weight (potential): it has no spring",
+    ),
+];
 
 /// The names of the columns of a history in a line.
 pub fn column_names(history: &History) -> String {

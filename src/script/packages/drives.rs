@@ -3,7 +3,9 @@
 use rhai::{Dynamic, FnPtr, ImmutableString};
 
 use super::scenes::{JOINT, SCENE, STATION, newest_joint};
-use super::schedules::{SCHEDULE_KINDS, controlled_schedule_of, schedule_of};
+use super::schedules::{
+    DELAY, SAMPLE, SCHEDULE_KINDS, beat_of, controlled_schedule_of, expect_controller, schedule_of,
+};
 use crate::joints::{Component, Components, JointKind, Partner};
 use crate::loads::{LoadKind, PrescribedMotion, Schedule};
 use crate::model::{Drive, DriveKind, ModelError};
@@ -54,7 +56,7 @@ pub const TABLE: Table = Table {
         method(SCENE, "motor", &[AT, options("options", MOTOR_KEYS)], motor)
             .summary("Turns a section from the ground: by an angle or at a speed that is given, or with a torque.")
             .doc("angle is the turn since the start, a function of time, and exact at the end of every step. speed is a rate: its integral over a step is taken by \
-                  three Gauss points, exact for polynomials of degree five. torque is a moment, counter-clockwise. speed and torque may be functions |t, q| … of the simulation too: sampled controllers, as in scene.force, where it says when they are asked. The section keeps free to move along x and y \
+                  three Gauss points, exact for polynomials of degree five. torque is a moment, counter-clockwise. speed and torque may be functions |t, q| … of the simulation too: sampled controllers, as in scene.force, where it says when they are asked, and what sample and delay make of them. The section keeps free to move along x and y \
                   unless something holds it there, so hinge it.")
             .example("scene.hinge(rod.start);\nscene.motor(rod.start, #{ angle: |t| 0.5 * t * t });\n\
                       let sim = scene.start(#{ dt: 0.1 });\nsim.run_to(2);\n\
@@ -87,6 +89,8 @@ const MOVE_KEYS: &[Parameter] = &[
         .doc("in place of y, its rate; also a controller |t, q| …")
         .optional(),
     NAME,
+    SAMPLE,
+    DELAY,
 ];
 /// What gives the rates of x and y.
 const SPEEDS: [&str; 2] = ["x_speed", "y_speed"];
@@ -95,6 +99,8 @@ const MOTOR_KEYS: &[Parameter] = &[
     either("speed", SCHEDULE_KINDS).unit("rad/time").optional(),
     either("torque", SCHEDULE_KINDS).unit("force·length").optional(),
     NAME,
+    SAMPLE,
+    DELAY,
 ];
 
 fn support(call: &mut Call) -> Result<Dynamic, ScriptError> {
@@ -128,6 +134,7 @@ fn support(call: &mut Call) -> Result<Dynamic, ScriptError> {
 
 fn drive(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let options = call.options("options")?;
+    let beat = beat_of(&options)?;
     let mut motions = [None, None, None];
     for (motion, component) in motions.iter_mut().zip(Component::ALL) {
         let key = component.name();
@@ -147,7 +154,7 @@ fn drive(call: &mut Call) -> Result<Dynamic, ScriptError> {
             return Err(call.error(told).hint(hint).at(Place::Key(key.into())));
         }
         let scene = call.receiver::<SceneHandle>()?;
-        let rate = controlled_schedule_of(call, &options, key, &scene)?;
+        let rate = controlled_schedule_of(call, &options, key, &scene, beat)?;
         *motion = Some(PrescribedMotion::Rate(rate));
     }
     if motions.iter().all(Option::is_none) {
@@ -156,6 +163,7 @@ fn drive(call: &mut Call) -> Result<Dynamic, ScriptError> {
             .hint("write #{ y: |t| 0.1 * t }, or some of x, y and angle")
             .at(Place::Argument(1)));
     }
+    expect_controller(call, beat, motions.iter().flatten().map(PrescribedMotion::schedule))?;
     add(call, DriveKind::Move, motions, &options)
 }
 
@@ -187,10 +195,12 @@ fn motor(call: &mut Call) -> Result<Dynamic, ScriptError> {
         let told = format!("its {key} says how it turns, and {odd} is given besides");
         return Err(call.error(told).hint(format!("leave out {odd}")).at(Place::Key(odd.into())));
     }
+    let beat = beat_of(&options)?;
     let schedule = match key {
         "angle" => place_of(call, &options, key, "speed: |t, q| …")?,
-        _ => controlled_schedule_of(call, &options, key, &call.receiver::<SceneHandle>()?)?,
+        _ => controlled_schedule_of(call, &options, key, &call.receiver::<SceneHandle>()?, beat)?,
     };
+    expect_controller(call, beat, std::iter::once(&schedule))?;
     match key {
         "angle" => add(
             call,

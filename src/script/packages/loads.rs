@@ -6,7 +6,9 @@ use rhai::Dynamic;
 
 use super::drives::blame;
 use super::scenes::{BEAM, SCENE, STATION};
-use super::schedules::{SCHEDULE_KINDS, controlled_schedule_of};
+use super::schedules::{
+    DELAY, SAMPLE, SCHEDULE_KINDS, beat_of, controlled_schedule_of, expect_controller,
+};
 use crate::loads::{Frame, LoadKind, Schedule};
 use crate::model::Scene;
 use crate::script::handles::beam::BeamHandle;
@@ -37,10 +39,12 @@ pub const TABLE: Table = Table {
         .doc("With #{ frame: \"follower\" } its components are along the beam as drawn and across it, and turn with the section. \
 A function of two arguments, |t, q| …, is a sampled controller: it is asked at the start of every step with the simulation, as \
               scene.record asks, and its value holds for the step, so that the feedback is late by half a step in the mean, of first order in dt; adaptive steps ask it in their middle too, and see what it misses. Its work is counted like that \
-              of any load. A function that changes a variable of its own has a memory which does not go back with the simulation: it is asked again when a step of varying size is rejected, after sim.back and sim.rewind, and \
+              of any load. With #{ sample: 0.01 } it is a digital one, asked at 0, 0.01, 0.02, … and held between; steps end there, so that how long they are does not change what it sees by more than the error of the method; \
+              with #{ sample: 0.01, delay: 0.003 } what it says acts 0.003 later, and nothing does before the first command. What it said goes back with the simulation. A function that changes a variable of its own has a memory which does not go back with the simulation: it is asked again when a step of varying size is rejected, after sim.back and sim.rewind, and \
               when earlier states are looked at, and another simulation of the scene, or a copy, finds it as the last one left it; so let it depend on t and q, and keep sums in what moves (an integral of the error is the angle of a free body under a moment), or take fixed steps and go only forward. With a name the history has work.NAME and NAME.force.")
         .example("scene.force(rod.end, [8, 0], hold_for(2.5));\nscene.force(rod.end, [0, 1], 1, #{ frame: \"follower\" });\n\
                  scene.force(rod.end, [0, 1], |t, q| -2 * q.velocity(rod.end).y, #{ name: \"brake\" });\n\
+                 scene.force(rod.middle, [0, 1], |t, q| -q.velocity(rod.middle).y, #{ sample: 0.1, delay: 0.02 });\n\
                  let sim = scene.start(#{ dt: 0.05 });\nsim.run_to(1);\n\
                  check(sim.history.last(\"work.brake\") < 0);")
         .see(&["moment", "line_load", "hold_for"]),
@@ -70,8 +74,8 @@ const AT: Parameter = object("station", STATION);
 const WHEN: Parameter = either("schedule", SCHEDULE_KINDS)
     .doc("when it acts: a schedule, a factor, or a function of time")
     .optional();
-const FRAME: Parameter = options("options", &[FRAME_KEY, NAME]).optional();
-const NAMED: Parameter = options("options", &[NAME]).optional();
+const FRAME: Parameter = options("options", &[FRAME_KEY, NAME, SAMPLE, DELAY]).optional();
+const NAMED: Parameter = options("options", &[NAME, SAMPLE, DELAY]).optional();
 const NAME: Parameter =
     text("name").doc("by which the history has work.NAME and what the load is").optional();
 const FRAME_KEY: Parameter = choice("frame", &["dead", "follower"])
@@ -80,7 +84,11 @@ const FRAME_KEY: Parameter = choice("frame", &["dead", "follower"])
 
 /// The schedule of a load, from the arguments of a call.
 fn when(call: &Call) -> Result<Schedule, ScriptError> {
-    controlled_schedule_of(call, call, "schedule", &call.receiver::<SceneHandle>()?)
+    let beat = beat_of(&*call.options_or_defaults("options")?)?;
+    let scene = call.receiver::<SceneHandle>()?;
+    let schedule = controlled_schedule_of(call, call, "schedule", &scene, beat)?;
+    expect_controller(call, beat, std::iter::once(&schedule))?;
+    Ok(schedule)
 }
 
 /// Adds a load to a scene, under the name among the options of a call, if there is one.

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use rhai::{Dynamic, EvalAltResult, FnPtr};
 
-use crate::loads::{FunctionError, Operation, Schedule, Side};
+use crate::loads::{Beat, FunctionError, Operation, Schedule, Side};
 use crate::script::diagnose::Explainer;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::looks::details;
@@ -20,7 +20,7 @@ use crate::script::rows::stored::NoNumber;
 use crate::script::rows::table::{Table, function, method, operator};
 use crate::script::source::program::Program;
 use crate::script::state::context::Context;
-use crate::script::words::error::ScriptError;
+use crate::script::words::error::{Place, ScriptError};
 use crate::script::words::numbers::as_number;
 use crate::script::words::raised::Raised;
 
@@ -137,6 +137,15 @@ pub const SCHEDULE: Type = Type::of::<Schedule>();
 pub const SCHEDULE_KINDS: &[Kind] =
     &[Kind::Object(SCHEDULE), Kind::Number(Range::Finite), Kind::Function];
 
+/// How often a controller is asked, among the options of a load or a drive.
+pub(super) const SAMPLE: Parameter = number("sample").positive().unit("time").doc(
+    "the sampling period of the controller |t, q| …, which is asked at 0, sample, 2 sample, … and held between; steps end there; at every step unless given",
+).optional();
+/// How late a command acts, among the options of a load or a drive.
+pub(super) const DELAY: Parameter = number("delay").non_negative().unit("time").doc(
+    "the dead time of the controller: a command acts so much later than it is said, and nothing does before the first",
+).beside("sample").optional();
+
 const TIME: Parameter = number("time").positive().unit("time");
 const FROM: Parameter = number("from").unit("time");
 const TO: Parameter = number("to").unit("time");
@@ -230,19 +239,45 @@ pub(super) fn schedule_of(
 }
 
 /// The schedule of a load or a drive of a scene, as [`schedule_of`] gives it, or a function of time and simulation, which is asked at the start of every
-/// step.
+/// step, or at the samples of a beat.
 pub(super) fn controlled_schedule_of(
     call: &Call,
     arguments: &Arguments,
     name: &str,
     scene: &SceneHandle,
+    beat: Option<Beat>,
 ) -> Result<Schedule, ScriptError> {
     let function = arguments.get_if::<FnPtr>(name);
     match function.filter(|function| call.arguments_of(function) == Some(2)) {
         Some(function) => {
             let function = call.store(function, "the function of a controller");
-            Ok(Schedule::Sampled(scene.keep_controller(function)))
+            let value = scene.keep_controller(function, beat);
+            Ok(match beat {
+                Some(beat) => Schedule::Clocked { value, beat },
+                None => Schedule::Sampled(value),
+            })
         }
         None => schedule_of(call, arguments, name),
     }
+}
+
+/// The beat of controllers among the options of a load or a drive, if one is given.
+pub(super) fn beat_of(options: &Arguments) -> Result<Option<Beat>, ScriptError> {
+    let delay = options.number_if_given("delay").unwrap_or(0.0);
+    let beat = options.number_if_given("sample").map(|period| Beat::new(period, delay));
+    Ok(beat.transpose()?)
+}
+
+/// Refuses a beat where none of these schedules is a controller.
+pub(super) fn expect_controller<'a>(
+    call: &Call,
+    beat: Option<Beat>,
+    mut schedules: impl Iterator<Item = &'a Schedule>,
+) -> Result<(), ScriptError> {
+    if beat.is_none() || schedules.any(Schedule::is_sampled) {
+        return Ok(());
+    }
+    let told = "sample is how often a controller is asked, and there is none";
+    let hint = "give a function of time and simulation, |t, q| …, or leave out sample";
+    Err(call.error(told).hint(hint).at(Place::Key("sample".into())))
 }

@@ -64,7 +64,7 @@ pub const TABLE: Table = Table {
         .summary("Axial force, shear force and moment of a beam: at an arc length, or along all of it.")
         .doc(
             "The map holds N (positive in tension), Q (positive to the left of the axis) and M (positive counter-clockwise) [force, force, force·length], which the part of the beam that follows puts on \
-             the part before, in the frame of the section; and axial_strain, shear_strain and curvature. Forces follow from strains by the law of the material; where that is damped (Kelvin–Voigt), what the present rates of strain add is in N, Q and M. Along a beam there is one for each knot and three between, with \
+             the part before, in the frame of the section; and axial_strain, shear_strain and curvature. Forces follow from strains by the law of the material; where that is damped (Kelvin–Voigt), what the present rates of strain add is in N, Q and M; where steps are too long for these rates, which then alternate, the mean rates of the last two steps, carried on to the present. Along a beam there is one for each knot and three between, with \
              its arc length s; where a joint cuts the beam there are two of one s. They balance loads and inertia up to the ends of a beam, with errors that fall with the length of a \
              span to the power of the degree (N, Q), and to that of two or more (M). Of linear elements each has one value. \
              A force, moment, mass, spring or slider *inside* a beam jumps where smooth functions cannot: over two spans beside it M errs by a part of what a span is long, and Q rings by up to a fifth of the jump on any mesh. \

@@ -53,6 +53,11 @@ impl DegreesOfFreedom {
         }
     }
 
+    /// Those numbers that are below some number, as the unknowns are.
+    pub fn below(&self, unknowns: usize) -> Vec<usize> {
+        self.numbers.as_flattened().iter().copied().filter(|number| *number < unknowns).collect()
+    }
+
     /// Hands forces of control points on to `out`, and leaves zeros in their place.
     pub fn hand_on(&self, forces: &mut [Movement], out: &mut [f64]) {
         let forces = forces.as_flattened_mut();

@@ -1,12 +1,11 @@
 //! Many bodies in two halves, on which two threads work at once, with the very bits that one thread gives.
 //!
 //! Sums are made in the order of the bodies: each adds up its forces for itself, and one thread hands them on. Of the tangent the second half has the
-//! rows for itself that no body of the first one has; what its bodies give to rows before these they give again afterwards. What takes little time is
-//! left to one thread.
+//! rows for itself that no body of the first one has; what its bodies give to rows before these they give again afterwards.
 
 use super::Body;
 
-/// Fewest control points of a half: below it starting a thread takes more than it saves (docs/studies.md).
+/// Fewest control points of a half: smaller ones gain little, and lose where the other core has other work (docs/studies.md).
 const SMALLEST_HALF: usize = 1500;
 
 /// The largest part of all control points that bodies astride may have: so much is done twice.

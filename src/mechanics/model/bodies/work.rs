@@ -20,9 +20,20 @@ impl Bodies {
         self.threads
     }
 
+    /// Lets all bodies do something, each for itself.
+    fn each(&mut self, work: impl Fn(&mut Body) + Sync) {
+        match &self.halves {
+            None => self.all.iter_mut().for_each(work),
+            Some(halves) => {
+                let (first, second) = self.all.split_at_mut(halves.body);
+                at_once([first, second], |bodies| bodies.iter_mut().for_each(&work));
+            }
+        }
+    }
+
     /// Begins a step of all bodies with the section forces of the last one.
     pub fn begin_step(&mut self) {
-        self.all.iter_mut().for_each(|body| body.dynamics.begin_step());
+        self.each(|body| body.dynamics.begin_step());
     }
 
     /// Adds the internal forces of all bodies to `out`; the largest that was met.
@@ -33,16 +44,12 @@ impl Bodies {
         weight: f64,
         out: &mut [f64],
     ) -> ForceSummary {
-        let meet = |bodies: &mut [Body]| {
-            bodies.iter_mut().for_each(|body| body.meet_forces(at, increments, weight));
-        };
-        match &self.halves {
-            None => meet(&mut self.all),
-            Some(halves) => {
-                let (first, second) = self.all.split_at_mut(halves.body);
-                at_once([first, second], meet);
-            }
-        }
+        self.each(|body| body.meet_forces(at, increments, weight));
+        self.hand_on(out)
+    }
+
+    /// Hands what all bodies have added up on to `out`, in their order, which sums depend on; the largest that was met.
+    fn hand_on(&mut self, out: &mut [f64]) -> ForceSummary {
         let mut summary = ForceSummary::default();
         for body in &mut self.all {
             summary.join(&body.hand_on(out));
@@ -60,7 +67,7 @@ impl Bodies {
         tangent: &mut BandedMatrix,
     ) {
         self.linearise(at, increments, weight, tangent);
-        self.all.iter_mut().for_each(|body| _ = body.hand_on(out));
+        self.hand_on(out);
     }
 
     fn linearise(
@@ -90,28 +97,38 @@ impl Bodies {
 
     /// Adds `factor · M` of all bodies to the tangent.
     pub fn add_inertia_tangent(&self, factor: f64, tangent: &mut BandedMatrix) {
-        self.all.iter().for_each(|body| body.add_inertia_tangent(factor, tangent.rows_mut()));
+        let Some(halves) = &self.halves else {
+            return self
+                .all
+                .iter()
+                .for_each(|body| body.add_inertia_tangent(factor, tangent.rows_mut()));
+        };
+        let (first, second) = self.all.split_at(halves.body);
+        let (before, behind) = tangent.rows_mut().split_at(halves.row);
+        at_once([(first, before), (second, behind)], |(bodies, mut rows)| {
+            bodies.iter().for_each(|body| body.add_inertia_tangent(factor, rows.reborrow()));
+        });
+        for &at in &halves.astride {
+            let (before, _) = tangent.rows_mut().split_at(halves.row);
+            self.all[at].add_inertia_tangent(factor, before);
+        }
     }
 
     /// Adds the forces to `out` that would close the strain mismatch of all bodies.
     pub fn add_mismatch_forces(&mut self, weight: f64, out: &mut [f64]) {
-        for body in &mut self.all {
-            body.meet_mismatch(weight);
-            body.hand_on(out);
-        }
+        self.each(|body| body.meet_mismatch(weight));
+        self.hand_on(out);
     }
 
     /// Updates the section forces of all bodies for a correction of the unknowns.
     pub fn correct_section_forces(&mut self, correction: &[f64]) {
-        self.all.iter_mut().for_each(|body| body.correct_section_forces(correction));
+        self.each(|body| body.correct_section_forces(correction));
     }
 
     /// Adds `factor · M · rates` of all bodies to `out`, one entry for each unknown.
     pub fn add_inertia(&mut self, factor: f64, rates: &[f64], out: &mut [f64]) {
-        for body in &mut self.all {
-            body.meet_inertia(factor, rates);
-            body.hand_on(out);
-        }
+        self.each(|body| body.meet_inertia(factor, rates));
+        self.hand_on(out);
     }
 
     /// Lets all bodies accept the movements that were gathered last.
@@ -119,6 +136,6 @@ impl Bodies {
         for tracker in &mut self.trackers {
             tracker.advance(self.all[tracker.place.body].moved(), rotations);
         }
-        self.all.iter_mut().for_each(|body| body.advance(rotations));
+        self.each(|body| body.advance(rotations));
     }
 }

@@ -88,9 +88,10 @@ impl Resistance for DampedMaterial {
         &self.name
     }
 
-    fn begin_step(&mut self, interval: Interval, _bodies: &[Body], _rates: &[f64]) {
+    fn begin_step(&mut self, interval: Interval, bodies: &[Body], rates: &[f64]) {
         self.pace.begin(interval.duration());
-        self.dashpots.begin_step();
+        self.gather(bodies, rates);
+        self.dashpots.begin_step(&self.moved);
     }
 
     fn begin_movement(&mut self) {
@@ -166,6 +167,10 @@ impl Resistance for DampedMaterial {
             let rates: Vec<Movement> = bodies[beam].by_control_point(rates).collect();
             self.dashpots.transmitted(place, &rates)
         })
+    }
+
+    fn damped_beam(&self) -> Option<usize> {
+        Some(self.beam)
     }
 
     fn add_forces_now(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]) {

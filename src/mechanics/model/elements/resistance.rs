@@ -91,6 +91,11 @@ pub trait Resistance {
         None
     }
 
+    /// The beam, by its index, whose material it damps.
+    fn damped_beam(&self) -> Option<usize> {
+        None
+    }
+
     /// Adds the forces of such rates of the bodies to those on them, at the start of the step.
     fn add_forces_now(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]);
 

@@ -52,7 +52,9 @@ impl Model {
             }
         }
         self.links.write_forces(&mut rates);
-        self.motion.renumber(rates, self.diagonal_of_inertia());
+        let inertia = self.diagonal_of_inertia();
+        self.motion
+            .renumber(rates, inertia, |body| self.bodies[body].degrees_of_freedom.below(count));
         self.step = Step::new(self.degrees_of_freedom());
     }
 

@@ -71,6 +71,25 @@ impl Forecast {
         self.mean_rates.iter_mut().zip(change).for_each(|(rate, change)| *rate += change);
     }
 
+    /// How far the guesses for a step missed some of the movements, before this learns from it.
+    pub fn missed(
+        &self,
+        movements: &[usize],
+        at_start: &[f64],
+        increments: &[f64],
+        duration: f64,
+    ) -> Missed {
+        let inverse = 1.0 / duration;
+        let mut missed = Missed::default();
+        for &at in movements {
+            let (found, inertia) = (increments[at] * inverse, self.inertia[at]);
+            missed.by_start += inertia * square(found - at_start[at]);
+            missed.by_mean += inertia * square(found - self.mean_rates[at]);
+            missed.moved += inertia * square(found);
+        }
+        missed
+    }
+
     /// What the next step is best guessed from.
     pub fn trend(&self) -> Trend {
         self.trend

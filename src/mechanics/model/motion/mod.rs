@@ -6,9 +6,11 @@ mod present;
 mod resolution;
 mod step;
 mod unknowns;
+mod watched;
 
 pub use forecast::Trend;
 pub use present::Motion;
 pub use resolution::Resolution;
 pub use step::Step;
 pub use unknowns::{UnknownKind, Unknowns};
+pub use watched::Watched;

@@ -2,7 +2,7 @@
 
 use super::accelerations::Accelerations;
 use super::forecast::{Forecast, Trend};
-use super::{Resolution, Step};
+use super::{Resolution, Step, Watched};
 
 /// The present time and rates of a model, and what was learnt of its motion.
 pub struct Motion {
@@ -13,6 +13,8 @@ pub struct Motion {
     pub accelerations: Accelerations,
     forecast: Forecast,
     resolution: Resolution,
+    /// Bodies that are judged by themselves; none where all is one of them.
+    watched: Vec<Watched>,
 }
 
 impl Motion {
@@ -24,6 +26,7 @@ impl Motion {
             rates,
             accelerations: Accelerations::default(),
             resolution: Resolution::above(noise),
+            watched: Vec::new(),
         }
     }
 
@@ -32,8 +35,28 @@ impl Motion {
         self.forecast = Forecast::new(&self.rates, inertia);
     }
 
-    /// Goes on with the same motion in rates of other unknowns, in the norm of the diagonal of their inertia: nothing jumps but accelerations.
-    pub fn renumber(&mut self, rates: Vec<f64>, inertia: Vec<f64>) {
+    /// Judges bodies by themselves from here on, each by its number and the places of its movements among the unknowns.
+    pub fn watch(&mut self, bodies: impl Iterator<Item = (usize, Vec<usize>)>) {
+        let noise = self.resolution.noise();
+        self.watched = bodies.map(|(body, at)| Watched::new(body, at, noise)).collect();
+    }
+
+    /// Bodies that are judged by themselves.
+    pub fn watched(&self) -> &[Watched] {
+        &self.watched
+    }
+
+    /// Goes on with the same motion in rates of other unknowns, in the norm of the diagonal of their inertia: nothing jumps but accelerations. Told are the places of
+    /// the movements of a body, by its number.
+    pub fn renumber(
+        &mut self,
+        rates: Vec<f64>,
+        inertia: Vec<f64>,
+        mut movements: impl FnMut(usize) -> Vec<usize>,
+    ) {
+        for one in &mut self.watched {
+            one.renumber(movements(one.body));
+        }
         self.accelerations.resize(inertia.len());
         self.rates = rates;
         self.begin(inertia);
@@ -52,6 +75,9 @@ impl Motion {
     /// Accepts the increments of a step and the rates at its end, and learns from them for the next.
     pub fn advance(&mut self, step: &Step, increments: &[f64], rates: &[f64]) {
         let duration = step.interval.duration();
+        for one in &mut self.watched {
+            one.add(&self.forecast, &self.rates, increments, duration);
+        }
         let missed = self.forecast.learn(&self.rates, increments, duration);
         self.resolution.add(&missed, duration, step.summary.rotation, step.rotations);
         self.rates.copy_from_slice(rates);
@@ -76,6 +102,7 @@ impl Motion {
         numbers.extend(&self.rates);
         self.forecast.save(numbers);
         self.resolution.save(numbers);
+        self.watched.iter().for_each(|one| one.save(numbers));
     }
 
     /// Takes time, rates and what was learnt of the motion back, in the order in which they were appended.
@@ -84,5 +111,6 @@ impl Motion {
         self.rates.iter_mut().for_each(|rate| *rate = next());
         self.forecast.restore(trend, next);
         self.resolution.restore(next);
+        self.watched.iter_mut().for_each(|one| one.restore(next));
     }
 }

@@ -55,6 +55,11 @@ impl Resolution {
         }
     }
 
+    /// The energy below which all motion is rounding [energy].
+    pub(super) fn noise(&self) -> f64 {
+        self.noise
+    }
+
     /// Takes in a step, or a part of one, of some length [time], in which sections turned by such increments at most.
     pub(super) fn add(
         &mut self,
@@ -84,6 +89,11 @@ impl Resolution {
     /// single vibration `sin⁴(φ/2)` [-].
     pub fn unresolved_share(&self) -> f64 {
         if self.kinetic > 0.0 { (self.unresolved / self.kinetic).max(0.0) } else { 0.0 }
+    }
+
+    /// The kinetic energy of all steps that count, together [energy].
+    pub fn kinetic(&self) -> f64 {
+        self.kinetic
     }
 
     /// The angular frequency `ω` of what accelerates the scene, in the mean over accelerations; exact for a single vibration, infinite

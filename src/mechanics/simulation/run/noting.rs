@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::Simulation;
 use crate::geometry::larger;
 use crate::integrators::{EnergyClaim, Mechanism};
-use crate::model::{Model, Part, RESOLVED_BLOW};
+use crate::model::{Model, Part, RESOLVED_BLOW, Resolution};
 use crate::simulation::notes::{LARGEST_ROTATION, MOST_SPANS, Suspect, short};
 use crate::simulation::{Invariant, Note};
 use crate::vibration::{Modes, VibrationError};
@@ -19,6 +19,9 @@ const HIDDEN_SHARE: f64 = 0.05;
 
 /// and that takes less than a step, by so many times [rad].
 const HIDDEN_TURN: f64 = 2.0 * TAU;
+
+/// Where a body has less than this part of the kinetic energy of a scene, what it does matters to nobody.
+const NOTHING: f64 = 1e-8;
 
 /// Rounding of some ten thousand steps makes less of the energy, however stiff a scene is.
 const LARGEST_DRIFT: f64 = 1e-7;
@@ -42,12 +45,14 @@ impl Simulation {
     pub fn notes(&self) -> Vec<Note> {
         let (dt, resolution) = (self.longest_step(), self.model.resolution());
         let mut notes = Vec::new();
-        let share = resolution.unresolved_share();
-        let turn = resolution.angular_frequency() * self.dt();
-        if share > LARGEST_SHARE || (share > HIDDEN_SHARE && turn > HIDDEN_TURN) {
+        if self.is_unresolved(resolution) {
+            let share = resolution.unresolved_share();
             let period = TAU / resolution.angular_frequency();
             let (lowest, suspects) = (self.lowest_period(), self.suspects());
             notes.push(Note::Motion { dt, share, period, lowest, suspects });
+        }
+        if notes.is_empty() {
+            notes.extend(self.beams_not_followed(dt));
         }
         if resolution.rotation() > LARGEST_ROTATION {
             let dt = self.settings.method.step_with_part(resolution.turned_in());
@@ -85,6 +90,26 @@ impl Simulation {
         notes
     }
 
+    /// Whether vibration that steps do not follow is a good part of a motion.
+    fn is_unresolved(&self, resolution: &Resolution) -> bool {
+        let share = resolution.unresolved_share();
+        let turn = resolution.angular_frequency() * self.dt();
+        share > LARGEST_SHARE || (share > HIDDEN_SHARE && turn > HIDDEN_TURN)
+    }
+
+    /// Damped beams whose own motion steps of a size [time] do not follow, where they follow that of the scene.
+    fn beams_not_followed(&self, dt: f64) -> impl Iterator<Item = Note> {
+        let least = NOTHING * self.model.resolution().kinetic();
+        let beams = self.model.resolution_by_beam();
+        let shaken = beams.filter(move |(_, own)| self.is_unresolved(own) && own.kinetic() > least);
+        shaken.map(move |(beam, own)| Note::Beam {
+            beam: self.scene.beams[beam].name.clone(),
+            dt,
+            share: own.unresolved_share(),
+            period: TAU / own.angular_frequency(),
+        })
+    }
+
     /// The longest of the steps that were taken: a chosen size may be one that was wished for and never met [time].
     fn longest_step(&self) -> f64 {
         let rows = self.history().samples();
@@ -120,7 +145,7 @@ impl Simulation {
         let is_much = |energy: f64| larger(energy, others) > MUCH * (larger(energy, others) + left);
         let most = most.filter(|(_, energy)| is_much(*energy));
         let dampers = most.map(|(name, _)| Suspect::Damping(name.to_owned()));
-        let sampled = self.scene.schedules().filter(|(_, schedule)| schedule.is_sampled());
+        let sampled = self.scene.schedules().filter(|(_, schedule)| schedule.is_asked_every_step());
         let controllers =
             sampled.map(|(name, _)| Suspect::Controller(self.scene.source_of_schedule(name)));
         dampers.into_iter().chain(controllers.take(1)).collect()

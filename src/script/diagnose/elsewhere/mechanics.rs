@@ -190,8 +190,18 @@ pub const WORDS: &[Elsewhere] = &[
         &["beam", "line"],
     ),
     entry(
-        &["feedback", "control", "controller", "pid", "actuator", "drive"],
-        "a load or a motor takes a function of time and simulation, asked at the start of every step: scene.force(rod.end, [0, 1], |t, q| -2 * q.velocity(rod.end).y)",
+        &[
+            "feedback",
+            "control",
+            "controller",
+            "pid",
+            "actuator",
+            "drive",
+            "sampling",
+            "latency",
+            "dead_time",
+        ],
+        "a load or a motor takes a function of time and simulation, asked at the start of every step: scene.force(rod.end, [0, 1], |t, q| -2 * q.velocity(rod.end).y), or every 0.01 and 0.003 late with #{ sample: 0.01, delay: 0.003 }",
         &["motor", "force"],
     ),
     entry(

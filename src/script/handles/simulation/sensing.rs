@@ -1,12 +1,12 @@
 //! Columns that functions of a script fill.
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 use rhai::Dynamic;
 
 use super::{SimulationHandle, Watch, explain, lose};
-use crate::loads::Schedule;
+use crate::loads::{Beat, Schedule};
 use crate::script::handles::scene::{Condition, Controller};
 use crate::script::rows::call::Call;
 use crate::script::rows::stored::StoredFunction;
@@ -21,6 +21,8 @@ pub(super) struct Sensing {
     looked: Cell<Option<usize>>,
     /// What loads and drives ask at the start of every step.
     controllers: Vec<Rc<Controller>>,
+    /// What controllers with a beat have said, each by the number of the sample. Commands before the present stay as they are when the simulation goes back.
+    commands: RefCell<Vec<Vec<f64>>>,
     /// What says, before every step, whether something lets go.
     conditions: Vec<Condition>,
     is_looking: Cell<bool>,
@@ -33,7 +35,32 @@ impl Sensing {
         conditions: Vec<Condition>,
     ) -> Self {
         let (looked, is_looking) = (Cell::new(None), Cell::new(false));
-        Self { functions, looked, controllers, conditions, is_looking }
+        let commands = RefCell::new(vec![Vec::new(); controllers.len()]);
+        Self { functions, looked, controllers, commands, conditions, is_looking }
+    }
+
+    /// Takes over what controllers have said in a simulation that this one is a copy of.
+    pub(super) fn go_on_from(&self, other: &Self) {
+        self.commands.replace(other.commands.borrow().clone());
+    }
+
+    /// The command of a sample, if it was given.
+    fn command_of(&self, controller: usize, sample: u64) -> Option<f64> {
+        let commands = self.commands.borrow();
+        let said = commands.get(controller)?.get(usize::try_from(sample).ok()?);
+        said.copied().filter(|command| command.is_finite())
+    }
+
+    fn keep_command(&self, controller: usize, sample: u64, command: f64) {
+        let mut commands = self.commands.borrow_mut();
+        let (Some(own), Ok(sample)) = (commands.get_mut(controller), usize::try_from(sample))
+        else {
+            return;
+        };
+        if own.len() <= sample {
+            own.resize(sample + 1, f64::NAN);
+        }
+        own[sample] = command;
     }
 
     /// Refuses to move what functions look at.
@@ -122,31 +149,58 @@ impl SimulationHandle {
         if !self.simulation().is_half_way() {
             self.let_go()?;
         }
-        let Sensing { controllers, is_looking, .. } = &self.0.sensing;
-        for controller in controllers {
-            let function = &controller.function;
-            is_looking.set(true);
-            let called = function.call([Dynamic::from(self.time()), Dynamic::from(self.clone())]);
-            is_looking.set(false);
-            let value = called.map_err(ScriptError::Engine)?;
-            let number = as_number(&value).filter(|number| number.is_finite());
-            controller.value.set(number.ok_or_else(|| {
-                let engine = function.context().engine();
-                let got = engine.map(|engine| describe(&engine, &value)).unwrap_or_default();
-                ScriptError::new(format!(
-                    "{} must give a finite number, got {got} at t = {}",
-                    self.role_of(controller),
-                    self.time()
-                ))
-            })?);
+        for (number, controller) in self.0.sensing.controllers.iter().enumerate() {
+            let value = match controller.beat {
+                Some(beat) => self.command_on_beat(number, controller, beat)?,
+                None => self.ask(controller)?,
+            };
+            controller.value.set(value);
         }
         Ok(())
+    }
+
+    /// What a controller with a beat has act now: asked if this is the time of a sample, else as it said; zero before its first command acts.
+    fn command_on_beat(
+        &self,
+        number: usize,
+        controller: &Controller,
+        beat: Beat,
+    ) -> Result<f64, ScriptError> {
+        let (now, slack) = (self.time(), self.simulation().slack());
+        let sensing = &self.0.sensing;
+        if let Some(sample) = beat.sample_at(now, slack) {
+            sensing.keep_command(number, sample, self.ask(controller)?);
+        }
+        let Some(acting) = beat.acting_after(now, slack) else { return Ok(0.0) };
+        match sensing.command_of(number, acting) {
+            Some(command) => Ok(command),
+            None => Err(ScriptError::bug(format!("nobody asked a controller at sample {acting}"))),
+        }
+    }
+
+    /// What a controller says at the present.
+    fn ask(&self, controller: &Controller) -> Result<f64, ScriptError> {
+        let (function, is_looking) = (&controller.function, &self.0.sensing.is_looking);
+        is_looking.set(true);
+        let called = function.call([Dynamic::from(self.time()), Dynamic::from(self.clone())]);
+        is_looking.set(false);
+        let value = called.map_err(ScriptError::Engine)?;
+        let number = as_number(&value).filter(|number| number.is_finite());
+        number.ok_or_else(|| {
+            let engine = function.context().engine();
+            let got = engine.map(|engine| describe(&engine, &value)).unwrap_or_default();
+            ScriptError::new(format!(
+                "{} must give a finite number, got {got} at t = {}",
+                self.role_of(controller),
+                self.time()
+            ))
+        })
     }
 
     /// What a controller is, with the load or the drive that it tells.
     fn role_of(&self, controller: &Controller) -> String {
         let simulation = self.simulation();
-        let is_own = |schedule: &Schedule| matches!(schedule, Schedule::Sampled(value) if Rc::ptr_eq(value, &controller.value));
+        let is_own = |schedule: &Schedule| matches!(schedule, Schedule::Sampled(value) | Schedule::Clocked { value, .. } if Rc::ptr_eq(value, &controller.value));
         let scene = simulation.scene();
         let told = scene.schedules().find(|(_, schedule)| is_own(schedule));
         match told {
