@@ -8,13 +8,14 @@ use withy::beams::{Mesh, missed_kink};
 use withy::geometry::{Curve, Passage, PiecewisePolynomial, Vec2, cross, interpolate};
 use withy::integrators::{Constraints, Mechanism, Stage};
 use withy::joints::{
-    Conserving, Contact, ContactUnknowns, Exact, Held, Kink, KinkMotion, KinkState, Kinked,
+    Conserving, Contact, ContactUnknowns, Exact, Frozen, Held, Kink, KinkMotion, KinkState, Kinked,
     Relaxed, Released, SLIDING_RULES, SlidingLaw, Unit,
 };
 use withy::linalg::BorderedMatrix;
 use withy::model::{MasterEnd, MasterLimit, Model};
 
-const LAWS: [(&str, &dyn SlidingLaw); 6] = [
+const LAWS: [(&str, &dyn SlidingLaw); 7] = [
+    ("frozen", &Frozen),
     ("kinked", &Kinked),
     ("conserving", &Conserving),
     ("exact", &Exact),
@@ -24,6 +25,7 @@ const LAWS: [(&str, &dyn SlidingLaw); 6] = [
 ];
 
 /// A random contact: the master before and how it moves, the slave (at the origin) moves, and the unknowns.
+#[derive(Clone)]
 struct State {
     name: String,
     before: Vec<Vec2>,
@@ -245,8 +247,8 @@ fn what_a_contact_does_is_what_its_equations_leave() {
     }
 }
 
-/// Moves the slave, and changes couple and force along the master, until all equations of the kinked law hold.
-fn solve_kinked(state: &mut State) {
+/// Moves the slave, and changes couple and force along the master, until all equations of a law with a kink hold.
+fn solve_kinked(state: &mut State, law: &dyn SlidingLaw) {
     let start_gap = |state: &State| state.with(&state.numbers(), |contact, _| contact.start_gap());
     let (length, compliance, before) = state.kink.clone().unwrap();
     let offset = state
@@ -256,7 +258,7 @@ fn solve_kinked(state: &mut State) {
     for _ in 0..30 {
         let correction = state.with(&state.numbers(), |contact, _| {
             let along = contact.tangent().value.normalize();
-            let equations = Kinked.equations(contact);
+            let equations = law.equations(contact);
             let value = DVector::from_iterator(5, equations.iter().map(|e| e.value));
             let slope = DMatrix::from_fn(5, 5, |row, column| {
                 let equation = &equations[row];
@@ -276,7 +278,9 @@ fn solve_kinked(state: &mut State) {
 
 #[test]
 fn a_contact_on_a_kinked_axis_keeps_momenta_and_energy_with_that_of_the_kink() {
-    for mut state in states().into_iter().filter(|state| state.kink.is_some()) {
+    let laws: [&dyn SlidingLaw; 2] = [&Kinked, &Frozen];
+    let states = states().into_iter().filter(|state| state.kink.is_some());
+    for (mut state, law) in states.flat_map(|state| laws.map(|law| (state.clone(), law))) {
         // A beam of this world: little moves, the kink is small.
         let count = state.before.len();
         for (at, point) in state.before.iter_mut().enumerate() {
@@ -285,14 +289,14 @@ fn a_contact_on_a_kinked_axis_keeps_momenta_and_energy_with_that_of_the_kink() {
         state.moved.iter_mut().for_each(|moved| *moved *= 0.2);
         state.unknowns.force *= 0.05;
         state.kink.iter_mut().for_each(|(.., before)| *before *= 0.05);
-        solve_kinked(&mut state);
+        solve_kinked(&mut state, law);
         state.with(&state.numbers(), |contact, passage| {
             let largest =
-                Kinked.equations(contact).map(|e| e.value.abs()).into_iter().fold(0.0, f64::max);
+                law.equations(contact).map(|e| e.value.abs()).into_iter().fold(0.0, f64::max);
             assert!(largest < 1e-13, "{}: no solution, {largest:.1e}", state.name);
             let (force, moment, work) = balance(&state, contact, passage);
             let kink = contact.kink.unwrap();
-            let KinkState { jump, speed } = Kinked.kink_at_end(contact);
+            let KinkState { jump, speed } = law.kink_at_end(contact);
             let energy = |g: f64, p: Vec2, v: f64| {
                 0.5 * g * p.norm_squared() * kink.compliance * (1.0 + kink.motion.slowness * v * v)
             };

@@ -12,7 +12,7 @@ use withy::integrators::{EnergyClaim, INTEGRATORS, Interval, Method, StepError};
 use withy::joints::{RuleClaims, SLIDING_RULES, SlidingRule};
 use withy::model::{Arriving, MasterEnd, MasterLimit, Model, Scene};
 use withy::newton::Tolerance;
-use withy::simulation::{Invariant, Simulation, SimulationError};
+use withy::simulation::{Invariant, Simulation};
 
 const ROUNDING: f64 = 1e-12;
 
@@ -97,17 +97,9 @@ fn every_rule_keeps_what_it_claims_and_nothing_else() {
             for support in [Support::Free, Support::Hinged] {
                 let scene = free_sliding_mass([&ab, &cm], 1e2, support, entry.rule);
                 let mut flight = start(scene, PAPER_STEP);
-                // The relaxed rule stops where it does; the mass gets faster than a kink may be.
+                // The relaxed rule stops where it does.
                 let ended = run(&mut flight, 1.0);
-                let is_too_fast = matches!(
-                    &ended,
-                    Err(SimulationError::Load { source: StepError::FastAsWaves { .. } })
-                );
-                assert!(
-                    ended.is_ok() || !entry.claims.gap || is_too_fast,
-                    "{}: {ended:?}",
-                    entry.name
-                );
+                assert!(ended.is_ok() || !entry.claims.gap, "{}: {ended:?}", entry.name);
                 let label = format!("{:10} {name:14} {support:6?}", entry.name);
                 let drifts = drifts(&flight);
                 println!("{label} t = {:.3} drift of E, p, L, gap {}", flight.time(), sci(&drifts));

@@ -1,13 +1,14 @@
 //! Sliders on kinked axes: what comes nearer to the references with a moving mesh, contact forces and all.
 #![allow(clippy::unwrap_used)]
 
+use crate::common::rails::{bead, clamped_rail};
 use crate::common::reference::Table;
 use crate::common::sliding::{reference_scene, smooth};
 use crate::common::{at, orders, run, sci, settings, simulate, sliding_scenes};
 use withy::beams::Station;
 use withy::integrators::Method;
-use withy::joints::SlidingRule;
-use withy::simulation::Simulation;
+use withy::joints::{EndAction, SlidingRule};
+use withy::simulation::{Invariant, Note, Simulation};
 
 /// Root mean squares, over the times of a reference, of the errors of place, contact point, end of the beam and contact force.
 fn errors(reference: &str, spans: usize, rule: SlidingRule, end: f64) -> [f64; 4] {
@@ -105,4 +106,35 @@ fn several_sliders_on_a_beam_converge_at_third_order_also_in_one_span() {
     let errors = [4, 8, 16].map(|spans| error(places(spans)));
     println!("three beads: {} orders {:.2?}", sci(&errors), orders(&errors));
     assert!(orders(&errors).iter().all(|order| *order > 2.0), "{errors:?}");
+}
+
+#[test]
+fn a_slider_as_fast_as_shear_waves_goes_on_with_the_kink_that_it_has_and_is_told() {
+    for (speed, is_told) in [(3.0, false), (5.0, true)] {
+        let mut scene = clamped_rail(&smooth(6), at(1.0, 0.0));
+        let mut section = scene.beams[0].section.mean();
+        // Shear waves run at 6.
+        (section.axial_stiffness, section.shear_stiffness) = (1e3, 36.0);
+        scene.beams[0].section = section.into();
+        let slider = bead(&mut scene, 0.1, 0.3, at(speed, 0.0), EndAction::Bounce);
+        scene.sliders[slider].rule = SlidingRule::Kinked;
+        scene.gravity = at(0.0, -10.0);
+        for method in [Method::EnergyMomentum, Method::FourthOrder] {
+            let simulation = simulate(scene.clone(), method, 0.002, 0.4);
+            let fast = simulation.notes().into_iter().find_map(|note| match note {
+                Note::Fast { speed, limit, .. } => Some((speed, limit)),
+                _ => None,
+            });
+            println!("{speed}, {method:?}: {fast:?}");
+            assert_eq!(fast.is_some(), is_told);
+            assert!(
+                fast.is_none_or(|(fast, limit)| fast >= speed - 0.1 && limit > 4.7 && limit < 4.9)
+            );
+            assert!(!simulation.arrivals().is_empty());
+            for invariant in [Invariant::Energy, Invariant::Gap] {
+                let drift = simulation.history().drift(invariant);
+                assert!(drift < 1e-12, "{invariant:?}: {drift:e}");
+            }
+        }
+    }
 }

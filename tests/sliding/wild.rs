@@ -4,6 +4,7 @@
 use crate::common::wild_scenes::{Temper, scene};
 use crate::common::{run, settings};
 use withy::integrators::Method;
+use withy::joints::SLIDING_RULES;
 use withy::simulation::{Invariant, Simulation};
 
 /// A step, and the time to which scenes run.
@@ -19,8 +20,7 @@ const MOST_ARRIVALS: usize = 5000;
 const MOST_SOLVES: usize = 100_000;
 
 /// What may be said of a scene that no step takes further.
-const WORDS: [&str; 5] =
-    ["is compressed to", "is stretched to", "presses on beam", "hovers at", "of the speed"];
+const WORDS: [&str; 4] = ["is compressed to", "is stretched to", "presses on beam", "hovers at"];
 
 #[derive(Debug, Default, Clone)]
 struct Row {
@@ -35,10 +35,16 @@ struct Row {
 #[test]
 fn wild_scenes_end_or_say_why() {
     let seeds = if std::env::var("WITHY_LONG").is_ok() { SEEDS } else { IN_SHORT };
+    // All sliders with one rule, by its name, to see what becomes of them; that is told, and not asked for.
+    let named = std::env::var("WITHY_RULE").ok();
+    let rule = SLIDING_RULES.iter().find(|entry| Some(entry.name) == named.as_deref());
     let mut unexplained = Vec::new();
     let mut rows = vec![Row::default(); Temper::ALL.len()];
     for seed in 0..seeds {
-        let (scene, method) = scene(seed);
+        let (mut scene, method) = scene(seed);
+        if let Some(rule) = &rule {
+            scene.sliders.iter_mut().for_each(|slider| slider.rule = rule.rule);
+        }
         let name = format!("{} with {method:?}", scene.name);
         let mut simulation = Simulation::start(scene, settings(method, DT)).unwrap();
         let ran = run(&mut simulation, END);
@@ -54,7 +60,8 @@ fn wild_scenes_end_or_say_why() {
         if arrivals > 300 || solves > 5000 {
             println!("{name}: {arrivals} arrivals, {counts:?}");
         }
-        assert!(arrivals <= MOST_ARRIVALS && solves <= MOST_SOLVES, "{name}: {arrivals} {solves}");
+        let is_many = arrivals > MOST_ARRIVALS || solves > MOST_SOLVES;
+        assert!(!is_many || rule.is_some(), "{name}: {arrivals} {solves}");
         if ran.is_ok() && !matches!(method, Method::EnergyDecaying { .. }) {
             let drift = simulation.history().drift(Invariant::Energy);
             assert!(drift < 1e-8, "{name}: {drift:e}");
@@ -73,6 +80,6 @@ fn wild_scenes_end_or_say_why() {
         println!("{temper:?}: {row:?}");
         // What is tame, stiff or curved ends.
         let share = row.ended as f64 / row.scenes as f64;
-        assert!(share > 0.8, "{temper:?}: {row:?}");
+        assert!(share > 0.8 || rule.is_some(), "{temper:?}: {row:?}");
     }
 }

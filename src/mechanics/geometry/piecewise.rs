@@ -1,6 +1,6 @@
 //! Functions that are a polynomial on each span of a basis.
 
-use super::{GaussRule, Span};
+use super::{GaussRule, Span, larger};
 use nalgebra::{DMatrix, DVector};
 
 /// A function of the parameter ξ of a basis that is a polynomial of one degree on each of its spans.
@@ -72,6 +72,12 @@ impl PiecewisePolynomial {
     /// Points and weights on `[0, 1]` that integrate the derivative of the function on a part of a span exactly.
     pub(super) fn rule(&self) -> &[(f64, f64)] {
         &self.rule
+    }
+
+    /// The largest value of the function in the middle of a span.
+    pub fn largest_in_middle(&self) -> f64 {
+        let middles = self.spans.iter().enumerate();
+        middles.map(|(span, (middle, _))| self.in_span(span, *middle)[0]).fold(0.0, larger)
     }
 
     /// The value of the function, its first and its second derivative by ξ, by the polynomial of a span, also beside the span.

@@ -117,24 +117,6 @@ pub enum StepError {
         /// Newton iterations that the refused step took.
         iterations: usize,
     },
-    /// A slider runs along its master nearly as fast as the waves by which the master gives way under it.
-    #[error(
-        "slider '{slider}' runs along its master at {speed:.4}, more than {limit:.2} of the speed {wave:.4} of the master's shear waves, √(GA/ρA), at t = {}: the kinked rule \
-         does not know how a beam gives way under so fast a force",
-        interval.start
-    )]
-    FastAsWaves {
-        /// The interval of the step that would have begun so fast [time].
-        interval: Interval,
-        /// The name of the slider.
-        slider: String,
-        /// How fast it runs along the undeformed axis of its master [length/time].
-        speed: f64,
-        /// How fast shear waves are there [length/time].
-        wave: f64,
-        /// The part of that speed up to which a slider may run [-].
-        limit: f64,
-    },
     /// A load has no finite value in the step.
     #[error("{load}: {source} (in the step from t = {} to {})", interval.start, interval.end)]
     Load {
@@ -155,7 +137,7 @@ impl StepError {
             Self::Rotation { iterations, .. }
             | Self::Chord { iterations, .. }
             | Self::Overshoot { iterations, .. } => *iterations,
-            Self::Load { .. } | Self::FastAsWaves { .. } => 0,
+            Self::Load { .. } => 0,
         }
     }
 
@@ -175,12 +157,11 @@ impl StepError {
                 Self::Overshoot { interval, overshoot, iterations: iterations + before }
             }
             Self::Load { load, source, .. } => Self::Load { interval, load, source },
-            same @ Self::FastAsWaves { .. } => same,
         }
     }
 
     /// Whether a smaller step may succeed where this one was refused.
     pub fn may_be_cured_by_a_smaller_step(&self) -> bool {
-        !matches!(self, Self::Load { .. } | Self::FastAsWaves { .. })
+        !matches!(self, Self::Load { .. })
     }
 }

@@ -10,7 +10,7 @@ pub use joint::{Component, Components, Joint, JointKind, Partner};
 pub use release::{Hold, Release, Trigger};
 pub use slider::{EndAction, Slider, StartVelocities};
 pub use sliding::{
-    CONTACT_UNKNOWNS, Conserving, Contact, ContactUnknowns, Equation, Exact, Held, Kink,
+    CONTACT_UNKNOWNS, Conserving, Contact, ContactUnknowns, Equation, Exact, Frozen, Held, Kink,
     KinkMotion, KinkState, Kinked, Leaning, Relaxed, Released, Resting, RuleClaims, RuleEntry,
     SLIDING_RULES, SlidingLaw, SlidingRule, Unit, WayVector,
 };

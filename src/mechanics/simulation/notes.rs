@@ -85,6 +85,15 @@ pub enum Note {
         /// The most spans that the slider passes in a step [-].
         spans: f64,
     },
+    /// A slider on a kinked axis runs nearly as fast as the waves by which its master gives way.
+    Fast {
+        /// The name of the slider.
+        slider: String,
+        /// The highest speed along the master that was recorded [length/time].
+        speed: f64,
+        /// The speed up to which the kink follows the contact force [length/time].
+        limit: f64,
+    },
     /// The energy is not kept as the method promises.
     Drift {
         /// The largest change of the energy, loads accounted for, relative to the largest energy [-].
@@ -126,6 +135,7 @@ impl Note {
             Self::Motion { share, .. } | Self::Beam { share, .. } => *share,
             Self::Rotation { angle, .. } => *angle,
             Self::Way { spans, .. } => *spans,
+            Self::Fast { speed, .. } => *speed,
             Self::Bounce { blows, .. } => *blows,
             Self::Drift { drift, .. } => *drift,
             Self::Bend { bend, .. } => bend.size(),
@@ -137,7 +147,9 @@ impl Note {
     fn about(&self) -> Option<&str> {
         match self {
             Self::Motion { .. } | Self::Rotation { .. } | Self::Drift { .. } => None,
-            Self::Way { slider, .. } | Self::Bounce { slider, .. } => Some(slider),
+            Self::Way { slider, .. } | Self::Fast { slider, .. } | Self::Bounce { slider, .. } => {
+                Some(slider)
+            }
             Self::Beam { beam, .. } => Some(beam),
             Self::Bend { drive, .. } => Some(drive),
             Self::Contact { spring, .. } => Some(spring),
@@ -227,6 +239,13 @@ impl fmt::Display for Note {
                 short(*spans),
                 short(*dt),
                 short(dt * MOST_SPANS / spans)
+            ),
+            Self::Fast { slider, speed, limit } => write!(
+                f,
+                "slider '{slider}' runs along its beam at up to {}, where from {} on it is nearly as fast as the shear waves by which the beam gives way: \
+                 there the kink under it stays as it is, and contacts are of first order in the length of spans",
+                short(*speed),
+                short(*limit)
             ),
             Self::Drift { drift, stiffest } => {
                 write!(

@@ -47,8 +47,8 @@ pub const TABLE: Table = Table {
         rule("kinked", |_| Ok(Dynamic::from(SlidingRule::Kinked)))
             .summary("The conserving rule on the beam as the contact force kinks it: of second order in the mesh, where conserving() is of first.")
             .doc("On meshes of smooth splines. With energy_momentum(): keeps energy, linear momentum, angular momentum and the gap to rounding. \
-                  A slider that comes to 0.8 of the speed of the beam's shear waves, sqrt(GA/rho_A), is refused. \
-                  For sliders that strike ends of soft beams again and again take conserving(): just before an end a step may have no solution. withy, docs/theory.md, section 10.1.")
+                  Beside ends, and where a slider comes to 0.8 of the speed of the beam's shear waves, sqrt(GA/rho_A), it is of first order, too. \
+                  For sliders that are struck again and again on soft beams take conserving(): a step may have no solution. withy, docs/theory.md, section 10.1.")
             .see(&["conserving", "exact", "relaxed"]),
         rule("exact", |_| Ok(Dynamic::from(SlidingRule::Exact)))
             .summary("For comparison: the slave is exactly on the beam at the end of a step; angular momentum is lost at second order.")

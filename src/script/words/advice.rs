@@ -29,9 +29,6 @@ fn on_simulation(error: &SimulationError) -> Option<String> {
         SimulationError::Step { .. } | SimulationError::Smallest { .. } => {
             "the history up to there is kept; try a smaller dt or a finer mesh, and check loads, stiffness, units and what is held".into()
         }
-        SimulationError::Load { source: StepError::FastAsWaves { .. } } => {
-            "the history up to there is kept; give the slider rule: conserving(), or its master a larger GA".into()
-        }
         SimulationError::Load { source } => {
             let own = cause_of(source).and_then(on_load);
             own.unwrap_or_else(|| "loads and drives need a finite value at all times".into())

@@ -7,6 +7,7 @@ mod conserving;
 mod contact;
 mod equation;
 mod exact;
+mod frozen;
 mod held;
 mod jet;
 mod kinked;
@@ -22,6 +23,7 @@ pub use contact::{
 };
 pub use equation::{Equation, Unit};
 pub use exact::Exact;
+pub use frozen::Frozen;
 pub use held::Held;
 pub use kinked::Kinked;
 pub use law::SlidingLaw;

@@ -3,7 +3,9 @@
 use crate::beams::{PointCounts, SectionVariation};
 use crate::geometry::Vec2;
 use crate::integrators::{Constraints, INTEGRATORS, Mechanism, Method};
-use crate::joints::{Component, Hold, Joint, Partner, SLIDING_RULES, StartVelocities, Trigger};
+use crate::joints::{
+    Component, Hold, Joint, Partner, SLIDING_RULES, Slider, SlidingRule, StartVelocities, Trigger,
+};
 use crate::model::elements::{ForceElement, Resistance};
 use crate::model::words::{MOST, in_words, plural};
 use crate::model::{BeamDefinition, Drive, Model, ModelError, Scene};
@@ -218,7 +220,18 @@ impl Model {
         };
         let on_tracks = scene.sliders.iter().any(|slider| slider.track.is_some());
         let seams = if on_tracks { ", steps are cut at seams of tracks" } else { "" };
-        let how = format!("{rules}: {solved}; ends of their beams are watched{seams}");
+        let may_kink = |slider: &Slider| {
+            let basis = self.meshes()[slider.master].basis();
+            let is_smooth = basis.breaks().len() == 2 || basis.continuity() > 0;
+            slider.rule == SlidingRule::Conserving && slider.track.is_none() && is_smooth
+        };
+        let choice = match scene.sliders.iter().any(may_kink) {
+            true => {
+                "; the conserving rule is of first order in the length of spans, the kinked one of second to third"
+            }
+            false => "",
+        };
+        let how = format!("{rules}: {solved}; ends of their beams are watched{seams}{choice}");
         Part::used("sliders", how)
     }
 

@@ -37,7 +37,12 @@ impl Model {
         self.slider(slider).blows_in_a_step
     }
 
-    /// The force of a slider on its master [force]; the slave gets the opposite. With the kinked rule it is the one at present, with all others the
+    /// The speed along its master up to which the kink under a slider follows the contact force, with the kinked rule [length/time].
+    pub fn fastest_on_kink(&self, slider: usize) -> Option<f64> {
+        self.slider(slider).fastest_on_kink()
+    }
+
+    /// The force of a slider on its master [force]; the slave gets the opposite. With the kinked rule, where the kink is not kept, it is the one at present, else the
     /// mean of the last step.
     ///
     /// Zero before the first step and after a release.

@@ -110,6 +110,11 @@ impl Model {
         Ok(lasts.is_finite() && dt <= RESOLVED_BLOW * lasts)
     }
 
+    /// Keeps the kinks under contact forces as they are in steps to come, or no longer; gives whether that is another law for the next step.
+    pub fn keep_kinks(&mut self, is_kept: bool) -> bool {
+        self.sliders.keep_kinks(is_kept)
+    }
+
     /// The direction in which the stop at a limit pushes the slave [-].
     fn inward(&self, limit: MasterLimit) -> Vec2 {
         self.sliders[limit.slider].along_contact(&self.bodies) * -limit.end.outward()

@@ -6,7 +6,7 @@ use super::rail::LANDED;
 use super::{MasterEnd, MasterLimit, Passing, SliderState, Sliding};
 use crate::beams::SpanAtRest;
 use crate::geometry::{Vec2, larger};
-use crate::integrators::{Ending, Interval, Overshoot, StepError};
+use crate::integrators::{Ending, Interval, Overshoot};
 use crate::joints::{CONTACT_UNKNOWNS, EndAction};
 use crate::linalg::{BlockLayout, Border, BorderShape};
 use crate::model::bodies::Body;
@@ -66,16 +66,13 @@ impl Sliders {
     }
 
     /// Begins a step.
-    ///
-    /// # Errors
-    /// When a slider is too fast for its rule.
-    pub fn begin_step(
-        &mut self,
-        bodies: &[Body],
-        rates: &[f64],
-        interval: Interval,
-    ) -> Result<(), StepError> {
-        self.iter_mut().try_for_each(|slider| slider.begin_step(bodies, rates, interval))
+    pub fn begin_step(&mut self, bodies: &[Body], rates: &[f64], interval: Interval) {
+        self.iter_mut().for_each(|slider| slider.begin_step(bodies, rates, interval));
+    }
+
+    /// Keeps the kinks of all masters as they are in steps to come, or no longer; gives whether that is another law for the next step.
+    pub fn keep_kinks(&mut self, is_kept: bool) -> bool {
+        self.iter_mut().map(|slider| usize::from(slider.keep_kink(is_kept))).sum::<usize>() > 0
     }
 
     /// Guesses the unknowns of all contacts for a step: every slider slides on as it does.

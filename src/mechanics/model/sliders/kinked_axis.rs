@@ -9,11 +9,14 @@ use crate::joints::{Kink, KinkMotion, KinkState};
 /// Where the kink length is less than this part of the master, a contact force moves nothing.
 const RIGID: f64 = 1e-14;
 
-/// The largest part of the speed of shear waves with which a kink may move along its master: beyond, little of its stiffness `GA - ρA v²` is left.
+/// The largest part of the speed of shear waves with which a kink follows its force: beyond, little of its stiffness `GA - ρA v²` is left.
 const FASTEST: f64 = 0.8;
 
 /// The largest part of the speed `√(GA/μρA)`, at which nothing is left of that stiffness on the mesh of the master.
 const FASTEST_ON_MESH: f64 = 0.9;
+
+/// Where the kink length is less than this part of what it is inside a mesh, beside an end, the kink no longer follows its force.
+const BESIDE_END: f64 = 0.1;
 
 /// What the mesh of a master misses of the kink that a contact force makes, for all sliders on it.
 #[derive(Debug, Clone)]
@@ -37,12 +40,14 @@ pub struct KinkedAxis {
     compliance: f64,
     /// `μ ρA/GA` of the master [time²/length²].
     slowness: f64,
-    /// The speed of shear waves [length/time].
-    wave: f64,
-    /// The part of that speed up to which a kink may move [-].
+    /// The speed up to which the kink follows its force [length/time].
     fastest: f64,
     /// A kink length that is none [length].
     none: f64,
+    /// The kink length from which on the kink follows its force [length].
+    least: f64,
+    /// Whether the kink stays as it is in the present step for want of another solution.
+    is_kept: bool,
     /// `g`, its first and its second derivative by `ξ` where the slider is [length].
     here: [f64; 3],
     /// The length of the master for a unit of ξ where the slider is [length].
@@ -55,29 +60,20 @@ pub struct KinkedAxis {
     speed: f64,
 }
 
-/// A kink that moves so fast that its inertia nearly takes away all of the stiffness against shear.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TooFast {
-    /// How fast it moves along the undeformed axis of the master [length/time].
-    pub speed: f64,
-    /// How fast shear waves are there [length/time].
-    pub wave: f64,
-    /// The part of that speed up to which a kink may move [-].
-    pub limit: f64,
-}
-
 impl KinkedAxis {
     /// The axis of a master of such a length as drawn, without a contact force, by what its mesh misses and by its section.
     pub fn new(kink: MasterKink, length: f64, section: &Section) -> Self {
         let compliance = 1.0 / section.shear_stiffness;
         Self {
-            length: kink.length,
             arc: kink.arc,
             compliance,
             slowness: kink.inertia * section.mass_per_length * compliance,
-            wave: (section.mass_per_length * compliance).sqrt().recip(),
-            fastest: FASTEST.min(FASTEST_ON_MESH / kink.inertia.sqrt()),
+            fastest: FASTEST.min(FASTEST_ON_MESH / kink.inertia.sqrt())
+                / (section.mass_per_length * compliance).sqrt(),
             none: RIGID * length,
+            least: BESIDE_END * kink.length.largest_in_middle(),
+            is_kept: false,
+            length: kink.length,
             here: [0.0; 3],
             stretch: 0.0,
             duration: f64::INFINITY,
@@ -87,16 +83,28 @@ impl KinkedAxis {
     }
 
     /// Begins a step of such a duration [time], in which a kink without a mass has such a rate `dξ/dt` [1/time].
-    ///
-    /// # Errors
-    /// [`TooFast`] when the kink moves nearly as fast as shear waves do.
-    pub fn begin_step(&mut self, duration: f64, rate: f64) -> Result<(), TooFast> {
+    pub fn begin_step(&mut self, duration: f64, rate: f64) {
         self.duration = duration;
         if !self.is_heavy() {
             self.speed = self.stretch * rate;
         }
-        let (speed, wave, limit) = (self.speed.abs(), self.wave, self.fastest);
-        if speed > limit * wave { Err(TooFast { speed, wave, limit }) } else { Ok(()) }
+    }
+
+    /// The speed along the master up to which the kink follows its force [length/time].
+    pub fn fastest(&self) -> f64 {
+        self.fastest
+    }
+
+    /// Whether the kink stays as it is, whatever the contact force: beside an end, where it is nearly as fast as shear waves, and where it is kept.
+    pub fn is_frozen(&self) -> bool {
+        self.is_kept || self.here[0] < self.least || self.speed.abs() > self.fastest
+    }
+
+    /// Keeps the kink as it is in steps to come, or no longer; gives whether that is another law for the next step.
+    pub fn keep(&mut self, is_kept: bool) -> bool {
+        let changes = is_kept && !self.is_frozen();
+        self.is_kept = is_kept;
+        changes
     }
 
     /// Whether the kink has a mass, and with it a speed of its own.
@@ -127,6 +135,11 @@ impl KinkedAxis {
     pub fn advance(&mut self, mean: Vec2, KinkState { jump, speed }: KinkState) {
         self.jump = if self.gives() { jump } else { mean };
         self.speed = speed;
+    }
+
+    /// Takes jump, as a force [force], and speed [length/time] at the end of a step in which the kink stayed as it was.
+    pub fn turn(&mut self, KinkState { jump, speed }: KinkState) {
+        (self.jump, self.speed) = (jump, speed);
     }
 
     /// Lets the axis be kinked by a force at rest [force].

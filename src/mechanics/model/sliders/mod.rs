@@ -12,7 +12,7 @@ mod sliding;
 pub use all::Sliders;
 pub use blow::{Bar, Blow};
 pub use connection::Connection;
-pub use kinked_axis::{KinkedAxis, MasterKink, TooFast};
+pub use kinked_axis::{KinkedAxis, MasterKink};
 pub use rail::{MasterEnd, MasterLimit, Rail, SliderState};
 pub use route::{Route, RouteLeg, Seam};
 pub use sliding::{AtRest, InStep, Passing, Sliding};

@@ -1,11 +1,11 @@
 //! Sliders of the model: where they are, and what they add to the equations of a step.
 
-use super::{Bar, Connection, KinkedAxis, MasterEnd, Rail, Route, SliderState, TooFast};
+use super::{Bar, Connection, KinkedAxis, MasterEnd, Rail, Route, SliderState};
 use crate::geometry::{Basis, Passage, Vec2, larger};
-use crate::integrators::{Ending, Interval, StepError};
+use crate::integrators::{Ending, Interval};
 use crate::joints::{
-    CONTACT_UNKNOWNS, Contact, ContactUnknowns, EndAction, Held, KinkState, Released, Slider,
-    SlidingLaw, SlidingRule, Unit,
+    CONTACT_UNKNOWNS, Contact, ContactUnknowns, EndAction, Frozen, Held, KinkState, Released,
+    Slider, SlidingLaw, SlidingRule, Unit,
 };
 use crate::linalg::Border;
 use crate::model::bodies::Body;
@@ -168,6 +168,7 @@ impl Sliding {
 
     fn law(&self) -> &'static dyn SlidingLaw {
         match self.state {
+            SliderState::Sliding if self.is_frozen() => &Frozen,
             SliderState::Sliding => self.rule.law(),
             SliderState::Held(_) => &Held,
             SliderState::Released => &Released,
@@ -189,7 +190,24 @@ impl Sliding {
 
     /// The contact force on the master: where the axis is kinked by it, at present, else the mean of the last step [force].
     pub fn contact_force(&self) -> Vec2 {
-        self.kinked_axis.as_ref().map_or(self.unknowns.force, KinkedAxis::force)
+        let axis = self.kinked_axis.as_ref().filter(|_| !self.is_frozen());
+        axis.map_or(self.unknowns.force, KinkedAxis::force)
+    }
+
+    /// Whether the kink of the master stays as it is while the slider slides, whatever the contact force.
+    fn is_frozen(&self) -> bool {
+        self.is_sliding() && self.kinked_axis.as_ref().is_some_and(KinkedAxis::is_frozen)
+    }
+
+    /// The speed along the master up to which its kink follows the contact force, where there is one [length/time].
+    pub fn fastest_on_kink(&self) -> Option<f64> {
+        self.kinked_axis.as_ref().map(KinkedAxis::fastest)
+    }
+
+    /// Keeps the kink of the master as it is in steps to come, or no longer; gives whether that is another law for the next step.
+    pub fn keep_kink(&mut self, is_kept: bool) -> bool {
+        let sliding = self.is_sliding();
+        self.kinked_axis.as_mut().is_some_and(|axis| axis.keep(is_kept) && sliding)
     }
 
     /// Whether the contact force follows from how far the axis of the master is kinked, so that the contact transmits no impulse.
@@ -214,28 +232,11 @@ impl Sliding {
     }
 
     /// Begins a step.
-    ///
-    /// # Errors
-    /// When the slider is too fast for its rule.
-    pub fn begin_step(
-        &mut self,
-        bodies: &[Body],
-        rates: &[f64],
-        interval: Interval,
-    ) -> Result<(), StepError> {
-        if self.kinked_axis.is_none() {
-            return Ok(());
+    pub fn begin_step(&mut self, bodies: &[Body], rates: &[f64], interval: Interval) {
+        if self.kinked_axis.is_some() {
+            let rate = self.rate(bodies, rates);
+            self.kinked_axis.iter_mut().for_each(|axis| axis.begin_step(interval.duration(), rate));
         }
-        let rate = self.rate(bodies, rates);
-        let begun =
-            self.kinked_axis.as_mut().map(|axis| axis.begin_step(interval.duration(), rate));
-        begun.unwrap_or(Ok(())).map_err(|TooFast { speed, wave, limit }| StepError::FastAsWaves {
-            interval,
-            slider: self.name.clone(),
-            speed,
-            wave,
-            limit,
-        })
     }
 
     /// Guesses the unknowns of the contact for a step: the slider slides on as it does, and its force stays.
@@ -364,9 +365,13 @@ impl Sliding {
         let before = self.parameter;
         let passed = self.passage.spans_between(before, before + self.unknowns.way);
         self.most_spans = self.most_spans.max(passed);
+        let is_frozen = self.is_frozen();
         self.stand_at(before + self.unknowns.way);
         let (mean, kink) = (self.unknowns.force, self.kink_at_end);
-        self.kinked_axis.iter_mut().for_each(|axis| axis.advance(mean, kink));
+        self.kinked_axis.iter_mut().for_each(|axis| match is_frozen {
+            true => axis.turn(kink),
+            false => axis.advance(mean, kink),
+        });
         if ending == Ending::OfStep {
             self.clings = false;
         }

@@ -63,6 +63,14 @@ impl Simulation {
             if spans > MOST_SPANS {
                 notes.push(Note::Way { slider: slider.clone(), dt, spans });
             }
+            if let Some(limit) = self.model.fastest_on_kink(index) {
+                let speeds = self.history().column(&format!("{slider}.speed"));
+                let fastest = |speeds: Vec<f64>| speeds.into_iter().map(f64::abs).fold(0.0, larger);
+                let speed = speeds.map_or(0.0, fastest);
+                if speed > limit {
+                    notes.push(Note::Fast { slider: slider.clone(), speed, limit });
+                }
+            }
             let blows = self.model.blows_in_a_step(index);
             if blows > RESOLVED_BLOW {
                 notes.push(Note::Bounce { slider, dt, blows });

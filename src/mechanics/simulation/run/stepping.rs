@@ -51,12 +51,13 @@ impl Simulation {
     ) -> Result<Covered, SimulationError> {
         while !halving.is_done() {
             let interval = halving.next();
-            let mut stepped = self.stepper.step(&mut self.model, interval);
+            let mut stepped = self.step_or_keep_kinks(interval);
             if let Err(StepError::Overshoot { overshoot, iterations, .. }) = stepped {
                 self.progress.count_try(iterations);
                 self.lose_derivatives("a slider arrives at an end of its way or leaves a stop");
                 match self.land(interval, overshoot) {
                     Ok(landing) => {
+                        self.model.keep_kinks(false);
                         self.clock.under_way = None;
                         if let Some((interval, report)) = landing.step {
                             self.count_step(interval, report, halving.retries);
@@ -73,6 +74,7 @@ impl Simulation {
                     Err(source) => stepped = Err(source),
                 }
             }
+            self.model.keep_kinks(false);
             match stepped {
                 Ok(report) => {
                     self.count_step(interval, report, halving.retries);
@@ -95,6 +97,19 @@ impl Simulation {
             self.ask(monitor)?;
         }
         Ok(Covered::All)
+    }
+
+    /// Takes a step; where none is found, one in which the kinks under contact forces stay as they are.
+    fn step_or_keep_kinks(&mut self, interval: Interval) -> Result<NewtonReport, StepError> {
+        let stepped = self.stepper.step(&mut self.model, interval);
+        match stepped {
+            Ok(_) | Err(StepError::Overshoot { .. } | StepError::Load { .. }) => stepped,
+            Err(source) if self.model.keep_kinks(true) => {
+                self.progress.count_failure(source.factorisations());
+                self.stepper.step(&mut self.model, interval)
+            }
+            other => other,
+        }
     }
 
     /// Counts a step that succeeded after some failed tries.

@@ -1,0 +1,87 @@
+//! The rule of a slider whose kink stays as it is for a step.
+
+use super::jet::{ContactJets, Jet, JetVector};
+use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, KinkState, SlidingLaw, Unit};
+use crate::elementary::square;
+
+/// The law of a slider on a master whose kink turns with the master and otherwise stays as it is, whatever the contact force: energy, linear and angular
+/// momentum and the gap to the kinked axis are kept, for any step.
+///
+/// ```text
+/// x_s1 = Σ B_i(ξ1) x_i1 + g1 a1          a1 = (1 - q J)⁻¹ (1 + q J) a0          q = 2 Jτ·d/|τ|²
+/// |τ|² χ + (r × λ) Jτ = 0                r = Δξ d + ½ (g0 a0 + g1 a1)
+/// (λ - (Δπ/Δt) e)·w = κ ½ GA |a|² Δg/Δξ  w = τ - 2 q J d + (Δg/Δξ) (1 + q J) a0
+/// ```
+///
+/// with `π`, `e` and `v1` of the law [`Kinked`](super::Kinked), and `κ = 1 - ρA v0 v1/GA`. Derived in docs/theory.md, section 10.1.
+#[derive(Debug, Clone, Copy)]
+pub struct Frozen;
+
+impl SlidingLaw for Frozen {
+    fn equations(&self, contact: &Contact<'_>) -> [Equation; CONTACT_UNKNOWNS] {
+        let Some(kink) = &contact.kink else { return Conserving.equations(contact) };
+        let jets = ContactJets::of(contact);
+        let ContactJets { offset, tangent, force, couple, .. } = jets;
+        let step = FrozenInStep::of(&jets, kink);
+        let gap = offset - step.jump * step.length * kink.compliance;
+        let balanced = couple * tangent.dot(&tangent) + tangent.turned() * step.arm.cross(&force);
+        let along = (force - step.inertia).dot(&step.direction) - step.rise;
+        let [gap_x, gap_y] = gap.vanish(Unit::Length);
+        let [couple_x, couple_y] = (balanced * (1.0 / square(contact.length))).vanish(Unit::Force);
+        [gap_x, gap_y, couple_x, couple_y, (along * (1.0 / contact.length)).vanishes(Unit::Force)]
+    }
+
+    fn kink_at_end(&self, contact: &Contact<'_>) -> KinkState {
+        let Some(kink) = &contact.kink else { return KinkState::default() };
+        let step = FrozenInStep::of(&ContactJets::of(contact), kink);
+        KinkState { jump: step.jump.value(), speed: step.speed.value }
+    }
+}
+
+/// A kink that stays as it is, in an iterate of a step.
+struct FrozenInStep {
+    /// The kink length `g1` at the end of the way [length].
+    length: Jet,
+    /// The mean vector `r` from where the contact pushes the master to the slave [length].
+    arm: JetVector,
+    /// The direction `w` of the way [length].
+    direction: JetVector,
+    /// The speed `v1` of the kink along the master at the end of the step [length/time].
+    speed: Jet,
+    /// The force `p1 = GA a1` that stands for the jump of the tangent at the end of the step [force].
+    jump: JetVector,
+    /// What sets the kink in motion, `(Δπ/Δt) e` [force].
+    inertia: JetVector,
+    /// What the energy of the kink grows by on a unit of way [force·length].
+    rise: Jet,
+}
+
+impl FrozenInStep {
+    fn of(jets: &ContactJets, kink: &Kink) -> Self {
+        let &ContactJets { offset, tangent, swing, way, .. } = jets;
+        let (along, motion, before) = (&kink.along, &kink.motion, JetVector::constant(kink.before));
+        let one = Jet::constant(1.0);
+        let length = Jet::along_way(along.end, along.slope);
+        let difference = Jet::along_way(along.difference, along.change);
+        let stretch = Jet::along_way(motion.arc.difference, motion.arc.change);
+        let over_square = tangent.dot(&tangent).inverse();
+
+        let turn = tangent.turned().dot(&swing) * over_square * 2.0;
+        let jump = (before * (one - turn * turn) + before.turned() * (turn * 2.0))
+            * (one + turn * turn).inverse();
+        let offset_before = JetVector::constant(kink.before * (along.start * kink.compliance));
+        let arm = swing * way + (offset_before + offset) * 0.5;
+        let opened = (before + before.turned() * turn) * difference * kink.compliance;
+        let direction = tangent - swing.turned() * (turn * 2.0) + opened;
+
+        let unit = tangent * (stretch * over_square);
+        let speed =
+            unit.dot(&direction) * way * (2.0 / motion.duration) - Jet::constant(motion.speed);
+        let energy = kink.before.norm_squared() * kink.compliance;
+        let change = (length * speed - Jet::constant(along.start * motion.speed))
+            * (energy * motion.slowness / motion.duration);
+        let softening = one - speed * (motion.speed * motion.slowness);
+        let rise = softening * difference * (0.5 * energy);
+        Self { length, arm, direction, speed, jump, inertia: unit * change, rise }
+    }
+}
