@@ -1,4 +1,5 @@
 //! Damped materials that relax long before a step is over: what their sections transmit, beside a rod that is as good as rigid.
+#![allow(clippy::unwrap_used)]
 
 use crate::common::{at, run, scenes, simulate};
 use withy::beams::{Mesh, Relaxation, Section};
