@@ -175,7 +175,7 @@ const DEEDS: [(&str, Deed); 4] = [
     ("bounce", |model, slider| {
         let end = if model.slider_speed(slider) < 0.0 { MasterEnd::Start } else { MasterEnd::End };
         let strike = vec![MasterLimit { slider, end }];
-        model.blow(&Arriving { strike, ..Arriving::default() }, 0.001).unwrap();
+        model.meet(&Arriving { strike, ..Arriving::default() }, 0.001).unwrap();
     }),
     ("hold", |model, slider| model.hold(MasterLimit { slider, end: MasterEnd::End })),
     ("release", |model, slider| model.release(slider)),

@@ -11,6 +11,7 @@ mod invariants;
 mod kinks;
 mod long_ways;
 mod many;
+mod one_impact;
 mod orders;
 mod relaxed;
 mod together;

@@ -1,4 +1,4 @@
-//! Small linear complementarity problems with a symmetric matrix: what several contacts give that strike at once.
+//! Small linear complementarity problems: what several contacts give that strike at once.
 
 use super::{BandedMatrix, LinearError};
 
@@ -19,7 +19,7 @@ const NOTHING: f64 = 1e-13;
 
 /// The unknowns `z` with the answers `w = A z + q` of a linear complementarity problem: `w = 0` where they are tied, `0 ≤ z ⟂ w ≥ 0` where they push.
 ///
-/// For a positive definite `A`, given by its rows, there is one solution. It is found by block principal pivoting: which unknowns vanish is guessed, and
+/// For a positive definite `A`, given by its rows, symmetric or not, there is one solution; likewise where `A` is that once what is tied is eliminated. It is found by block principal pivoting: which unknowns vanish is guessed, and
 /// all that are wrong are exchanged at once (Júdice & Pires 1994), so that nothing depends on their order; where that goes round in circles, one by one (Murty 1974).
 ///
 /// # Errors

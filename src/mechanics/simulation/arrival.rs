@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::geometry::Vec2;
 use crate::model::MasterLimit;
 
 /// What happened to a slider at the end of its master.
@@ -30,6 +31,8 @@ pub struct Arrival {
     pub beam: Option<usize>,
     /// What happened to the slider at the end.
     pub kind: ArrivalKind,
+    /// What the slider gave its master in the impact there, that is no part of contact forces [mass·length/time].
+    pub impulse: Vec2,
 }
 
 impl ArrivalKind {

@@ -138,11 +138,12 @@ pub const TABLE: Table = Table {
         .example("check(sim.ending == \"\");\nsim.run_to(5);\nprint(sim.ending);")
         .see(&["ended", "events"]),
         property(SIMULATION, "events", events)
-            .returns(Returns::array_of(&ValueKind::Map).note(" #{ t, slider, end, what }"))
+            .returns(Returns::array_of(&ValueKind::Map).note(" #{ t, slider, end, what, impulse }"))
             .summary("When sliders reached ends of their beams and seams of their tracks so far, and what happened there.")
             .doc(
                 "slider is its name; end is \"start\" or \"end\"; what is \"stopped\", \"bounced\", \"rested\" (it leans on the \
-                 end until that would have to pull: in a blow that steps resolve, or until it is drawn away), \"released\" or, on a track, \"passed\": to the next beam. On a track \
+                 end until that would have to pull: in a blow that steps resolve, or until it is drawn away), \"released\" or, on a track, \"passed\": to the next beam. impulse is \
+                 what the slider gave its beams in that instant, in the impact with all else that arrived then, a vector (mass·length/time): contact forces have no part of it. On a track \
                  the map has the name of the beam as well, at one of whose ends that was: beam.",
             )
             .example("sim.run_to(5);\nfor event in sim.events {\n    print(`${event.slider} ${event.what} at ${event.end}, t = ${event.t}`);\n}")
@@ -331,6 +332,7 @@ fn events(call: &mut Call) -> Result<Dynamic, ScriptError> {
         ];
         let mut map: Map = words.into_iter().map(|(key, word)| (key.into(), word.into())).collect();
         map.insert("t".into(), arrival.time.into());
+        map.insert("impulse".into(), Dynamic::from(arrival.impulse));
         if let Some(beam) = arrival.beam {
             map.insert("beam".into(), simulation.scene().beams[beam].name.clone().into());
         }

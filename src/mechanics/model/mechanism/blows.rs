@@ -4,7 +4,8 @@
 //! elastic body that it is, and gives it back when the slider leaves; with a coefficient of restitution below one it is lost.
 
 use super::Model;
-use super::impact::{Direction, Impulses, Law};
+use super::corners::{Corner, round_corners};
+use super::impact::{Direction, Law};
 use crate::elementary::square;
 use crate::geometry::{Vec2, perpendicular};
 use crate::linalg::LinearError;
@@ -45,9 +46,13 @@ pub struct Arriving {
 }
 
 impl Arriving {
-    /// Whether nobody strikes or leans.
+    /// Whether nobody strikes, leans or passes.
     pub fn is_empty(&self) -> bool {
-        self.strike.is_empty() && self.lean.is_empty()
+        !self.strikes_or_leans() && self.pass.is_empty()
+    }
+
+    fn strikes_or_leans(&self) -> bool {
+        !self.strike.is_empty() || !self.lean.is_empty()
     }
 
     fn law(&self, model: &Model, limit: MasterLimit) -> Option<Law> {
@@ -110,44 +115,70 @@ impl Model {
         self.sliders[limit.slider].along_contact(&self.bodies) * -limit.end.outward()
     }
 
-    /// All that arrives at the ends of masters at the present moment is struck in one impact, in steps of such a length [time]: `0 ≤ P ⟂ w⁺ + e w⁻ ≥ 0` at
-    /// stops, with those on which sliders lean already, while all other contacts keep slaves on masters.
+    /// All that arrives at ends of masters and at seams of tracks at the present moment is one impact, in steps of such a length [time]:
+    /// `0 ≤ P ⟂ w⁺ + e w⁻ ≥ 0` at stops, with those on which sliders lean already, a turn round the corner at seams, while all other contacts keep slaves on
+    /// masters. Then who passes a seam is on its other side.
     ///
     /// # Errors
     /// When the impulses are not determined.
-    pub fn blow(&mut self, arriving: &Arriving, dt: f64) -> Result<(), ModelError> {
-        let straightened = self.straighten_kinks(&[&arriving.strike[..], &arriving.lean].concat());
-        straightened.map_err(|_| self.sliders.overdetermined())?;
-        let hits = self.hits(|model, limit| arriving.law(model, limit));
-        // What a stop holds it must hold as it is, and not as steps follow it.
-        let rigid_within = arriving.lean.is_empty().then_some(RIGID * dt);
-        let impulses = self.hit(&hits, rigid_within);
-        let impulses = impulses.map_err(|_| self.sliders.overdetermined())?;
-        for (Hit { direction: (slider, _), .. }, work) in hits.iter().zip(&impulses.works) {
-            self.sliders[*slider].give(*work);
-        }
-        for limit in &arriving.lean {
-            self.hold(*limit);
-        }
-        let tolerance = APPROACHES * self.fastest_speed();
-        for (Hit { direction, law }, impulse) in hits.iter().zip(&impulses.values) {
-            let (slave, master) = self.speeds(*direction, &self.motion.rates);
-            let leaves = *law == Law::Leans && *impulse == 0.0 && slave - master > tolerance;
-            let slider = &mut self.sliders[direction.0];
-            slider.is_pulled = leaves && !slider.clings;
-            slider.leaves_beyond = false;
-        }
+    pub fn meet(&mut self, arriving: &Arriving, dt: f64) -> Result<(), ModelError> {
+        self.sliders.iter_mut().for_each(|slider| slider.impulse = Vec2::zeros());
+        let met = self.meet_at_once(arriving, dt);
+        met.map_err(|_| self.sliders.overdetermined())?;
         self.leave_stops()
     }
 
-    /// Changes the velocities by impulses in all directions at once.
-    fn hit(&mut self, hits: &[Hit], rigid_within: Option<f64>) -> Result<Impulses, LinearError> {
-        let directions: Vec<Direction> = hits.iter().map(|hit| hit.direction).collect();
-        let laws: Vec<Law> = hits.iter().map(|hit| hit.law).collect();
-        let encounter = self.encounter(&directions, -2.0, rigid_within)?;
-        let impulses = encounter.impulses(&laws)?;
+    fn meet_at_once(&mut self, arriving: &Arriving, dt: f64) -> Result<(), LinearError> {
+        self.straighten_kinks(&[&arriving.strike[..], &arriving.lean].concat())?;
+        let passages = self.passages(&arriving.pass);
+        let corners = passages.corners_of_sections();
+        if arriving.strikes_or_leans() || !corners.is_empty() {
+            // What a stop holds it must hold as it is, and not as steps follow it.
+            let rigid_within = arriving.lean.is_empty().then_some(RIGID * dt);
+            let hits = self.hits(|model, limit| arriving.law(model, limit));
+            self.hit(&hits, corners, [Some(RIGID * dt), rigid_within])?;
+        }
+        arriving.lean.iter().for_each(|limit| self.hold(*limit));
+        self.pass_seams(&passages)
+    }
+
+    /// Changes the velocities by impulses at all contacts at once, those of passing sliders round corners and the others by their laws, met by what
+    /// steps of such lengths [time] follow of the motion.
+    fn hit(
+        &mut self,
+        hits: &[Hit],
+        corners: &[Corner],
+        [at_corners, rigid_within]: [Option<f64>; 2],
+    ) -> Result<(), LinearError> {
+        let passes = |slider: usize| corners.iter().any(|corner| corner.slider == slider);
+        let others = hits.iter().filter(|hit| !passes(hit.direction.0));
+        let (directions, laws): (Vec<Direction>, Vec<Law>) =
+            others.map(|hit| (hit.direction, hit.law)).unzip();
+        let turned = Corner::directions(corners);
+        let met = [(&turned[..], at_corners), (&directions, rigid_within)];
+        let encounter = self.encounter(&met, -2.0)?;
+        let Some(impulses) = round_corners(&encounter, corners, &laws)? else {
+            // A blow that turns somebody back at a corner comes first.
+            self.hit(hits, &[], [None, rigid_within])?;
+            return self.turn(corners, at_corners);
+        };
         self.apply(encounter, &impulses.values);
-        Ok(impulses)
+        let tolerance = APPROACHES * self.fastest_speed();
+        let of_others = impulses.values.iter().zip(&impulses.works).skip(turned.len());
+        for ((direction, law), (impulse, work)) in directions.iter().zip(&laws).zip(of_others) {
+            let (slave, master) = self.speeds(*direction, &self.motion.rates);
+            let leaves = *law == Law::Leans && *impulse == 0.0 && slave - master > tolerance;
+            let slider = &mut self.sliders[direction.0];
+            slider.give(*work);
+            slider.is_pulled = leaves && !slider.clings;
+            slider.leaves_beyond = false;
+        }
+        Ok(())
+    }
+
+    /// The impulses that a slider gave its master in the last impact [mass·length/time].
+    pub fn impulse_of(&self, slider: usize) -> Vec2 {
+        self.sliders[slider].impulse
     }
 
     /// All sliders whose stops would have had to pull leave these, with what the stops have stored.
@@ -191,7 +222,7 @@ impl Model {
                 _ => 0.0,
             })
             .collect();
-        let encounter = self.encounter(&directions, -2.0, None)?;
+        let encounter = self.encounter(&[(&directions, None)], -2.0)?;
         let laws = |scale: f64| -> Vec<Law> {
             let speed = |at: usize| scale * (2.0 * stored[at] * encounter.response[at][at]).sqrt();
             let own = hits.iter().enumerate();

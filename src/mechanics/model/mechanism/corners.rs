@@ -7,16 +7,15 @@
 //! w⁺ = w⁻ + W P        P = γ J ½ (w⁻ + w⁺)        γ = 2 tan(θ/2)/√det W
 //! ```
 //!
-//! with the angle `θ` between the two tangents in that metric. Sections turn it first, for which `G` is what steps follow of the velocity, as in a blow;
-//! then what is left, the difference of the shear of both sides, for which it is the velocity itself. Derived in docs/theory.md, section 10.3.
+//! with the angle `θ` between the two tangents in that metric. Sections turn it first, for which `G` is what steps follow of the velocity, as in a blow,
+//! and in one impact with all blows of that moment; then what is left, the difference of the shear of both sides, for which it is the velocity itself.
+//! Derived in docs/theory.md, section 10.3.
 
 use super::Model;
-use super::blows::RIGID;
-use super::impact::{Direction, Encounter};
-use crate::elementary::{atan2, sin_cos};
+use super::impact::{Direction, Encounter, Impulses, Law};
+use crate::elementary::{atan2, sin_cos, square};
 use crate::geometry::{Vec2, cross, perpendicular};
-use crate::linalg::{BandedMatrix, LinearError};
-use crate::model::ModelError;
+use crate::linalg::{BandedMatrix, LinearError, Pairing, complementary};
 use crate::model::sliders::{MasterEnd, MasterLimit, Seam};
 
 /// Tangents whose directions differ by less than this angle are one: rounding [rad].
@@ -26,22 +25,47 @@ const STRAIGHT: f64 = 1e-13;
 const ONE_WAY: f64 = 1e-20;
 
 /// The most times that the angles of corners are corrected that are passed together, where those who pass move each other.
-const CORRECTIONS: usize = 30;
+const CORRECTIONS: usize = 40;
 
 /// An angle that is off by less is right [rad].
 const RIGHT: f64 = 1e-12;
 
+/// By how much the angle of a turn may change with the one that stands for it, to be believed.
+const SLOPES: std::ops::Range<f64> = 0.2..5.0;
+
 /// A corner that a slider passes: the directions in which it comes and goes [-].
 #[derive(Debug, Clone, Copy)]
-struct Corner {
-    slider: usize,
+pub(super) struct Corner {
+    pub(super) slider: usize,
     comes: Vec2,
     goes: Vec2,
 }
 
 impl Corner {
+    /// The directions of the impulses at corners, two for each.
+    pub(super) fn directions(corners: &[Self]) -> Vec<Direction> {
+        let both = |Self { slider, .. }: &Self| [(*slider, Vec2::x()), (*slider, Vec2::y())];
+        corners.iter().flat_map(both).collect()
+    }
+
     fn is_straight(&self) -> bool {
         cross(self.comes, self.goes).abs() <= STRAIGHT && self.comes.dot(&self.goes) > 0.0
+    }
+}
+
+/// Sliders that pass seams at one time.
+pub(super) struct Passages {
+    passing: Vec<(usize, MasterEnd, Seam)>,
+    /// Their corners as sections make them.
+    of_sections: Vec<Corner>,
+    /// What the shear of both sides leaves of these.
+    of_shear: Vec<Corner>,
+}
+
+impl Passages {
+    /// The corners that sections make; none where all are straight.
+    pub(super) fn corners_of_sections(&self) -> &[Corner] {
+        if self.of_sections.iter().all(Corner::is_straight) { &[] } else { &self.of_sections }
     }
 }
 
@@ -58,9 +82,12 @@ impl Response {
         cross(self.0[0], self.0[1])
     }
 
+    fn trace(&self) -> f64 {
+        self.0[0].x + self.0[1].y
+    }
+
     fn is_one_way(&self) -> bool {
-        let trace = self.0[0].x + self.0[1].y;
-        self.determinant() <= ONE_WAY * trace * trace
+        self.determinant() <= ONE_WAY * square(self.trace())
     }
 
     /// The angle by which one velocity has to be turned to have the direction of another one, in the metric `W⁻¹` [rad].
@@ -82,11 +109,8 @@ impl Model {
         self.sliders[slider].came_to_seam_at(self.motion.time)
     }
 
-    /// Sliders that are at seams of their tracks pass to the other sides, all at the present moment together, in steps of such a length [time].
-    ///
-    /// # Errors
-    /// When the impulses are not determined.
-    pub fn pass_seams(&mut self, limits: &[MasterLimit], dt: f64) -> Result<(), ModelError> {
+    /// How sliders pass the seams of their tracks at which they are.
+    pub(super) fn passages(&self, limits: &[MasterLimit]) -> Passages {
         let passing = limits.iter().filter_map(|&MasterLimit { slider, end }| {
             Some((slider, end, self.sliders[slider].seam(&self.bodies, end)?))
         });
@@ -97,16 +121,19 @@ impl Model {
             let corner = |comes, goes| Corner { slider: *slider, comes, goes };
             Some((corner(comes, with_sections), corner(with_sections, goes)))
         });
-        let (of_sections, of_shear): (Vec<Corner>, Vec<Corner>) = corners.unzip();
-        self.turn(&of_sections, Some(RIGID * dt))
-            .and_then(|()| self.turn(&of_shear, None))
-            .map_err(|_| self.sliders.overdetermined())?;
+        let (of_sections, of_shear) = corners.unzip();
+        Passages { passing, of_sections, of_shear }
+    }
+
+    /// Lets sliders that sections have turned pass to the other sides of their seams.
+    pub(super) fn pass_seams(&mut self, passages: &Passages) -> Result<(), LinearError> {
+        self.turn(&passages.of_shear, None)?;
         let time = self.motion.time;
-        for (slider, _, seam) in passing {
-            self.sliders[slider].pass(seam);
-            self.sliders[slider].note_passing(time);
+        for (slider, _, seam) in &passages.passing {
+            self.sliders[*slider].pass(*seam);
+            self.sliders[*slider].note_passing(time);
+            self.motion.accelerations.forget();
         }
-        self.motion.accelerations.forget();
         Ok(())
     }
 
@@ -136,20 +163,26 @@ impl Model {
     }
 
     /// Turns the relative velocities of sliders round corners, met by what steps of length `rigid_within` follow of the motion, or by all of it.
-    fn turn(&mut self, corners: &[Corner], rigid_within: Option<f64>) -> Result<(), LinearError> {
+    pub(super) fn turn(
+        &mut self,
+        corners: &[Corner],
+        rigid_within: Option<f64>,
+    ) -> Result<(), LinearError> {
         if corners.iter().all(Corner::is_straight) {
             return Ok(());
         }
         let passes = |slider: usize| corners.iter().any(|corner| corner.slider == slider);
-        let turned = corners
-            .iter()
-            .flat_map(|Corner { slider, .. }| [(*slider, Vec2::x()), (*slider, Vec2::y())]);
         let others = self.sliders.directions(&self.bodies);
-        let others = others.into_iter().filter(|(slider, _)| !passes(*slider));
-        let directions: Vec<Direction> = turned.chain(others).collect();
-        let encounter = self.encounter(&directions, -2.0, rigid_within)?;
-        let impulses = turning(&encounter, corners)?;
-        self.apply(encounter, &impulses);
+        let others: Vec<Direction> =
+            others.into_iter().filter(|(slider, _)| !passes(*slider)).collect();
+        let turned = Corner::directions(corners);
+        let met = [(&turned[..], rigid_within), (&others, rigid_within)];
+        let encounter = self.encounter(&met, -2.0)?;
+        if let Some(impulses) =
+            round_corners(&encounter, corners, &vec![Law::Reverses; others.len()])?
+        {
+            self.apply(encounter, &impulses.values);
+        }
         Ok(())
     }
 }
@@ -159,91 +192,121 @@ fn turned(direction: Vec2, [from, to]: [Vec2; 2]) -> Vec2 {
     direction * from.dot(&to) + perpendicular(direction) * cross(from, to)
 }
 
-/// The impulses that turn the relative velocities of sliders round corners, two for each, and then those by which all other contacts of an encounter answer.
-fn turning(encounter: &Encounter, corners: &[Corner]) -> Result<Vec<f64>, LinearError> {
-    let (response, half_way) = (&encounter.response, encounter.half_way());
-    let (turned, all) = (2 * corners.len(), half_way.len());
-    // What the others make of impulses in the first directions, and of velocities: `w⁺ = -w⁻`.
-    let tied = (turned..all).map(|row| response[row][turned..].to_vec()).collect::<Vec<_>>();
-    let solve_tied = |rhs: Vec<f64>| if rhs.is_empty() { Ok(rhs) } else { solve(&tied, rhs) };
-    let columns = (0..turned)
-        .map(|column| solve_tied((turned..all).map(|row| response[row][column]).collect()))
-        .collect::<Result<Vec<_>, _>>()?;
-    let own = solve_tied(half_way[turned..].to_vec())?;
-    let through = |row: usize, column: &[f64]| -> f64 {
-        response[row][turned..].iter().zip(column).map(|(a, b)| a * b).sum()
-    };
-    let left: Vec<Vec<f64>> = (0..turned)
-        .map(|row| {
-            let entry = |column: usize| response[row][column] - through(row, &columns[column]);
-            (0..turned).map(entry).collect()
-        })
-        .collect();
-    let come: Vec<f64> = (0..turned).map(|row| half_way[row] - through(row, &own)).collect();
-
-    let mut impulses = turn_together(&left, &come, corners)?;
-    let answers = (0..all - turned).map(|other| {
-        let passed: f64 = columns.iter().zip(&impulses).map(|(column, p)| column[other] * p).sum();
-        -(2.0 * own[other] + passed)
-    });
-    let answers: Vec<f64> = answers.collect();
-    impulses.extend(answers);
-    Ok(impulses)
-}
-
-/// The impulses `P = γ J ½ (w⁻ + w⁺)` of several sliders that move each other, `w⁺ = w⁻ + W P`, with angles right to 1e-12, or as the last
-/// correction leaves them.
-fn turn_together(
-    response: &[Vec<f64>],
-    come: &[f64],
+/// The impulses of an impact in which sliders are turned round corners, two for each, and all other contacts have a law: `P = γ J ½ (w⁻ + w⁺)` at corners,
+/// with `γ` such that each is turned by its own angle, to 1e-12, or as the last correction leaves it. None where stops strike too and the angles are not met.
+///
+/// For any `γ` it is one complementarity problem, with the rows `cos(θ/2) √det W P - sin(θ/2) J W P = sin(θ/2) J 2 w̄` for corners; theory.md, section 10.3,
+/// shows that it has one solution.
+pub(super) fn round_corners(
+    encounter: &Encounter,
     corners: &[Corner],
-) -> Result<Vec<f64>, LinearError> {
-    let pair = |values: &[f64], at: usize| Vec2::new(values[2 * at], values[2 * at + 1]);
-    let own = |at: usize| Response([0, 1].map(|row| pair(&response[2 * at + row], at)));
-    let wanted = |(at, corner): (usize, &Corner)| own(at).angle(corner.comes, corner.goes);
-    let wanted: Vec<f64> = corners.iter().enumerate().map(wanted).collect();
-    let mut angles = wanted.clone();
-    let mut impulses = vec![0.0; come.len()];
-    for _ in 0..CORRECTIONS {
-        let mut matrix = vec![vec![0.0; come.len()]; come.len()];
-        let mut rhs = vec![0.0; come.len()];
-        for (at, angle) in angles.iter().enumerate() {
-            let own = own(at);
-            let (sine, cosine) = sin_cos(0.5 * angle);
-            let gyration = match own.is_one_way() {
-                true => 0.0,
-                false => 2.0 * sine / (cosine * own.determinant().sqrt()),
-            };
-            let w = perpendicular(pair(come, at)) * gyration;
-            (rhs[2 * at], rhs[2 * at + 1]) = (w.x, w.y);
-            for column in 0..come.len() {
-                let moved = Vec2::new(response[2 * at][column], response[2 * at + 1][column]);
-                let turned = perpendicular(moved) * (0.5 * gyration);
-                (matrix[2 * at][column], matrix[2 * at + 1][column]) = (-turned.x, -turned.y);
+    laws: &[Law],
+) -> Result<Option<Impulses>, LinearError> {
+    if corners.is_empty() {
+        return Ok(Some(encounter.impulses(laws)?));
+    }
+    let own = own_responses(encounter, corners, laws)?;
+    let half_way = encounter.half_way();
+    let lacks = [vec![0.0; 2 * corners.len()], encounter.lacks(laws)].concat();
+    let tied = corners.iter().flat_map(|_| [Pairing::Tied; 2]);
+    let pairings: Vec<Pairing> = tied.chain(laws.iter().map(|law| law.pairing())).collect();
+    let mut bends: Vec<Bend> = corners.iter().zip(&own).map(Bend::new).collect();
+    for correction in 1.. {
+        let (mut matrix, mut missing) = (encounter.response.clone(), lacks.clone());
+        for (at, bend) in bends.iter().enumerate() {
+            let [x, y] = [2 * at, 2 * at + 1];
+            let (keeps, swings) = bend.row();
+            // J turns (x, y) into (-y, x).
+            for (row, from, sign) in [(x, y, swings), (y, x, -swings)] {
+                matrix[row] = encounter.response[from].iter().map(|w| w * sign).collect();
+                matrix[row][row] += keeps;
+                missing[row] = 2.0 * half_way[from] * sign;
             }
-            matrix[2 * at][2 * at] += 1.0;
-            matrix[2 * at + 1][2 * at + 1] += 1.0;
         }
-        impulses = solve(&matrix, rhs)?;
+        let impulses = complementary(&matrix, &missing, &pairings)?;
         let mut is_right = true;
-        for (at, angle) in angles.iter_mut().enumerate() {
-            let change = |row: usize| -> f64 {
-                response[row].iter().zip(&impulses).map(|(w, p)| w * p).sum()
-            };
-            let before = pair(come, at);
-            let after = before + Vec2::new(change(2 * at), change(2 * at + 1));
-            if own(at).is_one_way() || before == Vec2::zeros() {
-                continue;
-            }
-            let off = own(at).angle(before, after) - wanted[at];
-            is_right &= off.abs() <= RIGHT;
-            *angle -= off;
+        for (at, bend) in bends.iter_mut().enumerate() {
+            let [x, y] = [2 * at, 2 * at + 1].map(|row| encounter.meets(row, &impulses));
+            let (before, change) = (Vec2::new(x.0, y.0), Vec2::new(x.1, y.1));
+            is_right &= bend.correct(before, before + change);
         }
-        if is_right {
-            break;
+        let strikes = pairings.contains(&Pairing::Pushing);
+        if is_right || (correction == CORRECTIONS && !strikes) {
+            return Ok(Some(encounter.with_works(impulses)));
+        }
+        if correction == CORRECTIONS {
+            return Ok(None);
         }
     }
-    Ok(impulses)
+    Ok(None)
+}
+
+/// How sliders at corners answer to their own impulses, when all contacts answer that keep slaves on masters.
+fn own_responses(
+    encounter: &Encounter,
+    corners: &[Corner],
+    laws: &[Law],
+) -> Result<Vec<Response>, LinearError> {
+    let (response, first) = (&encounter.response, 2 * corners.len());
+    let is_tied = |at: &usize| laws[at - first].pairing() == Pairing::Tied;
+    let tied: Vec<usize> = (first..response.len()).filter(is_tied).collect();
+    let entries = |row: usize| -> Vec<f64> { tied.iter().map(|at| response[row][*at]).collect() };
+    let among: Vec<Vec<f64>> = tied.iter().map(|row| entries(*row)).collect();
+    let own = |at: usize| -> Result<Response, LinearError> {
+        let mut rows = [Vec2::zeros(); 2];
+        for column in [0, 1] {
+            let of_tied = entries(2 * at + column);
+            let answers = if tied.is_empty() { of_tied } else { solve(&among, of_tied)? };
+            for row in [0, 1] {
+                let (to_tied, whole) =
+                    (entries(2 * at + row), response[2 * at + row][2 * at + column]);
+                rows[row][column] =
+                    whole - to_tied.iter().zip(&answers).map(|(a, p)| a * p).sum::<f64>();
+            }
+        }
+        Ok(Response(rows))
+    };
+    (0..corners.len()).map(own).collect()
+}
+
+/// A corner in the search for the `γ` with which its slider is turned by its angle.
+struct Bend {
+    own: Response,
+    /// By which angle it is to be turned [rad].
+    wanted: f64,
+    /// The angle that stands for `γ` [rad], and by how much the one before was off.
+    angle: f64,
+    before: Option<(f64, f64)>,
+}
+
+impl Bend {
+    fn new((corner, own): (&Corner, &Response)) -> Self {
+        let wanted = own.angle(corner.comes, corner.goes);
+        Self { own: *own, wanted, angle: wanted, before: None }
+    }
+
+    /// The factors of `P` and of `J W P` in the equations of the corner.
+    fn row(&self) -> (f64, f64) {
+        let (sine, cosine) = sin_cos(0.5 * self.angle);
+        match self.own.is_one_way() {
+            true => (self.own.trace(), 0.0),
+            false => (cosine * self.own.determinant().sqrt(), sine),
+        }
+    }
+
+    /// Corrects the angle by the velocities before and after the impact; gives whether they were right.
+    fn correct(&mut self, before: Vec2, after: Vec2) -> bool {
+        if self.own.is_one_way() || before == Vec2::zeros() {
+            return true;
+        }
+        let off = self.own.angle(before, after) - self.wanted;
+        let slope = self.before.map(|(angle, other)| (off - other) / (self.angle - angle));
+        // By the secant where it is one.
+        let slope = slope.filter(|slope| SLOPES.contains(slope)).unwrap_or(1.0);
+        self.before = Some((self.angle, off));
+        self.angle -= off / slope;
+        off.abs() <= RIGHT
+    }
 }
 
 /// Solves a few equations with a dense matrix.

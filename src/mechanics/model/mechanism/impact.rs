@@ -15,6 +15,9 @@ use crate::model::elements::Exchange;
 /// A slider, and the component of its relative velocity on which an impulse acts.
 pub(super) type Direction = (usize, Vec2);
 
+/// Directions that are met by what steps of a length [time] follow of the motion, or by all of it.
+pub(super) type Met<'a> = (&'a [Direction], Option<f64>);
+
 /// What a unit impulse transmits, and how the velocities answer.
 pub(super) struct Answer {
     /// `Gᵀ`, on all degrees of freedom, with what is passed on within a step.
@@ -58,7 +61,7 @@ pub(super) enum Law {
 }
 
 impl Law {
-    fn pairing(self) -> Pairing {
+    pub(super) fn pairing(self) -> Pairing {
         match self {
             Self::Ends | Self::Reverses => Pairing::Tied,
             Self::Strikes(_) | Self::Leans | Self::Leaves(_) => Pairing::Pushing,
@@ -100,27 +103,45 @@ pub(super) struct Impulses {
 }
 
 impl Encounter {
+    /// By how much the velocity in a direction changes without impulses of contacts [length/time].
+    fn by_links(&self, at: usize) -> f64 {
+        self.answers[at].velocity(&self.change)
+    }
+
+    /// The velocity in a direction before the impact, and by how much such impulses change it [length/time].
+    pub(super) fn meets(&self, at: usize, impulses: &[f64]) -> (f64, f64) {
+        let by_impulses: f64 = self.response[at].iter().zip(impulses).map(|(a, p)| a * p).sum();
+        (self.before[at], self.by_links(at) + by_impulses)
+    }
+
     /// The velocities half-way between before and after the impact, without impulses of contacts [length/time].
     pub(super) fn half_way(&self) -> Vec<f64> {
-        let Self { answers, before, change, .. } = self;
-        let by_links = answers.iter().map(|answer| answer.velocity(change));
-        before.iter().zip(by_links).map(|(w, by_links)| w + 0.5 * by_links).collect()
+        let half_way = |(at, w): (usize, &f64)| w + 0.5 * self.by_links(at);
+        self.before.iter().enumerate().map(half_way).collect()
+    }
+
+    /// By how much velocities after the impact lack, without impulses, what laws for the last directions ask for [length/time].
+    pub(super) fn lacks(&self, laws: &[Law]) -> Vec<f64> {
+        let first = self.before.len() - laws.len();
+        let lack = |(at, law): (usize, &Law)| law.lack(self.before[at]) + self.by_links(at);
+        (first..).zip(laws).map(lack).collect()
+    }
+
+    /// Impulses with the works that they do.
+    pub(super) fn with_works(&self, values: Vec<f64>) -> Impulses {
+        let work = |at: usize| {
+            let (before, change) = self.meets(at, &values);
+            values[at] * (before + 0.5 * change)
+        };
+        let works = (0..values.len()).map(work).collect();
+        Impulses { values, works }
     }
 
     /// The impulses by a law for each direction.
     pub(super) fn impulses(&self, laws: &[Law]) -> Result<Impulses, LinearError> {
-        let Self { answers, response, before, change, .. } = self;
-        let by_links: Vec<f64> = answers.iter().map(|answer| answer.velocity(change)).collect();
-        let lacks = laws.iter().zip(before).zip(&by_links);
-        let lacks: Vec<f64> = lacks.map(|((law, w), by_links)| law.lack(*w) + by_links).collect();
         let pairings: Vec<Pairing> = laws.iter().map(|law| law.pairing()).collect();
-        let values = complementary(response, &lacks, &pairings)?;
-        let work = |at: usize| {
-            let by_impulses: f64 = response[at].iter().zip(&values).map(|(a, p)| a * p).sum();
-            values[at] * (before[at] + 0.5 * (by_links[at] + by_impulses))
-        };
-        let works = (0..values.len()).map(work).collect();
-        Ok(Impulses { values, works })
+        let values = complementary(&self.response, &self.lacks(laws), &pairings)?;
+        Ok(self.with_works(values))
     }
 }
 
@@ -142,7 +163,7 @@ impl Model {
     /// Takes away the velocities across all masters, and of points of rigid bodies beside these.
     fn strike_across(&mut self) -> Result<(), LinearError> {
         let across = self.across();
-        let encounter = self.encounter(&across, -1.0, None)?;
+        let encounter = self.encounter(&[(&across, None)], -1.0)?;
         let impulses = encounter.impulses(&vec![Law::Ends; across.len()])?;
         self.apply(encounter, &impulses.values);
         Ok(())
@@ -183,7 +204,9 @@ impl Model {
         let directions = self.sliders.directions(&self.bodies);
         let laws = vec![Law::Reverses; directions.len()];
         // So is a matrix that cannot be factorised.
-        let Ok(encounter) = self.encounter_of(&directions, -2.0, None, jumps) else { return false };
+        let Ok(encounter) = self.encounter_of(&[(&directions, None)], -2.0, jumps) else {
+            return false;
+        };
         let Ok(impulses) = encounter.impulses(&laws) else { return false };
         self.apply(encounter, &impulses.values);
         true
@@ -248,31 +271,32 @@ impl Model {
         Ok(directions.iter().map(&mut answer).collect())
     }
 
-    /// The contacts in some directions, met by what steps of length `rigid_within` follow of the motion, or by all of it; what points of rigid bodies move
-    /// beside these is changed by `links` times itself: by -2, and rigid links do no work.
+    /// The contacts in some directions; what points of rigid bodies move beside these is changed by `links` times itself: by -2, and rigid links do no work.
     pub(super) fn encounter(
         &mut self,
-        directions: &[Direction],
+        met: &[Met<'_>],
         links: f64,
-        rigid_within: Option<f64>,
     ) -> Result<Encounter, LinearError> {
-        self.encounter_of(directions, links, rigid_within, Vec::new())
+        self.encounter_of(met, links, Vec::new())
     }
 
     /// The same where the rates of prescribed movements jump; contacts and links are met by rates half-way through that.
     fn encounter_of(
         &mut self,
-        directions: &[Direction],
+        met: &[Met<'_>],
         links: f64,
-        rigid_within: Option<f64>,
         jumps: Vec<f64>,
     ) -> Result<Encounter, LinearError> {
         let mut inertia = self.banded_inertia();
         let inertia = inertia.factorise()?;
-        let answers = match rigid_within {
-            None => self.answers(&inertia, directions),
-            Some(dt) => self.answers_within(&inertia, directions, dt)?,
-        };
+        let (mut directions, mut answers) = (Vec::new(), Vec::new());
+        for (own, rigid_within) in met.iter().filter(|(own, _)| !own.is_empty()) {
+            directions.extend_from_slice(own);
+            answers.extend(match rigid_within {
+                None => self.answers(&inertia, own),
+                Some(dt) => self.answers_within(&inertia, own, *dt)?,
+            });
+        }
         let mut change = vec![0.0; self.unknowns()];
         if !jumps.is_empty() {
             let mut pulled = vec![0.0; self.degrees_of_freedom()];
@@ -289,14 +313,14 @@ impl Model {
         }
         let response = response(&answers);
         let before = answers.iter().map(|answer| answer.velocity(&rates)).collect();
-        let directions = directions.to_vec();
         Ok(Encounter { directions, answers, response, before, change, jumps })
     }
 
     /// Changes the velocities by the impulses of an encounter.
     pub(super) fn apply(&mut self, encounter: Encounter, impulses: &[f64]) {
         let Encounter { directions, answers, mut change, jumps, .. } = encounter;
-        let mut passed_on = vec![0.0; answers.first().map_or(0, |answer| answer.passed_on.len())];
+        let most_passed_on = answers.iter().map(|answer| answer.passed_on.len()).max();
+        let mut passed_on = vec![0.0; most_passed_on.unwrap_or(0)];
         let mut residual = vec![0.0; self.degrees_of_freedom()];
         for (impulse, Answer { forces, rates, .. }) in impulses.iter().zip(&answers) {
             change.iter_mut().zip(rates).for_each(|(change, rate)| *change += impulse * rate);
@@ -316,6 +340,9 @@ impl Model {
         }
         let on_slaves = impulses.iter().zip(directions);
         let on_slaves = on_slaves.map(|(impulse, (slider, unit))| (slider, unit * *impulse));
+        for (slider, impulse) in on_slaves.clone() {
+            self.sliders[slider].impulse -= impulse;
+        }
         self.add_impulses_of_blow(&change, &passed_on, on_slaves);
         // Impulses of rigid links are no forces that go on.
         self.links.clear(&mut change);

@@ -34,6 +34,8 @@ pub struct Sliding {
     pub stored: f64,
     /// What was lost in blows against stops so far [energy].
     pub lost: f64,
+    /// What the slider gave its master in the last impact [mass·length/time].
+    pub impulse: Vec2,
     /// When the slider left a stop last; [`NEVER`] before it did [time].
     pub left_at: f64,
     /// Whether the stop may pull in the step to come: the slider has left it just now, and every step leads back.
@@ -116,6 +118,7 @@ impl Sliding {
             state: SliderState::Sliding,
             stored: 0.0,
             lost: 0.0,
+            impulse: Vec2::zeros(),
             left_at: NEVER,
             clings: false,
             is_pulled: false,

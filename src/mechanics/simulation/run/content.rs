@@ -138,7 +138,10 @@ impl Content<'_> {
         }
         let is_arrival = |arrival: &Arrival| {
             let is_known = arrival.beam.is_none_or(|beam| beam < self.scene.beams.len());
-            is_known && arrival.limit.slider < self.scene.sliders.len() && arrival.time.is_finite()
+            let numbers = [arrival.time, arrival.impulse.x, arrival.impulse.y];
+            is_known
+                && arrival.limit.slider < self.scene.sliders.len()
+                && numbers.iter().all(|number| number.is_finite())
         };
         if !self.arrivals.iter().all(is_arrival) {
             return Err(refused("a slider arrived that is not there"));

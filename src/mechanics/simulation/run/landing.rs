@@ -2,6 +2,7 @@
 
 use super::Simulation;
 use crate::elementary::whole_power;
+use crate::geometry::Vec2;
 use crate::integrators::{Interval, Overshoot, StepError};
 use crate::joints::EndAction;
 use crate::model::{Arriving, MasterEnd, MasterLimit, SliderState};
@@ -254,10 +255,10 @@ impl Simulation {
             arrivals.push(self.arrival(limit, kind));
         }
         if !arriving.is_empty() {
-            self.model.blow(&arriving, dt)?;
-        }
-        if !arriving.pass.is_empty() {
-            self.model.pass_seams(&arriving.pass, dt)?;
+            self.model.meet(&arriving, dt)?;
+            for arrival in &mut arrivals {
+                arrival.impulse = self.model.impulse_of(arrival.limit.slider);
+            }
         }
         // What ends the run is told last.
         arrivals.sort_by_key(|arrival| arrival.kind == ArrivalKind::Stopped);
@@ -307,7 +308,7 @@ impl Simulation {
     fn arrival(&self, limit: MasterLimit, kind: ArrivalKind) -> Arrival {
         let is_on_track = self.scene.sliders[limit.slider].track.is_some();
         let beam = is_on_track.then(|| self.model.slider_beam(limit.slider));
-        Arrival { time: self.model.time(), limit, beam, kind }
+        Arrival { time: self.model.time(), limit, beam, kind, impulse: Vec2::zeros() }
     }
 
     /// Whether a slider has struck the same end so often within as many steps that nothing is resolved of its flights between.
