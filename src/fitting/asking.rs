@@ -3,12 +3,14 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::differences::{derivatives, only};
+use super::trust::{DISTRUST, agree, beside};
 use super::{Evaluate, Evaluation, Range, Slopes};
 
 /// A function with its calls so far.
 pub struct Asking<'a, 'e, E> {
     evaluate: &'a mut Evaluate<'e, E>,
     slopes: &'a mut Slopes<'e, E>,
+    ranges: &'a [Range],
     /// How often it was called.
     pub runs: usize,
     /// How often it was called for its derivatives too.
@@ -27,11 +29,15 @@ pub struct Asked {
 
 impl<'a, 'e, E> Asking<'a, 'e, E> {
     /// A function that has not been called.
-    pub fn new(evaluate: &'a mut Evaluate<'e, E>, slopes: &'a mut Slopes<'e, E>) -> Self {
-        Self { evaluate, slopes, runs: 0, gradient_runs: 0, differences: None }
+    pub fn new(
+        evaluate: &'a mut Evaluate<'e, E>,
+        slopes: &'a mut Slopes<'e, E>,
+        ranges: &'a [Range],
+    ) -> Self {
+        Self { evaluate, slopes, ranges, runs: 0, gradient_runs: 0, differences: None }
     }
 
-    /// The values at a point, and the derivatives if the function knows them.
+    /// The values at a point, and the derivatives if the function knows them. The first ones are held against a difference.
     ///
     /// # Errors
     /// Those of the function.
@@ -42,7 +48,10 @@ impl<'a, 'e, E> Asking<'a, 'e, E> {
             match (self.slopes)(x)?.and_then(|found| matrix(found, x.len())) {
                 Ok((values, derivatives)) => {
                     self.gradient_runs += 1;
-                    return Ok(Asked { values: Ok(values), derivatives: Some(derivatives) });
+                    if self.gradient_runs > 1 || self.are_true(x, &values, &derivatives)? {
+                        return Ok(Asked { values: Ok(values), derivatives: Some(derivatives) });
+                    }
+                    unknown = Some(DISTRUST.to_owned());
                 }
                 Err(reason) => unknown = Some(reason),
             }
@@ -54,6 +63,17 @@ impl<'a, 'e, E> Asking<'a, 'e, E> {
             self.differences = unknown;
         }
         Ok(Asked { values, derivatives: None })
+    }
+
+    /// Whether derivatives are those of what the function gives for plain numbers.
+    fn are_true(&mut self, x: &[f64], here: &[f64], slopes: &DMatrix<f64>) -> Result<bool, E> {
+        let [low, high] = beside(self.ranges, x);
+        let way = DVector::from_fn(x.len(), |at, _| high[at] - low[at]);
+        let change = slopes * way;
+        self.runs += 2;
+        let found = (self.evaluate)(&[low, high])?;
+        let [Ok(low), Ok(high)] = &found[..] else { return Ok(true) };
+        Ok(agree([low, high], here, |at| change[at]))
     }
 
     /// The derivatives at a point, by differences: `here` are the values there.

@@ -5,6 +5,7 @@ use std::cell::RefCell;
 use slsqp::{FailStatus, StopTols, minimize};
 
 use super::design::{PENALTY, Scaled};
+use super::trust::{DISTRUST, agree, beside};
 use super::{Design, Designed, Rating};
 
 /// Rounds, each of which leaves constraints a margin if the last one missed one by a little.
@@ -76,11 +77,17 @@ impl<E> Descent<'_, '_, E> {
     /// Makes a run; none where it fails.
     fn asked(&mut self, scaled: &[f64]) -> Result<Option<SlopedRating>, Ended<E>> {
         let x = self.design.unscaled(scaled);
-        // A call that tells only that there are no derivatives is not a run.
+        // Counted once, although two calls are made where there are no derivatives.
         self.runs += 1;
         match (self.sloped)(&x).map_err(Ended::Error)? {
             Ok(mut found) => {
                 self.gradient_runs += 1;
+                if self.gradient_runs == 1 && !self.are_true(&x, &found)? {
+                    if let Some(rating) = (self.rate)(&x).map_err(Ended::Error)? {
+                        self.keep(x, &rating);
+                    }
+                    return Err(Ended::Unknown(DISTRUST.to_owned()));
+                }
                 self.keep(x, &found.rating);
                 let sizes: Vec<f64> = self.design.ranges.iter().map(|of| of.width()).collect();
                 for slopes in found.constraints.iter_mut().chain([&mut found.objective]) {
@@ -96,6 +103,26 @@ impl<E> Descent<'_, '_, E> {
                 }
             },
         }
+    }
+
+    /// Whether derivatives are those of what runs say for plain numbers: of the objective, and of each constraint.
+    fn are_true(&mut self, x: &[f64], found: &SlopedRating) -> Result<bool, Ended<E>> {
+        let [low, high] = beside(&self.design.ranges, x);
+        self.runs += 2;
+        let mut rate = |x: &[f64]| (self.rate)(x).map_err(Ended::Error);
+        let (Some(before), Some(behind)) = (rate(&low)?, rate(&high)?) else { return Ok(true) };
+        let rows = [&found.objective].into_iter().chain(&found.constraints);
+        let all = |rating: &Rating| -> Vec<f64> {
+            [rating.objective].into_iter().chain(rating.constraints.iter().copied()).collect()
+        };
+        let (before, here, behind) = (all(&before), all(&found.rating), all(&behind));
+        let agrees = |(at, row): (usize, &Vec<f64>)| {
+            let change =
+                row.iter().zip(low.iter().zip(&high)).map(|(slope, (a, b))| slope * (b - a));
+            let change: f64 = change.sum();
+            agree([&before[at..=at], &behind[at..=at]], &here[at..=at], |_| change)
+        };
+        Ok(before.len() == here.len() && behind.len() == here.len() && rows.enumerate().all(agrees))
     }
 
     fn keep(&mut self, x: Vec<f64>, rating: &Rating) {
@@ -183,7 +210,7 @@ impl Design {
         }))
     }
 
-    /// Descends as long as it is known where; whether it came to the least.
+    /// Descends as long as it is known where. Gives whether it converged.
     fn descend<E>(&self, descent: &RefCell<Descent<'_, '_, E>>) -> bool {
         let Scaled { mut start, bounds } = self.scaled();
         let mut margin = 0.0;

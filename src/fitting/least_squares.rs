@@ -79,12 +79,14 @@ impl State {
         self.residuals.norm_squared()
     }
 
-    /// Whether a parameter may move in the direction that makes the squares less.
+    /// Whether a parameter may move in the direction that makes the squares less; one on which nothing depends stays where it is.
     fn free(&self, ranges: &[Range]) -> Vec<bool> {
         let gradient = self.derivatives.tr_mul(&self.residuals);
         let is_free = |at: usize| {
             let (x, slope) = (self.x[at], gradient[at]);
-            !(x <= ranges[at].low && slope > 0.0 || x >= ranges[at].high && slope < 0.0)
+            let changes_something = self.derivatives.column(at).iter().any(|slope| *slope != 0.0);
+            let is_held = x <= ranges[at].low && slope > 0.0 || x >= ranges[at].high && slope < 0.0;
+            changes_something && !is_held
         };
         (0..self.x.len()).map(is_free).collect()
     }
@@ -204,7 +206,7 @@ impl LeastSquares {
         evaluate: &mut Evaluate<'_, E>,
         slopes: &mut Slopes<'_, E>,
     ) -> Result<Result<Fitted, String>, E> {
-        let mut asking = Asking::new(evaluate, slopes);
+        let mut asking = Asking::new(evaluate, slopes, &self.ranges);
         let x: Vec<f64> = self.ranges.iter().map(|range| range.first()).collect();
         let Asked { values, derivatives: mut known } = asking.at(&x)?;
         let residuals = match values {

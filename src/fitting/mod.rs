@@ -18,6 +18,7 @@ mod least_squares;
 mod range;
 mod root;
 mod student;
+mod trust;
 
 pub use descent::{Rate, RateWithSlopes, SlopedRating, SlopesOfRating};
 pub use design::{Design, Designed, Rating};

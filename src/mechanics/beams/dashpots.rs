@@ -166,6 +166,11 @@ impl Dashpots {
         }
     }
 
+    /// Takes nothing that was seen of rates for true any more: they have jumped.
+    pub fn forget_rates(&mut self) {
+        self.watch = RatesWatch::default();
+    }
+
     /// Gives the forces of the dashpots, as they are, to control points; the largest of them, and how far they are from those of the rates.
     pub fn add_forces(
         &mut self,

@@ -12,6 +12,9 @@ pub struct Beat {
 /// How near to a time, as a part of the period, another one is the same.
 const SAME: f64 = 1e-9;
 
+/// So near to one, times the period, is a whole number of samples in a unit of time.
+const WHOLE: f64 = 1e-15;
+
 impl Beat {
     /// The beat with a sampling period `T` and a dead time [time].
     ///
@@ -43,7 +46,7 @@ impl Beat {
     /// The time of a sample, by its number. A period that is one over a whole number is taken as such, as steps are [time].
     pub fn sample(&self, number: u64) -> f64 {
         let rate = (1.0 / self.period).round();
-        let is_whole = (rate * self.period - 1.0).abs() < 1e-15;
+        let is_whole = (rate * self.period - 1.0).abs() < WHOLE;
         if is_whole { number as f64 / rate } else { number as f64 * self.period }
     }
 
@@ -52,14 +55,13 @@ impl Beat {
         if time < -slack {
             return None;
         }
-        let mut number = ((time + slack).max(0.0) / self.period) as u64;
-        while number > 0 && self.sample(number) > time + slack {
-            number -= 1;
+        // Rounding may take it to the neighbour, and no further.
+        let number = ((time + slack).max(0.0) / self.period) as u64;
+        if number > 0 && self.sample(number) > time + slack {
+            return Some(number - 1);
         }
-        while self.sample(number + 1) <= time + slack {
-            number += 1;
-        }
-        Some(number)
+        let next = number.saturating_add(1);
+        Some(if self.sample(next) <= time + slack { next } else { number })
     }
 
     /// The number of the sample at a time, if there is one; times closer than `slack` are one [time].
@@ -79,7 +81,9 @@ impl Beat {
 
     /// The next time after one at which the controller is asked or a command begins to act [time].
     pub fn next(&self, now: f64, slack: f64) -> f64 {
-        let after = |time: f64| self.sample(self.last_by(time, slack).map_or(0, |last| last + 1));
+        let after = |time: f64| {
+            self.sample(self.last_by(time, slack).map_or(0, |last| last.saturating_add(1)))
+        };
         after(now).min(after(now - self.delay) + self.delay)
     }
 }

@@ -145,6 +145,11 @@ impl Model {
         self.motion.watched().iter().map(|one| (one.body, one.resolution()))
     }
 
+    /// Whether points of rigid bodies are joined by forces that are unknowns.
+    pub fn has_rigid_links(&self) -> bool {
+        self.links.count() > 0
+    }
+
     /// The mass of all bodies and point masses [mass].
     pub fn total_mass(&self) -> f64 {
         self.bodies.mass() + self.elements.mass()

@@ -29,6 +29,16 @@ pub enum SimulationError {
         /// The method that has no such mean.
         method: &'static str,
     },
+    /// A controller that is asked so often that a step would never end.
+    #[error("a controller is asked every {period:e}, more than {most} times in a step of {dt:e}")]
+    ManySamples {
+        /// The sampling period of the controller [time].
+        period: f64,
+        /// The size of a step [time].
+        dt: f64,
+        /// How often a controller may be asked in a step.
+        most: f64,
+    },
     /// A drive that an equilibrium has moved to where it is at another time than the start.
     #[error(
         "the equilibrium holds what '{drive}' moves at {rests}, and its function begins at t = 0 with {begins}: moved on from there it would be where no function has it"

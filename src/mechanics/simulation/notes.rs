@@ -69,6 +69,13 @@ pub enum Note {
         /// The period of what accelerates it, in the mean over accelerations [time].
         period: f64,
     },
+    /// Long and short steps take turns, and something is joined rigidly or strongly damped.
+    Uneven {
+        /// The shortest of the last steps [time].
+        shortest: f64,
+        /// The longest of the last steps [time].
+        longest: f64,
+    },
     /// Sections turn far in a step.
     Rotation {
         /// The step size with which sections turn far [time].
@@ -133,6 +140,7 @@ impl Note {
     fn measure(&self) -> f64 {
         match self {
             Self::Motion { share, .. } | Self::Beam { share, .. } => *share,
+            Self::Uneven { shortest, longest } => longest / shortest,
             Self::Rotation { angle, .. } => *angle,
             Self::Way { spans, .. } => *spans,
             Self::Fast { speed, .. } => *speed,
@@ -146,7 +154,10 @@ impl Note {
     /// What it is about, if that is one of several.
     fn about(&self) -> Option<&str> {
         match self {
-            Self::Motion { .. } | Self::Rotation { .. } | Self::Drift { .. } => None,
+            Self::Motion { .. }
+            | Self::Uneven { .. }
+            | Self::Rotation { .. }
+            | Self::Drift { .. } => None,
             Self::Way { slider, .. } | Self::Fast { slider, .. } | Self::Bounce { slider, .. } => {
                 Some(slider)
             }
@@ -240,10 +251,18 @@ impl fmt::Display for Note {
                 short(*dt),
                 short(dt * MOST_SPANS / spans)
             ),
+            Self::Uneven { shortest, longest } => write!(
+                f,
+                "long and short steps take turns ({} to {}): what velocities across rigid joints, and of strongly damped beams, are off by in a step \
+                 then adds up, and reactions, accelerations, forces and spins err by far more than places. Let the periods and delays of controllers, and the times \
+                 of run_to, be multiples of dt",
+                short(*shortest),
+                short(*longest)
+            ),
             Self::Fast { slider, speed, limit } => write!(
                 f,
-                "slider '{slider}' runs along its beam at up to {}, where from {} on it is nearly as fast as the shear waves by which the beam gives way: \
-                 there the kink under it stays as it is, and contacts are of first order in the length of spans",
+                "slider '{slider}' runs along its beam at up to {}; from {} on that is nearly the speed of shear waves, and the kink under it is kept as it \
+                 is: contacts are then of first order in the length of spans",
                 short(*speed),
                 short(*limit)
             ),

@@ -38,6 +38,9 @@ use crate::statics::Equilibrium;
 /// Most steps that a pretended run has.
 const MOST_PRETENDED: usize = 10_000;
 
+/// A controller is asked at most so often in a step.
+const MOST_SAMPLES: f64 = 1e4;
+
 /// How a scene is simulated: integrator, step size, tolerance.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
@@ -105,7 +108,16 @@ impl Simulation {
                 (TimeGrid::of_cuts(0.0, first, cuts), Some(Box::new(adaptive)))
             }
         };
-        let grid = grid.with_beats(scene.schedules().filter_map(|(_, schedule)| schedule.beat()));
+        let beats = || scene.schedules().filter_map(|(_, schedule)| schedule.beat());
+        let first = match settings.dt {
+            StepSize::Fixed(dt) => dt,
+            StepSize::Adaptive(_) => adaptive.as_ref().map_or(0.0, |one| one.controller.first),
+        };
+        if let Some(beat) = beats().find(|beat| beat.period() * MOST_SAMPLES < first) {
+            let (period, most) = (beat.period(), MOST_SAMPLES);
+            return Err(SimulationError::ManySamples { period, dt: first, most });
+        }
+        let grid = grid.with_beats(beats());
         let pace = adaptive.as_ref().map(|adaptive| adaptive.controller.start());
         if !settings.method.entry().claims.momentum
             && let Some(sensor) = scene.sensors.iter().find(|sensor| sensor.is_of_step())

@@ -4,13 +4,15 @@ use std::hint::spin_loop;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use super::pool::{call, pool, stay_awake};
+use super::pool::{announce_parts, pool, stay_awake};
 
-/// So often is asked whether the other threads are done before this one sleeps till they are: some 50 µs, what falling asleep and waking takes.
+/// How often a thread asks whether the others are done before it sleeps: for about 50 µs, the time that falling asleep and waking takes.
 const PATIENCE: usize = 2000;
 
-/// Works on all tasks at once: on the first one here, on each other one in a thread that stands ready, or here where none is free or the system
-/// gives none.
+/// Works on all tasks at once: on the first one here, on each other one in a thread that stands ready, or here where none has taken it before.
+///
+/// It returns when every thread that was asked has seen that its task is done, so that it waits where all of them are busy with something else. Tasks and their
+/// list are allocated, a few hundred bytes for each call: threads are asked only where a task takes far longer than that.
 pub fn at_once<T: Send>(tasks: impl IntoIterator<Item = T>, work: impl Fn(T) + Sync) {
     let mut tasks = tasks.into_iter();
     let first = tasks.next();
@@ -26,7 +28,7 @@ pub fn at_once<T: Send>(tasks: impl IntoIterator<Item = T>, work: impl Fn(T) + S
     let left = AtomicUsize::new(others.len());
     pool.in_place_scope(|scope| {
         let (take, left) = (&take, &left);
-        call();
+        announce_parts();
         for task in &others {
             scope.spawn(move |_| {
                 stay_awake();

@@ -27,7 +27,7 @@ pub(super) fn pool() -> Option<&'static ThreadPool> {
 }
 
 /// Tells threads that are awake that there are new parts.
-pub(super) fn call() {
+pub(super) fn announce_parts() {
     HANDED_OUT.fetch_add(1, Ordering::Release);
 }
 

@@ -1,5 +1,6 @@
 //! A simulation that a script holds: steps, events, progress and interrupts.
 
+mod commands;
 mod revisit;
 mod sensing;
 mod variants;

@@ -41,7 +41,7 @@ pub const TABLE: Table = Table {
                 "Either `residuals`, a function of a map of parameters that gives an array of differences, or `model`, which gives what should have been \
                  `measured`, at the places `over`. With `data` the function is called with that as its second argument. The sum of the squares, \
                  each times its weight, is made least by Levenberg's and Marquardt's method; bounds are kept. Derivatives are those that a run knows of itself: the parameters \
-                 come as numbers that know what depends on them, as those of scene.parameter do, and a simulation finds with its steps how it changes with them. Where the function \
+                 come as numbers that know what depends on them, as those of scene.parameter do, and a simulation finds with its steps how it changes with them. The first derivatives are held against a difference of two runs. Where these differ, or the function \
                  does what has no derivatives, `found.derivatives` says so, and they are central differences of runs, second \
                  order: `step` times the size of a parameter (its value, or a hundredth of its range where it is near zero), 1e-4 unless given, which \
                  leaves about eight digits of a run that repeats to 1e-12; with adaptive steps give 1e-3. They are found at the start and at the \
@@ -110,7 +110,7 @@ pub const TABLE: Table = Table {
             .doc(
                 "`run` is a function of a map of parameters that gives a map of numbers. `least` or `largest` names the one that is wanted so, `constraints` the least \
                  and the largest that others may be. Where runs know their derivatives (the parameters \
-                 come as numbers that know what depends on them, as in fit), Kraft's SLSQP follows them: quadratic models within linear ones of the constraints. Where they do not, or a search along them is stuck, \
+                 come as numbers that know what depends on them, as in fit), Kraft's SLSQP follows them: quadratic models within linear ones of the constraints. Where they do not, or the first ones are not what a difference of two runs shows, or a search along them is stuck, \
                  Powell's COBYLA makes linear models over a simplex of designs; `best.derivatives` says why. Both \
                  find the nearest best, not the best of all. Runs that fail are kept away from. The best of all designs that were tried and meet the constraints is given.",
             )
@@ -359,7 +359,7 @@ fn minimise(call: &mut Call) -> Result<Dynamic, ScriptError> {
         tolerance: options.tolerance,
         most_runs: options.most_runs,
         derivatives: match options.derivatives.as_str() {
-            "none" => Derivatives::Differences,
+            "none" => Derivatives::Unknown,
             _ => Derivatives::Known,
         },
         wall: wall(options.patience),

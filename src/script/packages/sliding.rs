@@ -47,7 +47,7 @@ pub const TABLE: Table = Table {
         rule("kinked", |_| Ok(Dynamic::from(SlidingRule::Kinked)))
             .summary("The conserving rule on the beam as the contact force kinks it: of second order in the mesh, where conserving() is of first.")
             .doc("On meshes of smooth splines. With energy_momentum(): keeps energy, linear momentum, angular momentum and the gap to rounding. \
-                  Beside ends, and where a slider comes to 0.8 of the speed of the beam's shear waves, sqrt(GA/rho_A), it is of first order, too. \
+                  Beside ends, and where a slider comes to 0.8 of the speed of the beam's shear waves, sqrt(GA/rho_A), it is of first order only. \
                   For sliders that are struck again and again on soft beams take conserving(): a step may have no solution. withy, docs/theory.md, section 10.1.")
             .see(&["conserving", "exact", "relaxed"]),
         rule("exact", |_| Ok(Dynamic::from(SlidingRule::Exact)))

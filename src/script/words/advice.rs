@@ -41,6 +41,9 @@ fn on_simulation(error: &SimulationError) -> Option<String> {
         SimulationError::Ended { .. } => {
             "give the slider the option ends: \"bounce\" or \"release\" to go on, or ask sim.ended before a step".into()
         }
+        SimulationError::ManySamples { .. } => {
+            "give `sample` the period of the controller, a hundredth to ten times dt".into()
+        }
         SimulationError::NoMean { sensor, .. } => {
             format!("record \"{}\"", sensor.replace(".mean_", "."))
         }

@@ -166,6 +166,11 @@ impl Elements {
         self.resistances.iter_mut().for_each(|resistance| resistance.begin_movement());
     }
 
+    /// Rates have jumped.
+    pub fn forget_rates(&mut self) {
+        self.resistances.iter_mut().for_each(|resistance| resistance.forget_rates());
+    }
+
     /// Adds what resists movements, with its forces as they are; the largest that was met.
     pub fn add_resistance(&mut self, at: Iterate<'_>, out: &mut [f64], summary: &mut ForceSummary) {
         self.farthest = (0.0, 0);

@@ -99,6 +99,10 @@ impl Resistance for DampedMaterial {
         self.dashpots.rest();
     }
 
+    fn forget_rates(&mut self) {
+        self.dashpots.forget_rates();
+    }
+
     fn add_forces(&mut self, at: Iterate<'_>, out: &mut [f64]) -> ForceSummary {
         let Some(rates) = self.pace.at(at.stage, at.weight) else { return ForceSummary::default() };
         self.gather(at.bodies, at.increments);

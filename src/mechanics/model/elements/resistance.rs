@@ -33,6 +33,9 @@ pub trait Resistance {
     /// Prepares a movement that takes no time, in which nothing is damped.
     fn begin_movement(&mut self);
 
+    /// Rates have jumped: what was seen of those before tells nothing of those behind.
+    fn forget_rates(&mut self) {}
+
     /// Adds `at.weight` times its forces on bodies, as they are; the largest of them, and how far they are from those of the configuration.
     fn add_forces(&mut self, at: Iterate<'_>, out: &mut [f64]) -> ForceSummary;
 

@@ -39,6 +39,8 @@ struct Hit {
 pub struct Arriving {
     /// The limits at which sliders strike and bounce.
     pub strike: Vec<MasterLimit>,
+    /// The limits that sliders strike and do not leave: their stops give no speed back, and steps do not resolve the blow.
+    pub stay: Vec<MasterLimit>,
     /// The limits on which sliders come to lean.
     pub lean: Vec<MasterLimit>,
     /// The limits beyond which sliders go on along their tracks.
@@ -52,12 +54,13 @@ impl Arriving {
     }
 
     fn strikes_or_leans(&self) -> bool {
-        !self.strike.is_empty() || !self.lean.is_empty()
+        [&self.strike, &self.stay, &self.lean].into_iter().any(|limits| !limits.is_empty())
     }
 
     fn law(&self, model: &Model, limit: MasterLimit) -> Option<Law> {
         let restitution = model.sliders[limit.slider].restitution;
-        let strikes = self.strike.contains(&limit).then_some(Law::Strikes(restitution));
+        let strikes = self.strike.contains(&limit) || self.stay.contains(&limit);
+        let strikes = strikes.then_some(Law::Strikes(restitution));
         strikes.or(self.lean.contains(&limit).then_some(Law::Ends))
     }
 }
@@ -110,9 +113,19 @@ impl Model {
         Ok(lasts.is_finite() && dt <= RESOLVED_BLOW * lasts)
     }
 
-    /// Keeps the kinks under contact forces as they are in steps to come, or no longer; gives whether that is another law for the next step.
-    pub fn keep_kinks(&mut self, is_kept: bool) -> bool {
-        self.sliders.keep_kinks(is_kept)
+    /// Keeps the kinks under contact forces as they are in steps to come; gives whether that is another law for the next step.
+    pub fn keep_kinks(&mut self) -> bool {
+        self.sliders.keep_kinks()
+    }
+
+    /// Lets the kinks under contact forces follow these again.
+    pub fn let_kinks_follow(&mut self) {
+        self.sliders.let_kinks_follow();
+    }
+
+    /// Whether a kink under a contact force stays as it is, whatever that force.
+    pub fn has_kept_kinks(&self) -> bool {
+        self.sliders.iter().any(|slider| slider.is_frozen())
     }
 
     /// The direction in which the stop at a limit pushes the slave [-].
@@ -134,7 +147,7 @@ impl Model {
     }
 
     fn meet_at_once(&mut self, arriving: &Arriving, dt: f64) -> Result<(), LinearError> {
-        self.straighten_kinks(&[&arriving.strike[..], &arriving.lean].concat())?;
+        self.straighten_kinks(&[&arriving.strike[..], &arriving.stay, &arriving.lean].concat())?;
         let passages = self.passages(&arriving.pass);
         let corners = passages.corners_of_sections();
         if arriving.strikes_or_leans() || !corners.is_empty() {
@@ -143,7 +156,12 @@ impl Model {
             let hits = self.hits(|model, limit| arriving.law(model, limit));
             self.hit(&hits, corners, [Some(RIGID * dt), rigid_within])?;
         }
-        arriving.lean.iter().for_each(|limit| self.hold(*limit));
+        if !arriving.stay.is_empty() {
+            // The blow is that of a rigid body, which does more than its very end; what is left of it is rounding, and none may be left.
+            let hits = self.hits(|_, limit| arriving.stay.contains(&limit).then_some(Law::Ends));
+            self.hit(&hits, &[], [None, None])?;
+        }
+        arriving.stay.iter().chain(&arriving.lean).for_each(|limit| self.hold(*limit));
         self.pass_seams(&passages)
     }
 

@@ -347,6 +347,7 @@ impl Model {
         // Impulses of rigid links are no forces that go on.
         self.links.clear(&mut change);
         self.motion.jump(&change);
+        self.elements.forget_rates();
         self.exchanged.total += self.supports.exchange_in_blow(&self.bodies, &residual);
         if self.supports.prescribed().count() > 0 {
             let mut mean_rates = self.motion.rates.clone();

@@ -70,9 +70,14 @@ impl Sliders {
         self.iter_mut().for_each(|slider| slider.begin_step(bodies, rates, interval));
     }
 
-    /// Keeps the kinks of all masters as they are in steps to come, or no longer; gives whether that is another law for the next step.
-    pub fn keep_kinks(&mut self, is_kept: bool) -> bool {
-        self.iter_mut().map(|slider| usize::from(slider.keep_kink(is_kept))).sum::<usize>() > 0
+    /// Keeps the kinks of all masters as they are in steps to come; gives whether that is another law for the next step.
+    pub fn keep_kinks(&mut self) -> bool {
+        self.iter_mut().fold(false, |any, slider| slider.keep_kink() | any)
+    }
+
+    /// Lets the kinks of all masters follow contact forces again.
+    pub fn let_kinks_follow(&mut self) {
+        self.iter_mut().for_each(Sliding::let_kink_follow);
     }
 
     /// Guesses the unknowns of all contacts for a step: every slider slides on as it does.

@@ -100,11 +100,16 @@ impl KinkedAxis {
         self.is_kept || self.here[0] < self.least || self.speed.abs() > self.fastest
     }
 
-    /// Keeps the kink as it is in steps to come, or no longer; gives whether that is another law for the next step.
-    pub fn keep(&mut self, is_kept: bool) -> bool {
-        let changes = is_kept && !self.is_frozen();
-        self.is_kept = is_kept;
+    /// Keeps the kink as it is in steps to come; gives whether that is another law for the next step.
+    pub fn keep(&mut self) -> bool {
+        let changes = !self.is_frozen();
+        self.is_kept = true;
         changes
+    }
+
+    /// Lets the kink follow its force again.
+    pub fn follow(&mut self) {
+        self.is_kept = false;
     }
 
     /// Whether the kink has a mass, and with it a speed of its own.

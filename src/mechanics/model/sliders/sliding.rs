@@ -195,7 +195,7 @@ impl Sliding {
     }
 
     /// Whether the kink of the master stays as it is while the slider slides, whatever the contact force.
-    fn is_frozen(&self) -> bool {
+    pub fn is_frozen(&self) -> bool {
         self.is_sliding() && self.kinked_axis.as_ref().is_some_and(KinkedAxis::is_frozen)
     }
 
@@ -204,10 +204,15 @@ impl Sliding {
         self.kinked_axis.as_ref().map(KinkedAxis::fastest)
     }
 
-    /// Keeps the kink of the master as it is in steps to come, or no longer; gives whether that is another law for the next step.
-    pub fn keep_kink(&mut self, is_kept: bool) -> bool {
+    /// Keeps the kink of the master as it is in steps to come; gives whether that is another law for the next step.
+    pub fn keep_kink(&mut self) -> bool {
         let sliding = self.is_sliding();
-        self.kinked_axis.as_mut().is_some_and(|axis| axis.keep(is_kept) && sliding)
+        self.kinked_axis.as_mut().is_some_and(|axis| axis.keep() && sliding)
+    }
+
+    /// Lets the kink of the master follow the contact force again.
+    pub fn let_kink_follow(&mut self) {
+        self.kinked_axis.iter_mut().for_each(KinkedAxis::follow);
     }
 
     /// Whether the contact force follows from how far the axis of the master is kinked, so that the contact transmits no impulse.

@@ -247,6 +247,10 @@ impl Simulation {
                     arriving.lean.push(limit);
                     ArrivalKind::Rested
                 }
+                EndAction::Bounce if self.model.restitution(limit.slider) == 0.0 => {
+                    arriving.stay.push(limit);
+                    ArrivalKind::Rested
+                }
                 EndAction::Bounce => {
                     arriving.strike.push(limit);
                     ArrivalKind::Bounced
@@ -266,18 +270,15 @@ impl Simulation {
         Ok(())
     }
 
-    /// Whether a slider at a limit comes to lean on its stop, and not to bounce: it does not give any speed back, strikes again and again within few steps, its blow
-    /// is resolved by the steps to come, or every step leads it beyond although it does not approach.
+    /// Whether a slider at a limit comes to lean on its stop, and not to bounce: it strikes again and again within few steps, its blow is resolved by the steps to
+    /// come, or every step leads it beyond although it does not approach.
     fn leans(
         &mut self,
         limit: MasterLimit,
         landing: &Landing,
         dt: f64,
     ) -> Result<bool, SimulationError> {
-        if self.model.restitution(limit.slider) == 0.0 || self.chatters(limit, dt) {
-            return Ok(true);
-        }
-        if self.model.resolves_blow(limit, dt)? {
+        if self.chatters(limit, dt) || self.model.resolves_blow(limit, dt)? {
             return Ok(true);
         }
         Ok(landing.step.is_none() && !self.model.approaches(limit, dt)?)

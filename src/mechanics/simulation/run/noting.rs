@@ -7,7 +7,7 @@ use crate::geometry::larger;
 use crate::integrators::{EnergyClaim, Mechanism};
 use crate::model::{Model, Part, RESOLVED_BLOW, Resolution};
 use crate::simulation::notes::{LARGEST_ROTATION, MOST_SPANS, Suspect, short};
-use crate::simulation::{Invariant, Note};
+use crate::simulation::{Invariant, Note, StepSize};
 use crate::vibration::{Modes, VibrationError};
 
 /// Steps that leave more than this part of the kinetic energy to vibration that they do not follow are too long: that of a single
@@ -35,6 +35,15 @@ const MOST_UNKNOWNS: usize = 1200;
 /// and so many of them at a time, until one is no free movement.
 const MODES: [usize; 3] = [4, 8, 16];
 
+/// So many of the last steps are looked at for whether long and short ones take turns,
+const LOOKED_BACK: usize = 200;
+
+/// which they do where they differ by more than this part,
+const UNEVEN: f64 = 0.1;
+
+/// so often.
+const MOST_TURNS: usize = 20;
+
 /// The resolution of no more sliders is explained.
 const SLIDERS: usize = 6;
 
@@ -54,6 +63,7 @@ impl Simulation {
         if notes.is_empty() {
             notes.extend(self.beams_not_followed(dt));
         }
+        notes.extend(self.uneven_steps());
         if resolution.rotation() > LARGEST_ROTATION {
             let dt = self.settings.method.step_with_part(resolution.turned_in());
             notes.push(Note::Rotation { dt, angle: resolution.rotation() });
@@ -108,6 +118,27 @@ impl Simulation {
             share: own.unresolved_share(),
             period: TAU / own.angular_frequency(),
         })
+    }
+
+    /// Long and short steps that take turns, where velocities that are off in a step do not fade: by `-1` a step they are gone on with, and what long steps
+    /// add short ones do not take away.
+    fn uneven_steps(&self) -> Option<Note> {
+        let keeps = self.model.has_rigid_links() || self.scene.dissipating().next().is_some();
+        if !keeps || !matches!(self.settings.dt, StepSize::Fixed(_)) {
+            return None;
+        }
+        let rows = self.history().samples();
+        let last = &rows[rows.len().saturating_sub(LOOKED_BACK)..];
+        let (mut turns, mut shortest, mut longest) = (0, f64::INFINITY, 0.0);
+        for pair in last.windows(2) {
+            let [before, now] = [pair[0].dt, pair[1].dt];
+            if before > 0.0 && (now - before).abs() > UNEVEN * larger(now, before) {
+                turns += 1;
+                shortest = before.min(now).min(shortest);
+                longest = larger(longest, larger(before, now));
+            }
+        }
+        (turns >= MOST_TURNS).then_some(Note::Uneven { shortest, longest })
     }
 
     /// The longest of the steps that were taken: a chosen size may be one that was wished for and never met [time].

@@ -57,7 +57,7 @@ impl Simulation {
                 self.lose_derivatives("a slider arrives at an end of its way or leaves a stop");
                 match self.land(interval, overshoot) {
                     Ok(landing) => {
-                        self.model.keep_kinks(false);
+                        self.model.let_kinks_follow();
                         self.clock.under_way = None;
                         if let Some((interval, report)) = landing.step {
                             self.count_step(interval, report, halving.retries);
@@ -74,7 +74,6 @@ impl Simulation {
                     Err(source) => stepped = Err(source),
                 }
             }
-            self.model.keep_kinks(false);
             match stepped {
                 Ok(report) => {
                     self.count_step(interval, report, halving.retries);
@@ -101,15 +100,22 @@ impl Simulation {
 
     /// Takes a step; where none is found, one in which the kinks under contact forces stay as they are.
     fn step_or_keep_kinks(&mut self, interval: Interval) -> Result<NewtonReport, StepError> {
+        // Only now: what is told of the last step is told by its law.
+        self.model.let_kinks_follow();
         let stepped = self.stepper.step(&mut self.model, interval);
-        match stepped {
+        let stepped = match stepped {
             Ok(_) | Err(StepError::Overshoot { .. } | StepError::Load { .. }) => stepped,
-            Err(source) if self.model.keep_kinks(true) => {
+            Err(source) if self.model.keep_kinks() => {
                 self.progress.count_failure(source.factorisations());
                 self.stepper.step(&mut self.model, interval)
             }
             other => other,
+        };
+        if self.stepper.sensitivities.is_some() && self.model.has_kept_kinks() {
+            // The runs beside this one may take the other law.
+            self.lose_derivatives("a kink under a slider was kept as it is");
         }
+        stepped
     }
 
     /// Counts a step that succeeded after some failed tries.

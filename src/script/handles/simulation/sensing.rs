@@ -5,6 +5,7 @@ use std::rc::Rc;
 
 use rhai::Dynamic;
 
+use super::commands::Commands;
 use super::variants::in_words;
 use super::{SimulationHandle, Watch, explain};
 use crate::loads::{Beat, Schedule};
@@ -25,6 +26,8 @@ pub(super) struct Sensing {
     controllers: Vec<Rc<Controller>>,
     /// What controllers with a beat have said, each by the number of the sample. Commands before the present stay as they are when the simulation goes back.
     commands: RefCell<Vec<Vec<f64>>>,
+    /// What controllers of any kind had act, and when.
+    told: Commands,
     /// What says, before every step, whether something lets go.
     conditions: Vec<Condition>,
     is_looking: Cell<bool>,
@@ -38,12 +41,14 @@ impl Sensing {
     ) -> Self {
         let (looked, is_looking) = (Cell::new(None), Cell::new(false));
         let commands = RefCell::new(vec![Vec::new(); controllers.len()]);
-        Self { functions, looked, controllers, commands, conditions, is_looking }
+        let told = Commands::new(controllers.len());
+        Self { functions, looked, controllers, commands, told, conditions, is_looking }
     }
 
     /// Takes over what controllers have said in a simulation that this one is a copy of.
     pub(super) fn go_on_from(&self, other: &Self) {
         self.commands.replace(other.commands.borrow().clone());
+        self.told.go_on_from(&other.told);
     }
 
     /// The command of a sample, if it was given.
@@ -65,6 +70,13 @@ impl Sensing {
         own[sample] = command;
     }
 
+    /// Lets act what controllers told this simulation last before a time: another one of the scene may have been told something else since.
+    fn recall(&self, time: f64) {
+        for (number, controller) in self.controllers.iter().enumerate() {
+            controller.value.set(self.told.before(number, time));
+        }
+    }
+
     /// Refuses to move what functions look at.
     pub(super) fn expect_idle(&self) -> Result<(), ScriptError> {
         match self.is_looking.get() {
@@ -81,6 +93,7 @@ impl SimulationHandle {
     /// Looks at the simulation by way of what may change it for the moment, in the variant that the present call is made for.
     pub fn look<T>(&self, look: impl FnOnce(&mut Simulation) -> T) -> T {
         let run = &mut *self.0.simulation.borrow_mut();
+        self.0.sensing.recall(run.time());
         let Some((parameter, side)) = Self::present_side(run) else { return look(run) };
         match run.beside_mut(parameter, side) {
             Ok(beside) => return look(beside),
@@ -151,13 +164,16 @@ impl SimulationHandle {
         if !self.simulation().is_half_way() {
             self.let_go()?;
         }
-        for (number, controller) in self.0.sensing.controllers.iter().enumerate() {
+        let (time, sensing) = (self.time(), &self.0.sensing);
+        for (number, controller) in sensing.controllers.iter().enumerate() {
             let value = match controller.beat {
                 Some(beat) => self.command_on_beat(number, controller, beat)?,
                 None => self.ask(controller)?,
             };
-            controller.value.set(value);
+            sensing.told.keep(number, time, value);
         }
+        // All together: what one sees of the present is with what the others told before.
+        sensing.recall(time.next_up());
         Ok(())
     }
 

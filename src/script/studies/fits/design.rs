@@ -220,7 +220,7 @@ impl DesignOrder<'_> {
             };
             let found = match self.derivatives {
                 Derivatives::Known => design.solve_with(&mut sloped, &mut rate)?,
-                Derivatives::Differences => design.solve(&mut rate)?,
+                Derivatives::Unknown => design.solve(&mut rate)?,
             };
             let Some(found) = found else { return Ok(None) };
             let again = evaluator.borrow_mut().ask(std::slice::from_ref(&found.parameters))?;
@@ -247,7 +247,7 @@ impl DesignOrder<'_> {
             is_settled: found.is_settled,
             runs: found.runs,
             derivatives: match (self.derivatives, found.without, found.gradient_runs) {
-                (Derivatives::Differences, ..) => "none".into(),
+                (Derivatives::Unknown, ..) => "none".into(),
                 (_, None, _) => "those of the runs".into(),
                 (_, Some(reason), 0) => format!("none: {reason}"),
                 (_, Some(reason), _) => format!("those of the runs, then none: {reason}"),

@@ -64,8 +64,8 @@ pub struct FitOrder<'o> {
 pub enum Derivatives {
     /// Of what a run knows of them, and where it does not of differences.
     Known,
-    /// Of differences of runs.
-    Differences,
+    /// Of differences of runs, or none where a search does without.
+    Unknown,
 }
 
 /// A finished fit.
@@ -88,7 +88,7 @@ pub struct Fit {
 impl Derivatives {
     /// What is meant by a word of the option.
     pub fn of(word: &str) -> Self {
-        if word == "differences" { Self::Differences } else { Self::Known }
+        if word == "differences" { Self::Unknown } else { Self::Known }
     }
 }
 
@@ -134,7 +134,7 @@ impl FitOrder<'_> {
             };
             match self.derivatives {
                 Derivatives::Known => problem.solve_with(&mut evaluate, &mut slopes),
-                Derivatives::Differences => problem.solve(&mut evaluate),
+                Derivatives::Unknown => problem.solve(&mut evaluate),
             }
         })?;
         let start: Vec<f64> = self.ranges.ranges.iter().map(|range| range.first()).collect();

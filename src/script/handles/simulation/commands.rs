@@ -1,0 +1,60 @@
+//! What controllers have told a simulation. They speak to the scene, which other simulations may run too: each recalls its own before it looks or goes on.
+
+use std::cell::RefCell;
+
+/// What each controller has told to act, and from when on [time]. Changes alone are kept.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Commands(RefCell<Vec<Vec<(f64, f64)>>>);
+
+impl Commands {
+    /// Those of so many controllers, which have said nothing.
+    pub(super) fn new(controllers: usize) -> Self {
+        Self(RefCell::new(vec![Vec::new(); controllers]))
+    }
+
+    /// Takes over those of a simulation that this one is a copy of.
+    pub(super) fn go_on_from(&self, other: &Self) {
+        self.0.replace(other.0.borrow().clone());
+    }
+
+    /// What a controller told last before a time; nothing acts before it speaks.
+    pub(super) fn before(&self, controller: usize, time: f64) -> f64 {
+        let all = self.0.borrow();
+        let own = all.get(controller).map_or(&[][..], Vec::as_slice);
+        let spoken = own.partition_point(|(from, _)| *from < time);
+        spoken.checked_sub(1).map_or(0.0, |last| own[last].1)
+    }
+
+    /// Keeps what a controller tells from a time on; what was to act later is no more, where the simulation has gone back.
+    pub(super) fn keep(&self, controller: usize, time: f64, command: f64) {
+        let mut all = self.0.borrow_mut();
+        let Some(own) = all.get_mut(controller) else { return };
+        own.truncate(own.partition_point(|(from, _)| *from < time));
+        if own.last().is_none_or(|(_, last)| *last != command) {
+            own.push((time, command));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_told_before_a_time_is_recalled_after_going_back_and_in_copies() {
+        let commands = Commands::new(2);
+        assert_eq!(commands.before(0, 1.0), 0.0);
+        for (time, command) in [(0.0, 1.0), (0.1, 1.0), (0.2, 3.0), (0.3, 4.0)] {
+            commands.keep(0, time, command);
+        }
+        let told =
+            |commands: &Commands| [0.0, 0.15, 0.2, 0.25, 9.0].map(|time| commands.before(0, time));
+        assert_eq!(told(&commands), [0.0, 1.0, 1.0, 3.0, 4.0]);
+        let copy = Commands::new(2);
+        copy.go_on_from(&commands);
+        commands.keep(0, 0.2, 5.0);
+        assert_eq!(told(&commands), [0.0, 1.0, 1.0, 5.0, 5.0]);
+        assert_eq!(told(&copy), [0.0, 1.0, 1.0, 3.0, 4.0]);
+        assert_eq!(commands.before(1, 9.0), 0.0);
+    }
+}
