@@ -1,5 +1,6 @@
 //! A sweep at work: its rows on all engines, with a journal, progress and limits.
 
+use std::collections::BTreeMap;
 use std::time::Duration;
 
 use rhai::{Dynamic, FnPtr};
@@ -184,7 +185,8 @@ impl Order<'_> {
     }
 }
 
-/// Gives the rows that are not known to the workers, a few ahead, and hears of them until all are known or the run is to stop.
+/// Gives the rows that are not known to the workers, a few ahead, and hears of them until all are known or the run is to stop. Until one has come to its end,
+/// which tells what the others are to give, they are taken in their order, whoever is first.
 fn drive(
     crew: &Crew<usize, Made<Row>>,
     context: &Context,
@@ -192,13 +194,26 @@ fn drive(
 ) -> Result<(), Trouble> {
     let unknown: Vec<u32> =
         (0..ledger.rows).filter(|row| !ledger.knows(*row)).map(|row| row as u32).collect();
+    let mut in_order = unknown.clone().into_iter().map(|row| row as usize).peekable();
+    let mut early = BTreeMap::new();
     let mut rows = unknown.into_iter().map(|row| row as usize);
     rows.by_ref().take(AHEAD * crew.size()).for_each(|row| crew.give(row, row));
     while ledger.done < ledger.rows {
         match crew.hear() {
             News::Done(row, Made { result, steps }) => {
                 context.meter().count_steps(usize::try_from(steps).unwrap_or(usize::MAX));
-                take(context, (ledger, keeper), row, result)?;
+                early.insert(row, result);
+                while ledger.model.is_none()
+                    && let Some(row) = in_order.next_if(|next| early.contains_key(next))
+                    && let Some(result) = early.remove(&row)
+                {
+                    take(context, (ledger, keeper), row, result)?;
+                }
+                if ledger.model.is_some() {
+                    for (row, result) in std::mem::take(&mut early) {
+                        take(context, (ledger, keeper), row, result)?;
+                    }
+                }
                 rows.by_ref().take(1).for_each(|row| crew.give(row, row));
             }
             News::Nothing => beat(keeper).map_err(Trouble::Other)?,
