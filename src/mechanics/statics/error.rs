@@ -100,6 +100,20 @@ pub enum StaticsError {
         /// The reason why the next equilibrium was missed.
         reason: Box<Miss>,
     },
+    /// No equilibrium was found beyond the last point of a path.
+    #[error(
+        "the path of '{scene}' leads no further than its point {points}, at load factor {reached}: {reason}"
+    )]
+    PathLost {
+        /// The name of the scene whose path ends.
+        scene: String,
+        /// The number of points of the path.
+        points: usize,
+        /// The load factor at the last of them [-].
+        reached: f64,
+        /// The reason why the next point was missed.
+        reason: Box<Miss>,
+    },
     /// The search for an equilibrium was stopped from outside.
     #[error("stopped at load factor {reached}")]
     Interrupted {

@@ -3,6 +3,9 @@
 use super::StaticsError;
 use crate::newton::Tolerance;
 
+/// The fewest points of a path: one that is not loaded and two that say where it goes.
+pub(super) const LEAST_PATH: usize = 3;
+
 /// How loads are put on a scene: from nothing to the whole of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Loading {
@@ -79,7 +82,7 @@ impl Loading {
             Control::ArcLength(ArcLength { longest, .. }) if longest.is_nan() || longest <= 0.0 => {
                 value("longest", longest, "a positive number")
             }
-            Control::ArcLength(ArcLength { points, .. }) if points < 3 => {
+            Control::ArcLength(ArcLength { points, .. }) if points < LEAST_PATH => {
                 value("points", points as f64, "at least 3")
             }
             _ => Ok(()),

@@ -4,6 +4,7 @@ use super::balance::{Balance, UnderLoad};
 use super::error::Miss;
 use super::path::vertex;
 use super::trial::Trial;
+use super::loading::LEAST_PATH;
 use super::{ArcLength, Control, Loading, Path, PathPoint, StaticsError};
 use crate::elementary::square;
 use crate::integrators::{Constraints, Mechanism};
@@ -322,7 +323,13 @@ impl<'s> Tracer<'s> {
 
     pub(super) fn lost(&self, reason: Miss) -> StaticsError {
         let (scene, reached) = (self.scene.name.clone(), self.path.load_factor());
-        StaticsError::Lost { scene, reached, reason: Box::new(reason) }
+        let (points, reason) = (self.path.points().len(), Box::new(reason));
+        match self.loading.control {
+            Control::ArcLength(_) if points >= LEAST_PATH => {
+                StaticsError::PathLost { scene, points, reached, reason }
+            }
+            Control::ArcLength(_) | Control::Load => StaticsError::Lost { scene, reached, reason },
+        }
     }
 }
 

@@ -48,7 +48,7 @@ fn on_simulation(error: &SimulationError) -> Option<String> {
             format!("record \"{}\"", sensor.replace(".mean_", "."))
         }
         SimulationError::BeginsElsewhere { .. } => {
-            "take the equilibrium at time 0, or give the drive a function that begins where it is to rest".into()
+            "take the equilibrium at time 0, before the drive moves, and let the simulation bring it there; or move it by a force or a moment, which acts from the start on".into()
         }
         SimulationError::Rattles { .. } => "try ends: \"release\" or \"stop\"".into(),
         SimulationError::FewerSteps { .. } => "sim.rewind(0) leads to the start".into(),
@@ -96,6 +96,9 @@ fn on_statics(error: &StaticsError) -> Option<String> {
             "give the force or the torque that it has at rest, as a number, in the scene of which you ask the equilibrium".into()
         }
         StaticsError::NothingGrows { .. } | StaticsError::Driven { .. } => "leave out control: arc_length()".into(),
+        StaticsError::PathLost { points, .. } => format!(
+            "see what it has found: arc_length(#{{ points: {points} }}) ends it there; it may lead on in shorter steps, arc_length(#{{ longest: 0.01 }})"
+        ),
         StaticsError::Loose { reason, .. } | StaticsError::Lost { reason, .. }
             if matches!(**reason, Miss::Leaves { .. }) =>
         {
