@@ -6,7 +6,9 @@ use std::rc::Rc;
 use rhai::{Dynamic, Engine, NativeCallContext};
 
 use crate::elementary::power;
-use crate::script::rows::lifting::{Family, Varied, gathered, gathered_without, present};
+use crate::script::rows::lifting::{
+    Family, Varied, gathered, gathered_without, present, present_variant,
+};
 use crate::script::source::syntax::{LONGEST_CHAIN, OWN, power_name};
 use crate::script::words::error::{EngineResult, ScriptError};
 use crate::script::words::numbers::as_number;
@@ -46,8 +48,7 @@ pub fn install(engine: &mut Engine) {
     engine.register_fn("to_float", |number: Varied| number);
     for name in ["to_int", "sign", "is_zero", "is_even", "is_odd"] {
         engine.register_raw_fn(name, varied, move |context: NativeCallContext, operands| {
-            let variant = present().map_or(0, |present| present.variant);
-            let mut number = Varied::project(operands[0], variant);
+            let mut number = Varied::project(operands[0], present_variant());
             context.call_native_fn_raw(name, true, &mut [&mut number])
         });
     }
@@ -60,7 +61,7 @@ pub fn install(engine: &mut Engine) {
                     types,
                     move |context: NativeCallContext, operands| {
                         let [left, right] = operands else { return Ok(Dynamic::UNIT) };
-                        let at = present().map_or(0, |present| present.variant);
+                        let at = present_variant();
                         let [mut left, mut right] = [left, right].map(|of| Varied::project(of, at));
                         context.call_native_fn_raw(&own, false, &mut [&mut left, &mut right])
                     },
@@ -111,10 +112,13 @@ fn in_each(
 
 /// Why a remainder has no derivatives, if it jumps between the variants of a parameter.
 fn jump_of_remainder(name: &str, family: &Rc<Family>, of: [&Dynamic; 2]) -> Option<Rc<str>> {
+    if name != "%" {
+        return None;
+    }
     let whole = |variant: usize| {
         let [left, right] = of.map(|of| as_number(&Varied::project(of, variant)));
         Some((left? / right?).trunc())
     };
     let jumps = (1..family.variants()).any(|variant| whole(variant) != whole(0));
-    (name == "%" && jumps).then(|| "a remainder, x % y, jumps just there".into())
+    jumps.then(|| "a remainder, x % y, jumps just there".into())
 }

@@ -13,7 +13,7 @@ pub use corners::{
     Corner, at_origin, at_whole_numbers, at_zero, at_zero_vector, where_equal,
     where_largest_changes, where_points_meet, where_smallest_changes,
 };
-pub use family::{Family, Present, RELATIVE_DISTANCE, know, lose, present};
+pub use family::{Family, Present, RELATIVE_DISTANCE, know, lose, present, present_variant};
 pub use lift::{gathered, gathered_without, lift};
 #[cfg(test)]
 pub use policy::NAMED;
