@@ -4,8 +4,8 @@
 use crate::common::wild_scenes::{Temper, scene};
 use crate::common::{run, settings};
 use withy::integrators::Method;
-use withy::joints::SLIDING_RULES;
-use withy::simulation::{Invariant, Simulation};
+use withy::joints::{SLIDING_RULES, SlidingRule};
+use withy::simulation::{Invariant, Settings, Simulation, StepControl, StepSize};
 
 /// A step, and the time to which scenes run.
 const DT: f64 = 0.01;
@@ -38,6 +38,9 @@ fn wild_scenes_end_or_say_why() {
     // All sliders with one rule, by its name, to see what becomes of them; that is told, and not asked for.
     let named = std::env::var("WITHY_RULE").ok();
     let rule = SLIDING_RULES.iter().find(|entry| Some(entry.name) == named.as_deref());
+    // Likewise all with steps that keep a tolerance.
+    let tolerance = std::env::var("WITHY_TOLERANCE").ok().map(|told| told.parse().unwrap());
+    let adaptive = tolerance.map(StepControl::to);
     let mut unexplained = Vec::new();
     let mut rows = vec![Row::default(); Temper::ALL.len()];
     for seed in 0..seeds {
@@ -46,7 +49,11 @@ fn wild_scenes_end_or_say_why() {
             scene.sliders.iter_mut().for_each(|slider| slider.rule = rule.rule);
         }
         let name = format!("{} with {method:?}", scene.name);
-        let mut simulation = Simulation::start(scene, settings(method, DT)).unwrap();
+        let mut settings = settings(method, DT);
+        if let Some(control) = &adaptive {
+            settings.dt = StepSize::Adaptive(*control);
+        }
+        let mut simulation = Simulation::start(scene, settings).unwrap();
         let ran = run(&mut simulation, END);
         if let Err(error) = &ran {
             let told = error.to_string();
@@ -81,5 +88,24 @@ fn wild_scenes_end_or_say_why() {
         // What is tame, stiff or curved ends.
         let share = row.ended as f64 / row.scenes as f64;
         assert!(share > 0.8 || rule.is_some(), "{temper:?}: {row:?}");
+    }
+}
+
+#[test]
+fn steps_that_keep_a_tolerance_keep_kinks_where_there_is_no_other_step() {
+    // Without that no step takes this scene beyond t = 0.285.
+    let (mut scene, method) = scene(0);
+    scene.sliders.iter_mut().for_each(|slider| slider.rule = SlidingRule::Kinked);
+    let settings =
+        Settings { dt: StepSize::Adaptive(StepControl::to(1e-3)), ..settings(method, DT) };
+    let mut simulation = Simulation::start(scene, settings).unwrap();
+    run(&mut simulation, END).unwrap();
+    assert!(simulation.counts().retries > 0);
+    let history = simulation.history();
+    for invariant in
+        [Invariant::Energy, Invariant::Momentum, Invariant::AngularMomentum, Invariant::Gap]
+    {
+        let drift = history.drift(invariant);
+        assert!(drift < 1e-9, "{invariant:?}: {drift:e}");
     }
 }

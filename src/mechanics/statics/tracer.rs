@@ -2,9 +2,9 @@
 
 use super::balance::{Balance, UnderLoad};
 use super::error::Miss;
+use super::loading::LEAST_PATH;
 use super::path::vertex;
 use super::trial::Trial;
-use super::loading::LEAST_PATH;
 use super::{ArcLength, Control, Loading, Path, PathPoint, StaticsError};
 use crate::elementary::square;
 use crate::integrators::{Constraints, Mechanism};

@@ -118,8 +118,23 @@ impl Simulation {
         }
     }
 
-    /// Takes a step as a whole and in halves.
+    /// Takes a step as a whole and in halves; where a part of it has no solution, all of it with the kinks under contact forces staying as they are.
     fn try_step(&mut self, adaptive: &mut Adaptive, plan: &Plan) -> Result<Doubled, Failed> {
+        self.model.let_kinks_follow();
+        match self.try_step_as_it_is(adaptive, plan) {
+            Err(Failed { source, before }) if self.keeps_kinks_for(&source) => {
+                self.progress.count_failure(before + source.factorisations());
+                self.try_step_as_it_is(adaptive, plan)
+            }
+            tried => tried,
+        }
+    }
+
+    fn try_step_as_it_is(
+        &mut self,
+        adaptive: &mut Adaptive,
+        plan: &Plan,
+    ) -> Result<Doubled, Failed> {
         let Adaptive { doubling, resampling, .. } = adaptive;
         let between = resampling.as_mut().map(Resampling::middle_mut);
         doubling.step(&mut *self.stepper.integrator, &mut self.model, plan.interval, between)

@@ -104,8 +104,7 @@ impl Simulation {
         self.model.let_kinks_follow();
         let stepped = self.stepper.step(&mut self.model, interval);
         let stepped = match stepped {
-            Ok(_) | Err(StepError::Overshoot { .. } | StepError::Load { .. }) => stepped,
-            Err(source) if self.model.keep_kinks() => {
+            Err(source) if self.keeps_kinks_for(&source) => {
                 self.progress.count_failure(source.factorisations());
                 self.stepper.step(&mut self.model, interval)
             }
@@ -116,6 +115,14 @@ impl Simulation {
             self.lose_derivatives("a kink under a slider was kept as it is");
         }
         stepped
+    }
+
+    /// Keeps the kinks under contact forces as they are, for a step that was not found; whether that makes it another step.
+    pub(super) fn keeps_kinks_for(&mut self, source: &StepError) -> bool {
+        match source {
+            StepError::Overshoot { .. } | StepError::Load { .. } => false,
+            _ => self.model.keep_kinks(),
+        }
     }
 
     /// Counts a step that succeeded after some failed tries.
