@@ -17,6 +17,23 @@ pub struct BandRows<'a> {
     pub(super) half_bandwidth: usize,
 }
 
+/// One row of a banded matrix, to which entries are added.
+pub struct BandRow<'a> {
+    entries: &'a mut [f64],
+    row: usize,
+    centre: usize,
+    half_bandwidth: usize,
+}
+
+impl BandRow<'_> {
+    /// Adds `value` to the entry in a column, which must lie in the band.
+    #[inline]
+    pub fn add(&mut self, column: usize, value: f64) {
+        debug_assert!(self.row.abs_diff(column) <= self.half_bandwidth);
+        self.entries[column + self.centre - self.row] += value;
+    }
+}
+
 impl BandRows<'_> {
     /// The indices, in the whole matrix, of the rows to which entries can be added here.
     pub fn rows(&self) -> Range<usize> {
@@ -50,6 +67,14 @@ impl BandRows<'_> {
     pub fn add(&mut self, row: usize, column: usize, value: f64) {
         let at = self.offset(row, column);
         self.entries[at] += value;
+    }
+
+    /// A row to which several entries are added.
+    #[inline]
+    pub fn row(&mut self, row: usize) -> BandRow<'_> {
+        let first = (row - self.rows.start) * self.stride;
+        let entries = &mut self.entries[first..first + self.stride];
+        BandRow { entries, row, centre: self.centre, half_bandwidth: self.half_bandwidth }
     }
 
     /// Adds `values` to the entries of `row` that begin at `first_column`.

@@ -83,10 +83,15 @@ impl Beat {
     }
 }
 
+/// A time as people write it: with a power of ten where it has many zeros.
+fn in_words(time: f64) -> String {
+    if (1e-4..1e7).contains(&time) { time.to_string() } else { format!("{time:e}") }
+}
+
 impl std::fmt::Display for Beat {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "every {}", self.period)?;
-        if self.delay > 0.0 { write!(f, ", {} later", self.delay) } else { Ok(()) }
+        write!(f, "every {}", in_words(self.period))?;
+        if self.delay > 0.0 { write!(f, ", {} later", in_words(self.delay)) } else { Ok(()) }
     }
 }
 
@@ -120,6 +125,7 @@ mod tests {
         assert_eq!(beat.next(0.0, 1e-12), 0.01);
         assert!((beat.next(0.03, 1e-12) - 0.035).abs() < 1e-15);
         assert_eq!(beat.to_string(), "every 0.01, 0.025 later");
+        assert_eq!(Beat::new(1e300, 2e-6).unwrap().to_string(), "every 1e300, 2e-6 later");
     }
 
     #[test]

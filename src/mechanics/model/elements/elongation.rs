@@ -9,8 +9,12 @@
 //! what it has grown by since the start: a length less one at ease would carry the rounding of the length, which may be millions of times as large.
 
 mod part;
+mod shares;
+
+use std::ops::Range;
 
 use self::part::{Part, RelativeTurn};
+use self::shares::Share;
 use super::coordinate::Coordinate;
 use super::{Iterate, collocation};
 use crate::beams::{Movement, Place, RotationIncrement};
@@ -30,6 +34,14 @@ pub enum Terminal {
 }
 
 impl Terminal {
+    /// The number of functions that are not zero there.
+    fn order(&self) -> usize {
+        match self {
+            Self::Moving(place) => place.shape().len(),
+            Self::Ground => 0,
+        }
+    }
+
     /// What it has of a vector of the control points of each body, by body and point: none on the ground.
     pub fn combine(&self, of_point: impl Fn(usize, usize) -> Vec2) -> Vec2 {
         let Self::Moving(place) = self else { return Vec2::zeros() };
@@ -58,12 +70,16 @@ enum Measure {
 pub struct Elongation {
     measure: Measure,
     terminals: Vec<Terminal>,
+    /// Where their coordinates stand among the degrees of freedom, where they were located last.
+    shares: Vec<Share>,
     /// What is measured in the scene as it was built [length, rad].
     drawn: f64,
     /// By how much it has grown since, up to the start of the step [length, rad].
     grown: Coordinate,
     /// The movements in the iterate, a number for each coordinate.
     moved: Vec<f64>,
+    /// Those of a correction.
+    corrected: Vec<f64>,
     /// The change `Δq` of what is measured in the step [length, rad].
     pub change: f64,
     /// The same of the iterate whose force was settled last, and how much more it is as the force has it, without rounding of movements, of which a
@@ -73,7 +89,7 @@ pub struct Elongation {
     pub secant: Vec<f64>,
     /// The derivative `∂Δq/∂u` by the movements [-].
     pub slope: Vec<f64>,
-    /// The derivative `∂g/∂u` of the secant by the movements, row by row [1/length, 1/rad].
+    /// The derivative `∂g/∂u` of the secant by the movements, row by row, where it was found last [1/length, 1/rad].
     pub bend: Vec<f64>,
     /// What has to be added to the secant for the direction at the time of the step that [`balance`](Self::balance) took last [-].
     pub lag: Vec<f64>,
@@ -104,10 +120,12 @@ impl Elongation {
         let coordinates = components * terminals.len();
         Self {
             measure,
+            shares: Vec::with_capacity(terminals.iter().map(|of| components * of.order()).sum()),
             terminals,
             drawn,
             grown: Coordinate::default(),
             moved: vec![0.0; coordinates],
+            corrected: vec![0.0; coordinates],
             change: 0.0,
             settled: (0.0, 0.0),
             secant: vec![0.0; coordinates],
@@ -167,23 +185,27 @@ impl Elongation {
         matches!(self.measure, Measure::Component(..))
     }
 
-    /// Where each coordinate stands: the place, and the component of its movement.
-    pub fn coordinates(&self) -> impl Iterator<Item = Option<(&Place, usize)>> {
-        let components = match self.measure {
+    /// The components of the movement of a place that count.
+    pub fn components(&self) -> Range<usize> {
+        match self.measure {
             Measure::Way(_) | Measure::Component(..) => 0..2,
             Measure::Angle => 2..3,
-        };
-        self.terminals.iter().flat_map(move |terminal| {
-            components.clone().map(move |component| match terminal {
-                Terminal::Moving(place) => Some((place, component)),
-                Terminal::Ground => None,
-            })
+        }
+    }
+
+    /// The terminals that move: their places, and the numbers of their coordinates.
+    pub fn moving(&self) -> impl Iterator<Item = (&Place, Range<usize>)> {
+        let count = self.components().len();
+        self.terminals.iter().enumerate().filter_map(move |(at, terminal)| match terminal {
+            Terminal::Moving(place) => Some((place, at * count..(at + 1) * count)),
+            Terminal::Ground => None,
         })
     }
 
     /// Takes the movements of an iterate, and finds change, secant and slope.
     pub fn take(&mut self, at: Iterate<'_>) {
-        self.gather(|place| at.bodies[place.body].at(place, at.increments));
+        self.locate(at.bodies);
+        self.gather(at.increments);
         let collocation = collocation(at.stage);
         self.compare(collocation.rotations);
     }
@@ -217,68 +239,36 @@ impl Elongation {
         }
     }
 
-    /// The product of a slope and a correction of the increments: a change of `q`, to first order [length, rad].
-    pub fn along(&self, slope: &[f64], bodies: &[Body], correction: &[f64]) -> f64 {
-        let coordinates = self.coordinates().zip(slope);
-        coordinates
-            .filter_map(|(coordinate, slope)| {
-                let (place, component) = coordinate?;
-                Some(slope * bodies[place.body].at(place, correction)[component])
-            })
-            .sum()
-    }
-
     /// The rate of `q` at the start of the step, where everything was taken last, with such rates of the control points of all bodies.
     pub fn rate(&self, rates: &[Vec<Movement>]) -> f64 {
-        let coordinates = self.coordinates().zip(&self.slope);
-        coordinates
-            .filter_map(|(coordinate, slope)| {
-                let (place, component) = coordinate?;
-                let rates = &rates[place.body];
+        let mut sum = 0.0;
+        for (place, coordinates) in self.moving() {
+            let rates = &rates[place.body];
+            for (component, slope) in self.components().zip(&self.slope[coordinates]) {
                 let shares = place.weights().map(|(point, share)| share * rates[point][component]);
-                Some(slope * shares.fold(0.0, |sum, rate| sum + rate))
-            })
-            .sum()
-    }
-
-    fn gather(&mut self, of_place: impl Fn(&Place) -> [f64; 3]) {
-        let (first, count) = match self.measure {
-            Measure::Way(_) | Measure::Component(..) => (0, 2),
-            Measure::Angle => (2, 1),
-        };
-        for (moved, terminal) in self.moved.chunks_exact_mut(count).zip(&self.terminals) {
-            match terminal {
-                Terminal::Moving(place) => {
-                    moved.copy_from_slice(&of_place(place)[first..first + count]);
-                }
-                Terminal::Ground => moved.fill(0.0),
+                sum += slope * shares.fold(0.0, |sum, rate| sum + rate);
             }
         }
+        sum
     }
 
     fn compare(&mut self, rotations: RotationIncrement) {
         let Self { measure, moved, change, secant, slope, bend, .. } = self;
         match measure {
             Measure::Way(parts) => {
-                let width = moved.len();
                 *change = 0.0;
-                [&mut *secant, slope, bend].into_iter().for_each(|all| all.fill(0.0));
-                for (part, start) in parts.iter().enumerate() {
-                    let ends = [2 * part, 2 * part + 2];
-                    let [from, to] = ends.map(|at| Vec2::new(moved[at], moved[at + 1]));
-                    let part = Part::new(*start, to - from, rotations);
+                [&mut *secant, slope].into_iter().for_each(|all| all.fill(0.0));
+                let (secants, _) = secant.as_chunks_mut::<2>();
+                let (slopes, _) = slope.as_chunks_mut::<2>();
+                let ways = moved.as_chunks().0.windows(2).map(way);
+                for (at, (start, way)) in parts.iter().zip(ways).enumerate() {
+                    let part = Part::new(*start, way, rotations);
                     *change += part.change;
-                    for (row, sign) in ends.into_iter().zip([-1.0, 1.0]) {
-                        for component in 0..2 {
-                            secant[row + component] += sign * part.secant[component];
-                            slope[row + component] += sign * part.slope[component];
-                            for (column, other) in ends.into_iter().zip([-1.0, 1.0]) {
-                                let at = (row + component) * width + column;
-                                for by in 0..2 {
-                                    bend[at + by] += sign * other * part.bend(component, by);
-                                }
-                            }
-                        }
+                    for component in 0..2 {
+                        secants[at][component] -= part.secant[component];
+                        secants[at + 1][component] += part.secant[component];
+                        slopes[at][component] -= part.slope[component];
+                        slopes[at + 1][component] += part.slope[component];
                     }
                 }
             }
@@ -302,16 +292,40 @@ impl Elongation {
         }
     }
 
+    /// Finds the bend in the iterate that was taken last.
+    pub fn find_bend(&mut self, rotations: RotationIncrement) {
+        let Self { measure, moved, bend, .. } = self;
+        let Measure::Way(parts) = measure else { return };
+        let width = moved.len();
+        bend.fill(0.0);
+        let ways = moved.as_chunks().0.windows(2).map(way);
+        for (at, (start, way)) in parts.iter().zip(ways).enumerate() {
+            let (part, ends) = (Part::new(*start, way, rotations), [2 * at, 2 * at + 2]);
+            for component in 0..2 {
+                let bends = [part.bend(component, 0), part.bend(component, 1)];
+                for (row, sign) in ends.into_iter().zip([-1.0, 1.0]) {
+                    for (column, other) in ends.into_iter().zip([-1.0, 1.0]) {
+                        let at = (row + component) * width + column;
+                        let entries = bend[at..at + 2].iter_mut().zip(bends);
+                        entries.for_each(|(entry, by)| *entry += sign * other * by);
+                    }
+                }
+            }
+        }
+    }
+
     /// Accepts the movements that the bodies gathered last.
     pub fn advance(&mut self, bodies: &[Body], rotations: RotationIncrement) {
-        self.gather(|place| {
-            let mut sum = [0.0; 3];
+        let components = self.components();
+        let terminals = self.moved.chunks_exact_mut(components.len()).zip(&self.terminals);
+        for (own, terminal) in terminals {
+            own.fill(0.0);
+            let Terminal::Moving(place) = terminal else { continue };
             for (point, share) in place.weights() {
-                let moved = bodies[place.body].moved()[point];
-                sum.iter_mut().zip(moved).for_each(|(sum, moved)| *sum += share * moved);
+                let moved = &bodies[place.body].moved()[point][components.clone()];
+                own.iter_mut().zip(moved).for_each(|(sum, moved)| *sum += share * moved);
             }
-            sum
-        });
+        }
         self.compare(rotations);
         let (change, missing) = self.settled;
         let is_settled = (change - self.change).abs() <= self.rounding();
@@ -341,7 +355,8 @@ impl Elongation {
     }
 
     /// Takes everything as it is at the start of the step.
-    pub fn rest(&mut self) {
+    pub fn rest(&mut self, bodies: &[Body]) {
+        self.locate(bodies);
         self.moved.fill(0.0);
         self.compare(RotationIncrement::Angle);
     }
@@ -359,4 +374,9 @@ impl Elongation {
             parts.iter_mut().for_each(|part| *part = Vec2::new(next(), next()));
         }
     }
+}
+
+/// The way from one place to the next.
+fn way(ends: &[[f64; 2]]) -> Vec2 {
+    Vec2::new(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1])
 }

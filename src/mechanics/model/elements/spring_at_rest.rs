@@ -13,16 +13,11 @@ pub fn law_at_rest(
     bodies: &[Body],
 ) -> (Vec<usize>, SpanAtRest) {
     let mut elongation = elongation.clone();
-    elongation.rest();
+    elongation.rest(bodies);
     let (value, mut degrees) = (elongation.grown(), Vec::new());
     let by_degree = |row: &[f64]| {
-        let mut found = Vec::new();
-        for (coordinate, by) in elongation.coordinates().zip(row) {
-            let Some((place, component)) = coordinate else { continue };
-            let body = &bodies[place.body].degrees_of_freedom;
-            found.extend(place.weights().map(|(at, share)| (body[at][component], share * by)));
-        }
-        found
+        let shares = elongation.shares().iter();
+        shares.map(|of| (of.degree, of.share * row[of.coordinate])).collect::<Vec<_>>()
     };
     degrees.extend(by_degree(&elongation.slope).into_iter().map(|(degree, _)| degree));
     degrees.sort_unstable();

@@ -32,6 +32,8 @@ pub struct SpringDamper {
     elongation: Elongation,
     /// Secant, slope and lag of the last linearisation, whose directions corrections take.
     linearised: [Vec<f64>; 3],
+    /// The derivative of the force by the coordinates, row by row.
+    tangent: Vec<f64>,
     /// Where each terminal that is the ground is [length].
     grounds: Vec<Option<Vec2>>,
     /// Over what the elongation has grown by since the scene was built.
@@ -78,6 +80,7 @@ impl SpringDamper {
             name,
             elongation,
             linearised: [(); 3].map(|()| vec![0.0; coordinates]),
+            tangent: vec![0.0; coordinates * coordinates],
             grounds,
             law,
             rises,
@@ -112,17 +115,6 @@ impl SpringDamper {
         match at.stage {
             Stage::Start => at.weight * spring,
             _ => at.weight * spring + damper,
-        }
-    }
-
-    /// Adds a force along a secant.
-    fn scatter(&self, bodies: &[Body], secant: &[f64], force: f64, out: &mut [f64]) {
-        for (coordinate, direction) in self.elongation.coordinates().zip(secant) {
-            let Some((place, component)) = coordinate else { continue };
-            for (point, share) in place.weights() {
-                out[bodies[place.body].degrees_of_freedom[point][component]] +=
-                    share * direction * force;
-            }
         }
     }
 
@@ -168,7 +160,7 @@ impl Resistance for SpringDamper {
         if at.stage == Stage::Start {
             let force = at.weight * self.restoring(at.stage).force;
             self.note(at.stage, force, 0.0);
-            self.scatter(at.bodies, &self.elongation.secant, force, out);
+            self.elongation.scatter(&self.elongation.secant, force, out);
             return self.summary(0.0);
         }
         let extent = self.elongation.extent();
@@ -183,8 +175,10 @@ impl Resistance for SpringDamper {
         let mismatch = larger(missed, self.damper.compare(damping, extent));
         let force = self.weighted(at, self.spring.force, self.damper.force);
         self.note(at.stage, force, self.damper.force);
-        self.scatter(at.bodies, &self.elongation.secant, force, out);
-        self.scatter(at.bodies, &self.elongation.lag, self.damper.force, out);
+        self.elongation.scatter(&self.elongation.secant, force, out);
+        if self.damping.acts() {
+            self.elongation.scatter(&self.elongation.lag, self.damper.force, out);
+        }
         self.summary(mismatch)
     }
 
@@ -196,6 +190,7 @@ impl Resistance for SpringDamper {
         tangent: &mut BandedMatrix,
     ) {
         self.take(at);
+        self.elongation.find_bend(collocation(at.stage).rotations);
         let (restoring, damping) = (self.aimed_restoring(at.stage), self.aimed_damping(at));
         self.spring.linearise(restoring);
         self.damper.linearise(damping);
@@ -204,43 +199,44 @@ impl Resistance for SpringDamper {
         slope.copy_from_slice(&elongation.slope);
         lag.copy_from_slice(&elongation.lag);
         let force = self.weighted(at, restoring.force, damping.force);
-        self.scatter(at.bodies, &self.elongation.secant, force, out);
-        self.scatter(at.bodies, &self.elongation.lag, damping.force, out);
+        self.elongation.scatter(&self.elongation.secant, force, out);
+        if self.damping.acts() {
+            self.elongation.scatter(&self.elongation.lag, damping.force, out);
+        }
         // The geometric terms with the force of the iterate.
         let stiffness = self.weighted(at, restoring.stiffness, damping.stiffness);
         let force = self.weighted(at, self.spring.force, self.damper.force);
         let Elongation { secant, slope, bend, lag, lag_bend, .. } = &self.elongation;
-        let width = secant.len();
-        for (row, to) in self.elongation.coordinates().enumerate() {
-            let Some((to, component)) = to else { continue };
-            for (column, from) in self.elongation.coordinates().enumerate() {
-                let Some((from, by)) = from else { continue };
-                let entry = row * width + column;
-                let value = stiffness * secant[row] * slope[column] + force * bend[entry];
-                let lagging = damping.stiffness * lag[row] * slope[column];
-                let value = value + (lagging + self.damper.force * lag_bend[entry]);
-                for (a, share_a) in to.weights() {
-                    let row = at.bodies[to.body].degrees_of_freedom[a][component];
-                    for (b, share_b) in from.weights() {
-                        let column = at.bodies[from.body].degrees_of_freedom[b][by];
-                        if row < unknowns && column < unknowns {
-                            tangent.add(row, column, share_a * share_b * value);
-                        }
-                    }
+        let rows = self.tangent.chunks_exact_mut(slope.len());
+        let bends = bend.chunks_exact(slope.len());
+        for ((row, secant), bend) in rows.zip(secant).zip(bends) {
+            for ((entry, slope), bend) in row.iter_mut().zip(slope).zip(bend) {
+                *entry = stiffness * secant * slope + force * bend;
+            }
+        }
+        if self.damping.acts() {
+            let rows = self.tangent.chunks_exact_mut(slope.len());
+            let bends = lag_bend.chunks_exact(slope.len());
+            for ((row, lag), bend) in rows.zip(lag).zip(bends) {
+                for ((entry, slope), bend) in row.iter_mut().zip(slope).zip(bend) {
+                    *entry += damping.stiffness * lag * slope + self.damper.force * bend;
                 }
             }
         }
+        self.elongation.scatter_tangent(&self.tangent, unknowns, &mut tangent.rows_mut());
     }
 
-    fn add_mismatch_forces(&self, bodies: &[Body], weight: f64, out: &mut [f64]) {
+    fn add_mismatch_forces(&self, _bodies: &[Body], weight: f64, out: &mut [f64]) {
         let force = weight * self.spring.mismatch + self.damper.mismatch;
         let [secant, _, lag] = &self.linearised;
-        self.scatter(bodies, secant, force, out);
-        self.scatter(bodies, lag, self.damper.mismatch, out);
+        self.elongation.scatter(secant, force, out);
+        if self.damping.acts() {
+            self.elongation.scatter(lag, self.damper.mismatch, out);
+        }
     }
 
-    fn correct(&mut self, bodies: &[Body], correction: &[f64]) {
-        let change = self.elongation.along(&self.linearised[1], bodies, correction);
+    fn correct(&mut self, _bodies: &[Body], correction: &[f64]) {
+        let change = self.elongation.along(&self.linearised[1], correction);
         self.spring.correct(change);
         self.damper.correct(change);
     }
@@ -294,17 +290,18 @@ impl Resistance for SpringDamper {
 
     fn add_forces_now(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]) {
         let mut elongation = self.elongation.clone();
-        elongation.rest();
+        elongation.rest(bodies);
         let rate = elongation.rate(rates);
         let force = self.restoring_at_start() + self.damping.force(rate);
-        self.scatter(bodies, &elongation.slope, force, out);
+        elongation.scatter(&elongation.slope, force, out);
     }
 
     fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
         if self.damping.acts() {
             let mut elongation = self.elongation.clone();
-            elongation.rest();
-            let rate = elongation.along(&elongation.slope, bodies, rates);
+            elongation.rest(bodies);
+            let slope = elongation.slope.clone();
+            let rate = elongation.along(&slope, rates);
             take(self.damping.slope_at_rest(), rate);
         }
     }

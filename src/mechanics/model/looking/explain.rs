@@ -294,8 +294,10 @@ fn explain_drive(scene: &Scene, drive: &Drive) -> Part {
         0 => String::new(),
         count => format!("; {} calls of functions in a step, or a part of one", 5 * count),
     };
-    let how =
-        format!("{} of {place}: given and no unknown, exact in place{calls}", names.join(", "));
+    let beats = drive.schedules().filter_map(|schedule| schedule.beat());
+    let asked: String = beats.map(|beat| format!(", asked {beat}")).collect();
+    let given = "given and no unknown, exact in place";
+    let how = format!("{} of {place}: {given}{calls}{asked}", names.join(", "));
     Part::used(format!("{} '{}'", drive.kind.name(), drive.name), how)
 }
 
