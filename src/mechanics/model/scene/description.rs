@@ -1,5 +1,7 @@
 //! The editable description of what is simulated. Nothing is assembled here.
 
+use std::collections::HashSet;
+
 use serde::{Deserialize, Serialize};
 
 use super::stored::StoredScene;
@@ -211,8 +213,10 @@ impl Scene {
 
     /// The first of `kind1`, `kind2`, … that nothing in the scene is called.
     pub fn free_name(&self, kind: &str) -> String {
-        let mut names = (1..).map(|number| format!("{kind}{number}"));
-        names.find(|name| self.names().all(|(_, other)| other != name)).unwrap_or_default()
+        let numbered = self.names().filter_map(|(_, name)| name.strip_prefix(kind)?.parse().ok());
+        let taken: HashSet<u64> = numbered.collect();
+        let free = (1..).find(|number| !taken.contains(number)).unwrap_or_default();
+        format!("{kind}{free}")
     }
 
     /// The station of a beam at an arc length [length]; its angle is followed from the start.
