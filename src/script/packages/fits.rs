@@ -140,7 +140,7 @@ pub const TABLE: Table = Table {
             .returns(Returns::TRUTH)
             .summary("Whether the search came to its end before the most runs were made.")
             .example("check(best.settled);"),
-        function("find_root", &[callback("function").doc("|x| …, gives a number"), number("from"), number("to"), TOLERANCE], find_root)
+        function("find_root", &[callback("function").doc("|x| …, gives a number"), FROM, TO, PLACE_TOLERANCE], find_root)
             .returns(Returns::NUMBER)
             .summary("Finds where a function of one number is zero, between two numbers at which its signs differ.")
             .doc("R. P. Brent's method (1973). The tolerance is that of the place, a billionth of the interval unless given. The function is called on this thread and may use anything.")
@@ -156,7 +156,12 @@ const FIT: Type = Type::of::<FitHandle>();
 const DESIGN: Type = Type::of::<DesignHandle>();
 const FIT_KEYS: &[Parameter] = FitOptions::KEYS;
 const DESIGN_KEYS: &[Parameter] = DesignOptions::KEYS;
-const TOLERANCE: Parameter = number("tolerance").positive().optional();
+const FROM: Parameter = number("from").doc("where one sign of the function is");
+const TO: Parameter = number("to").doc("where the other sign is");
+const PLACE_TOLERANCE: Parameter = number("tolerance")
+    .positive()
+    .doc("how well the place is to be known; a billionth of the interval unless given")
+    .optional();
 const RANGES: Parameter = anything("parameters")
     .doc("names with where they begin, the least and the largest value: #{ EI: [10, 1, 100] }, or the start alone");
 const PATIENCE: Parameter = number("patience")

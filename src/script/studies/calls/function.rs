@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use rhai::{AST, ASTNode, Dynamic, Expr, FnPtr, Map, Position};
 
 use super::portable::Portable;
-use crate::script::rows::call::Call;
+use crate::script::rows::call::{Call, written_within};
 use crate::script::words::error::{Failure, Place, ScriptError};
 use crate::script::words::nouns::with_article;
 
@@ -146,7 +146,7 @@ impl RunFunction {
     ) -> Option<&'n str> {
         let definition = call.definition(function)?;
         let map = definition.params.get(function.curry().len())?;
-        let reading = Reading::of(&call.body(function), map);
+        let reading = Reading::of(call, function, map);
         let mut names = names.into_iter();
         names.find(|name| !reading.is_whole && !reading.names.contains(*name))
     }
@@ -175,10 +175,16 @@ fn first_use(body: &AST, name: &str) -> Option<Position> {
 }
 
 impl Reading {
-    fn of(body: &AST, map: &str) -> Self {
+    fn of(call: &Call, function: &FnPtr, map: &str) -> Self {
         let mut reading = Self { names: BTreeSet::new(), is_whole: false };
+        reading.read(call, function, map);
+        reading
+    }
+
+    /// Reads a function in which the map has this name.
+    fn read(&mut self, call: &Call, function: &FnPtr, map: &str) {
         let is_map = |expression: &Expr| variable(expression) == Some(map);
-        body.walk(&mut |path: &[ASTNode]| {
+        call.body(function).walk(&mut |path: &[ASTNode]| {
             let Some(ASTNode::Expr(expression)) = path.last() else { return true };
             if !is_map(expression) {
                 return true;
@@ -188,15 +194,22 @@ impl Reading {
                 Some(ASTNode::Expr(Expr::Dot(of, ..) | Expr::Index(of, ..))) if is_map(&of.lhs) => {
                     name_read(&of.rhs)
                 }
+                // A function within has it under the same name.
+                Some(ASTNode::Expr(Expr::FnCall(made, _))) => match written_within(made) {
+                    Some((within, _)) => {
+                        self.read(call, &within, map);
+                        return true;
+                    }
+                    None => None,
+                },
                 _ => None,
             };
             match read {
-                Some(name) => _ = reading.names.insert(name),
-                None => reading.is_whole = true,
+                Some(name) => _ = self.names.insert(name),
+                None => self.is_whole = true,
             }
             true
         });
-        reading
     }
 }
 

@@ -76,6 +76,9 @@ pub struct BestDesign {
     pub derivatives: String,
 }
 
+/// What to do where something is to be true.
+const TRUTH: &str = "let run give a number that is not negative where it holds, such as #{ room: limit - sag }, and write constraints: #{ room: [0, ()] }";
+
 impl Goal {
     fn name(&self) -> &str {
         match self {
@@ -93,20 +96,33 @@ impl Limit {
             return Err(at_key(call, "constraints", told, shape));
         };
         let limit = |(name, value): (&rhai::Identifier, &Dynamic)| {
-            let wrong = || {
-                let told = format!("the constraint on '{name}' is {}", call.describe(value));
-                call.error(told).hint(shape).at(Place::Key(name.to_string()))
+            let wrong = |what: String| {
+                let told = format!("the constraint on '{name}' {what}");
+                let hint = if value.is_bool() { TRUTH } else { shape };
+                call.error(told).hint(hint).at(Place::Key(name.to_string()))
             };
-            let array = value.clone().try_cast::<Array>().ok_or_else(wrong)?;
+            let Some(array) = value.clone().try_cast::<Array>() else {
+                return Err(wrong(format!("is {}", call.describe(value))));
+            };
             let end = |value: &Dynamic| match value.is_unit() {
                 true => Ok(None),
-                false => as_number(value).filter(|x| x.is_finite()).map(Some).ok_or_else(wrong),
+                false => match as_number(value).filter(|x| x.is_finite()) {
+                    Some(end) => Ok(Some(end)),
+                    None => Err(wrong(format!("has {}, which is no number", call.describe(value)))),
+                },
             };
-            let [low, high] = array.as_slice() else { return Err(wrong()) };
+            let [low, high] = array.as_slice() else {
+                let count = array.len();
+                let plural = if count == 1 { "" } else { "s" };
+                return Err(wrong(format!("has {count} number{plural} in the place of two")));
+            };
             let (low, high) = (end(low)?, end(high)?);
             match (low, high) {
-                (None, None) => Err(wrong()),
-                (Some(low), Some(high)) if low > high => Err(wrong()),
+                (None, None) => Err(wrong("has neither a least nor a largest number".into())),
+                (Some(low), Some(high)) if low > high => {
+                    let [low, high] = [low, high].map(format_number);
+                    Err(wrong(format!("has the least number {low} above the largest, {high}")))
+                }
                 _ => Ok(Self { name: name.to_string(), low, high }),
             }
         };
@@ -156,6 +172,11 @@ fn values(given: &Dynamic) -> Answer {
         match Varied::number(value) {
             Some(number) if number.is_finite() => numbers.push(number),
             Some(_) => return Answer::Failed(format!("'{name}' is not a finite number")),
+            None if value.is_bool() => {
+                return Answer::Wrong(format!(
+                    "it gives '{name}', which is a truth value: a search needs numbers, such as how far something is from its limit"
+                ));
+            }
             None => return Answer::Wrong(format!("it gives '{name}', which is no number")),
         }
     }
