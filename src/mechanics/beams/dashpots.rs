@@ -242,7 +242,7 @@ impl Dashpots {
             let moved = &moved[*first..*first + self.order];
             for dashpot in forces {
                 sum += dashpot.advance(moved, rotations, duration);
-                let seen = share.map_or_else(Default::default, |share| dashpot.seen(share));
+                let seen = share.map(|share| dashpot.seen(share)).unwrap_or_default();
                 all.iter_mut().zip(seen).for_each(|(all, seen)| all.join(seen));
             }
             for dashpot in moments {

@@ -1,6 +1,6 @@
 //! When a digital controller is asked, and when what it says acts.
 
-use super::LoadError;
+use super::{LoadError, multiple};
 
 /// The beat of a digital controller: it is asked at `n T`, `n = 0, 1, …`, and what it says acts from `n T + delay` on, until the next command does.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -11,9 +11,6 @@ pub struct Beat {
 
 /// How near to a time, as a part of the period, another one is the same.
 const SAME: f64 = 1e-9;
-
-/// So near to one, times the period, is a whole number of samples in a unit of time.
-const WHOLE: f64 = 1e-15;
 
 impl Beat {
     /// The beat with a sampling period `T` and a dead time [time].
@@ -43,11 +40,9 @@ impl Beat {
         self.delay
     }
 
-    /// The time of a sample, by its number. A period that is one over a whole number is taken as such, as steps are [time].
+    /// The time of a sample, by its number [time].
     pub fn sample(&self, number: u64) -> f64 {
-        let rate = (1.0 / self.period).round();
-        let is_whole = (rate * self.period - 1.0).abs() < WHOLE;
-        if is_whole { number as f64 / rate } else { number as f64 * self.period }
+        multiple(self.period, number)
     }
 
     /// The number of the last sample that is not after a time; times closer than `slack` are one [time]. None before the first.

@@ -100,19 +100,15 @@ impl Simulation {
         let integrator = settings.method.build(&mut model, settings.tolerance);
         let breaks = scene.schedules().flat_map(|(_, schedule)| schedule.breaks());
         let cuts = breaks.chain(scene.release_times()).collect();
-        let (grid, adaptive) = match settings.dt {
-            StepSize::Fixed(dt) => (TimeGrid::new(0.0, dt, cuts), None),
+        let (grid, adaptive, first) = match settings.dt {
+            StepSize::Fixed(dt) => (TimeGrid::new(0.0, dt, cuts), None, dt),
             StepSize::Adaptive(control) => {
                 let adaptive = Adaptive::new(&control, settings.method, &scene, &model);
                 let first = adaptive.controller.first;
-                (TimeGrid::of_cuts(0.0, first, cuts), Some(Box::new(adaptive)))
+                (TimeGrid::of_cuts(0.0, first, cuts), Some(Box::new(adaptive)), first)
             }
         };
         let beats = || scene.schedules().filter_map(|(_, schedule)| schedule.beat());
-        let first = match settings.dt {
-            StepSize::Fixed(dt) => dt,
-            StepSize::Adaptive(_) => adaptive.as_ref().map_or(0.0, |one| one.controller.first),
-        };
         if let Some(beat) = beats().find(|beat| beat.period() * MOST_SAMPLES < first) {
             let (period, most) = (beat.period(), MOST_SAMPLES);
             return Err(SimulationError::ManySamples { period, dt: first, most });

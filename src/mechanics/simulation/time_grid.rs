@@ -1,6 +1,6 @@
 //! The times at which steps end.
 
-use crate::loads::Beat;
+use crate::loads::{Beat, multiple};
 
 /// Times closer than this part of a step are one,
 const SAME: f64 = 1e-9;
@@ -72,15 +72,12 @@ impl TimeGrid {
         now >= time - self.slack(now)
     }
 
-    /// `t_0 + n dt`. A step that is one over a whole number is taken as such: n/10 is the number people write, n · 0.1 is
-    /// often its neighbour.
+    /// `t_0 + n dt`.
     fn point(&self, n: u64) -> f64 {
         if self.dt == f64::INFINITY || n > MOST_POINTS {
             return f64::INFINITY;
         }
-        let rate = (1.0 / self.dt).round();
-        let is_whole = (rate * self.dt - 1.0).abs() < 1e-15;
-        self.start + if is_whole { n as f64 / rate } else { n as f64 * self.dt }
+        self.start + multiple(self.dt, n)
     }
 
     /// Adds a cut to the grid, where there is none yet.

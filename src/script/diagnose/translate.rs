@@ -14,7 +14,7 @@ use crate::script::rows::kind::Scripted;
 use crate::script::rows::lifting::Varied;
 use crate::script::rows::register::STEERED;
 use crate::script::rows::sources::{FOLDER, Sources};
-use crate::script::rows::table::{Form, Row};
+use crate::script::rows::table::{Form, Row, SETTER};
 use crate::script::source::outline::Outline;
 use crate::script::source::program::Program;
 use crate::script::words::brief::brief;
@@ -232,7 +232,7 @@ impl Explainer<'_> {
                 Some("declare it with let instead of const".into()),
             ),
             Error::ErrorNonPureMethodCallOnConstant(name, _) => {
-                let name = name.trim_start_matches("set$");
+                let name = name.trim_start_matches(SETTER);
                 (
                     format!("'{name}' would change a constant"),
                     Some("declare it with let instead of const".into()),

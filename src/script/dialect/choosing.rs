@@ -11,8 +11,10 @@ use crate::script::words::numbers::describe;
 pub fn install(engine: &mut Engine) {
     choices::install(engine, |engine, value, at| {
         // Within a call for a variant it is what it is there.
-        let value =
-            present().map_or_else(|| value.clone(), |of| Varied::project(&value, of.variant));
+        let value = match present() {
+            Some(present) => Varied::project(&value, present.variant),
+            None => value,
+        };
         judge(engine, &value).map_err(|error| error.into_engine(at))?;
         Ok(value)
     });

@@ -8,7 +8,7 @@ use rhai::{Dynamic, Engine, NativeCallContext};
 use crate::elementary::power;
 use crate::script::rows::lifting::{
     Corner, Family, Varied, at_multiples, corner_of, gathered, gathered_without, near_zero_base,
-    near_zero_divisor, present,
+    near_zero_divisor, present, present_variant,
 };
 use crate::script::source::syntax::{LONGEST_CHAIN, OWN, power_name};
 use crate::script::words::error::{EngineResult, ScriptError};
@@ -67,8 +67,7 @@ pub fn install(engine: &mut Engine) {
     engine.register_fn("to_float", |number: Varied| number);
     for name in ["to_int", "sign", "is_zero", "is_even", "is_odd"] {
         engine.register_raw_fn(name, varied, move |context: NativeCallContext, operands| {
-            let variant = present().map_or(0, |present| present.variant);
-            let mut number = Varied::project(operands[0], variant);
+            let mut number = Varied::project(operands[0], present_variant());
             context.call_native_fn_raw(name, true, &mut [&mut number])
         });
     }
@@ -81,7 +80,7 @@ pub fn install(engine: &mut Engine) {
                     types,
                     move |context: NativeCallContext, operands| {
                         let [left, right] = operands else { return Ok(Dynamic::UNIT) };
-                        let at = present().map_or(0, |present| present.variant);
+                        let at = present_variant();
                         let [mut left, mut right] = [left, right].map(|of| Varied::project(of, at));
                         context.call_native_fn_raw(&own, false, &mut [&mut left, &mut right])
                     },

@@ -6,7 +6,7 @@ use rhai::{
 };
 
 use crate::geometry::Vec2;
-use crate::script::rows::lifting::{Varied, present};
+use crate::script::rows::lifting::{Varied, present_variant};
 use crate::script::words::error::ScriptError;
 use crate::script::words::numbers::describe;
 
@@ -31,7 +31,7 @@ fn writable(
     key: &str,
     at: Position,
 ) -> Result<Dynamic, Box<EvalAltResult>> {
-    let value = Varied::project(value, present().map_or(0, |present| present.variant));
+    let value = Varied::project(value, present_variant());
     let value = value.flatten();
     if let Some(vector) = value.read_lock::<Vec2>() {
         return Ok(vec![Dynamic::from(vector.x), Dynamic::from(vector.y)].into());

@@ -16,6 +16,7 @@ use crate::script::rows::parameter::{
 use crate::script::rows::returns::{Returns, ValueKind};
 use crate::script::rows::table::{Body, Row, Table, function, method, property};
 use crate::script::state::settings::Mode;
+use crate::script::studies::calls::function::RunFunction;
 use crate::script::studies::desk::print_table;
 use crate::script::studies::fits::design::{BestDesign, DesignOrder, Goal, Limit};
 use crate::script::studies::fits::fit::{Compared, Derivatives, Fit, FitOrder};
@@ -60,10 +61,10 @@ pub const TABLE: Table = Table {
             .summary("The parameters that were found, by their names.")
             .example("check_close(found.parameters.slope, 2, 1e-8);"),
         of_fit("errors", |call| {
-            Ok(named(&*fit(call)?, |fit, at| fit.fitted.estimate.as_ref().map(|of| of.error(at))))
+            Ok(named(&*fit(call)?, |fit, at| fit.fitted.estimate.as_ref()?.error(at)))
         })
         .returns(Returns::MAP)
-        .summary("The standard errors of the parameters, by their names; () where the residuals tell nothing of them.")
+        .summary("The standard errors of the parameters, by their names; () where the residuals tell nothing of them, or nothing depends on one.")
         .example("check(found.errors.slope < 1e-8);")
         .see(&["half_widths", "covariance"]),
         of_fit("half_widths", |call| Ok(named(&*fit(call)?, Fit::half_width)))
@@ -315,6 +316,13 @@ fn make_fit(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let count = if options.data.is_some() { 2 } else { 1 };
     let shape = if count == 2 { "|p, data| …" } else { "|p| …" };
     call.expect_arguments(function, count, shape)?;
+    RunFunction::expect_read(call, (key, function), ranges.names.iter().map(String::as_str))?;
+    if let (Some(weights), Compared::Model { measured, .. }) = (&options.weights, &compared)
+        && weights.len() != measured.len()
+    {
+        let told = format!("weights has {} numbers and measured {}", weights.len(), measured.len());
+        return Err(at_key(call, "weights", told, "they belong together pair by pair"));
+    }
     if let Some(wrong) = options.weights.iter().flatten().find(|weight| **weight <= 0.0) {
         let told = format!("weights hold {}", format_number(*wrong));
         return Err(at_key(call, "weights", told, "they are positive: one over the variance"));
@@ -356,8 +364,11 @@ fn minimise(call: &mut Call) -> Result<Dynamic, ScriptError> {
     call.expect_arguments(&options.run, 1, "|p| …")?;
     let limits =
         options.constraints.as_ref().map(|given| Limit::read_all(call, given)).transpose()?;
+    let ranges = Ranges::read(call, &options.parameters)?;
+    let names = ranges.names.iter().map(String::as_str);
+    RunFunction::expect_read(call, ("run", &options.run), names)?;
     let order = DesignOrder {
-        ranges: Ranges::read(call, &options.parameters)?,
+        ranges,
         function: &options.run,
         goal,
         limits: limits.unwrap_or_default(),

@@ -5,35 +5,61 @@ use std::collections::BTreeMap;
 use rhai::{Dynamic, Engine, EvalAltResult, NativeCallContext};
 
 use super::catalog::Catalog;
-use super::lifting::{Varied, lifting_of, present};
+use super::kind::Type;
+use super::lifting::{Varied, lifting_of, present_variant};
 use super::register::{Binding, perform, with_receiver};
-use super::table::Form;
+use super::table::{Form, getter_of, setter_of};
 use crate::script::state::context::Context;
 use crate::script::words::error::EngineResult;
 
-/// The rows of one name and count of arguments: those that belong to a type, and the function of that name, which takes any.
-type Rows = Vec<Binding>;
+/// How a member is used: called with so many arguments, read or assigned.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Use {
+    Called(usize),
+    Read,
+    Assigned,
+}
+
+impl Use {
+    /// The count of arguments behind the receiver.
+    fn arguments(self) -> usize {
+        match self {
+            Self::Called(count) => count,
+            Self::Read => 0,
+            Self::Assigned => 1,
+        }
+    }
+
+    /// The name under which the engine looks for it.
+    fn registered(self, name: &str) -> String {
+        match self {
+            Self::Called(_) => name.into(),
+            Self::Read => getter_of(name),
+            Self::Assigned => setter_of(name),
+        }
+    }
+}
 
 /// Registers the methods and properties of all types of the language for values that depend on parameters.
 pub fn install(engine: &mut Engine, catalog: &Catalog, context: &Context) {
-    let mut members: BTreeMap<(String, usize), Rows> = BTreeMap::new();
-    let of_varied = with_receiver(super::kind::Type::of::<Varied>(), 0);
+    // Of each name and use the rows that belong to a type, and the function of that name, which takes any.
+    let mut members: BTreeMap<(&'static str, Use), Vec<Binding>> = BTreeMap::new();
     for table in catalog.tables() {
         for row in table.rows {
-            let binding = Binding::of(row, lifting_of(table, row), context);
-            let counts = row.required()..=row.parameters.len();
+            let mut add = |with: Use, binding: Binding| {
+                members.entry((row.name, with)).or_default().push(binding);
+            };
+            let binding = || Binding::of(row, lifting_of(table, row), context);
             match row.form {
                 Form::Method(_) => {
-                    for count in counts {
-                        members.entry((row.name.into(), count)).or_default().push(binding.clone());
+                    for count in row.required()..=row.parameters.len() {
+                        add(Use::Called(count), binding());
                     }
                 }
                 Form::Property(_) => {
-                    let getter = (format!("{GET}{}", row.name), 0);
-                    members.entry(getter).or_default().push(binding.clone());
+                    add(Use::Read, binding());
                     if let Some(setter) = row.setter {
-                        let own = (format!("{SET}{}", row.name), 1);
-                        members.entry(own).or_default().push(binding.setting(setter));
+                        add(Use::Assigned, binding().setting(setter));
                     }
                 }
                 Form::Function | Form::Operator => {}
@@ -44,33 +70,31 @@ pub fn install(engine: &mut Engine, catalog: &Catalog, context: &Context) {
     for table in catalog.tables() {
         for row in table.rows.iter().filter(|row| matches!(row.form, Form::Function)) {
             for count in row.required().max(1)..=row.parameters.len() {
-                if let Some(rows) = members.get_mut(&(row.name.to_owned(), count - 1)) {
+                if let Some(rows) = members.get_mut(&(row.name, Use::Called(count - 1))) {
                     rows.push(Binding::of(row, lifting_of(table, row), context));
                 }
             }
         }
     }
-    for ((name, count), rows) in members {
-        let mut types = of_varied.clone();
-        types.resize(1 + count, std::any::TypeId::of::<Dynamic>());
-        let own = name.clone();
-        engine.register_raw_fn(name, types, move |native: NativeCallContext, values| {
-            member(&own, &rows, &native, values)
-        });
+    let varied = Type::of::<Varied>();
+    for ((name, with), rows) in members {
+        let types = with_receiver(varied, with.arguments());
+        engine.register_raw_fn(
+            with.registered(name),
+            types,
+            move |native: NativeCallContext, values| member((name, with), &rows, &native, values),
+        );
     }
 }
 
-const GET: &str = "get$";
-const SET: &str = "set$";
-
 fn member(
-    name: &str,
+    (name, with): (&str, Use),
     rows: &[Binding],
     native: &NativeCallContext,
     values: &mut [&mut Dynamic],
 ) -> EngineResult<Dynamic> {
     let position = native.call_position();
-    let variant = present().map_or(0, |present| present.variant);
+    let variant = present_variant();
     let Some(receiver) = values.first().map(|held| Varied::project(held, variant)) else {
         return Ok(Dynamic::UNIT);
     };
@@ -82,14 +106,15 @@ fn member(
         native.engine().map_type_name(Varied::project(value, variant).type_name()).to_owned()
     };
     let own = word(&receiver);
-    Err(match name.strip_prefix(GET).or(name.strip_prefix(SET)) {
-        Some(property) => {
-            let told = format!(
-                "Unknown property '{property}' - a getter is not registered for type '{own}'"
-            );
-            EvalAltResult::ErrorDotExpr(told, position)
-        }
-        None => {
+    let unknown = |what: &str| {
+        let told =
+            format!("Unknown property '{name}' - a {what} is not registered for type '{own}'");
+        EvalAltResult::ErrorDotExpr(told, position)
+    };
+    Err(match with {
+        Use::Read => unknown("getter"),
+        Use::Assigned => unknown("setter"),
+        Use::Called(_) => {
             let types: Vec<String> = values.iter().map(|value| word(value)).collect();
             EvalAltResult::ErrorFunctionNotFound(format!("{name} ({})", types.join(", ")), position)
         }

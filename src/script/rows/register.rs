@@ -11,7 +11,7 @@ use super::decisions;
 use super::kind::{Kind, Type};
 use super::lifting::{Family, Lifting, lift, lifting_of, present};
 use super::parameter::Parameter;
-use super::table::{Body, Form, Row, Setter, Table};
+use super::table::{Body, Form, Row, Setter, Table, getter_of, setter_of};
 use crate::geometry::Vec2;
 use crate::script::state::context::Context;
 use crate::script::words::error::ScriptError;
@@ -46,10 +46,10 @@ fn register_row(engine: &mut Engine, row: &'static Row, lifting: Lifting, contex
             }
         }
         Form::Property(of) => {
-            let getter = format!("get${}", row.name);
+            let getter = getter_of(row.name);
             add(engine, getter, with_receiver(of, 0), binding.clone());
             if let Some(setter) = row.setter {
-                let name = format!("set${}", row.name);
+                let name = setter_of(row.name);
                 add(engine, name, with_receiver(of, 1), binding.setting(setter));
             }
         }

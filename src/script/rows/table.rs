@@ -55,6 +55,22 @@ pub enum Form {
     Operator,
 }
 
+/// What the engine puts before the name of a property whose value is asked for,
+pub const GETTER: &str = "get$";
+
+/// and of one that is assigned.
+pub const SETTER: &str = "set$";
+
+/// The name by which the engine asks for a property.
+pub fn getter_of(property: &str) -> String {
+    format!("{GETTER}{property}")
+}
+
+/// The name by which the engine assigns a property.
+pub fn setter_of(property: &str) -> String {
+    format!("{SETTER}{property}")
+}
+
 /// A row of the language: one function, method, property or operator.
 pub struct Row {
     /// The name of the row in scripts.

@@ -126,9 +126,11 @@ pub fn install(
         if count.get().is_multiple_of(PULSE) && !is_undisturbed.get() {
             stopped.set(stopped.get().or_else(&stop));
         }
-        match stopped.get() {
-            None => nesting.borrow_mut().map(token),
-            Some(_) => refuse("the reading was stopped"),
+        match (stopped.get(), &token) {
+            (None, _) => nesting.borrow_mut().map(token),
+            // Within a text the parser takes no other errors than its own for possible, and panics.
+            (Some(_), Token::StringConstant(_) | Token::InterpolatedString(_)) => token,
+            (Some(_), _) => refuse("the reading was stopped"),
         }
     });
     Ok(reader)

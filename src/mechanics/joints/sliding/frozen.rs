@@ -1,8 +1,8 @@
 //! The rule of a slider whose kink stays as it is for a step.
 
 use super::jet::{ContactJets, Jet, JetVector};
-use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, KinkState, SlidingLaw, Unit};
-use crate::elementary::square;
+use super::kink_on_way::KinkOnWay;
+use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, KinkState, SlidingLaw};
 
 /// The law of a slider on a master whose kink turns with the master and otherwise stays as it is, whatever the contact force: energy, linear and angular
 /// momentum and the gap to the kinked axis are kept, for any step.
@@ -21,14 +21,9 @@ impl SlidingLaw for Frozen {
     fn equations(&self, contact: &Contact<'_>) -> [Equation; CONTACT_UNKNOWNS] {
         let Some(kink) = &contact.kink else { return Conserving.equations(contact) };
         let jets = ContactJets::of(contact);
-        let ContactJets { offset, tangent, force, couple, .. } = jets;
         let step = FrozenInStep::of(&jets, kink);
-        let gap = offset - step.jump * step.length * kink.compliance;
-        let balanced = couple * tangent.dot(&tangent) + tangent.turned() * step.arm.cross(&force);
-        let along = (force - step.inertia).dot(&step.direction) - step.rise;
-        let [gap_x, gap_y] = gap.vanish(Unit::Length);
-        let [couple_x, couple_y] = (balanced * (1.0 / square(contact.length))).vanish(Unit::Force);
-        [gap_x, gap_y, couple_x, couple_y, (along * (1.0 / contact.length)).vanishes(Unit::Force)]
+        let balance = (jets.force - step.inertia).dot(&step.direction) - step.rise;
+        step.on_way.equations((contact, kink), &jets, step.jump, balance)
     }
 
     fn kink_at_end(&self, contact: &Contact<'_>) -> KinkState {
@@ -40,10 +35,7 @@ impl SlidingLaw for Frozen {
 
 /// A kink that stays as it is, in an iterate of a step.
 struct FrozenInStep {
-    /// The kink length `g1` at the end of the way [length].
-    length: Jet,
-    /// The mean vector `r` from where the contact pushes the master to the slave [length].
-    arm: JetVector,
+    on_way: KinkOnWay,
     /// The direction `w` of the way [length].
     direction: JetVector,
     /// The speed `v1` of the kink along the master at the end of the step [length/time].
@@ -58,19 +50,15 @@ struct FrozenInStep {
 
 impl FrozenInStep {
     fn of(jets: &ContactJets, kink: &Kink) -> Self {
-        let &ContactJets { offset, tangent, swing, way, .. } = jets;
+        let &ContactJets { tangent, swing, way, .. } = jets;
         let (along, motion, before) = (&kink.along, &kink.motion, JetVector::constant(kink.before));
         let one = Jet::constant(1.0);
-        let length = Jet::along_way(along.end, along.slope);
-        let difference = Jet::along_way(along.difference, along.change);
-        let stretch = Jet::along_way(motion.arc.difference, motion.arc.change);
-        let over_square = tangent.dot(&tangent).inverse();
+        let on_way = KinkOnWay::of(jets, kink);
+        let &KinkOnWay { length, difference, stretch, over_square, .. } = &on_way;
 
         let turn = tangent.turned().dot(&swing) * over_square * 2.0;
         let jump = (before * (one - turn * turn) + before.turned() * (turn * 2.0))
             * (one + turn * turn).inverse();
-        let offset_before = JetVector::constant(kink.before * (along.start * kink.compliance));
-        let arm = swing * way + (offset_before + offset) * 0.5;
         let opened = (before + before.turned() * turn) * difference * kink.compliance;
         let direction = tangent - swing.turned() * (turn * 2.0) + opened;
 
@@ -82,6 +70,6 @@ impl FrozenInStep {
             * (energy * motion.slowness / motion.duration);
         let softening = one - speed * (motion.speed * motion.slowness);
         let rise = softening * difference * (0.5 * energy);
-        Self { length, arm, direction, speed, jump, inertia: unit * change, rise }
+        Self { on_way, direction, speed, jump, inertia: unit * change, rise }
     }
 }

@@ -1,8 +1,8 @@
 //! The rule that keeps energy, both momenta and the gap to the kinked axis.
 
 use super::jet::{ContactJets, Jet, JetVector};
-use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, KinkState, SlidingLaw, Unit};
-use crate::elementary::square;
+use super::kink_on_way::KinkOnWay;
+use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, KinkState, SlidingLaw};
 
 /// The conserving law of sliding: the gap is closed at the end of every step, and energy, linear and angular momentum are kept, for any
 /// step.
@@ -25,14 +25,10 @@ impl SlidingLaw for Kinked {
     fn equations(&self, contact: &Contact<'_>) -> [Equation; CONTACT_UNKNOWNS] {
         let Some(kink) = &contact.kink else { return Conserving.equations(contact) };
         let jets = ContactJets::of(contact);
-        let ContactJets { offset, tangent, force, couple, .. } = jets;
         let step = KinkInStep::of(&jets, kink);
-        let gap = offset - step.jump * step.length * kink.compliance;
-        let balanced = couple * tangent.dot(&tangent) + tangent.turned() * step.arm.cross(&force);
-        let along = (force - step.mean_force).dot(&tangent) - step.inertia * step.stretch;
-        let [gap_x, gap_y] = gap.vanish(Unit::Length);
-        let [couple_x, couple_y] = (balanced * (1.0 / square(contact.length))).vanish(Unit::Force);
-        [gap_x, gap_y, couple_x, couple_y, (along * (1.0 / contact.length)).vanishes(Unit::Force)]
+        let set_in_motion = step.inertia * step.on_way.stretch;
+        let balance = (jets.force - step.mean_force).dot(&jets.tangent) - set_in_motion;
+        step.on_way.equations((contact, kink), &jets, step.jump, balance)
     }
 
     fn kink_at_end(&self, contact: &Contact<'_>) -> KinkState {
@@ -44,12 +40,7 @@ impl SlidingLaw for Kinked {
 
 /// A kink in an iterate of a step.
 struct KinkInStep {
-    /// The kink length `g1` at the end of the way [length].
-    length: Jet,
-    /// `Δs/Δξ` [length].
-    stretch: Jet,
-    /// The mean vector `r` from where the contact pushes the master to the slave [length].
-    arm: JetVector,
+    on_way: KinkOnWay,
     /// The speed `v1` of the kink along the master at the end of the step [length/time].
     speed: Jet,
     /// The force `p1 = GA a1` that stands for the jump of the tangent at the end of the step [force].
@@ -64,13 +55,9 @@ impl KinkInStep {
     fn of(jets: &ContactJets, kink: &Kink) -> Self {
         let &ContactJets { offset, tangent, swing, force, way, .. } = jets;
         let (along, motion, before) = (&kink.along, &kink.motion, JetVector::constant(kink.before));
-        let length = Jet::along_way(along.end, along.slope);
-        let difference = Jet::along_way(along.difference, along.change);
-        let stretch = Jet::along_way(motion.arc.difference, motion.arc.change);
-        let over_square = tangent.dot(&tangent).inverse();
+        let on_way = KinkOnWay::of(jets, kink);
+        let &KinkOnWay { length, difference, stretch, over_square, offset_before, arm } = &on_way;
 
-        let offset_before = JetVector::constant(kink.before * (along.start * kink.compliance));
-        let arm = swing * way + (offset_before + offset) * 0.5;
         let swung = tangent.turned().dot(&swing) * over_square * 4.0;
         let moved = tangent * way + offset - offset_before - arm.turned() * swung;
         let speed = stretch * over_square * tangent.dot(&moved) * (2.0 / motion.duration)
@@ -90,6 +77,6 @@ impl KinkInStep {
         let change = mass * speed - Jet::constant(mass_before * motion.speed);
         let inertia = change * (motion.slowness * kink.compliance / motion.duration);
         let mean_force = (before + jump) * softening * 0.5;
-        Self { length, stretch, arm, speed, jump, mean_force, inertia }
+        Self { on_way, speed, jump, mean_force, inertia }
     }
 }

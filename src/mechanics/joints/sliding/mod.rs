@@ -10,6 +10,7 @@ mod exact;
 mod frozen;
 mod held;
 mod jet;
+mod kink_on_way;
 mod kinked;
 mod law;
 mod relaxed;

@@ -211,7 +211,9 @@ pub(super) fn round_corners(
     let tied = corners.iter().flat_map(|_| [Pairing::Tied; 2]);
     let pairings: Vec<Pairing> = tied.chain(laws.iter().map(|law| law.pairing())).collect();
     let mut bends: Vec<Bend> = corners.iter().zip(&own).map(Bend::new).collect();
-    for correction in 1.. {
+    let strikes = pairings.contains(&Pairing::Pushing);
+    let mut last = None;
+    for _ in 0..CORRECTIONS {
         let (mut matrix, mut missing) = (encounter.response.clone(), lacks.clone());
         for (at, bend) in bends.iter().enumerate() {
             let [x, y] = [2 * at, 2 * at + 1];
@@ -230,15 +232,12 @@ pub(super) fn round_corners(
             let (before, change) = (Vec2::new(x.0, y.0), Vec2::new(x.1, y.1));
             is_right &= bend.correct(before, before + change);
         }
-        let strikes = pairings.contains(&Pairing::Pushing);
-        if is_right || (correction == CORRECTIONS && !strikes) {
+        if is_right {
             return Ok(Some(encounter.with_works(impulses)));
         }
-        if correction == CORRECTIONS {
-            return Ok(None);
-        }
+        last = Some(impulses);
     }
-    Ok(None)
+    Ok(last.filter(|_| !strikes).map(|impulses| encounter.with_works(impulses)))
 }
 
 /// How sliders at corners answer to their own impulses, when all contacts answer that keep slaves on masters.

@@ -3,7 +3,6 @@
 use serde::{Deserialize, Serialize};
 
 use super::resolution::Missed;
-use crate::elementary::square;
 
 /// What the next step of a model is best guessed from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -52,9 +51,7 @@ impl Forecast {
         let guesses = at_start.iter().zip(&mut self.mean_rates);
         for ((u, (rate, mean)), inertia) in increments.iter().zip(guesses).zip(&self.inertia) {
             let found = u * inverse;
-            missed.by_start += inertia * square(found - rate);
-            missed.by_mean += inertia * square(found - *mean);
-            missed.moved += inertia * square(found);
+            missed.add(*inertia, found, [*rate, *mean]);
             *mean = found;
         }
         self.trend = match self.trend {
@@ -82,10 +79,8 @@ impl Forecast {
         let inverse = 1.0 / duration;
         let mut missed = Missed::default();
         for &at in movements {
-            let (found, inertia) = (increments[at] * inverse, self.inertia[at]);
-            missed.by_start += inertia * square(found - at_start[at]);
-            missed.by_mean += inertia * square(found - self.mean_rates[at]);
-            missed.moved += inertia * square(found);
+            let guesses = [at_start[at], self.mean_rates[at]];
+            missed.add(self.inertia[at], increments[at] * inverse, guesses);
         }
         missed
     }

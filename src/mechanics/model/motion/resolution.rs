@@ -14,6 +14,15 @@ pub struct Missed {
     pub moved: f64,
 }
 
+impl Missed {
+    /// Adds the misses of a movement with an inertia, found at a mean rate, by its two guesses.
+    pub fn add(&mut self, inertia: f64, found: f64, [at_start, mean]: [f64; 2]) {
+        self.by_start += inertia * square(found - at_start);
+        self.by_mean += inertia * square(found - mean);
+        self.moved += inertia * square(found);
+    }
+}
+
 /// Steps whose lengths differ by less than this, as a part of them, are equally long.
 const EQUALLY_LONG: f64 = 1e-3;
 

@@ -1,6 +1,7 @@
 //! Columns that functions of a script fill.
 
 use std::cell::{Cell, RefCell};
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use rhai::Dynamic;
@@ -25,7 +26,7 @@ pub(super) struct Sensing {
     /// What loads and drives ask at the start of every step.
     controllers: Vec<Rc<Controller>>,
     /// What controllers with a beat have said, each by the number of the sample. Commands before the present stay as they are when the simulation goes back.
-    commands: RefCell<Vec<Vec<f64>>>,
+    commands: RefCell<Vec<BTreeMap<u64, f64>>>,
     /// What controllers of any kind had act, and when.
     told: Commands,
     /// What says, before every step, whether something lets go.
@@ -40,7 +41,7 @@ impl Sensing {
         conditions: Vec<Condition>,
     ) -> Self {
         let (looked, is_looking) = (Cell::new(None), Cell::new(false));
-        let commands = RefCell::new(vec![Vec::new(); controllers.len()]);
+        let commands = RefCell::new(vec![BTreeMap::new(); controllers.len()]);
         let told = Commands::new(controllers.len());
         Self { functions, looked, controllers, commands, told, conditions, is_looking }
     }
@@ -53,21 +54,13 @@ impl Sensing {
 
     /// The command of a sample, if it was given.
     fn command_of(&self, controller: usize, sample: u64) -> Option<f64> {
-        let commands = self.commands.borrow();
-        let said = commands.get(controller)?.get(usize::try_from(sample).ok()?);
-        said.copied().filter(|command| command.is_finite())
+        self.commands.borrow().get(controller)?.get(&sample).copied()
     }
 
     fn keep_command(&self, controller: usize, sample: u64, command: f64) {
-        let mut commands = self.commands.borrow_mut();
-        let (Some(own), Ok(sample)) = (commands.get_mut(controller), usize::try_from(sample))
-        else {
-            return;
-        };
-        if own.len() <= sample {
-            own.resize(sample + 1, f64::NAN);
+        if let Some(own) = self.commands.borrow_mut().get_mut(controller) {
+            own.insert(sample, command);
         }
-        own[sample] = command;
     }
 
     /// Lets act what controllers told this simulation last before a time: another one of the scene may have been told something else since.

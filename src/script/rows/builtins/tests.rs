@@ -12,7 +12,7 @@ use crate::script::engine::runner::{self, run};
 use crate::script::packages::language;
 use crate::script::pages::help;
 use crate::script::rows::built_in::{BuiltIn, Ending};
-use crate::script::rows::table::Form;
+use crate::script::rows::table::{Form, getter_of};
 use crate::script::rows::topics::TOPICS;
 use crate::script::source::program::Program;
 use crate::script::state::context::Context;
@@ -120,7 +120,7 @@ fn every_documented_form_exists() {
     for built_in in built_ins() {
         for form in built_in.written() {
             let exists = known.iter().any(|function| match form.ending {
-                Ending::Property => function.name == format!("get${}", form.name),
+                Ending::Property => function.name == getter_of(form.name),
                 _ => function.name == form.name && form.takes(function.count),
             });
             assert!(exists, "there is no {form:?}");

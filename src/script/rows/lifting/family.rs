@@ -76,6 +76,11 @@ pub fn present() -> Option<Present> {
     PRESENT.with_borrow(Clone::clone)
 }
 
+/// The number of the variant that the present call is made for; the first where it is made once.
+pub fn present_variant() -> usize {
+    present().map_or(0, |present| present.variant)
+}
+
 /// What is asked beside is not known: why.
 pub fn lose(reason: &str) {
     LOST.set(Some(reason.into()));

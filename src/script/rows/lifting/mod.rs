@@ -15,7 +15,7 @@ pub use corners::{
     near_zero_base, near_zero_divisor, where_equal, where_largest_changes, where_points_meet,
     where_rounded_differs, where_smallest_changes,
 };
-pub use family::{Family, Present, RELATIVE_DISTANCE, know, lose, present};
+pub use family::{Family, Present, RELATIVE_DISTANCE, know, lose, present, present_variant};
 pub use lift::{gathered, gathered_without, lift};
 #[cfg(test)]
 pub use policy::NAMED;

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use rhai::{Array, Dynamic, FnPtr, Map};
 
-use super::family::{Family, name_of, present};
+use super::family::{Family, name_of, present_variant};
 use crate::geometry::Vec2;
 use crate::output::significant;
 use crate::script::rows::kind::Scripted;
@@ -38,8 +38,7 @@ impl Varied {
 
     /// The number that a value is, in the variant that the present call is made for.
     pub fn number(value: &Dynamic) -> Option<f64> {
-        let variant = present().map_or(0, |present| present.variant);
-        as_number(value).or_else(|| as_number(&value.read_lock::<Self>()?.at(variant)))
+        as_number(value).or_else(|| as_number(&value.read_lock::<Self>()?.at(present_variant())))
     }
 
     /// The parameters that any value depends on, if it does.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use rhai::{AST, ASTNode, Dynamic, Expr, FnPtr, Map, Position};
+use rhai::{AST, ASTNode, Dynamic, Expr, FnPtr, Map, Position, Stmt};
 
 use super::portable::Portable;
 use crate::script::rows::call::{Call, written_within};
@@ -73,6 +73,12 @@ impl RunFunction {
             }
         });
         let captured = captured.collect::<Result<_, _>>()?;
+        if let Some(at) = first_print(&call.body(function)) {
+            let (line, column) = (at.line().unwrap_or(0), at.position().unwrap_or(0));
+            call.context().tell(&format!(
+                "note: line {line}, column {column}: the runs of a study print nothing: give what is to be seen as a result"
+            ));
+        }
         Ok(Self { name: function.fn_name().to_owned(), captured, besides: Vec::new() })
     }
 
@@ -137,9 +143,25 @@ impl RunFunction {
         }
     }
 
+    /// Refuses parameters that a function does not read, as far as can be seen; the function is given under a key.
+    ///
+    /// # Errors
+    /// When there is one.
+    pub fn expect_read<'n>(
+        call: &Call,
+        (key, function): (&str, &FnPtr),
+        names: impl IntoIterator<Item = &'n str>,
+    ) -> Result<(), ScriptError> {
+        let Some(unread) = Self::unread(call, function, names) else { return Ok(()) };
+        let told = format!("the function of '{key}' does not use the parameter '{unread}'");
+        let hint =
+            format!("use p.{unread} there, or leave it out: all of its values would give the same");
+        Err(call.error(told).hint(hint).at(Place::Key(unread.to_owned())))
+    }
+
     /// The first of the names that the function does not read from the map that it is called with, as far as can be seen: one that hands the map on may
     /// read any.
-    pub fn unread<'n>(
+    fn unread<'n>(
         call: &Call,
         function: &FnPtr,
         names: impl IntoIterator<Item = &'n str>,
@@ -159,6 +181,26 @@ fn variable(expression: &Expr) -> Option<&str> {
         _ => None,
     }
 }
+
+/// Where a function prints something first.
+fn first_print(body: &AST) -> Option<Position> {
+    let mut found = None;
+    body.walk(&mut |path: &[ASTNode]| {
+        let called = match path.last() {
+            Some(
+                ASTNode::Stmt(Stmt::FnCall(called, at)) | ASTNode::Expr(Expr::FnCall(called, at)),
+            ) => Some((called, *at)),
+            _ => None,
+        };
+        let printed = called.filter(|(called, _)| PRINTING.contains(&called.name.as_str()));
+        found = found.or(printed.map(|(_, at)| at));
+        found.is_none()
+    });
+    found
+}
+
+/// Functions that print.
+const PRINTING: &[&str] = &["print", "debug"];
 
 /// Where a function uses a variable first.
 fn first_use(body: &AST, name: &str) -> Option<Position> {

@@ -99,7 +99,8 @@ impl Limit {
             let wrong = |what: String| {
                 let told = format!("the constraint on '{name}' {what}");
                 let hint = if value.is_bool() { TRUTH } else { shape };
-                call.error(told).hint(hint).at(Place::Key(name.to_string()))
+                // The name itself stands in the function too.
+                at_key(call, "constraints", told, hint)
             };
             let Some(array) = value.clone().try_cast::<Array>() else {
                 return Err(wrong(format!("is {}", call.describe(value))));
@@ -177,6 +178,11 @@ fn values(given: &Dynamic) -> Answer {
                     "it gives '{name}', which is a truth value: a search needs numbers, such as how far something is from its limit"
                 ));
             }
+            None if value.is::<Map>() => {
+                return Answer::Wrong(format!(
+                    "it gives '{name}', which is a map: of the map p that it is called with p.x is one number"
+                ));
+            }
             None => return Answer::Wrong(format!("it gives '{name}', which is no number")),
         }
     }
@@ -226,11 +232,20 @@ impl DesignOrder<'_> {
             most_runs: self.most_runs,
         };
         let scales = Scales::of(&self.goal, goal, &limits);
+        // Why the first of the runs that failed did.
+        let failure: RefCell<Option<String>> = RefCell::default();
         let found = question.with_evaluator(call, |evaluator| {
             let evaluator = RefCell::new(evaluator);
             let mut rate = |x: &[f64]| -> Result<Option<Rating>, ScriptError> {
                 let answer = evaluator.borrow_mut().ask(&[x.to_vec()])?.into_iter().next();
-                let Some(Ok(numbers)) = answer else { return Ok(None) };
+                let numbers = match answer {
+                    Some(Ok(numbers)) => numbers,
+                    Some(Err(reason)) => {
+                        let _ = failure.borrow_mut().get_or_insert(reason);
+                        return Ok(None);
+                    }
+                    None => return Ok(None),
+                };
                 Ok((numbers.len() == results.len()).then(|| scales.rating(&numbers)))
             };
             let mut sloped = |x: &[f64]| -> Result<SlopesOfRating, ScriptError> {
@@ -248,11 +263,9 @@ impl DesignOrder<'_> {
             Ok(Some((found, again)))
         })?;
         let Some((found, again)) = found else {
-            return Err(question.blame(
-                call,
-                &start,
-                "it fails, and at all other designs that were tried",
-            ));
+            let reason = failure.into_inner().map_or_else(String::new, |of| format!(": {of}"));
+            let told = format!("it fails, and at all other designs that were tried{reason}");
+            return Err(question.blame(call, &start, &told));
         };
         if !found.is_feasible {
             let wanted: Vec<String> = self.limits.iter().map(Limit::describe).collect();

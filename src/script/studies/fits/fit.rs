@@ -239,7 +239,7 @@ impl Fit {
     /// Half the width of the interval of confidence of a parameter; none where nothing tells.
     pub fn half_width(&self, parameter: usize) -> Option<f64> {
         let estimate = self.fitted.estimate.as_ref()?;
-        Some(estimate.half_width(parameter, self.confidence))
+        estimate.half_width(parameter, self.confidence)
     }
 
     /// How the search ended, in words.
@@ -272,7 +272,7 @@ impl Fit {
             table.row([
                 Cell::from(name.as_str()),
                 Cell::Number(significant(parameters[at], DIGITS)),
-                error(estimate.as_ref().map(|of| of.error(at))),
+                error(estimate.as_ref().and_then(|of| of.error(at))),
                 error(self.half_width(at)),
             ]);
         }
@@ -281,8 +281,14 @@ impl Fit {
             format!(", standard deviation of residuals {deviation}")
         });
         let count = self.residuals.len();
+        let unknown = |of: &Estimate| {
+            let names = self.names.iter().enumerate();
+            let without = names.filter(|(at, _)| of.error(*at).is_none());
+            without.map(|(_, name)| format!("\nno residual depends on '{name}'")).collect()
+        };
+        let without: String = estimate.as_ref().map(unknown).unwrap_or_default();
         format!(
-            "fit '{}': {} after {runs} runs, {count} residuals{scatter}\n{}",
+            "fit '{}': {} after {runs} runs, {count} residuals{scatter}{without}\n{}",
             self.name,
             self.outcome(),
             table.to_string().trim_end()

@@ -194,25 +194,21 @@ fn drive(
 ) -> Result<(), Trouble> {
     let unknown: Vec<u32> =
         (0..ledger.rows).filter(|row| !ledger.knows(*row)).map(|row| row as u32).collect();
-    let mut in_order = unknown.clone().into_iter().map(|row| row as usize).peekable();
+    let mut in_order = unknown.iter().map(|row| *row as usize).peekable();
     let mut early = BTreeMap::new();
-    let mut rows = unknown.into_iter().map(|row| row as usize);
+    let mut rows = unknown.iter().map(|row| *row as usize);
     rows.by_ref().take(AHEAD * crew.size()).for_each(|row| crew.give(row, row));
     while ledger.done < ledger.rows {
         match crew.hear() {
             News::Done(row, Made { result, steps }) => {
                 context.meter().count_steps(usize::try_from(steps).unwrap_or(usize::MAX));
                 early.insert(row, result);
-                while ledger.model.is_none()
-                    && let Some(row) = in_order.next_if(|next| early.contains_key(next))
-                    && let Some(result) = early.remove(&row)
+                while let Some(row) = match ledger.model {
+                    Some(_) => early.keys().next().copied(),
+                    None => in_order.next_if(|next| early.contains_key(next)),
+                } && let Some(result) = early.remove(&row)
                 {
                     take(context, (ledger, keeper), row, result)?;
-                }
-                if ledger.model.is_some() {
-                    for (row, result) in std::mem::take(&mut early) {
-                        take(context, (ledger, keeper), row, result)?;
-                    }
                 }
                 rows.by_ref().take(1).for_each(|row| crew.give(row, row));
             }
