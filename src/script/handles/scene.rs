@@ -4,9 +4,9 @@ use std::cell::{Cell, OnceCell, RefCell};
 use std::rc::Rc;
 
 use super::station::StationHandle;
-use crate::beams::Station;
+use crate::beams::{ROUNDING_OF_PLACES, Station};
 use crate::loads::Beat;
-use crate::model::Scene;
+use crate::model::{BeamDefinition, Scene};
 use crate::script::looks::details;
 use crate::script::rows::kind::{Details, Scripted};
 use crate::script::rows::lifting::{Family, Present, Varied, present};
@@ -142,7 +142,9 @@ impl SceneHandle {
         self.expect_lengths_beside()?;
         let own = self.variants.scene.borrow();
         for scene in scenes.iter().map(|scene| scene.borrow()) {
-            if own.stations != scene.stations {
+            let is_one = |(one, other): (&Station, &Station)| one.is_at(other, own.length_at(one));
+            let mut pairs = own.stations.iter().zip(&scene.stations);
+            if own.stations.len() != scene.stations.len() || !pairs.all(is_one) {
                 let told = "a place on a beam depends on a parameter";
                 return Err(ScriptError::new(told).hint(SHAPED));
             }
@@ -165,7 +167,12 @@ impl SceneHandle {
         let own = self.variants.scene.borrow();
         for scene in scenes.iter().map(|scene| scene.borrow()) {
             let mut pairs = own.beams.iter().zip(&scene.beams);
-            if let Some((beam, _)) = pairs.find(|(own, of)| own.axis.length() != of.axis.length()) {
+            // What is turned is as long but for rounding.
+            let is_other = |(own, of): &(&BeamDefinition, &BeamDefinition)| {
+                let (own, of) = (own.axis.length(), of.axis.length());
+                (own - of).abs() > ROUNDING_OF_PLACES * own
+            };
+            if let Some((beam, _)) = pairs.find(is_other) {
                 let told = format!("the length of beam '{}' depends on a parameter", beam.name);
                 return Err(ScriptError::new(told).hint(SHAPED));
             }

@@ -138,6 +138,9 @@ impl FitOrder<'_> {
                 let small = |(x, range): (&f64, &Range)| (*x, RELATIVE_DISTANCE * range.size(*x));
                 let point: Vec<(f64, f64)> = x.iter().zip(&self.ranges.ranges).map(small).collect();
                 let found = evaluator.borrow_mut().slopes(&point)?;
+                if let Ok(rows) = &found {
+                    self.expect_as_many(call, &counted, (rows.len(), x))?;
+                }
                 Ok(found.and_then(|rows| self.differences_with(rows, roots.as_deref())))
             };
             match self.derivatives {
