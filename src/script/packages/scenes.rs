@@ -239,6 +239,8 @@ fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
     if let Some(relaxation) = relaxation {
         scene.scene().borrow_mut().add_damping(index, relaxation)?;
     }
+    // The call for the scene itself comes last: those beside have their beams.
+    scene.expect_lengths_beside().map_err(|error| error.at(Place::Key("axis".into())))?;
     Ok(Dynamic::from(BeamHandle { scene, index }))
 }
 
