@@ -48,7 +48,7 @@ fn on_simulation(error: &SimulationError) -> Option<String> {
             format!("record \"{}\"", sensor.replace(".mean_", "."))
         }
         SimulationError::BeginsElsewhere { .. } => {
-            "take the equilibrium at time 0, before the drive moves, and let the simulation bring it there; or move it by a force or a moment, which acts from the start on".into()
+            "take an equilibrium under the whole of its loads, load_factor: 1, where drives are where their functions have them".into()
         }
         SimulationError::Rattles { .. } => "try ends: \"release\" or \"stop\"".into(),
         SimulationError::FewerSteps { .. } => "sim.rewind(0) leads to the start".into(),
