@@ -53,8 +53,12 @@ impl Scene {
         self.beams.iter().map(|beam| beam.axis.length()).reduce(f64::max)
     }
 
-    /// How far strain energies of the scene may be off by rounding: `ε Σ (EA L + EI/L)` [energy].
+    /// How far strain energies of the scene may be off by rounding: `ε Σ (EA L + EI/L)`; without beams the energy of places that are off by it, under
+    /// the forces on them as drawn [energy].
     pub fn rounding_energy(&self) -> f64 {
+        if self.beams.is_empty() {
+            return f64::EPSILON * self.rounded_work();
+        }
         let stiffness = self.beams.iter().map(|beam| {
             let length = beam.axis.length();
             let section = beam.section.largest();
