@@ -17,7 +17,8 @@ pub struct Estimate {
 
 impl Estimate {
     /// The estimate from the derivatives of weighted residuals at the least sum of squares, `C = s² (JᵀJ)⁻¹`; none where there are no more residuals than parameters, or
-    /// the residuals do not depend on each parameter in a way of its own. Parameters at bounds, which are not `free`, count as known.
+    /// the residuals do not depend on each parameter in a way of its own. Parameters at bounds, which are not `free`, count as known; those on which no residual
+    /// depends are unknown, and their covariances none.
     pub fn of(derivatives: &DMatrix<f64>, squares: f64, free: &[bool]) -> Option<Self> {
         let columns: Vec<usize> = (0..free.len()).filter(|at| free[*at]).collect();
         let freedom = derivatives.nrows().checked_sub(columns.len()).filter(|left| *left > 0)?;
@@ -38,17 +39,23 @@ impl Estimate {
                 covariance[*row][*column] = variance * product[(a, b)] / (sizes[a] * sizes[b]);
             }
         }
+        for at in (0..free.len()).filter(|at| derivatives.column(*at).iter().all(|of| *of == 0.0)) {
+            covariance[at].fill(f64::NAN);
+            covariance.iter_mut().for_each(|row| row[at] = f64::NAN);
+        }
         Some(Self { deviation: variance.sqrt(), freedom, covariance })
     }
 
-    /// The standard error of a parameter.
-    pub fn error(&self, parameter: usize) -> f64 {
-        self.covariance[parameter][parameter].sqrt()
+    /// The standard error of a parameter; none where no residual depends on it.
+    pub fn error(&self, parameter: usize) -> Option<f64> {
+        Some(self.covariance[parameter][parameter].sqrt()).filter(|error| !error.is_nan())
     }
 
-    /// Half the width of the interval around a parameter in which it lies with a probability, such as 0.95, by Student's distribution.
-    pub fn half_width(&self, parameter: usize, probability: f64) -> f64 {
-        self.error(parameter) * student_quantile(0.5 + probability / 2.0, self.freedom as f64)
+    /// Half the width of the interval around a parameter in which it lies with a probability, such as 0.95, by Student's distribution; none where no residual
+    /// depends on it.
+    pub fn half_width(&self, parameter: usize, probability: f64) -> Option<f64> {
+        let quantile = student_quantile(0.5 + probability / 2.0, self.freedom as f64);
+        Some(self.error(parameter)? * quantile)
     }
 }
 
@@ -65,11 +72,16 @@ mod tests {
         let squares = 0.3;
         let found = Estimate::of(&derivatives, squares, &[true, true]).unwrap();
         let variance: f64 = squares / 3.0;
-        assert!((found.error(1) - (variance / 10.0).sqrt()).abs() < 1e-14);
-        assert!((found.error(0) - (variance * (1.0 / 5.0 + 4.0 / 10.0)).sqrt()).abs() < 1e-14);
-        assert!((found.half_width(1, 0.95) / found.error(1) - 3.182_446_305_284_26).abs() < 1e-9);
+        let error = |at: usize| found.error(at).unwrap();
+        assert!((error(1) - (variance / 10.0).sqrt()).abs() < 1e-14);
+        assert!((error(0) - (variance * (1.0 / 5.0 + 4.0 / 10.0)).sqrt()).abs() < 1e-14);
+        let widened = found.half_width(1, 0.95).unwrap() / error(1);
+        assert!((widened - 3.182_446_305_284_26).abs() < 1e-9);
         let same = DMatrix::from_element(5, 2, 1.0);
         assert!(Estimate::of(&same, squares, &[true, true]).is_none());
         assert!(Estimate::of(&same, squares, &[true, false]).is_some());
+        let without = DMatrix::from_fn(5, 2, |_, column| if column == 0 { 1.0 } else { 0.0 });
+        let found = Estimate::of(&without, squares, &[true, false]).unwrap();
+        assert!(found.error(0).is_some() && found.error(1).is_none());
     }
 }

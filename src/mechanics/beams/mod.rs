@@ -27,6 +27,7 @@ mod sections;
 mod span_loops;
 mod span_points;
 mod station;
+mod taper_seen;
 
 pub use at_rest::SpanAtRest;
 pub use dashpots::{Dashpots, RateCollocation, Relaxation};
@@ -40,4 +41,5 @@ pub use rotation::{Rotation, RotationIncrement};
 pub use section::{Section, Shape, Solid};
 pub use section_forces::{SectionForces, SectionPlace, SectionPoints};
 pub use section_variation::SectionVariation;
-pub use station::{BodyIndex, Place, Station};
+pub use station::{BodyIndex, Place, ROUNDING_OF_PLACES, Station};
+pub use taper_seen::TaperSeen;

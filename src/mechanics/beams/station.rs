@@ -38,6 +38,9 @@ pub struct Place {
     pub tangent_angle: f64,
 }
 
+/// Places nearer than this part of a length are one but for rounding.
+pub const ROUNDING_OF_PLACES: f64 = 1e-12;
+
 impl Station {
     /// The station of a beam, by its index, at an arc length [length] from its start as drawn.
     pub fn on_beam(beam: usize, arc_length: f64) -> Self {
@@ -52,6 +55,12 @@ impl Station {
     /// The centre of mass (0) of a rigid body, by its index, or one of its points (from 1 on).
     pub fn on_rigid_body(body: usize, point: usize) -> Self {
         Self { body: BodyIndex::Rigid(body, point), arc_length: 0.0 }
+    }
+
+    /// Whether both are one place but for rounding, on a body of a length.
+    pub fn is_at(&self, other: &Self, length: f64) -> bool {
+        let apart = (self.arc_length - other.arc_length).abs();
+        self.body == other.body && apart <= ROUNDING_OF_PLACES * length
     }
 
     /// The index of the beam that the station is on, if it is on one.

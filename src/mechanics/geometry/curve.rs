@@ -6,6 +6,9 @@ use super::knots::check_inside;
 use super::{CircularArc, GeometryError, KnotVector, Line, SplineCurve, Vec2, cross, local_cubic};
 use crate::elementary::{atan2, hypot};
 
+/// Lengths that differ by less than this fraction are the same but for rounding.
+const ROUNDING: f64 = 1e-12;
+
 /// Speeds below this fraction of the mean one are zero but for rounding.
 const STANDSTILL: f64 = 1e-12;
 
@@ -138,15 +141,17 @@ impl Curve {
         }
     }
 
-    /// The parameter [-] at which the arc length from the start of the curve is `arc_length` [length].
+    /// The parameter [-] at which the arc length from the start of the curve is `arc_length` [length]; one that is beyond an end by rounding is that end.
     ///
     /// # Errors
     /// `arc_length` outside `[0, length]`, or not a number.
     pub fn parameter_at(&self, arc_length: f64) -> Result<f64, GeometryError> {
         let length = self.length();
-        if !(0.0..=length).contains(&arc_length) {
+        let tolerance = ROUNDING * length;
+        if !(-tolerance..=length + tolerance).contains(&arc_length) {
             return Err(GeometryError::OutsideLength { arc_length, length });
         }
+        let arc_length = arc_length.clamp(0.0, length);
         match self {
             Self::Line(_) | Self::Arc(_) => Ok(arc_length / length),
             Self::Spline(spline) => Ok(spline.parameter_at(arc_length)),

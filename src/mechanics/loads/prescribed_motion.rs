@@ -155,14 +155,14 @@ impl PrescribedMotion {
         }
     }
 
-    /// How the motion begins at t = 0.
+    /// How the motion begins for who comes to it at a time.
     ///
     /// The derivatives of a place are looked for in ever shorter spans of time, and taken where two spans that follow each other agree best: the
     /// time scale of a function is its own affair.
     ///
     /// # Errors
     /// When the function fails or a value is not finite just after the start.
-    pub fn beginning(&self) -> Result<MotionAtStart, LoadError> {
+    pub fn beginning(&self, time: f64) -> Result<MotionAtStart, LoadError> {
         let spans = (0..SPANS).scan(1.0, |span, _| Some(std::mem::replace(span, *span * SHRINKS)));
         match self {
             Self::Place(schedule) => {
@@ -170,7 +170,7 @@ impl PrescribedMotion {
                 let (mut least, mut last) = ([f64::INFINITY; 2], None::<[f64; 2]>);
                 let mut failed = None;
                 for span in spans {
-                    let values = match values_in(schedule, 0.0, span) {
+                    let values = match values_in(schedule, time, time + span) {
                         Ok(values) => reversed(values),
                         Err(error) => {
                             failed = Some(error);
@@ -198,12 +198,12 @@ impl PrescribedMotion {
                 }
             }
             Self::Rate(schedule) => {
-                let rate = schedule.value(0.0, Side::After)?;
+                let rate = schedule.value(time, Side::After)?;
                 let mut found = MotionAtStart { rate, acceleration: 0.0 };
                 let (mut least, mut before) = (f64::INFINITY, None::<f64>);
                 for span in spans {
                     let Ok(MotionInStep { accelerations: [now, _], .. }) =
-                        self.over(0.0, span, span)
+                        self.over(time, time + span, span)
                     else {
                         continue;
                     };
@@ -288,7 +288,7 @@ mod tests {
                 function: Rc::new(function),
                 breaks: vec![],
             });
-            let MotionAtStart { rate, acceleration } = place.beginning().unwrap();
+            let MotionAtStart { rate, acceleration } = place.beginning(0.0).unwrap();
             assert!((rate * scale - 3.0).abs() < 1e-9, "{scale}: {rate}");
             assert!((acceleration * scale * scale - 2.0).abs() < 1e-4, "{scale}: {acceleration}");
         }
@@ -296,7 +296,11 @@ mod tests {
             PrescribedMotion::Place(of(
                 |t| if t < 1e-3 { (t * 4e3).sin() } else { (4.0_f64).sin() },
             ));
-        assert!((soon.beginning().unwrap().rate - 4e3).abs() < 1e-5);
-        assert!(PrescribedMotion::Place(of(|_| f64::NAN)).beginning().is_err());
+        assert!((soon.beginning(0.0).unwrap().rate - 4e3).abs() < 1e-5);
+        // Who comes to it later finds what it does from there on.
+        assert_eq!(soon.beginning(2.0).unwrap(), MotionAtStart::default());
+        let square = PrescribedMotion::Place(of(|t| t * t));
+        assert!((square.beginning(1.5).unwrap().rate - 3.0).abs() < 1e-9);
+        assert!(PrescribedMotion::Place(of(|_| f64::NAN)).beginning(0.0).is_err());
     }
 }

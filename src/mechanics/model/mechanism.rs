@@ -95,11 +95,13 @@ impl Model {
         self.motion.watch(apart.map(|body| (body, movements(body))));
     }
 
-    /// Gives what is moved by functions of time the rates with which these begin, in a model that has not taken a step.
-    pub(super) fn set_given_in_motion(&mut self) {
+    /// Gives what is moved by functions of time the rates that these have just after a time, in a model that has not taken a step.
+    pub(super) fn set_given_in_motion(&mut self, time: f64) -> Result<(), (String, LoadError)> {
+        self.supports.prescribed_mut().begin_at(time)?;
         let first = self.unknowns.count();
         let prescribed = &self.supports.prescribed().in_step().rates;
         self.motion.rates[first..].copy_from_slice(prescribed);
+        Ok(())
     }
 
     pub(super) fn bodies(&self) -> &Bodies {

@@ -39,17 +39,19 @@ pub enum SimulationError {
         /// How often a controller may be asked in a step.
         most: f64,
     },
-    /// A drive that an equilibrium has moved to where it is at another time than the start.
+    /// A drive that an equilibrium has moved to where it is at no time.
     #[error(
-        "the equilibrium holds what '{drive}' moves at {rests}, and its function begins at t = 0 with {begins}: moved on from there it would be where no function has it"
+        "the equilibrium holds what '{drive}' moves at {rests}, and at t = {time} its function has it at {wanted}: moved on from there it would be where no function has it"
     )]
     BeginsElsewhere {
-        /// The name of the drive that rests elsewhere than where its function begins.
+        /// The name of the drive that rests elsewhere than where its function is.
         drive: String,
         /// Where the drive rests [length, rad].
         rests: f64,
-        /// Where its function begins [length, rad].
-        begins: f64,
+        /// Where its function is [length, rad].
+        wanted: f64,
+        /// The time at which its function is there [time].
+        time: f64,
     },
     /// An end of a run that has passed.
     #[error("the simulation is at t = {now} and cannot run to t = {end}")]

@@ -111,6 +111,15 @@ pub enum Note {
         /// The stiffest spring, by name, with its stiffness; none where there is no spring.
         stiffest: Option<(String, f64)>,
     },
+    /// Something that dissipates gave energy back over a step.
+    Fed {
+        /// The time at the end of that step [time].
+        time: f64,
+        /// The length of that step [time].
+        dt: f64,
+        /// What it gave back [energy].
+        energy: f64,
+    },
     /// A given motion bends within a step.
     Bend {
         /// The name of the drive whose motion bends.
@@ -149,6 +158,7 @@ impl Note {
             Self::Fast { speed, .. } => *speed,
             Self::Bounce { blows, .. } => *blows,
             Self::Drift { drift, .. } => *drift,
+            Self::Fed { energy, .. } => *energy,
             Self::Bend { bend, .. } => bend.size(),
             Self::Contact { bounce, .. } => bounce.force,
         }
@@ -160,7 +170,8 @@ impl Note {
             Self::Motion { .. }
             | Self::Uneven { .. }
             | Self::Rotation { .. }
-            | Self::Drift { .. } => None,
+            | Self::Drift { .. }
+            | Self::Fed { .. } => None,
             Self::Way { slider, .. } | Self::Fast { slider, .. } | Self::Bounce { slider, .. } => {
                 Some(slider)
             }
@@ -287,6 +298,14 @@ impl fmt::Display for Note {
                     None => write!(f, " Compare stiffnesses, masses and units"),
                 }
             }
+            Self::Fed { time, dt, energy } => write!(
+                f,
+                "what dissipates gave {} back in the step (dt = {}) to t = {}, as no damper does: of the method fourth_order a part leads back in time, \
+                 and what decays by a rate near 3.557/dt grows by it. Take steps of another size, or the method energy_momentum",
+                short(*energy),
+                short(*dt),
+                short(*time)
+            ),
             Self::Bend { drive, bend: Bend { time, rates: [before, after] } } => write!(
                 f,
                 "the motion of '{drive}' bends about t = {}, where its rate goes from {} to {} within a step, which takes it for smooth. Give its \

@@ -30,6 +30,7 @@ use super::record::Record;
 use super::snapshots::Snapshots;
 use super::stepper::Stepper;
 use super::{History, Monitor, SimulationError, StepSize, TimeGrid, Trajectory, WorkCounts, cores};
+use crate::geometry::larger;
 use crate::integrators::{Constraints, Interval, Mechanism, Method};
 use crate::model::{Model, Scene};
 use crate::newton::Tolerance;
@@ -77,19 +78,22 @@ impl Simulation {
         Self::of(scene, model, settings)
     }
 
-    /// A simulation that starts at t = 0 from the scene of an equilibrium, at rest as it was found.
+    /// A simulation that starts from the scene of an equilibrium, at rest as it was found: at t = 0; or, if a drive has moved it, at the time of the
+    /// equilibrium, from which on the functions of drives lead further.
     ///
     /// # Errors
-    /// When the step size or the parameter of the method is out of its range, or a drive rests elsewhere than where its function begins.
+    /// When the step size or the parameter of the method is out of its range, or a drive rests elsewhere than where its function is.
     pub fn start_at_rest(rest: &Equilibrium, settings: Settings) -> Result<Self, SimulationError> {
         let scene = rest.scene().clone();
         let mut model = Model::assemble(&scene)?;
-        if let Some((drive, [rests, begins])) = rest.model().drive_elsewhere() {
+        let elsewhere = |time| rest.model().drive_elsewhere(rest.path().load_factor(), time);
+        let time = elsewhere(0.0).map_or(0.0, |_| larger(rest.loading().time, 0.0));
+        if let Some((drive, [rests, wanted])) = elsewhere(time) {
             let drive = drive.to_owned();
-            return Err(SimulationError::BeginsElsewhere { drive, rests, begins });
+            return Err(SimulationError::BeginsElsewhere { drive, rests, wanted, time });
         }
         model.restore(&rest.model().state());
-        model.begin_drives(&scene);
+        model.begin_at(time, &scene)?;
         Self::of(scene, model, settings)
     }
 

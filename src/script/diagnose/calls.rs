@@ -154,6 +154,9 @@ impl Unknown<'_> {
             return (message, Some(found.cure.into()));
         }
         if let Some(row) = rows.first() {
+            if let Some(hint) = elsewhere::called_with(name, types.len()) {
+                return (message, Some(hint.into()));
+            }
             let owner = row.receiver().map_or("an operand", |of| of.name());
             return (
                 message,

@@ -7,25 +7,44 @@ use rhai::{Dynamic, Engine, NativeCallContext};
 
 use crate::elementary::power;
 use crate::script::rows::lifting::{
-    Family, Varied, gathered, gathered_without, present, present_variant,
+    Corner, Family, Varied, at_multiples, corner_of, gathered, gathered_without, near_zero_base,
+    near_zero_divisor, present, present_variant,
 };
 use crate::script::source::syntax::{LONGEST_CHAIN, OWN, power_name};
 use crate::script::words::error::{EngineResult, ScriptError};
 use crate::script::words::numbers::as_number;
 
 /// An operator on numbers.
-type OnNumbers = fn(f64, f64) -> f64;
+#[derive(Clone, Copy)]
+struct OnNumbers {
+    of: fn(f64, f64) -> f64,
+    /// Where it has no derivatives.
+    corner: Option<Corner>,
+}
+
+impl OnNumbers {
+    /// One that has derivatives everywhere.
+    const fn smooth(of: fn(f64, f64) -> f64) -> Self {
+        Self { of, corner: None }
+    }
+
+    /// One that has none in some places.
+    const fn rough(of: fn(f64, f64) -> f64, corner: Corner) -> Self {
+        Self { of, corner: Some(corner) }
+    }
+}
 
 /// Registers the operators, under the names that the language writes them by.
 pub fn install(engine: &mut Engine) {
     let arithmetic: [(String, OnNumbers); 5] = [
-        ("+".into(), |x, y| x + y),
-        ("-".into(), |x, y| x - y),
-        ("*".into(), |x, y| x * y),
-        ("%".into(), |x, y| x % y),
-        (format!("{OWN}/"), |x, y| x / y),
+        ("+".into(), OnNumbers::smooth(|x, y| x + y)),
+        ("-".into(), OnNumbers::smooth(|x, y| x - y)),
+        ("*".into(), OnNumbers::smooth(|x, y| x * y)),
+        ("%".into(), OnNumbers::rough(|x, y| x % y, at_multiples)),
+        (format!("{OWN}/"), OnNumbers::rough(|x, y| x / y, near_zero_divisor)),
     ];
-    let powers = (0..LONGEST_CHAIN).map(|chain| (power_name(chain), power as OnNumbers));
+    let raised = OnNumbers::rough(power, near_zero_base);
+    let powers = (0..LONGEST_CHAIN).map(|chain| (power_name(chain), raised));
     for (name, numbers) in arithmetic.into_iter().chain(powers) {
         for types in with_one() {
             let own = name.clone();
@@ -39,7 +58,7 @@ pub fn install(engine: &mut Engine) {
         let mut values = vec![&mut *operands[0]];
         let mut minus = Dynamic::from(-1.0);
         values.push(&mut minus);
-        in_each(&context, "*", |x, y| x * y, &mut values)
+        in_each(&context, "*", OnNumbers::smooth(|x, y| x * y), &mut values)
     });
     engine.register_raw_fn("+", varied, |_, operands| -> EngineResult<Dynamic> {
         Ok(operands[0].clone())
@@ -88,7 +107,7 @@ fn in_each(
     let at = |variant: usize| -> EngineResult<Dynamic> {
         let [mut left, mut right] = [&left, &right].map(|of| Varied::project(of, variant));
         match (as_number(&left), as_number(&right)) {
-            (Some(left), Some(right)) => Ok(numbers(left, right).into()),
+            (Some(left), Some(right)) => Ok((numbers.of)(left, right).into()),
             _ => context.call_native_fn_raw(name, false, &mut [&mut left, &mut right]),
         }
     };
@@ -102,23 +121,12 @@ fn in_each(
         None => return at(0),
     };
     let all = (0..family.variants()).map(at).collect::<EngineResult<Vec<_>>>()?;
-    let gathered: Result<Dynamic, ScriptError> =
-        match jump_of_remainder(name, &family, [&left, &right]) {
-            Some(reason) => gathered_without(&family, &all, reason),
-            None => gathered(&family, &all, &[&left, &right]),
-        };
-    gathered.map_err(|error| error.into_engine(position))
-}
-
-/// Why a remainder has no derivatives, if it jumps between the variants of a parameter.
-fn jump_of_remainder(name: &str, family: &Rc<Family>, of: [&Dynamic; 2]) -> Option<Rc<str>> {
-    if name != "%" {
-        return None;
-    }
-    let whole = |variant: usize| {
-        let [left, right] = of.map(|of| as_number(&Varied::project(of, variant)));
-        Some((left? / right?).trunc())
+    let given = [left, right];
+    let sign = name.trim_start_matches(OWN).trim_end_matches(|of: char| of.is_ascii_digit());
+    let corner = numbers.corner.and_then(|corner| corner_of((sign, corner), &family, &given));
+    let gathered: Result<Dynamic, ScriptError> = match corner {
+        Some(reason) => gathered_without(&family, &all, reason),
+        None => gathered(&family, &all, &[&given[0], &given[1]]),
     };
-    let jumps = (1..family.variants()).any(|variant| whole(variant) != whole(0));
-    jumps.then(|| "a remainder, x % y, jumps just there".into())
+    gathered.map_err(|error| error.into_engine(position))
 }

@@ -1,9 +1,11 @@
 //! What makes Rhai the language of withy: reading, operators, arrays, constants, names that are refused.
 
+pub mod choosing;
 pub mod constants;
 pub mod derivatives;
 pub mod elements;
 pub mod foundation;
+pub mod json;
 pub mod naming;
 pub mod operators;
 pub mod reading;

@@ -96,6 +96,18 @@ mod tests {
     }
 
     #[test]
+    fn a_reading_that_is_stopped_within_a_text_ends() {
+        let settings = Settings::silent(Mode::Run);
+        settings.interrupt.store(true, std::sync::atomic::Ordering::Relaxed);
+        let context = Context::new(settings);
+        let engine = build(&language(), &context).expect("an engine");
+        for before in 0..8 {
+            let text = format!("{}`{}`", "-".repeat(before), "a${1}".repeat(100));
+            assert!(read(&engine, &Scope::new(), &text.as_str().into(), 0).is_err(), "{before}");
+        }
+    }
+
+    #[test]
     fn what_can_be_counted_means_the_same_everywhere() {
         let engine = engine();
         let made = "let made = []; for i in 0..3 { made.push(|| i); } made.map(|f| f.call())";

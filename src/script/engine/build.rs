@@ -6,7 +6,8 @@ use rhai::{Dynamic, Engine, FnPtr, INT, ImmutableString, Map, OptimizationLevel}
 
 use crate::analysis::is_out_of_patience;
 use crate::script::dialect::{
-    constants, derivatives, elements, foundation, operators, repetitions, replacing, sorting,
+    choosing, constants, derivatives, elements, foundation, json, operators, repetitions,
+    replacing, sorting,
 };
 use crate::script::rows::catalog::Catalog;
 use crate::script::rows::members;
@@ -42,6 +43,8 @@ pub fn build(catalog: &Catalog, context: &Context) -> Result<Engine, String> {
     sorting::install(&mut engine, context);
     repetitions::install(&mut engine, context);
     replacing::install(&mut engine);
+    choosing::install(&mut engine);
+    json::install(&mut engine);
     elements::install(&mut engine);
     print_numbers(&mut engine);
     Sources::install(&mut engine, catalog, reader);

@@ -222,7 +222,12 @@ pub fn with_crew<J: Send, R: Send, T>(
     thread::scope(|scope| {
         let hire = |post| {
             let (done, labour, limits) = (done.clone(), &labour, blueprint.limits);
-            scope.spawn(move || on_large_stack(&limits, || labour(post, done)).flatten())
+            let is_over = &is_over;
+            scope.spawn(move || {
+                let ended = on_large_stack(&limits, || labour(post, done)).flatten();
+                // How those end that are not needed any more says nothing.
+                if is_over.load(Ordering::Relaxed) { Ok(()) } else { ended }
+            })
         };
         let running: Vec<_> = posts.iter().map(hire).collect();
         drop(done);

@@ -4,9 +4,9 @@ use std::cell::{Cell, OnceCell, RefCell};
 use std::rc::Rc;
 
 use super::station::StationHandle;
-use crate::beams::Station;
+use crate::beams::{ROUNDING_OF_PLACES, Station};
 use crate::loads::Beat;
-use crate::model::Scene;
+use crate::model::{BeamDefinition, Scene};
 use crate::script::looks::details;
 use crate::script::rows::kind::{Details, Scripted};
 use crate::script::rows::lifting::{Family, Present, Varied, present};
@@ -106,17 +106,22 @@ impl SceneHandle {
         self.variants.beside.get().map(|beside| Rc::clone(&beside.family))
     }
 
-    /// A parameter of the scene with its value, as a number that knows what depends on it.
+    /// A parameter of the scene with its value, as a number that knows what depends on it, by values at a distance on both sides.
     ///
     /// # Errors
     /// When there is one of that name, or others are in use.
-    pub fn declare(&self, name: &str, value: f64) -> Result<Varied, ScriptError> {
+    pub fn declare(
+        &self,
+        name: &str,
+        value: f64,
+        distance: Option<f64>,
+    ) -> Result<Varied, ScriptError> {
         let family = self.family();
         let mut declared = self.variants.declared.borrow_mut();
         family
             .as_ref()
             .unwrap_or_else(|| declared.get_or_insert_with(Family::new))
-            .declare(name, value)
+            .declare(name, value, distance)
     }
 
     /// How the scene varies with its parameters.
@@ -134,16 +139,12 @@ impl SceneHandle {
             return Err(ScriptError::new(told).hint(hint));
         }
         self.expect_unasked_beside()?;
+        self.expect_lengths_beside()?;
         let own = self.variants.scene.borrow();
-        let length = |scene: &Scene, beam: usize| scene.beams.get(beam).map(|of| of.axis.length());
         for scene in scenes.iter().map(|scene| scene.borrow()) {
-            let changed = (0..own.beams.len()).find(|of| length(&own, *of) != length(&scene, *of));
-            if let Some(beam) = changed {
-                let told =
-                    format!("the length of beam '{}' depends on a parameter", own.beams[beam].name);
-                return Err(ScriptError::new(told).hint(SHAPED));
-            }
-            if own.stations != scene.stations {
+            let is_one = |(one, other): (&Station, &Station)| one.is_at(other, own.length_at(one));
+            let mut pairs = own.stations.iter().zip(&scene.stations);
+            if own.stations.len() != scene.stations.len() || !pairs.all(is_one) {
                 let told = "a place on a beam depends on a parameter";
                 return Err(ScriptError::new(told).hint(SHAPED));
             }
@@ -155,6 +156,28 @@ impl SceneHandle {
             Some(Variation { name, distance, scenes })
         };
         Ok(family.parameters().into_iter().map_while(variation).collect())
+    }
+
+    /// Refuses beams whose lengths depend on a parameter, as far as the scenes beside have them.
+    ///
+    /// # Errors
+    /// When one does.
+    pub fn expect_lengths_beside(&self) -> Result<(), ScriptError> {
+        let Some(Beside { scenes, .. }) = self.variants.beside.get() else { return Ok(()) };
+        let own = self.variants.scene.borrow();
+        for scene in scenes.iter().map(|scene| scene.borrow()) {
+            let mut pairs = own.beams.iter().zip(&scene.beams);
+            // What is turned is as long but for rounding.
+            let is_other = |(own, of): &(&BeamDefinition, &BeamDefinition)| {
+                let (own, of) = (own.axis.length(), of.axis.length());
+                (own - of).abs() > ROUNDING_OF_PLACES * own
+            };
+            if let Some((beam, _)) = pairs.find(is_other) {
+                let told = format!("the length of beam '{}' depends on a parameter", beam.name);
+                return Err(ScriptError::new(told).hint(SHAPED));
+            }
+        }
+        Ok(())
     }
 
     /// Whether functions are to be kept in the present call: one that is made for many variants keeps them once.

@@ -8,10 +8,11 @@ use crate::script::handles::scene::SceneHandle;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::Type;
 use crate::script::rows::lifting::Varied;
-use crate::script::rows::parameter::{Parameter, anything, name, number, text};
+use crate::script::rows::parameter::{Parameter, anything, name, number, options, text};
 use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Table, function, method};
 use crate::script::words::error::{Place, ScriptError};
+use crate::script::words::numbers::format_number;
 use crate::script::words::suggest::nearest;
 
 /// The domain of parameters and derivatives.
@@ -22,11 +23,7 @@ pub const TABLE: Table = Table {
     setup: "",
     constants: &[],
     rows: &[
-        method(SCENE, "parameter", &[name("name"), number("value")], |call| {
-            let scene = call.receiver::<SceneHandle>()?;
-            let name = call.text("name")?;
-            Ok(Dynamic::from(scene.declare(&name, call.number("value")?)?))
-        })
+        method(SCENE, "parameter", &[name("name"), number("value"), options("options", KEYS).optional()], declare)
         .returns(Returns::object(VARIED))
         .summary("A number of the scene by whose changes derivatives are taken.")
         .doc(
@@ -49,10 +46,10 @@ pub const TABLE: Table = Table {
         function("derivative_by", &[X, text("parameter").doc("its name")], derivative_by)
             .returns(Returns::ANYTHING.words("a number, a vector, or an array of them"))
             .summary("The derivative of a number or a vector by a parameter of a scene; of an array those of its elements.")
-            .doc("Zero of what does not depend on a parameter, and of all that a simulation tells that was loaded from a file, whose parameters are plain numbers. It is right to about eight digits where the motion is smooth. \
-                  Refused, with the reason: what is neither a number nor a vector nor an array of them, a name that is no parameter, a value at a corner or a jump of a function (abs(x) at 0, max(x, y) where both are equal, x % y), \
+            .doc("Zero of what does not depend on a parameter, and of all that a simulation tells that was loaded from a file, whose parameters are plain numbers. It is right to about eight digits where the motion is smooth and the parameter matters; option `distance` of scene.parameter is for others. \
+                  Refused, with the reason: what is neither a number nor a vector nor an array of them, a name that is no parameter, a value at a corner or a jump of a function (abs(x) at 0, max(x, y) where both are equal, x % y) or where its slope is infinite (sqrt(x) and 1 / x at 0), \
                   and a simulation after a slider has arrived, something has let go, or the script has gone back (sim.history.before(t) has the rows before). \
-                  What a function |t| … decides by a parameter, such as if t < a, is told in a note: where the function jumps there, derivatives are wrong.")
+                  What a function |t| … decides by its argument and a parameter, such as if t < a, is told in a note: where the function jumps there, derivatives are wrong.")
             .example(
                 "let scene = new_scene(\"two\");\nlet k = scene.parameter(\"k\", 4);\nlet m = scene.parameter(\"m\", 1);\n\
                  let omega = sqrt(k / m);\ncheck_close(omega.derivative_by(\"k\"), 0.25, 1e-9);\ncheck_close(derivative_by(omega, \"m\"), -1, 1e-8);",
@@ -68,8 +65,27 @@ pub const TABLE: Table = Table {
     ],
 };
 
+const KEYS: &[Parameter] = &[number("distance").positive().doc(
+    "how far from its value those lie on both sides by which derivatives are taken; 1e-5 of its magnitude (1e-5 for 0) unless given",
+).optional()];
 const VARIED: Type = Type::of::<Varied>();
 const X: Parameter = anything("x");
+/// The least part of a value that its variants are away, so that a derivative has digits.
+const LEAST_DISTANCE: f64 = 1e-10;
+
+fn declare(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let (name, value) = (call.text("name")?, call.number("value")?);
+    let distance = call.options_or_defaults("options")?.number_if_given("distance");
+    if let Some(distance) = distance.filter(|by| *by < LEAST_DISTANCE * value.abs()) {
+        let [distance, value] = [distance, value].map(format_number);
+        let told = format!("{value} with a distance of {distance} cannot be told from {value}");
+        let hint =
+            "1e-5 of the value is the usual distance, 1e-7 to 1e-3 of it are good for something";
+        return Err(call.error(told).hint(hint).at(Place::Key("distance".into())));
+    }
+    let scene = call.receiver::<SceneHandle>()?;
+    Ok(Dynamic::from(scene.declare(&name, value, distance)?))
+}
 
 fn derivative_by(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (value, name) = (call.value("x")?, call.text("parameter")?);

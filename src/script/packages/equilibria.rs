@@ -103,7 +103,14 @@ pub const TABLE: Table = Table {
         .returns(Returns::NUMBER)
         .summary("Where a slider rests on its beam or track: 0 at the start, 1 at the end, by length as drawn.")
         .example(SLID)
-        .see(&["contact_force", "leans_on"]),
+        .see(&["slider_arc_length", "contact_force", "leans_on"]),
+        method(EQUILIBRIUM, "slider_arc_length", &[WHICH], |call| {
+            asked(call, |model, slider| model.slider_arc_length(slider).into())
+        })
+        .returns(Returns::NUMBER.unit("length"))
+        .summary("How far a slider rests from the start of its beam or track, by length as drawn.")
+        .example(SLID)
+        .see(&["slider_position"]),
         method(EQUILIBRIUM, "contact_force", &[WHICH], |call| {
             asked(call, |model, slider| Dynamic::from(model.contact_force(slider)))
         })
@@ -151,7 +158,9 @@ pub const TABLE: Table = Table {
         .summary("Puts the scene at t = 0 where it rests, without velocity.")
         .doc(
             "Its loads follow their schedules from there: what was bent by hold_for(1) is let go at t = 1. Options are those of \
-             scene.start. The whole of the loads acts there, whatever load_factor and time led to the equilibrium.",
+             scene.start. The whole of the loads acts there, whatever load_factor and time led to the equilibrium. Where a drive has moved the scene, \
+             the simulation begins at the time of the equilibrium instead, for loads too: at t = 1 after scene.equilibrium(#{ time: 1 }). So functions of drives \
+             that come to rest by then let it rest.",
         )
         .example(
             "let rest = scene.equilibrium();\nlet sim = rest.start(#{ dt: 0.01 });\nsim.run_to(0.1);\n\
@@ -207,6 +216,7 @@ const SLID: &str = "let scene = new_scene(\"sag\");\n\
     scene.gravity([0, -9.81]);\n\
     let rest = scene.equilibrium();\n\
     check_close(rest.slider_position(ring), 0.5, 1e-9);\n\
+    check_close(rest.slider_arc_length(ring), 2, 1e-9);\n\
     check_close(rest.contact_force(ring).y, -2 * 9.81, 1e-9);\n\
     check(rest.leans_on(ring) == \"\" && rest.is_stable);";
 

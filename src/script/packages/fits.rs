@@ -16,6 +16,7 @@ use crate::script::rows::parameter::{
 use crate::script::rows::returns::{Returns, ValueKind};
 use crate::script::rows::table::{Body, Row, Table, function, method, property};
 use crate::script::state::settings::Mode;
+use crate::script::studies::calls::function::RunFunction;
 use crate::script::studies::desk::print_table;
 use crate::script::studies::fits::design::{BestDesign, DesignOrder, Goal, Limit};
 use crate::script::studies::fits::fit::{Compared, Derivatives, Fit, FitOrder};
@@ -60,10 +61,10 @@ pub const TABLE: Table = Table {
             .summary("The parameters that were found, by their names.")
             .example("check_close(found.parameters.slope, 2, 1e-8);"),
         of_fit("errors", |call| {
-            Ok(named(&*fit(call)?, |fit, at| fit.fitted.estimate.as_ref().map(|of| of.error(at))))
+            Ok(named(&*fit(call)?, |fit, at| fit.fitted.estimate.as_ref()?.error(at)))
         })
         .returns(Returns::MAP)
-        .summary("The standard errors of the parameters, by their names; () where the residuals tell nothing of them.")
+        .summary("The standard errors of the parameters, by their names; () where the residuals tell nothing of them, or nothing depends on one.")
         .example("check(found.errors.slope < 1e-8);")
         .see(&["half_widths", "covariance"]),
         of_fit("half_widths", |call| Ok(named(&*fit(call)?, Fit::half_width)))
@@ -140,7 +141,7 @@ pub const TABLE: Table = Table {
             .returns(Returns::TRUTH)
             .summary("Whether the search came to its end before the most runs were made.")
             .example("check(best.settled);"),
-        function("find_root", &[callback("function").doc("|x| …, gives a number"), number("from"), number("to"), TOLERANCE], find_root)
+        function("find_root", &[callback("function").doc("|x| …, gives a number"), FROM, TO, PLACE_TOLERANCE], find_root)
             .returns(Returns::NUMBER)
             .summary("Finds where a function of one number is zero, between two numbers at which its signs differ.")
             .doc("R. P. Brent's method (1973). The tolerance is that of the place, a billionth of the interval unless given. The function is called on this thread and may use anything.")
@@ -156,7 +157,12 @@ const FIT: Type = Type::of::<FitHandle>();
 const DESIGN: Type = Type::of::<DesignHandle>();
 const FIT_KEYS: &[Parameter] = FitOptions::KEYS;
 const DESIGN_KEYS: &[Parameter] = DesignOptions::KEYS;
-const TOLERANCE: Parameter = number("tolerance").positive().optional();
+const FROM: Parameter = number("from").doc("where one sign of the function is");
+const TO: Parameter = number("to").doc("where the other sign is");
+const PLACE_TOLERANCE: Parameter = number("tolerance")
+    .positive()
+    .doc("how well the place is to be known; a billionth of the interval unless given")
+    .optional();
 const RANGES: Parameter = anything("parameters")
     .doc("names with where they begin, the least and the largest value: #{ EI: [10, 1, 100] }, or the start alone");
 const PATIENCE: Parameter = number("patience")
@@ -310,6 +316,13 @@ fn make_fit(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let count = if options.data.is_some() { 2 } else { 1 };
     let shape = if count == 2 { "|p, data| …" } else { "|p| …" };
     call.expect_arguments(function, count, shape)?;
+    RunFunction::expect_read(call, (key, function), ranges.names.iter().map(String::as_str))?;
+    if let (Some(weights), Compared::Model { measured, .. }) = (&options.weights, &compared)
+        && weights.len() != measured.len()
+    {
+        let told = format!("weights has {} numbers and measured {}", weights.len(), measured.len());
+        return Err(at_key(call, "weights", told, "they belong together pair by pair"));
+    }
     if let Some(wrong) = options.weights.iter().flatten().find(|weight| **weight <= 0.0) {
         let told = format!("weights hold {}", format_number(*wrong));
         return Err(at_key(call, "weights", told, "they are positive: one over the variance"));
@@ -351,8 +364,11 @@ fn minimise(call: &mut Call) -> Result<Dynamic, ScriptError> {
     call.expect_arguments(&options.run, 1, "|p| …")?;
     let limits =
         options.constraints.as_ref().map(|given| Limit::read_all(call, given)).transpose()?;
+    let ranges = Ranges::read(call, &options.parameters)?;
+    let names = ranges.names.iter().map(String::as_str);
+    RunFunction::expect_read(call, ("run", &options.run), names)?;
     let order = DesignOrder {
-        ranges: Ranges::read(call, &options.parameters)?,
+        ranges,
         function: &options.run,
         goal,
         limits: limits.unwrap_or_default(),

@@ -36,7 +36,7 @@ pub const TABLE: Table = Table {
             add(&scene, call, kind, schedule)
         })
         .summary("A force at a station; it keeps its direction, or follows the section.")
-        .doc("With #{ frame: \"follower\" } its components are along the beam as drawn and across it, and turn with the section. \
+        .doc("With #{ frame: \"follower\" } its components are along the beam as drawn and across it, or along the axes of a rigid body, and turn with the section. \
 A function of two arguments, |t, q| …, is a sampled controller: it is asked at the start of every step with the simulation, as \
               scene.record asks, and its value holds for the step, so that the feedback is late by half a step in the mean, of first order in dt; adaptive steps ask it in their middle too, and see what it misses. Its work is counted like that \
               of any load. With #{ sample: 0.01 } it is a digital one, asked at 0, 0.01, 0.02, … and held between; steps end there, so that how long they are does not change what it sees by more than the error of the method; \

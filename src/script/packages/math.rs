@@ -4,7 +4,10 @@ use rhai::{Dynamic, INT};
 
 use crate::elementary;
 use crate::script::rows::call::Call;
-use crate::script::rows::lifting::{at_origin, at_whole_numbers, at_zero, where_equal};
+use crate::script::rows::lifting::{
+    at_cut, at_origin, at_whole_numbers, at_zero, near_ends_of_logarithm, near_one, near_quarters,
+    near_zero, where_equal, where_rounded_differs,
+};
 use crate::script::rows::parameter::{Parameter, number, numeric, whole};
 use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Body, Constant, Row, Table, function};
@@ -41,19 +44,22 @@ pub const TABLE: Table = Table {
             "check(abs(sin(PI / 6) - 0.5) < 1e-15);",
         ),
         of_x("cos", |call| map(call, elementary::cos), "The cosine.", "check(cos(0) == 1);"),
-        of_x("tan", |call| map(call, elementary::tan), "The tangent.", "check(tan(0) == 0);"),
+        of_x("tan", |call| map(call, elementary::tan), "The tangent.", "check(tan(0) == 0);")
+            .corner(near_quarters),
         of_x(
             "asin",
             |call| map(call, elementary::asin),
             "The angle of this sine.",
             "check(asin(1) == PI / 2);",
-        ),
+        )
+        .corner(near_one),
         of_x(
             "acos",
             |call| map(call, elementary::acos),
             "The angle of this cosine.",
             "check(acos(1) == 0);",
-        ),
+        )
+        .corner(near_one),
         of_x(
             "atan",
             |call| map(call, elementary::atan),
@@ -90,42 +96,48 @@ pub const TABLE: Table = Table {
             |call| map(call, elementary::acosh),
             "The number of zero or more with this hyperbolic cosine.",
             "check(acosh(1) == 0);",
-        ),
+        )
+        .corner(near_one),
         of_x(
             "atanh",
             |call| map(call, elementary::atanh),
             "The number with this hyperbolic tangent.",
             "check(atanh(0) == 0);",
-        ),
+        )
+        .corner(near_one),
         of_x("exp", |call| map(call, elementary::exp), "The exponential.", "check(exp(0) == 1);"),
         of_x(
             "ln",
             |call| map(call, elementary::ln),
             "The natural logarithm.",
             "check(ln(E) == 1);",
-        ),
+        )
+        .corner(near_zero),
         of_x(
             "log10",
             |call| map(call, elementary::log10),
             "The logarithm to base 10.",
             "check(log10(1000) == 3);",
-        ),
+        )
+        .corner(near_zero),
         of_x(
             "log2",
             |call| map(call, elementary::log2),
             "The logarithm to base 2.",
             "check(log2(8) == 3);",
-        ),
+        )
+        .corner(near_zero),
         function("log", &[ANY_X, number("base")], |call| {
             Ok(elementary::log(x(call)?, call.number("base")?).into())
         })
         .returns(Returns::NUMBER)
         .summary("The logarithm to a base of your choice, which must be given.")
         .example("check_close(log(81, 3), 4, 1e-15);")
-        .see(&["ln", "log10", "log2"]),
+        .see(&["ln", "log10", "log2"])
+        .corner(near_ends_of_logarithm),
         of_x("sqrt", |call| map(call, f64::sqrt), "The square root.", "check(sqrt(16) == 4);")
             .see(&["hypot"])
-            .corner(at_zero),
+            .corner(near_zero),
         of_x(
             "radians",
             |call| map(call, f64::to_radians),
@@ -216,7 +228,8 @@ pub const TABLE: Table = Table {
         .returns(Returns::NUMBER.words("an angle from -PI to PI"))
         .summary("The angle of the vector with components x and y; y comes first.")
         .example("check(atan2(1, 0) == PI / 2);")
-        .see(&["angle"]),
+        .see(&["angle"])
+        .corner(at_cut),
         function("min", &[numeric("x"), numeric("y")], |call| choose(call, |x, y| x < y))
             .returns(Returns::NUMBER)
             .summary("The smaller of two numbers; undefined if one of them is.")
@@ -235,7 +248,8 @@ pub const TABLE: Table = Table {
             .returns(Returns::NUMBER)
             .summary("x rounded to this many digits after the point.")
             .example("check(round_to(PI, 2) == 3.14);")
-            .see(&["round", "fixed"]),
+            .see(&["round", "fixed"])
+            .corner(where_rounded_differs),
     ],
 };
 

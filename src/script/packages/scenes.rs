@@ -6,12 +6,13 @@ use rhai::Dynamic;
 
 use super::geometry::CURVE;
 use super::sections::{MESH_KINDS, SECTION, mesh_of};
-use crate::beams::Mesh;
+use crate::beams::{Mesh, TaperSeen};
 use crate::geometry::{Curve, Vec2};
 use crate::joints::{JointKind, Partner};
 use crate::model::{
     BeamDefinition, ModelError, ParticleDefinition, PointMass, Scene, StartMotion, StationVelocity,
 };
+use crate::output::significant;
 use crate::script::handles::beam::BeamHandle;
 use crate::script::handles::joint::JointHandle;
 use crate::script::handles::scene::SceneHandle;
@@ -179,6 +180,9 @@ pub const JOINT: Type = Type::of::<JointHandle>();
 /// Spans of a beam whose basis is not given.
 const SPANS: usize = 16;
 
+/// A mesh that misses more of a section that varies, as a part of it, is told of.
+const MISSED: f64 = 5e-3;
+
 const AT: Parameter = object("station", STATION);
 const OTHER: Parameter = object("other", STATION).doc("the ground unless given").optional();
 const SPIN: Parameter = number("spin").unit("1/time").optional();
@@ -239,7 +243,29 @@ fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
     if let Some(relaxation) = relaxation {
         scene.scene().borrow_mut().add_damping(index, relaxation)?;
     }
+    tell_of_taper(call, &scene, index)?;
+    // The call for the scene itself comes last: those beside have their beams.
+    scene.expect_lengths_beside().map_err(|error| error.at(Place::Key("axis".into())))?;
     Ok(Dynamic::from(BeamHandle { scene, index }))
+}
+
+/// Tells where the points of its mesh miss what a beam is.
+fn tell_of_taper(call: &Call, scene: &SceneHandle, index: usize) -> Result<(), ScriptError> {
+    let scene = scene.scene().borrow();
+    let BeamDefinition { name, section, mesh, .. } = &scene.beams[index];
+    let seen = TaperSeen::of(section, mesh)?;
+    if seen.largest() < MISSED {
+        return Ok(());
+    }
+    let percent = |part: f64| significant(100.0 * part, 2);
+    call.context().tell(&format!(
+        "note: the section of beam '{name}' changes between the points at which its mesh sees it: its mass is off by {} %, how it stretches by {} % and bends by {} %. \
+         Let the mesh have knots where the section jumps or bends, knots(3, […]), or more spans, or join beams there",
+        percent(seen.mass),
+        percent(seen.stretching),
+        percent(seen.bending)
+    ));
+    Ok(())
 }
 
 fn particle(call: &mut Call) -> Result<Dynamic, ScriptError> {

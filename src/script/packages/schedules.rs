@@ -247,18 +247,20 @@ pub(super) fn controlled_schedule_of(
     scene: &SceneHandle,
     beat: Option<Beat>,
 ) -> Result<Schedule, ScriptError> {
-    let function = arguments.get_if::<FnPtr>(name);
-    match function.filter(|function| call.arguments_of(function) == Some(2)) {
-        Some(function) => {
-            let function = call.store(function, "the function of a controller");
-            let value = scene.keep_controller(function, beat);
-            Ok(match beat {
-                Some(beat) => Schedule::Clocked { value, beat },
-                None => Schedule::Sampled(value),
-            })
-        }
-        None => schedule_of(call, arguments, name),
+    let Some(function) = arguments.get_if::<FnPtr>(name) else {
+        return schedule_of(call, arguments, name);
+    };
+    if call.arguments_of(&function) != Some(2) {
+        let shapes = "|t| …, a function of time, or |t, q| …, a controller";
+        call.expect_arguments(&function, 1, shapes)?;
+        return schedule_of(call, arguments, name);
     }
+    let function = call.store(function, "the function of a controller");
+    let value = scene.keep_controller(function, beat);
+    Ok(match beat {
+        Some(beat) => Schedule::Clocked { value, beat },
+        None => Schedule::Sampled(value),
+    })
 }
 
 /// The beat of controllers among the options of a load or a drive, if one is given.

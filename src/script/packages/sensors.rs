@@ -8,7 +8,7 @@ use super::simulations::SIMULATION;
 use super::sliding::{SLIDER, SliderHandle};
 use super::statistics::map;
 use super::vectors::VECTOR;
-use crate::beams::{SectionForces, Station};
+use crate::beams::{ROUNDING_OF_PLACES, SectionForces, Station};
 use crate::geometry::Vec2;
 use crate::model::{Given, ModelError, Scene, SectionSample};
 use crate::script::handles::beam::BeamHandle;
@@ -331,12 +331,13 @@ fn known(call: &Call, built: &Scene, index: usize, beam: &BeamHandle) -> Result<
 fn wanted(call: &Call, scene: &Scene, beam: usize) -> Result<Option<Station>, ScriptError> {
     let Some(station) = call.number_if_given("s") else { return Ok(None) };
     let length = scene.beams[beam].axis.length();
-    if !(0.0..=length).contains(&station) {
+    let tolerance = ROUNDING_OF_PLACES * length;
+    if !(-tolerance..=length + tolerance).contains(&station) {
         let beam = scene.beams[beam].name.clone();
         let refused = ScriptError::from(ModelError::StationOutside { beam, station, length });
         return Err(refused.at(Place::Argument(1)));
     }
-    Ok(Some(Station::on_beam(beam, station)))
+    Ok(Some(Station::on_beam(beam, station.clamp(0.0, length))))
 }
 
 fn force_and_moment((force, moment): (Vec2, f64)) -> Dynamic {

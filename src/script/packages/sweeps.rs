@@ -226,12 +226,7 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
             "give it another name: a row that failed says so there",
         ));
     }
-    if let Some(unread) = RunFunction::unread(call, &options.run, names) {
-        let told = format!("the function of 'run' does not use the parameter '{unread}'");
-        let hint =
-            format!("use p.{unread} there, or leave it out: all of its values would give the same");
-        return Err(call.error(told).hint(hint).at(Place::Key(unread.to_owned())));
-    }
+    RunFunction::expect_read(call, ("run", &options.run), names)?;
     let context = call.context();
     let name = study_name(call, &options.name)?;
     context.output().path_of(&format!("{name}.csv"))?;
@@ -305,6 +300,15 @@ fn sensitivity(call: &mut Call) -> Result<Dynamic, ScriptError> {
         if call.context().mode() == Mode::DryBuild {
             let none = Share { first: 0.0, total: Some(0.0) };
             return Ok(names.map(|name| of((name, none))).collect::<Array>().into());
+        }
+        let (failed, rows) = (sweep.results.failures().len(), sweep.design.rows);
+        if failed > 0 && matches!(sweep.design.arrangement, Arrangement::Grid) {
+            let told = format!(
+                "{failed} of {rows} runs failed: of a grid all must have come to their end"
+            );
+            let hint =
+                "leave out the values at which they fail, or take points: samples: saltelli(1024)";
+            return Err(call.error(told).hint(hint).at(Place::Argument(0)));
         }
         return Err(call
             .error(format!("the runs do not tell what '{result}' depends on"))

@@ -8,7 +8,9 @@ use crate::output::significant;
 use crate::script::looks::details;
 use crate::script::rows::call::Call;
 use crate::script::rows::kind::{Details, Scripted, Type};
-use crate::script::rows::lifting::{at_zero_vector, where_points_meet};
+use crate::script::rows::lifting::{
+    at_cut_of_vector, at_zero_vector, near_zero_divisor, where_points_meet,
+};
 use crate::script::rows::parameter::{Parameter, number, object, point};
 use crate::script::rows::returns::Returns;
 use crate::script::rows::table::{Table, function, operator, property};
@@ -61,7 +63,8 @@ pub const TABLE: Table = Table {
             .returns(Returns::NUMBER.words("an angle from -PI to PI"))
             .summary("The angle of a vector from the first axis, counter-clockwise.")
             .example("check(angle([0, 2]) == PI / 2);")
-            .see(&["polar", "atan2"]),
+            .see(&["polar", "atan2"])
+            .corner(at_cut_of_vector),
         function("distance", &[A, B], |call| Ok((b(call)? - a(call)?).norm().into()))
             .returns(Returns::NUMBER)
             .summary("The distance of two points.")
@@ -90,7 +93,8 @@ pub const TABLE: Table = Table {
         operator("/", &[object("a", VECTOR), number("divisor")], divided)
             .returns(Returns::object(VECTOR))
             .summary("The vector divided by a number.")
-            .example("check(vec(1, 2) / 2 == vec(0.5, 1));"),
+            .example("check(vec(1, 2) / 2 == vec(0.5, 1));")
+            .corner(near_zero_divisor),
         operator("==", &[A, B], |call| Ok((a(call)? == b(call)?).into()))
             .returns(Returns::TRUTH)
             .summary("Whether both components are equal.")

@@ -2,7 +2,9 @@
 
 use std::ops::Deref;
 
-use rhai::{AST, Dynamic, Engine, FnPtr, Module, NativeCallContext, ScriptFuncDef, Shared};
+use rhai::{
+    AST, Dynamic, Engine, Expr, FnCallExpr, FnPtr, Module, NativeCallContext, ScriptFuncDef, Shared,
+};
 
 use super::accept::accept_described;
 use super::arguments::Arguments;
@@ -181,7 +183,7 @@ impl<'c, 'r> Call<'c, 'r> {
     }
 }
 
-pub(super) fn arguments_of(native: &NativeCallContext, function: &FnPtr) -> Option<usize> {
+fn arguments_of(native: &NativeCallContext, function: &FnPtr) -> Option<usize> {
     let libraries = &native.global_runtime_state().lib;
     let known = libraries.iter().find_map(|library| {
         let library = AST::new_from_module(library.clone());
@@ -191,10 +193,7 @@ pub(super) fn arguments_of(native: &NativeCallContext, function: &FnPtr) -> Opti
     known.map(|parameters| parameters.saturating_sub(function.curry().len()))
 }
 
-pub(super) fn definition_of(
-    native: &NativeCallContext,
-    function: &FnPtr,
-) -> Option<Shared<ScriptFuncDef>> {
+fn definition_of(native: &NativeCallContext, function: &FnPtr) -> Option<Shared<ScriptFuncDef>> {
     let libraries = &native.global_runtime_state().lib;
     let parameters = arguments_of(native, function)? + function.curry().len();
     let defined =
@@ -202,13 +201,47 @@ pub(super) fn definition_of(
     libraries.iter().find_map(defined)
 }
 
-pub(super) fn body_of(native: &NativeCallContext, function: &FnPtr) -> AST {
+/// The function of a script by its name and the count of its parameters, captured ones included; whatever that is, where none is given.
+pub(super) fn defined(
+    native: &NativeCallContext,
+    name: &str,
+    parameters: Option<usize>,
+) -> Option<Shared<ScriptFuncDef>> {
     let libraries = &native.global_runtime_state().lib;
-    let parameters = arguments_of(native, function).unwrap_or(0) + function.curry().len();
-    let has =
-        |library: &&Shared<Module>| library.get_script_fn(function.fn_name(), parameters).is_some();
-    let library = libraries.iter().find(has).map(|found| AST::new_from_module(found.clone()));
-    library.unwrap_or_default().clone_functions_only_filtered(|_, _, _, name, count| {
-        name == function.fn_name() && count == parameters
-    })
+    let is_it = |of: &Shared<ScriptFuncDef>| {
+        of.name == name && parameters.is_none_or(|count| of.params.len() == count)
+    };
+    let in_library = |library: &Shared<Module>| {
+        library.iter_script_fn_info().map(|(.., of)| of).find(|of| is_it(of)).cloned()
+    };
+    libraries.iter().find_map(in_library)
 }
+
+fn body_of(native: &NativeCallContext, function: &FnPtr) -> AST {
+    let parameters = arguments_of(native, function).unwrap_or(0) + function.curry().len();
+    body_named(native, function.fn_name(), parameters)
+}
+
+/// What the function of a script of this name and so many parameters does, captured ones included; an empty tree where there is none.
+pub(super) fn body_named(native: &NativeCallContext, name: &str, parameters: usize) -> AST {
+    let libraries = &native.global_runtime_state().lib;
+    let has = |library: &&Shared<Module>| library.get_script_fn(name, parameters).is_some();
+    let library = libraries.iter().find(has).map(|found| AST::new_from_module(found.clone()));
+    let mut body = library.unwrap_or_default();
+    // Rhai's filtered clone of a syntax tree takes all functions along.
+    body.retain_functions(|_, _, own, count| own == name && count == parameters);
+    body
+}
+
+/// The function that is written within another one where this is what Rhai makes of it, without what it captures, and the variables that it does.
+pub fn written_within(call: &FnCallExpr) -> Option<(FnPtr, &[Expr])> {
+    match call.args.as_slice() {
+        [Expr::DynamicConstant(function, _), captured @ ..] if call.name == CAPTURE => {
+            Some(((**function).clone().try_cast()?, captured))
+        }
+        _ => None,
+    }
+}
+
+/// What Rhai calls where a function captures variables.
+const CAPTURE: &str = "curry";

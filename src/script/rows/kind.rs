@@ -199,6 +199,18 @@ impl Range {
 }
 
 impl Kind {
+    /// Whether numbers that are given must be whole.
+    pub fn is_of_whole_numbers(&self) -> bool {
+        match self {
+            Self::Whole(_) => true,
+            Self::Either(kinds) => {
+                let of_any = |kind: &Self| matches!(kind, Self::Number(_) | Self::Numeric);
+                kinds.iter().any(Self::is_of_whole_numbers) && !kinds.iter().any(of_any)
+            }
+            _ => false,
+        }
+    }
+
     /// Whether values of the type with this name can be meant, whatever they hold.
     pub fn takes(&self, type_name: &str) -> bool {
         match self {

@@ -1,5 +1,6 @@
-//! From the text of a script to its tokens: the text, the lexer, what a text declares, tokens and rounds that Rhai has not.
+//! From the text of a script to its tokens: the text, the lexer, what a text declares, tokens, rounds and choices that Rhai has not.
 
+pub mod choices;
 pub mod definitions;
 pub mod keywords;
 pub mod lexing;

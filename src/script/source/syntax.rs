@@ -17,8 +17,8 @@ use std::rc::Rc;
 
 use rhai::{Dynamic, Engine, LexError, Position, Token};
 
-use super::rounds;
 use super::text::Source;
+use super::{choices, rounds};
 use crate::script::words::stop::Stop;
 
 /// The prefix of the names of operators that stand in for Rhai's own.
@@ -126,16 +126,18 @@ pub fn install(
         if count.get().is_multiple_of(PULSE) && !is_undisturbed.get() {
             stopped.set(stopped.get().or_else(&stop));
         }
-        match stopped.get() {
-            None => nesting.borrow_mut().map(token),
-            Some(_) => refuse("the reading was stopped"),
+        match (stopped.get(), &token) {
+            (None, _) => nesting.borrow_mut().map(token),
+            // Within a text the parser takes no other errors than its own for possible, and panics.
+            (Some(_), Token::StringConstant(_) | Token::InterpolatedString(_)) => token,
+            (Some(_), _) => refuse("the reading was stopped"),
         }
     });
     Ok(reader)
 }
 
-/// Rewrites `/=`, `^=`, `**=`, `<<=` and `>>=` so that they lex as an operator and a wrapper of what follows, and marks the rounds of loops;
-/// columns do not move.
+/// Rewrites `/=`, `^=`, `**=`, `<<=` and `>>=` so that they lex as an operator and a wrapper of what follows, and marks the rounds of loops and what
+/// `switch` chooses by; columns do not move.
 pub fn mark(source: &Source) -> Cow<'_, str> {
     let tokens = source.tokens();
     let halves = |token: &Token| -> &[char] {
@@ -150,6 +152,7 @@ pub fn mark(source: &Source) -> Cow<'_, str> {
     };
     let mut marks: Vec<(Position, Mark)> =
         rounds::bodies(tokens).into_iter().map(|(at, letter)| (at, Mark::Round(letter))).collect();
+    marks.extend(choices::words(tokens).map(|at| (at, Mark::Choice)));
     let assignments = tokens.iter().map(|(token, at)| (*at, halves(token)));
     marks.extend(
         assignments.filter(|(_, halves)| !halves.is_empty()).map(|(at, h)| (at, Mark::Assign(h))),
@@ -165,6 +168,7 @@ pub fn mark(source: &Source) -> Cow<'_, str> {
         let Some(line) = lines.get_mut(line - 1) else { continue };
         match mark {
             Mark::Round(letter) => rounds::put(line, column - 1, letter),
+            Mark::Choice => choices::put(line, column - 1),
             Mark::Assign(halves) => {
                 if let Some(target) = line.get_mut(column - 1..column - 1 + halves.len()) {
                     target.copy_from_slice(halves);
@@ -182,6 +186,8 @@ enum Mark<'m> {
     Assign(&'m [char]),
     /// Behind the brace that opens the body of a loop.
     Round(char),
+    /// Behind the word `switch`.
+    Choice,
 }
 
 /// What the mapper remembers of the operands read so far at one depth of brackets.
@@ -299,6 +305,7 @@ fn half(error: &LexError) -> Option<Token> {
         OPERAND_HALF => Some(custom(OPERAND)),
         rounds::ONE => Some(custom(rounds::ONE_NAME)),
         rounds::TWO => Some(custom(rounds::TWO_NAME)),
+        choices::CHOICE => Some(custom(choices::CHOICE_NAME)),
         _ => None,
     }
 }

@@ -48,7 +48,7 @@ fn on_simulation(error: &SimulationError) -> Option<String> {
             format!("record \"{}\"", sensor.replace(".mean_", "."))
         }
         SimulationError::BeginsElsewhere { .. } => {
-            "take the equilibrium at time 0, before the drive moves, and let the simulation bring it there; or move it by a force or a moment, which acts from the start on".into()
+            "take an equilibrium under the whole of its loads, load_factor: 1, where drives are where their functions have them".into()
         }
         SimulationError::Rattles { .. } => "try ends: \"release\" or \"stop\"".into(),
         SimulationError::FewerSteps { .. } => "sim.rewind(0) leads to the start".into(),
@@ -85,7 +85,7 @@ fn on_statics(error: &StaticsError) -> Option<String> {
     Some(match error {
         StaticsError::Model(error) => return on_model(error),
         StaticsError::NoLoad { .. } => {
-            "loads are taken as they are at one time: choose it with the option time".into()
+            "loads are taken as they are at one time: choose it with the option time; drag, wind and dampers act on motion alone".into()
         }
         StaticsError::InTime { by: InTime::Speed, .. } => {
             "give the place at rest, counted from that as drawn: x, y or angle as a function of time that begins with 0, such as angle: |t| 0.5 * t, and \
@@ -145,14 +145,18 @@ fn on_model(error: &ModelError) -> Option<String> {
         ModelError::PointAlone { .. } => "give velocity and spin to scene.body(#{ … })",
         ModelError::StationOutside { .. } => "use beam.end for its end",
         ModelError::ParticleTurned { by, .. } => match by {
-            Turning::RigidJoint => "use scene.hinge(…), or scene.mass(…) on the beam",
+            Turning::RigidJoint => {
+                "use scene.hinge(…), or scene.mass(…) on the beam; a rigid body, scene.body(…), turns"
+            }
             Turning::RotaryInertia => "leave out the rotary inertia",
             Turning::Load => "only a force of fixed direction can act on it",
             Turning::Spin => "leave out the spin",
             Turning::Drive => {
                 "move it along x and y alone; a motor turns a section of a beam, or a body: scene.motor(body.centre, …)"
             }
-            Turning::TorsionSpring => "put a torsion spring between sections of beams",
+            Turning::TorsionSpring => {
+                "put a torsion spring between sections of beams or rigid bodies"
+            }
         },
         _ => return None,
     };

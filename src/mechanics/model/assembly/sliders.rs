@@ -148,11 +148,17 @@ impl Model {
         Ok(())
     }
 
-    /// Gives what is moved by functions of time the rates with which these begin, and points of rigid bodies those that fit, in a model at rest that has
-    /// not taken a step.
-    pub fn begin_drives(&mut self, scene: &Scene) {
-        self.set_given_in_motion();
+    /// Puts a model at rest that has not taken a step at a time, gives what is moved by functions of time the rates that these have there, and points of
+    /// rigid bodies those that fit.
+    ///
+    /// # Errors
+    /// When a function has no value there.
+    pub fn begin_at(&mut self, time: f64, scene: &Scene) -> Result<(), ModelError> {
+        self.pass_time_to(time);
+        self.set_given_in_motion(time)
+            .map_err(|(drive, source)| ModelError::DriveValue { drive, source })?;
         self.fit_links_to_drives(self.negligible_velocity(scene));
+        Ok(())
     }
 
     fn negligible_velocity(&self, scene: &Scene) -> f64 {

@@ -116,22 +116,31 @@ impl PrescribedMovements {
             work: 0.0,
         };
         let drives: Vec<Driven> = drives.map(driven).collect();
-        let mut prescribed = PrescribedKinematics::new(constraints, movements.len());
-        let mut present = vec![Present::default(); movements.len()];
-        for (at, movement) in movements.iter().enumerate() {
-            let MotionAtStart { rate, acceleration } = movement
-                .motion
-                .beginning()
-                .map_err(|error| (drives[movement.drive].name.clone(), error))?;
-            prescribed.rates[constraints + at] = rate;
-            present[at].acceleration = acceleration;
-        }
-        let rates = prescribed.rates.clone();
+        let prescribed = PrescribedKinematics::new(constraints, movements.len());
+        let present = vec![Present::default(); movements.len()];
         let room = vec![0.0; if movements.is_empty() { 0 } else { unknowns + prescribed.width() }];
         let first = unknowns + constraints;
-        let all =
+        let mut all =
             Self { movements, present, drives, first, constraints, prescribed, turn: 0.0, room };
+        all.begin_at(0.0)?;
+        let rates = all.prescribed.rates.clone();
         Ok((all, rates))
+    }
+
+    /// Takes the rates and accelerations that functions have just after a time.
+    ///
+    /// # Errors
+    /// When a function has no value there: the name of its drive, and why.
+    pub fn begin_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
+        for (at, (movement, present)) in self.movements.iter().zip(&mut self.present).enumerate() {
+            let MotionAtStart { rate, acceleration } = movement
+                .motion
+                .beginning(time)
+                .map_err(|error| (self.drives[movement.drive].name.clone(), error))?;
+            self.prescribed.rates[self.constraints + at] = rate;
+            present.acceleration = acceleration;
+        }
+        Ok(())
     }
 
     /// The same drives with such prescribed movements, those that are left where some let go, behind so many unknown movements. What is known of those

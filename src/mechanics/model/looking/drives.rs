@@ -9,9 +9,10 @@ impl Model {
         self.supports().prescribed().states()
     }
 
-    /// The first drive that rests at another place than that with which its function begins at t = 0: its name, and both places [length, rad].
-    pub fn drive_elsewhere(&self) -> Option<(&str, [f64; 2])> {
-        self.supports().prescribed().rests_elsewhere()
+    /// The first drive that rests under a part of the load at another place than that which its function has just after a time: its name, and both
+    /// places [length, rad].
+    pub fn drive_elsewhere(&self, load_factor: f64, time: f64) -> Option<(&str, [f64; 2])> {
+        self.supports().prescribed().rests_elsewhere(load_factor, time)
     }
 
     /// The drives whose motion bends within a step, by name, each with its sharpest bend.

@@ -67,12 +67,14 @@ impl Model {
                 return Some(2 * scene.beams.len() + scene.stations.len() + body);
             }
         };
-        Some(if station.arc_length == 0.0 {
+        let length = scene.beams[beam].axis.length();
+        let is_at = |arc_length| station.is_at(&Station::on_beam(beam, arc_length), length);
+        Some(if is_at(0.0) {
             2 * beam
-        } else if station.arc_length == scene.beams[beam].axis.length() {
+        } else if is_at(length) {
             2 * beam + 1
         } else {
-            let known = scene.stations.iter().position(|other| other == station)?;
+            let known = scene.stations.iter().position(|other| other.is_at(station, length))?;
             2 * scene.beams.len() + known
         })
     }

@@ -1,11 +1,13 @@
 //! The editable description of what is simulated. Nothing is assembled here.
 
+use std::collections::HashSet;
+
 use serde::{Deserialize, Serialize};
 
 use super::stored::StoredScene;
 use super::ties::check_ties;
 use super::{BeamDefinition, ParticleDefinition, RigidBodyDefinition, Sensor, StationVelocity};
-use crate::beams::{BodyIndex, Mesh, Place, Station};
+use crate::beams::{BodyIndex, Mesh, Place, ROUNDING_OF_PLACES, Station};
 use crate::geometry::Vec2;
 use crate::joints::{Joint, JointKind, Partner, Release, Slider, Track};
 use crate::loads::{Load, Schedule};
@@ -51,20 +53,6 @@ impl Scene {
     /// The length of the longest beam of the scene, if there is one [length].
     pub fn longest_beam(&self) -> Option<f64> {
         self.beams.iter().map(|beam| beam.axis.length()).reduce(f64::max)
-    }
-
-    /// How far strain energies of the scene may be off by rounding: `ε Σ (EA L + EI/L)`; without beams the energy of places that are off by it, under
-    /// the forces on them as drawn [energy].
-    pub fn rounding_energy(&self) -> f64 {
-        if self.beams.is_empty() {
-            return f64::EPSILON * self.rounded_work();
-        }
-        let stiffness = self.beams.iter().map(|beam| {
-            let length = beam.axis.length();
-            let section = beam.section.largest();
-            section.axial_stiffness * length + section.bending_stiffness / length
-        });
-        f64::EPSILON * stiffness.sum::<f64>()
     }
 
     /// The mass of the scene as it is drawn [mass].
@@ -215,8 +203,10 @@ impl Scene {
 
     /// The first of `kind1`, `kind2`, … that nothing in the scene is called.
     pub fn free_name(&self, kind: &str) -> String {
-        let mut names = (1..).map(|number| format!("{kind}{number}"));
-        names.find(|name| self.names().all(|(_, other)| other != name)).unwrap_or_default()
+        let numbered = self.names().filter_map(|(_, name)| name.strip_prefix(kind)?.parse().ok());
+        let taken: HashSet<u64> = numbered.collect();
+        let free = (1..).find(|number| !taken.contains(number)).unwrap_or_default();
+        format!("{kind}{free}")
     }
 
     /// The station of a beam at an arc length [length]; its angle is followed from the start.
@@ -226,7 +216,7 @@ impl Scene {
     pub fn station(&mut self, beam: usize, arc_length: f64) -> Result<Station, ModelError> {
         let definition = &self.beams[beam];
         let length = definition.axis.length();
-        let tolerance = 1e-12 * length;
+        let tolerance = ROUNDING_OF_PLACES * length;
         if !(arc_length >= -tolerance && arc_length <= length + tolerance) {
             return Err(ModelError::StationOutside {
                 beam: definition.name.clone(),
@@ -235,7 +225,7 @@ impl Scene {
             });
         }
         let station = Station::on_beam(beam, arc_length.clamp(0.0, length));
-        if !self.stations.contains(&station) {
+        if !self.stations.iter().any(|known| known.is_at(&station, length)) {
             self.stations.push(station);
         }
         Ok(station)
@@ -390,10 +380,11 @@ impl Setting for Scene {
             return Err(ModelError::Missing { object, kind: "point", index, count });
         }
         let length = self.length_at(station);
-        if (0.0..=length).contains(&station.arc_length) {
+        let tolerance = ROUNDING_OF_PLACES * length;
+        if (-tolerance..=length + tolerance).contains(&station.arc_length) {
             return Ok(());
         }
-        let beam = self.name_of_body(station);
+        let beam = station.beam().map_or_else(String::new, |beam| self.beams[beam].name.clone());
         Err(ModelError::StationOutside { beam, station: station.arc_length, length })
     }
 }

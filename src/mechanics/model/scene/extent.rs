@@ -1,4 +1,4 @@
-//! How large a scene without beams is, wherever it is.
+//! How large a scene without beams is, wherever it is, and what rounding is worth in one.
 
 use super::Scene;
 use crate::beams::{BodyIndex, Station};
@@ -47,8 +47,22 @@ impl Scene {
         groups.all.iter().map(Group::extent).fold(0.0, larger)
     }
 
+    /// How far strain energies of the scene may be off by rounding: `ε Σ (EA L + EI/L)`; without beams the energy of places that are off by it, under
+    /// the forces on them as drawn [energy].
+    pub fn rounding_energy(&self) -> f64 {
+        if self.beams.is_empty() {
+            return f64::EPSILON * self.rounded_work();
+        }
+        let stiffness = self.beams.iter().map(|beam| {
+            let length = beam.axis.length();
+            let section = beam.section.largest();
+            section.axial_stiffness * length + section.bending_stiffness / length
+        });
+        f64::EPSILON * stiffness.sum::<f64>()
+    }
+
     /// The sum of all forces as drawn, weights, loads and springs, times the lengths that are rounded where they act [energy].
-    pub(super) fn rounded_work(&self) -> f64 {
+    fn rounded_work(&self) -> f64 {
         let extent = self.extent();
         let reach = |at: &Station| extent + self.drawn_at(at).map_or(0.0, |place| place.norm());
         let weights =

@@ -292,6 +292,12 @@ impl Scene {
                     "springs, such as '{other}', have their columns in every history without being recorded"
                 )));
             }
+            if let Some(drive) = self.drives.iter().find(|drive| of(&drive.name).is_some()) {
+                return Err(refused(format!(
+                    "drives, such as '{}', have their columns in every history without being recorded",
+                    drive.name
+                )));
+            }
             return Err(refused(
                 "it must begin with the name of a beam, a particle, a body, a slider or a joint (hinge1, clamp1, rigid1) that the scene has by now".to_owned(),
             ));

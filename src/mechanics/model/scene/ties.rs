@@ -110,13 +110,20 @@ pub fn check_ties(scene: &Scene) -> Result<(), ModelError> {
     for (drive, place) in scene.drives.iter().zip(driven) {
         for (component, _) in drive.motions() {
             let root = ties.root(1 + 3 * place + component as usize);
-            let is_given = given.contains(&root);
-            if root == 0 || is_given || on_rollers.iter().any(|held| held.contains(&root)) {
+            let how = match () {
+                () if given.contains(&root) => Some("given"),
+                () if root == 0 => Some("held"),
+                () if on_rollers.iter().any(|held| held.contains(&root)) => {
+                    Some("tied to the other component by an inclined roller")
+                }
+                () => None,
+            };
+            if let Some(how) = how {
                 return Err(ModelError::AlreadyDriven {
                     drive: drive.name.clone(),
                     component: component.name(),
                     place: scene.describe(&drive.station),
-                    how: if is_given { "given" } else { "held" },
+                    how,
                 });
             }
             given.push(root);

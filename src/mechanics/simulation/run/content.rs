@@ -133,7 +133,7 @@ impl Content<'_> {
         }
         let times = || self.samples.iter().map(|row| row.measures.time);
         let is_ordered = times().all(f64::is_finite) && times().is_sorted();
-        if !is_ordered || times().next() != Some(0.0) {
+        if !is_ordered || times().next().is_some_and(|first| first < 0.0) {
             return Err(refused("the times of its history are out of order"));
         }
         let is_arrival = |arrival: &Arrival| {

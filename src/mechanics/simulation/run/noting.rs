@@ -92,6 +92,7 @@ impl Simulation {
             let stiffest = stiffest.map(|(name, stiffness)| (name.to_owned(), stiffness));
             notes.push(Note::Drift { drift, stiffest });
         }
+        notes.extend(self.fed_back());
         let bends = self.model.bends();
         notes.extend(bends.map(|(drive, bend)| Note::Bend { drive: drive.to_owned(), bend }));
         let bounces = self.model.short_bounces();
@@ -178,8 +179,23 @@ impl Simulation {
         let is_line = |law: &RestoringLaw| matches!(law, RestoringLaw::Linear { .. });
         let mut springs = self.scene.springs().filter_map(|spring| spring.law.as_ref());
         let strains = !self.scene.beams.is_empty() || springs.any(is_line);
-        let others = damping.filter(|_| strains).map(|entry| entry.name);
-        others.filter(|name| *name != self.settings.method.entry().name).next()
+        let mut others = damping.filter(|_| strains).map(|entry| entry.name);
+        others.find(|name| *name != self.settings.method.entry().name)
+    }
+
+    /// The most that something that dissipates gave back over a step; none where rounding explains it.
+    fn fed_back(&self) -> Option<Note> {
+        let rows = self.history().samples();
+        rows.last().filter(|row| row.measures.dissipated != 0.0)?;
+        let given = rows.windows(2).map(|pair| {
+            let [before, now] = [pair[0].measures, pair[1].measures];
+            let held = now.energy.kinetic + now.energy.strain + now.energy.stored;
+            let energy = before.dissipated - now.dissipated;
+            (energy - LARGEST_DRIFT * larger(held, now.dissipated.abs()), energy, &pair[1])
+        });
+        let (beyond, energy, row) = given.max_by(|(a, ..), (b, ..)| a.total_cmp(b))?;
+        let (time, dt) = (row.measures.time, row.dt);
+        (beyond > 0.0).then_some(Note::Fed { time, dt, energy })
     }
 
     /// What takes a good part of the kinetic energy within a step, or may give it: the strongest damping, and controllers.

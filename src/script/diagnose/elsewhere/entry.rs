@@ -46,6 +46,9 @@ pub fn called_with(name: &str, count: usize) -> Option<&'static str> {
         ("round", 2) => "write round_to(x, digits), or fixed(x, digits) for a text",
         ("max", 3..) => "write max(values) with an array: max([1, 2, 3])",
         ("min", 3..) => "write min(values) with an array: min([1, 2, 3])",
+        ("clamp", 3) => {
+            "write min(max(x, low), high) for the number between two others that is nearest to x"
+        }
         ("sum", 2..) => "write sum(values) with an array: sum([1, 2, 3])",
         _ => return None,
     })

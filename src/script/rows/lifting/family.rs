@@ -8,7 +8,8 @@ use std::rc::Rc;
 use rhai::Dynamic;
 
 use super::varied::Varied;
-use crate::script::words::error::ScriptError;
+use crate::output::significant;
+use crate::script::words::error::{Place, ScriptError};
 
 /// The distance to the variants beside, as a part of the size of a parameter. What is made of it errs by its square and by rounding over it.
 pub const RELATIVE_DISTANCE: f64 = 1e-5;
@@ -118,33 +119,28 @@ impl Family {
         ANY.get()
     }
 
-    /// Adds a parameter with its value; gives the number that depends on it.
+    /// Adds a parameter with its value, and variants at a distance, or at the usual one; gives the number that depends on it.
     ///
     /// # Errors
     /// When there is one of that name, or variants of the others are in use.
-    pub fn declare(self: &Rc<Self>, name: &str, value: f64) -> Result<Varied, ScriptError> {
-        let size = if value == 0.0 { 1.0 } else { value.abs() };
-        self.declare_within(name, value, RELATIVE_DISTANCE * size)
-    }
-
-    /// Adds a parameter with its value, and variants at a distance; gives the number that depends on it.
-    ///
-    /// # Errors
-    /// As those of [`declare`](Self::declare).
-    pub fn declare_within(
+    pub fn declare(
         self: &Rc<Self>,
         name: &str,
         value: f64,
-        distance: f64,
+        distance: Option<f64>,
     ) -> Result<Varied, ScriptError> {
-        if self.is_in_use.get() {
-            let told = format!("parameter '{name}' comes after others of its scene are in use");
-            return Err(ScriptError::new(told).hint("declare all parameters of a scene first"));
-        }
         if self.number_of(name).is_some() {
             let told = format!("there is a parameter '{name}' already");
-            return Err(ScriptError::new(told).hint("use the number that it gave, or another name"));
+            let hint = "keep the number that scene.parameter gives in a variable and use that, or take another name";
+            return Err(ScriptError::new(told).hint(hint).at(Place::Argument(0)));
         }
+        if self.is_in_use.get() {
+            let told = format!("parameter '{name}' comes after others of its scene are in use");
+            let hint = "declare all parameters of a scene first";
+            return Err(ScriptError::new(told).hint(hint).at(Place::Argument(0)));
+        }
+        let size = if value == 0.0 { 1.0 } else { value.abs() };
+        let distance = distance.unwrap_or(RELATIVE_DISTANCE * size);
         // What is so near can be told apart exactly.
         let distance = 0.5 * ((value + distance) - (value - distance));
         let mut values = vec![Dynamic::from(value); self.variants()];
@@ -195,7 +191,8 @@ impl Family {
         let parameters = self.parameters.borrow();
         let of = Self::beside(variant).and_then(|(at, plus)| Some((parameters.get(at)?, plus)));
         of.map_or_else(String::new, |(of, plus)| {
-            format!("'{}' {} {:e}", of.name, if plus { "plus" } else { "minus" }, of.distance)
+            let distance = significant(of.distance, 3);
+            format!("'{}' {} {distance}", of.name, if plus { "plus" } else { "minus" })
         })
     }
 }

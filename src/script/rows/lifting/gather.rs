@@ -54,10 +54,12 @@ pub fn gather(
     if lost.is_none() && results.iter().all(|other| are_equal(first, other)) {
         return Ok(first.clone());
     }
-    let undefined = || is_defined(first) && !results.iter().all(is_defined);
-    let lost = lost.cloned().or_else(|| {
-        undefined().then(|| "it is infinite or undefined as soon as a parameter changes".into())
-    });
+    let undefined = || match (is_defined(first), results.iter().all(is_defined)) {
+        (false, _) => Some("it is infinite or undefined".into()),
+        (true, false) => Some("it is infinite or undefined as soon as a parameter changes".into()),
+        (true, true) => None,
+    };
+    let lost = lost.cloned().or_else(undefined);
     Ok(Dynamic::from(Varied::new(family, results.to_vec(), lost)))
 }
 
@@ -67,9 +69,11 @@ fn differ(what: &str) -> ScriptError {
     )
 }
 
-/// Whether a value is no number that is infinite or undefined.
+/// Whether a value is no number or vector that is infinite or undefined.
 fn is_defined(value: &Dynamic) -> bool {
+    let vector = value.read_lock::<Vec2>();
     as_number(value).is_none_or(f64::is_finite)
+        && vector.is_none_or(|of| of.x.is_finite() && of.y.is_finite())
 }
 
 /// Whether two values are the same number or vector, to the last bit.

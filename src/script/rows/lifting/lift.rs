@@ -4,6 +4,7 @@ use std::rc::Rc;
 
 use rhai::{Dynamic, FnPtr, Map};
 
+use super::corners::corner_of;
 use super::family::{Family, Within, of_thing, present, take_lost};
 use super::gather::gather;
 use super::policy::Lifting;
@@ -12,6 +13,9 @@ use crate::script::rows::kind::Kind;
 use crate::script::rows::parameter::Parameter;
 use crate::script::rows::table::{Form, Row};
 use crate::script::words::error::{Place, ScriptError};
+
+/// What to do about an error that is one only beside the value of a parameter.
+const BESIDE: &str = "derivatives are found from values on both sides of a parameter: choose it within what is allowed, or give value_of(x) here, which has none";
 
 /// Makes a call of a row.
 type Make<'m> = &'m mut dyn FnMut(Option<&mut Dynamic>, &[Dynamic]) -> Result<Dynamic, ScriptError>;
@@ -34,7 +38,7 @@ pub fn lift(
     };
     let depends = given.iter().position(|of| family_of(of).is_some());
     match (lifting, depends) {
-        (Lifting::Each, _) => {}
+        (Lifting::Each, _) => expect_plain_whole_numbers(row, parameters, &given)?,
         (Lifting::Once, Some(_)) if row.receiver().is_none() && is_about_derivatives(row) => {
             return make(receiver, &given);
         }
@@ -80,7 +84,8 @@ pub fn lift(
         }
     }
     results.reverse();
-    lost = lost.or_else(take_lost).or_else(|| corner_in(row, &family, &given));
+    let corner = || corner_of((row.name, row.corner?), &family, &given);
+    lost = lost.or_else(take_lost).or_else(corner);
     let found = gather(&family, &results, lost.as_ref(), &is_thing)?;
     match receiver {
         Some(held) if is_set && !is_thing(held) => {
@@ -102,6 +107,29 @@ fn make_at(
     match receiver {
         Some(held) if held.is::<Varied>() => make(Some(&mut project(held, variant)), &given),
         receiver => make(receiver, &given),
+    }
+}
+
+/// Refuses what depends on parameters where a whole number must be given: between two whole numbers there is none.
+fn expect_plain_whole_numbers(
+    row: &Row,
+    parameters: &[Parameter],
+    given: &[Dynamic],
+) -> Result<(), ScriptError> {
+    let is_wrong = |(parameter, value): &(&Parameter, &Dynamic)| {
+        value.is::<Varied>() && parameter.kind.is_of_whole_numbers()
+    };
+    let pairs = parameters.iter().zip(given);
+    match pairs.enumerate().find(|(_, pair)| is_wrong(pair)) {
+        None => Ok(()),
+        Some((number, (parameter, _))) => {
+            let told = format!(
+                "{}: '{}' is a whole number, and cannot depend on a parameter of a scene",
+                row.name, parameter.name
+            );
+            let hint = "int(x) and round(x) are the whole number next to its value";
+            Err(ScriptError::new(told).hint(hint).at(Place::Argument(number)))
+        }
     }
 }
 
@@ -136,19 +164,6 @@ fn option_in(options: &Dynamic) -> Option<(String, Dynamic)> {
     option_in(value).or_else(|| Some((key.to_string(), value.clone())))
 }
 
-/// Why what a call gives has no derivatives although it was made with what has: a corner of its function lies between the variants.
-fn corner_in(row: &Row, family: &Family, given: &[Dynamic]) -> Option<Rc<str>> {
-    let has_corner = row.corner?;
-    let side = |variant| given.iter().map(|of| project(of, variant)).collect::<Vec<_>>();
-    let names = family.parameters().into_iter().enumerate();
-    let mut bent = names.filter(|(at, _)| has_corner(&side(1 + 2 * at), &side(2 + 2 * at)));
-    let (_, (name, _)) = bent.next()?;
-    Some(
-        format!("'{}' has a corner or a jump just there, and no derivative by '{name}'", row.name)
-            .into(),
-    )
-}
-
 impl ScriptError {
     /// The same error of a call beside that at the values of the parameters, which says so.
     fn said(self, family: &Family, variant: usize) -> Self {
@@ -156,6 +171,7 @@ impl ScriptError {
             Self::Failure(mut failure) => {
                 let at = family.describe(variant);
                 failure.message = format!("{} (with {at}, for the derivatives)", failure.message);
+                failure.hint = Some(BESIDE.to_owned());
                 Self::Failure(failure)
             }
             other => other,

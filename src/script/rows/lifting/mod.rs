@@ -10,8 +10,10 @@ mod policy;
 mod varied;
 
 pub use corners::{
-    Corner, at_origin, at_whole_numbers, at_zero, at_zero_vector, where_equal,
-    where_largest_changes, where_points_meet, where_smallest_changes,
+    Corner, Sides, at_cut, at_cut_of_vector, at_multiples, at_origin, at_whole_numbers, at_zero,
+    at_zero_vector, corner_of, near_ends_of_logarithm, near_one, near_quarters, near_zero,
+    near_zero_base, near_zero_divisor, where_equal, where_largest_changes, where_points_meet,
+    where_rounded_differs, where_smallest_changes,
 };
 pub use family::{Family, Present, RELATIVE_DISTANCE, know, lose, present, present_variant};
 pub use lift::{gathered, gathered_without, lift};

@@ -77,7 +77,7 @@ impl Question<'_> {
             Point::Slopes(point) => {
                 let family = Family::new();
                 let values = self.names.iter().zip(point).map(|(name, (x, distance))| {
-                    let varied = family.declare_within(name, *x, *distance);
+                    let varied = family.declare(name, *x, Some(*distance));
                     varied.map_or(Dynamic::from(*x), Dynamic::from)
                 });
                 self.names.iter().zip(values.collect::<Vec<_>>()).map(named).collect()
@@ -265,7 +265,7 @@ fn slopes_of(given: &Dynamic, parameters: usize) -> Answer {
             continue;
         };
         if varied.family().is_decided_by() {
-            return Answer::Failed("a function |t| … compares with a parameter".into());
+            return Answer::Failed("a function |t| … decides by a parameter".into());
         }
         for parameter in 0..parameters {
             match varied.derivative(parameter) {

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use rhai::{AST, ASTNode, Dynamic, Expr, FnPtr, Map, Position};
+use rhai::{AST, ASTNode, Dynamic, Expr, FnPtr, Map, Position, Stmt};
 
 use super::portable::Portable;
-use crate::script::rows::call::Call;
+use crate::script::rows::call::{Call, written_within};
 use crate::script::words::error::{Failure, Place, ScriptError};
 use crate::script::words::nouns::with_article;
 
@@ -73,6 +73,12 @@ impl RunFunction {
             }
         });
         let captured = captured.collect::<Result<_, _>>()?;
+        if let Some(at) = first_print(&call.body(function)) {
+            let (line, column) = (at.line().unwrap_or(0), at.position().unwrap_or(0));
+            call.context().tell(&format!(
+                "note: line {line}, column {column}: the runs of a study print nothing: give what is to be seen as a result"
+            ));
+        }
         Ok(Self { name: function.fn_name().to_owned(), captured, besides: Vec::new() })
     }
 
@@ -137,16 +143,32 @@ impl RunFunction {
         }
     }
 
+    /// Refuses parameters that a function does not read, as far as can be seen; the function is given under a key.
+    ///
+    /// # Errors
+    /// When there is one.
+    pub fn expect_read<'n>(
+        call: &Call,
+        (key, function): (&str, &FnPtr),
+        names: impl IntoIterator<Item = &'n str>,
+    ) -> Result<(), ScriptError> {
+        let Some(unread) = Self::unread(call, function, names) else { return Ok(()) };
+        let told = format!("the function of '{key}' does not use the parameter '{unread}'");
+        let hint =
+            format!("use p.{unread} there, or leave it out: all of its values would give the same");
+        Err(call.error(told).hint(hint).at(Place::Key(unread.to_owned())))
+    }
+
     /// The first of the names that the function does not read from the map that it is called with, as far as can be seen: one that hands the map on may
     /// read any.
-    pub fn unread<'n>(
+    fn unread<'n>(
         call: &Call,
         function: &FnPtr,
         names: impl IntoIterator<Item = &'n str>,
     ) -> Option<&'n str> {
         let definition = call.definition(function)?;
         let map = definition.params.get(function.curry().len())?;
-        let reading = Reading::of(&call.body(function), map);
+        let reading = Reading::of(call, function, map);
         let mut names = names.into_iter();
         names.find(|name| !reading.is_whole && !reading.names.contains(*name))
     }
@@ -159,6 +181,26 @@ fn variable(expression: &Expr) -> Option<&str> {
         _ => None,
     }
 }
+
+/// Where a function prints something first.
+fn first_print(body: &AST) -> Option<Position> {
+    let mut found = None;
+    body.walk(&mut |path: &[ASTNode]| {
+        let called = match path.last() {
+            Some(
+                ASTNode::Stmt(Stmt::FnCall(called, at)) | ASTNode::Expr(Expr::FnCall(called, at)),
+            ) => Some((called, *at)),
+            _ => None,
+        };
+        let printed = called.filter(|(called, _)| PRINTING.contains(&called.name.as_str()));
+        found = found.or(printed.map(|(_, at)| at));
+        found.is_none()
+    });
+    found
+}
+
+/// Functions that print.
+const PRINTING: &[&str] = &["print", "debug"];
 
 /// Where a function uses a variable first.
 fn first_use(body: &AST, name: &str) -> Option<Position> {
@@ -175,10 +217,16 @@ fn first_use(body: &AST, name: &str) -> Option<Position> {
 }
 
 impl Reading {
-    fn of(body: &AST, map: &str) -> Self {
+    fn of(call: &Call, function: &FnPtr, map: &str) -> Self {
         let mut reading = Self { names: BTreeSet::new(), is_whole: false };
+        reading.read(call, function, map);
+        reading
+    }
+
+    /// Reads a function in which the map has this name.
+    fn read(&mut self, call: &Call, function: &FnPtr, map: &str) {
         let is_map = |expression: &Expr| variable(expression) == Some(map);
-        body.walk(&mut |path: &[ASTNode]| {
+        call.body(function).walk(&mut |path: &[ASTNode]| {
             let Some(ASTNode::Expr(expression)) = path.last() else { return true };
             if !is_map(expression) {
                 return true;
@@ -188,15 +236,22 @@ impl Reading {
                 Some(ASTNode::Expr(Expr::Dot(of, ..) | Expr::Index(of, ..))) if is_map(&of.lhs) => {
                     name_read(&of.rhs)
                 }
+                // A function within has it under the same name.
+                Some(ASTNode::Expr(Expr::FnCall(made, _))) => match written_within(made) {
+                    Some((within, _)) => {
+                        self.read(call, &within, map);
+                        return true;
+                    }
+                    None => None,
+                },
                 _ => None,
             };
             match read {
-                Some(name) => _ = reading.names.insert(name),
-                None => reading.is_whole = true,
+                Some(name) => _ = self.names.insert(name),
+                None => self.is_whole = true,
             }
             true
         });
-        reading
     }
 }
 

@@ -76,6 +76,9 @@ pub struct BestDesign {
     pub derivatives: String,
 }
 
+/// What to do where something is to be true.
+const TRUTH: &str = "let run give a number that is not negative where it holds, such as #{ room: limit - sag }, and write constraints: #{ room: [0, ()] }";
+
 impl Goal {
     fn name(&self) -> &str {
         match self {
@@ -93,20 +96,34 @@ impl Limit {
             return Err(at_key(call, "constraints", told, shape));
         };
         let limit = |(name, value): (&rhai::Identifier, &Dynamic)| {
-            let wrong = || {
-                let told = format!("the constraint on '{name}' is {}", call.describe(value));
-                call.error(told).hint(shape).at(Place::Key(name.to_string()))
+            let wrong = |what: String| {
+                let told = format!("the constraint on '{name}' {what}");
+                let hint = if value.is_bool() { TRUTH } else { shape };
+                // The name itself stands in the function too.
+                at_key(call, "constraints", told, hint)
             };
-            let array = value.clone().try_cast::<Array>().ok_or_else(wrong)?;
+            let Some(array) = value.clone().try_cast::<Array>() else {
+                return Err(wrong(format!("is {}", call.describe(value))));
+            };
             let end = |value: &Dynamic| match value.is_unit() {
                 true => Ok(None),
-                false => as_number(value).filter(|x| x.is_finite()).map(Some).ok_or_else(wrong),
+                false => match as_number(value).filter(|x| x.is_finite()) {
+                    Some(end) => Ok(Some(end)),
+                    None => Err(wrong(format!("has {}, which is no number", call.describe(value)))),
+                },
             };
-            let [low, high] = array.as_slice() else { return Err(wrong()) };
+            let [low, high] = array.as_slice() else {
+                let count = array.len();
+                let plural = if count == 1 { "" } else { "s" };
+                return Err(wrong(format!("has {count} number{plural} in the place of two")));
+            };
             let (low, high) = (end(low)?, end(high)?);
             match (low, high) {
-                (None, None) => Err(wrong()),
-                (Some(low), Some(high)) if low > high => Err(wrong()),
+                (None, None) => Err(wrong("has neither a least nor a largest number".into())),
+                (Some(low), Some(high)) if low > high => {
+                    let [low, high] = [low, high].map(format_number);
+                    Err(wrong(format!("has the least number {low} above the largest, {high}")))
+                }
                 _ => Ok(Self { name: name.to_string(), low, high }),
             }
         };
@@ -156,6 +173,16 @@ fn values(given: &Dynamic) -> Answer {
         match Varied::number(value) {
             Some(number) if number.is_finite() => numbers.push(number),
             Some(_) => return Answer::Failed(format!("'{name}' is not a finite number")),
+            None if value.is_bool() => {
+                return Answer::Wrong(format!(
+                    "it gives '{name}', which is a truth value: a search needs numbers, such as how far something is from its limit"
+                ));
+            }
+            None if value.is::<Map>() => {
+                return Answer::Wrong(format!(
+                    "it gives '{name}', which is a map: of the map p that it is called with p.x is one number"
+                ));
+            }
             None => return Answer::Wrong(format!("it gives '{name}', which is no number")),
         }
     }
@@ -205,11 +232,20 @@ impl DesignOrder<'_> {
             most_runs: self.most_runs,
         };
         let scales = Scales::of(&self.goal, goal, &limits);
+        // Why the first of the runs that failed did.
+        let failure: RefCell<Option<String>> = RefCell::default();
         let found = question.with_evaluator(call, |evaluator| {
             let evaluator = RefCell::new(evaluator);
             let mut rate = |x: &[f64]| -> Result<Option<Rating>, ScriptError> {
                 let answer = evaluator.borrow_mut().ask(&[x.to_vec()])?.into_iter().next();
-                let Some(Ok(numbers)) = answer else { return Ok(None) };
+                let numbers = match answer {
+                    Some(Ok(numbers)) => numbers,
+                    Some(Err(reason)) => {
+                        let _ = failure.borrow_mut().get_or_insert(reason);
+                        return Ok(None);
+                    }
+                    None => return Ok(None),
+                };
                 Ok((numbers.len() == results.len()).then(|| scales.rating(&numbers)))
             };
             let mut sloped = |x: &[f64]| -> Result<SlopesOfRating, ScriptError> {
@@ -227,11 +263,9 @@ impl DesignOrder<'_> {
             Ok(Some((found, again)))
         })?;
         let Some((found, again)) = found else {
-            return Err(question.blame(
-                call,
-                &start,
-                "it fails, and at all other designs that were tried",
-            ));
+            let reason = failure.into_inner().map_or_else(String::new, |of| format!(": {of}"));
+            let told = format!("it fails, and at all other designs that were tried{reason}");
+            return Err(question.blame(call, &start, &told));
         };
         if !found.is_feasible {
             let wanted: Vec<String> = self.limits.iter().map(Limit::describe).collect();

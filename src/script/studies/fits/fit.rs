@@ -1,6 +1,6 @@
 //! Fits: parameters for which what a function gives is nearest to data.
 
-use std::cell::RefCell;
+use std::cell::{OnceCell, RefCell};
 use std::time::Duration;
 
 use rhai::{Array, Dynamic, FnPtr};
@@ -12,7 +12,9 @@ use crate::script::rows::call::Call;
 use crate::script::rows::lifting::{RELATIVE_DISTANCE, Varied};
 use crate::script::studies::calls::evaluator::{Answer, Question};
 use crate::script::studies::calls::function::RunFunction;
+use crate::script::studies::plan::at_key;
 use crate::script::words::error::ScriptError;
+use crate::script::words::numbers::format_number;
 
 /// Digits of a parameter in the table.
 const DIGITS: usize = 7;
@@ -117,10 +119,16 @@ impl FitOrder<'_> {
             .weights
             .as_ref()
             .map(|weights| weights.iter().map(|weight| weight.sqrt()).collect());
+        let counted = OnceCell::new();
         let fitted = question.with_evaluator(call, |evaluator| {
             let evaluator = RefCell::new(evaluator);
             let mut evaluate = |points: &[Vec<f64>]| {
                 let found = evaluator.borrow_mut().ask(points)?;
+                for (numbers, point) in found.iter().zip(points) {
+                    if let Ok(numbers) = numbers {
+                        self.expect_as_many(call, &counted, (numbers.len(), point))?;
+                    }
+                }
                 let of = |found: Result<Vec<f64>, String>| -> Result<Vec<f64>, String> {
                     Ok(weighted(roots.as_deref(), self.differences(found?)?))
                 };
@@ -130,6 +138,9 @@ impl FitOrder<'_> {
                 let small = |(x, range): (&f64, &Range)| (*x, RELATIVE_DISTANCE * range.size(*x));
                 let point: Vec<(f64, f64)> = x.iter().zip(&self.ranges.ranges).map(small).collect();
                 let found = evaluator.borrow_mut().slopes(&point)?;
+                if let Ok(rows) = &found {
+                    self.expect_as_many(call, &counted, (rows.len(), x))?;
+                }
                 Ok(found.and_then(|rows| self.differences_with(rows, roots.as_deref())))
             };
             match self.derivatives {
@@ -145,6 +156,29 @@ impl FitOrder<'_> {
         };
         let Self { name, ranges: Ranges { names, .. }, compared, confidence, .. } = self;
         Ok(Fit { name, names, fitted, residuals, compared, confidence })
+    }
+
+    /// Refuses a function that gives other numbers of residuals with other parameters.
+    fn expect_as_many(
+        &self,
+        call: &Call,
+        counted: &OnceCell<usize>,
+        (count, point): (usize, &[f64]),
+    ) -> Result<(), ScriptError> {
+        let before = *counted.get_or_init(|| count);
+        if count == before {
+            return Ok(());
+        }
+        let pairs = self.ranges.names.iter().zip(point);
+        let at: Vec<String> =
+            pairs.map(|(name, x)| format!("{name} = {}", format_number(*x))).collect();
+        let told = format!(
+            "{}: with {} it gives {count} numbers, and at the start it gave {before}",
+            self.key,
+            at.join(", ")
+        );
+        let hint = "it must give as many whatever the parameters: one for each that was measured";
+        Err(at_key(call, self.key, told, hint))
     }
 
     /// What a dry build pretends to have found: the parameters are where they begin; the function is called there.
@@ -239,7 +273,7 @@ impl Fit {
     /// Half the width of the interval of confidence of a parameter; none where nothing tells.
     pub fn half_width(&self, parameter: usize) -> Option<f64> {
         let estimate = self.fitted.estimate.as_ref()?;
-        Some(estimate.half_width(parameter, self.confidence))
+        estimate.half_width(parameter, self.confidence)
     }
 
     /// How the search ended, in words.
@@ -272,7 +306,7 @@ impl Fit {
             table.row([
                 Cell::from(name.as_str()),
                 Cell::Number(significant(parameters[at], DIGITS)),
-                error(estimate.as_ref().map(|of| of.error(at))),
+                error(estimate.as_ref().and_then(|of| of.error(at))),
                 error(self.half_width(at)),
             ]);
         }
@@ -281,8 +315,14 @@ impl Fit {
             format!(", standard deviation of residuals {deviation}")
         });
         let count = self.residuals.len();
+        let unknown = |of: &Estimate| {
+            let names = self.names.iter().enumerate();
+            let without = names.filter(|(at, _)| of.error(*at).is_none());
+            without.map(|(_, name)| format!("\nno residual depends on '{name}'")).collect()
+        };
+        let without: String = estimate.as_ref().map(unknown).unwrap_or_default();
         format!(
-            "fit '{}': {} after {runs} runs, {count} residuals{scatter}\n{}",
+            "fit '{}': {} after {runs} runs, {count} residuals{scatter}{without}\n{}",
             self.name,
             self.outcome(),
             table.to_string().trim_end()

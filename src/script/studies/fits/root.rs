@@ -23,7 +23,11 @@ pub fn find_root(call: &mut Call) -> Result<Dynamic, ScriptError> {
         Varied::number(&given).ok_or_else(|| {
             let told =
                 format!("the function gives {} at {}", call.describe(&given), format_number(x));
-            call.error(told).hint("its last expression is a number").at(Place::Argument(0))
+            let hint = match given.is_bool() {
+                true => "give the number that changes its sign there: x - 2 in the place of x > 2",
+                false => "its last expression is a number",
+            };
+            call.error(told).hint(hint).at(Place::Argument(0))
         })
     };
     if call.context().mode() == Mode::DryBuild {

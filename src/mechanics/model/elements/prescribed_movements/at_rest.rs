@@ -25,16 +25,17 @@ impl PrescribedMovements {
         Ok(())
     }
 
-    /// The first drive that rests at another place than that with which its function begins at t = 0: its name, and both places.
-    pub fn rests_elsewhere(&self) -> Option<(&str, [f64; 2])> {
+    /// The first drive that rests under a part of the load at another place than that which its function has just after a time: its name, and both places.
+    pub fn rests_elsewhere(&self, load_factor: f64, time: f64) -> Option<(&str, [f64; 2])> {
         self.movements.iter().zip(&self.present).find_map(|(movement, present)| {
             let PrescribedMotion::Place(schedule) = &movement.motion else { return None };
-            // What has no value at the start is refused when the scene is built.
-            let begins = schedule.value(0.0, Side::After).ok()?;
-            let size = larger(begins.abs(), present.goal.abs());
-            let is_there = (present.goal - begins).abs() <= SAME_PLACE * size;
+            // What has no value is refused when the scene is built, or when it is put on.
+            let (rests, wanted) =
+                (load_factor * present.goal, schedule.value(time, Side::After).ok()?);
+            let size = larger(wanted.abs(), rests.abs());
+            let is_there = (rests - wanted).abs() <= SAME_PLACE * size;
             let name = self.drives[movement.drive].name.as_str();
-            (!is_there).then_some((name, [present.goal, begins]))
+            (!is_there).then_some((name, [rests, wanted]))
         })
     }
 

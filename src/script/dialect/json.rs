@@ -1,0 +1,72 @@
+//! `map.to_json()`: as in Rhai, but vectors are arrays, what depends on parameters is its value, and what JSON has no form for is refused.
+
+use rhai::{
+    Array, Dynamic, Engine, EvalAltResult, FnPtr, Map, NativeCallContext, Position,
+    format_map_as_json,
+};
+
+use crate::geometry::Vec2;
+use crate::script::rows::lifting::{Varied, present_variant};
+use crate::script::words::error::ScriptError;
+use crate::script::words::numbers::describe;
+
+/// Registers it in the place of Rhai's own.
+pub fn install(engine: &mut Engine) {
+    engine.register_fn(
+        "to_json",
+        |call: NativeCallContext, map: &mut Map| -> Result<String, Box<EvalAltResult>> {
+            let plain = |(key, value): (&rhai::Identifier, &Dynamic)| {
+                let own = writable(call.engine(), value, key, call.call_position());
+                own.map(|value| (key.clone(), value))
+            };
+            Ok(format_map_as_json(&map.iter().map(plain).collect::<Result<Map, _>>()?))
+        },
+    );
+}
+
+/// A value as JSON has it; `key` is where it stands.
+fn writable(
+    engine: &Engine,
+    value: &Dynamic,
+    key: &str,
+    at: Position,
+) -> Result<Dynamic, Box<EvalAltResult>> {
+    let value = Varied::project(value, present_variant());
+    let value = value.flatten();
+    if let Some(vector) = value.read_lock::<Vec2>() {
+        return Ok(vec![Dynamic::from(vector.x), Dynamic::from(vector.y)].into());
+    }
+    if let Some(array) = value.read_lock::<Array>() {
+        let element = |(index, element): (usize, &Dynamic)| {
+            writable(engine, element, &format!("{key}[{index}]"), at)
+        };
+        return Ok(array.iter().enumerate().map(element).collect::<Result<Array, _>>()?.into());
+    }
+    if let Some(map) = value.read_lock::<Map>() {
+        let entry = |(name, entry): (&rhai::Identifier, &Dynamic)| {
+            let own = writable(engine, entry, &format!("{key}.{name}"), at);
+            own.map(|entry| (name.clone(), entry))
+        };
+        return Ok(map.iter().map(entry).collect::<Result<Map, _>>()?.into());
+    }
+    // JSON has no infinite and no undefined numbers.
+    if value.as_float().is_ok_and(|number| !number.is_finite()) {
+        return Ok(Dynamic::UNIT);
+    }
+    let is_plain = value.is_unit()
+        || value.is_bool()
+        || value.is_int()
+        || value.is_float()
+        || value.is_char()
+        || value.is_string();
+    if is_plain {
+        return Ok(value);
+    }
+    let own = match value.is::<FnPtr>() {
+        true => "a function".to_owned(),
+        false => describe(engine, &value),
+    };
+    let told = format!("to_json: '{key}' is {own}, which JSON has no form for");
+    let hint = "JSON knows numbers, texts, truth values, arrays and maps; give the numbers that are to be kept";
+    Err(ScriptError::new(told).hint(hint).into_engine(at))
+}
