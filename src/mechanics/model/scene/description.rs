@@ -55,16 +55,6 @@ impl Scene {
         self.beams.iter().map(|beam| beam.axis.length()).reduce(f64::max)
     }
 
-    /// How far strain energies of the scene may be off by rounding: `ε Σ (EA L + EI/L)` [energy].
-    pub fn rounding_energy(&self) -> f64 {
-        let stiffness = self.beams.iter().map(|beam| {
-            let length = beam.axis.length();
-            let section = beam.section.largest();
-            section.axial_stiffness * length + section.bending_stiffness / length
-        });
-        f64::EPSILON * stiffness.sum::<f64>()
-    }
-
     /// The mass of the scene as it is drawn [mass].
     pub fn mass(&self) -> f64 {
         let beams: f64 = self.beams.iter().map(BeamDefinition::mass).sum();
