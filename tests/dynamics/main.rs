@@ -30,6 +30,7 @@ mod sensitivities;
 mod sensors;
 mod small_ways;
 mod springs;
+mod struck;
 mod tapers;
 mod unresolved_damping;
 mod unused_features;

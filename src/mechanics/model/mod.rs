@@ -12,8 +12,9 @@ mod sliders;
 mod words;
 
 pub use elements::{
-    Anchor, Bend, DampingLaw, Drag, Dragged, Drive, DriveKind, DriveState, Element, LoadAccount,
-    MaterialDamping, Origin, PointMass, RestoringLaw, ShortBounce, SpeedLaw, Spring, SpringKind,
+    Along, Anchor, Bend, Branch, DampingLaw, Drag, Dragged, Drive, DriveKind, DriveState, Element,
+    LoadAccount, MaterialDamping, Origin, PointMass, RestoringLaw, ShortBounce, SpeedLaw, Spring,
+    SpringKind,
 };
 pub use looking::{
     BeamPlaces, BeamSample, CrossSection, Distance, Part, Placement, SectionSample, Sensing,

@@ -56,7 +56,7 @@ impl Adaptive {
         let smallest = control.smallest.unwrap_or(SMALLEST * first);
         let controller = Controller { order: f64::from(order + 1), first, smallest, largest };
         let allowed = power(control.tolerance, 1.0 + 1.0 / f64::from(order));
-        let length = length_of(scene, model);
+        let length = length_of(scene);
         let doubling = Doubling::new(order, length, allowed);
         let resampling = Resampling::of(scene, length, control.tolerance);
         Self { controller, doubling, resampling, tolerance: control.tolerance }

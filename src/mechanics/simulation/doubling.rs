@@ -1,5 +1,6 @@
 //! The error of two steps of a method, seen by the side of a single one over the same time.
 
+use super::blows::Blows;
 use super::controller::TriedStep;
 use crate::elementary::whole_power;
 use crate::geometry::larger;
@@ -16,6 +17,7 @@ pub(super) struct Doubling {
     start: ModelState,
     whole: Placement,
     halves: Placement,
+    blows: Blows,
     /// What errors of places are relative to [length].
     length: f64,
     /// `2^p - 1` times the error that is allowed [-].
@@ -27,6 +29,22 @@ pub(super) struct Doubled {
     /// The work of all three solves: of the two half steps and of the whole one.
     pub(super) report: NewtonReport,
     pub(super) trial: TriedStep,
+    /// The error that places show alone, over that allowed [-].
+    of_places: f64,
+}
+
+impl Doubled {
+    /// The same step, where none can be shorter: that a blow falls somewhere in it is no reason to refuse it.
+    pub(super) fn judged_by_places(self) -> Self {
+        let trial = TriedStep { error: self.of_places, ..self.trial };
+        Self { trial, ..self }
+    }
+
+    /// The same step with its second half taken anew, by the work of all and an error beside that of the method, over that allowed.
+    pub(super) fn resampled(self, report: NewtonReport, error: f64) -> Self {
+        let trial = TriedStep { error: larger(self.trial.error, error), ..self.trial };
+        Self { report, trial, of_places: larger(self.of_places, error) }
+    }
 }
 
 /// A step of which a half or the whole failed, the mechanism being where it was, and what was solved before that.
@@ -54,20 +72,26 @@ impl Doubling {
         let Interval { start, end, .. } = interval;
         let middle = start + 0.5 * interval.duration();
         model.write_state(&mut self.start);
+        self.blows.look_at_start(model);
         let mut report = take(integrator, model, interval, NewtonReport::default())?;
         model.write_placement(&mut self.whole);
+        self.blows.look_at_whole(model);
         model.restore(&self.start);
         report =
             self.take_or_go_back(integrator, model, Interval::between(start, middle), report)?;
+        self.blows.look_at_middle(model);
         if let Some(between) = between {
             model.write_state(between);
         }
         report = self.take_or_go_back(integrator, model, Interval::between(middle, end), report)?;
         model.write_placement(&mut self.halves);
+        self.blows.look_at_halves(model);
         let distance = self.whole.distance(&self.halves);
         let apart = larger(distance.length / self.length, distance.angle);
-        let trial = TriedStep { duration: interval.duration(), error: apart / self.allowed };
-        Ok(Doubled { report, trial })
+        let (of_places, duration) = (apart / self.allowed, interval.duration());
+        let of_blows = self.blows.apart(duration, self.length) / self.allowed;
+        let trial = TriedStep { duration, error: larger(of_places, of_blows) };
+        Ok(Doubled { report, trial, of_places })
     }
 
     /// Takes a step after others that were solved; where it fails, the model is back where the first of them began.

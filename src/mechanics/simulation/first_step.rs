@@ -1,16 +1,27 @@
 //! How large a scene is, and how fast it may begin to move.
 
+use crate::elementary::square;
+use crate::geometry::larger;
 use crate::integrators::Mechanism;
 use crate::model::{Model, Scene};
 
 /// The part of the time in which a scene without beams moves as far as it is large.
 const PART: f64 = 1e-3;
 
-/// The size of a scene: its longest beam; without beams the largest distance of a particle from the origin, or 1 [length].
-pub(super) fn length_of(scene: &Scene, model: &Model) -> f64 {
-    let distances = model.control_points().flatten().map(|point| point.norm());
-    let largest = scene.longest_beam().or_else(|| distances.reduce(f64::max));
-    largest.filter(|length| *length > 0.0).unwrap_or(1.0)
+/// The size of a scene: its longest beam; without beams its [extent](Scene::extent), or where each particle is by itself the way on which gravity makes
+/// as much speed as there is at the start, or 1 [length].
+pub(super) fn length_of(scene: &Scene) -> f64 {
+    let is_length = |length: &f64| *length > 0.0 && length.is_finite();
+    let extent = || Some(scene.extent()).filter(is_length);
+    let on_the_way = || Some(square(start_speed(scene)) / scene.gravity.norm()).filter(is_length);
+    scene.longest_beam().or_else(extent).or_else(on_the_way).unwrap_or(1.0)
+}
+
+/// The largest velocity with which a particle or a rigid body starts [length/time].
+fn start_speed(scene: &Scene) -> f64 {
+    let nodes = scene.velocities.iter().map(|start| start.velocity);
+    let bodies = scene.rigid_bodies.iter().map(|body| body.motion.velocity);
+    nodes.chain(bodies).map(|velocity| velocity.norm()).fold(0.0, larger)
 }
 
 /// A step that is short enough to begin with; the next ones grow as they can [time].
@@ -24,7 +35,7 @@ pub(super) fn first_step(scene: &Scene, model: &Model) -> f64 {
     if let Some(shortest) = waves.reduce(f64::min) {
         return shortest;
     }
-    let length = length_of(scene, model);
+    let length = length_of(scene);
     let speed = model.rates().iter().fold(0.0, |largest: f64, rate| largest.max(rate.abs()));
     let after_falling_as_far = (length * scene.gravity.norm()).sqrt();
     let speed = speed.max(after_falling_as_far);

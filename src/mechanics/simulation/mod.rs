@@ -4,6 +4,7 @@ mod adaptive;
 mod archive;
 mod arrival;
 mod axis;
+mod blows;
 mod clock;
 mod columns;
 mod controller;

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 use std::fmt;
 
+use super::StepControl;
 use crate::model::{Bend, RESOLVED_BLOW, ShortBounce};
 
 /// The largest rotation of a section in a step that is not noted: ten steps a turn [rad].
@@ -57,6 +58,8 @@ pub enum Note {
         lowest: Option<f64>,
         /// What else than vibration may change rates within a step.
         suspects: Vec<Suspect>,
+        /// The name of a method that would damp such vibration; none where it is in use, or damps nothing in the scene.
+        damping: Option<&'static str>,
     },
     /// Vibration has a good part of the kinetic energy of a damped beam, of which there is little beside that of other bodies, and steps do not follow it.
     Beam {
@@ -128,9 +131,9 @@ pub enum Note {
     Contact {
         /// The name of the spring.
         spring: String,
-        /// The step size that is too long for the bounce [time].
-        dt: f64,
-        /// The number of steps of the bounce, and the force in it.
+        /// The tolerance of steps that keep one [-].
+        tolerance: Option<f64>,
+        /// The number of steps of the bounce, how long it took, and the force in it.
         bounce: ShortBounce,
     },
     /// A slider bounced off what gives way, and steps are longer than such a blow lasts.
@@ -205,7 +208,7 @@ impl fmt::Display for Note {
                     short(period / ENOUGH)
                 )
             }
-            Self::Motion { dt, share, period, lowest, .. } => {
+            Self::Motion { dt, share, period, lowest, damping, .. } => {
                 write!(
                     f,
                     "steps are too long for the motion: {} % of its kinetic energy is in vibration that they do not follow. A step \
@@ -229,11 +232,13 @@ impl fmt::Display for Note {
                         short(*period)
                     )?,
                 }
-                write!(
-                    f,
-                    "; take dt below {}, or the method energy_decaying where that vibration does not matter",
-                    short(shown / ENOUGH)
-                )
+                write!(f, "; take dt below {}", short(shown / ENOUGH))?;
+                match damping {
+                    Some(method) => {
+                        write!(f, ", or the method {method} where that vibration does not matter")
+                    }
+                    None => Ok(()),
+                }
             }
             Self::Beam { beam, dt, share, period } => write!(
                 f,
@@ -309,14 +314,23 @@ impl fmt::Display for Note {
                 short(*before),
                 short(*after)
             ),
-            Self::Contact { spring, dt, bounce: ShortBounce { steps, force } } => write!(
-                f,
-                "a bounce on '{spring}' took {steps} steps (dt = {}), in which its force went from none to {} and back: how fast what strikes it \
-                 leaves depends on the step; take dt below {}, or a softer law",
-                short(*dt),
-                short(*force),
-                short(dt / BOUNCE)
-            ),
+            Self::Contact { spring, tolerance, bounce: ShortBounce { steps, force, duration } } => {
+                let dt = duration / steps;
+                write!(
+                    f,
+                    "a bounce on '{spring}' took {steps} steps (dt = {} in it), in which its force went from none to {} and back: how fast what strikes it \
+                     leaves depends on the step; ",
+                    short(dt),
+                    short(*force)
+                )?;
+                match tolerance.map(|tolerance| tolerance / BOUNCE) {
+                    Some(less) if less >= StepControl::LEAST_TOLERANCE => {
+                        write!(f, "take a tolerance below {}, or a softer law", short(less))
+                    }
+                    Some(_) => write!(f, "take a softer law"),
+                    None => write!(f, "take dt below {}, or a softer law", short(dt / BOUNCE)),
+                }
+            }
             Self::Bounce { slider, dt, blows } => write!(
                 f,
                 "slider '{slider}' bounced off a beam that gives way, and a step (dt = {}) is {} times as long as such a blow may last \

@@ -1,7 +1,6 @@
 //! What it does to a step of varying size that controllers are asked only at its start.
 
 use super::adaptive::Plan;
-use super::controller::TriedStep;
 use super::doubling::{Doubled, Doubling, Failed};
 use crate::elementary::{power, whole_power};
 use crate::geometry::larger;
@@ -86,8 +85,7 @@ impl Resampling {
             let distance = self.held.distance(&self.resampled);
             let apart = larger(distance.length / self.length, distance.angle) / self.allowed;
             let error = power(apart, order / f64::from(self.order));
-            let TriedStep { duration, error: of_method } = doubled.trial;
-            Doubled { report, trial: TriedStep { duration, error: larger(of_method, error) } }
+            doubled.resampled(report, error)
         });
         Some((plan, taken))
     }

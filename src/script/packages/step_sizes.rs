@@ -54,7 +54,7 @@ const ADAPTIVE: &[Parameter] = &[
     number("tolerance")
         .between(StepControl::LEAST_TOLERANCE, StepControl::MOST_TOLERANCE)
         .or(Presence::Number(1e-4))
-        .doc("the error that may gather, as a part of the length of the scene and in rad"),
+        .doc("the error that may gather, as a part of the longest beam, or without beams of the extent of what springs and joints hold together, and in rad"),
     number("first")
         .positive()
         .unit("time")

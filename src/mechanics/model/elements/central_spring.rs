@@ -10,7 +10,7 @@ use super::radial_damper::RadialDamper;
 use super::resistance::{Resistance, Stretched};
 use super::restoring::RestoringLaw;
 use super::spring_damper::SpringDamper;
-use super::{Exchange, Iterate, ShortBounce};
+use super::{Branch, Exchange, Iterate, ShortBounce};
 use crate::beams::{ForceSummary, Movement, SpanAtRest};
 use crate::geometry::Vec2;
 use crate::integrators::Interval;
@@ -149,6 +149,10 @@ impl Resistance for CentralSpring {
         let of_damper = self.damper.as_ref().and_then(Resistance::stretched);
         let spring = self.whole()?;
         Some(Stretched { force: spring.force + of_damper.map_or(0.0, |part| part.force), ..spring })
+    }
+
+    fn branch(&self, bodies: &[Body], rates: &[f64]) -> Option<Branch> {
+        self.along.iter().find_map(|part| part.branch(bodies, rates))
     }
 
     fn short_bounce(&self) -> Option<ShortBounce> {

@@ -16,6 +16,8 @@ pub struct ShortBounce {
     pub steps: f64,
     /// The largest force in it, mean of a step [force, force·length].
     pub force: f64,
+    /// How long it took [time].
+    pub duration: f64,
 }
 
 /// Watches when a spring is slack and when it is not: a part of its state.
@@ -27,6 +29,8 @@ pub struct ContactWatch {
     entry: f64,
     /// The largest force since then [force, force·length].
     force: f64,
+    /// The time since then [time].
+    duration: f64,
     /// A force that rounding of the length or angle makes: bounces with less are none [force, force·length].
     noise: f64,
     /// The hardest bounce that steps did not resolve; none so far.
@@ -39,16 +43,22 @@ impl ContactWatch {
         Self { noise: TOUCH * largest_stiffness * extent, ..Self::default() }
     }
 
-    /// Takes in a step with such a rate and force, and the rate of the step before; whether the spring was slack at its start, and is at its end.
-    pub fn add(&mut self, [was_slack, is_slack]: [bool; 2], [before, rate]: [f64; 2], force: f64) {
+    /// Takes in a step with such a rate, the rate of the step before, its force and duration [time]; whether the spring was slack at its start, and is at its end.
+    pub fn add(
+        &mut self,
+        [was_slack, is_slack]: [bool; 2],
+        [before, rate]: [f64; 2],
+        (force, duration): (f64, f64),
+    ) {
         if was_slack && is_slack {
             return;
         }
         if was_slack {
             let entry = if before == 0.0 { rate } else { before };
-            *self = Self { steps: 0.0, entry, force: 0.0, ..*self };
+            *self = Self { steps: 0.0, entry, force: 0.0, duration: 0.0, ..*self };
         }
         self.steps += 1.0;
+        self.duration += duration;
         self.force = self.force.max(force.abs());
         if !is_slack {
             return;
@@ -56,7 +66,8 @@ impl ContactWatch {
         let is_bounce = self.entry != 0.0 && (rate - self.entry).abs() > TURNED * self.entry.abs();
         let is_hardest = self.unresolved.is_none_or(|bounce| self.force > bounce.force);
         if is_bounce && self.steps <= FEW && is_hardest && self.force > self.noise {
-            self.unresolved = Some(ShortBounce { steps: self.steps, force: self.force });
+            let Self { steps, force, duration, .. } = *self;
+            self.unresolved = Some(ShortBounce { steps, force, duration });
         }
         self.steps = 0.0;
         self.entry = 0.0;
@@ -69,15 +80,16 @@ impl ContactWatch {
 
     /// Appends the numbers of the watch.
     pub fn save(&self, state: &mut Vec<f64>) {
-        state.extend([self.steps, self.entry, self.force]);
-        state.extend(self.unresolved.map_or([0.0; 2], |bounce| [bounce.steps, bounce.force]));
+        state.extend([self.steps, self.entry, self.force, self.duration]);
+        let bounce = |bounce: ShortBounce| [bounce.steps, bounce.force, bounce.duration];
+        state.extend(self.unresolved.map_or([0.0; 3], bounce));
     }
 
     /// Takes the numbers of the watch back, in the order in which they were appended.
     pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
-        (self.steps, self.entry, self.force) = (next(), next(), next());
-        let (steps, force) = (next(), next());
-        self.unresolved = (steps > 0.0).then_some(ShortBounce { steps, force });
+        (self.steps, self.entry, self.force, self.duration) = (next(), next(), next(), next());
+        let (steps, force, duration) = (next(), next(), next());
+        self.unresolved = (steps > 0.0).then_some(ShortBounce { steps, force, duration });
     }
 }
 
@@ -88,14 +100,17 @@ mod tests {
     /// Slack, one step in touch, slack again with the rate turned round.
     fn bounced(force: f64) -> ContactWatch {
         let mut watch = ContactWatch::new(1e4, 2.0);
-        watch.add([true, false], [1.0, 1.0], force);
-        watch.add([false, true], [1.0, -1.0], force);
+        watch.add([true, false], [1.0, 1.0], (force, 0.1));
+        watch.add([false, true], [1.0, -1.0], (force, 0.3));
         watch
     }
 
     #[test]
     fn a_bounce_of_rounding_is_none() {
-        assert_eq!(bounced(3e-8).short_bounce(), Some(ShortBounce { steps: 2.0, force: 3e-8 }));
+        assert_eq!(
+            bounced(3e-8).short_bounce(),
+            Some(ShortBounce { steps: 2.0, force: 3e-8, duration: 0.4 })
+        );
         assert_eq!(bounced(1e-8).short_bounce(), None);
     }
 }

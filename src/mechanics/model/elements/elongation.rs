@@ -252,6 +252,18 @@ impl Elongation {
         sum
     }
 
+    /// The rate of `q` at the end of the last step, with such rates of the unknowns then.
+    pub fn rate_behind(&self, bodies: &[Body], rates: &[f64]) -> f64 {
+        self.moving().fold(0.0, |sum, (place, coordinates)| {
+            let [x, y, spin] = bodies[place.body].at(place, rates);
+            match (self.is_angle(), &self.slope[coordinates]) {
+                // What turns angles less than increments is of the step, and not of the rate.
+                (true, slope) => sum + slope[0].signum() * spin,
+                (false, slope) => sum + (slope[0] * x + slope[1] * y),
+            }
+        })
+    }
+
     fn compare(&mut self, rotations: RotationIncrement) {
         let Self { measure, moved, change, secant, slope, bend, .. } = self;
         match measure {

@@ -3,6 +3,7 @@
 
 mod all;
 mod bend;
+mod branch;
 mod central_spring;
 mod contact_watch;
 mod coordinate;
@@ -36,6 +37,7 @@ mod weight;
 
 pub use all::Elements;
 pub use bend::Bend;
+pub use branch::{Along, Branch};
 pub use contact_watch::ShortBounce;
 pub use damping_law::DampingLaw;
 pub use drag::{Drag, Dragged};

@@ -1,6 +1,6 @@
 //! What an element that resists movements offers to the steps of a model: a spring, a damper.
 
-use super::{Exchange, Iterate, ShortBounce};
+use super::{Branch, Exchange, Iterate, ShortBounce};
 use crate::beams::{ForceSummary, Movement, SectionPlace, SpanAtRest};
 use crate::geometry::Vec2;
 use crate::integrators::Interval;
@@ -75,6 +75,11 @@ pub trait Resistance {
 
     /// What it measures and its force, where it has one of each: a spring.
     fn stretched(&self) -> Option<Stretched> {
+        None
+    }
+
+    /// The branch of its law on which it is, with these rates of the unknowns, at the end of the last step; none where the law has no sharp corner.
+    fn branch(&self, _bodies: &[Body], _rates: &[f64]) -> Option<Branch> {
         None
     }
 

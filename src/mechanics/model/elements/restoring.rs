@@ -8,6 +8,9 @@ use crate::geometry::larger;
 /// A force is none that is no more than this part of the largest of its law.
 const ROUNDING: f64 = 1e-12;
 
+/// A corner is sharp where the stiffness changes by more than this part of the larger one.
+const SHARP: f64 = 0.5;
+
 /// A restoring force over an elongation `q`, a length or an angle.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum RestoringLaw {
@@ -84,6 +87,25 @@ impl RestoringLaw {
             Self::Linear { .. } => false,
             Self::Table { points } | Self::Sampled { points, .. } => {
                 points.windows(2).all(|pair| pair[0].1 <= pair[1].1)
+            }
+        }
+    }
+
+    /// The elongations at which the stiffness jumps: from that of one segment to less than half of it, or to more than twice as much [length, rad].
+    pub fn sharp_corners(&self) -> Vec<f64> {
+        match self {
+            Self::Linear { .. } => Vec::new(),
+            Self::Table { points } | Self::Sampled { points, .. } => {
+                let slope = |[a, b]: [(f64, f64); 2]| {
+                    if b.0 > a.0 { (b.1 - a.1) / (b.0 - a.0) } else { 0.0 }
+                };
+                let at = |three: &[(f64, f64)]| {
+                    let slopes = [[three[0], three[1]], [three[1], three[2]]].map(slope);
+                    let jumps = (slopes[1] - slopes[0]).abs()
+                        > SHARP * larger(slopes[0].abs(), slopes[1].abs());
+                    jumps.then_some(three[1].0)
+                };
+                points.windows(3).filter_map(at).collect()
             }
         }
     }
@@ -306,6 +328,15 @@ mod tests {
         }
         let linear = RestoringLaw::Linear { stiffness: 3.0, natural: 0.1 };
         assert!(linear.is_at_ease(0.3 - 0.2) && !linear.is_at_ease(0.0));
+    }
+
+    #[test]
+    fn corners_are_sharp_where_the_stiffness_jumps() {
+        let [line, table] = laws();
+        assert!(line.sharp_corners().is_empty());
+        assert_eq!(table.sharp_corners(), [0.0, 0.5]);
+        let hardening = |q: f64| Ok::<f64, ()>(q + q * q * q);
+        assert!(RestoringLaw::sampled((-1.0, 1.0), hardening).unwrap().sharp_corners().is_empty());
     }
 
     #[test]

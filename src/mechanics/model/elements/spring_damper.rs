@@ -14,7 +14,7 @@ use super::hidden_force::HiddenForce;
 use super::resistance::{Resistance, Stretched};
 use super::restoring::RestoringLaw;
 use super::spring_at_rest::law_at_rest;
-use super::{Exchange, Iterate, collocation};
+use super::{Along, Branch, Exchange, Iterate, collocation};
 use crate::beams::{ForceSummary, Movement, RotationIncrement, SpanAtRest};
 use crate::geometry::{Vec2, cross, larger};
 use crate::integrators::{Interval, Stage};
@@ -40,6 +40,8 @@ pub struct SpringDamper {
     law: Option<RestoringLaw>,
     /// Whether the law has corners and falls nowhere.
     rises: bool,
+    /// Where the stiffness of the law jumps, over what the elongation has grown by [length, rad].
+    corners: Vec<f64>,
     /// The law in words, over elongations as they are counted in the scene.
     words: Option<String>,
     /// `d(q̇)`.
@@ -75,6 +77,7 @@ impl SpringDamper {
         let law = law.map(|(law, origin)| law.shifted(origin - elongation.drawn()).with_ease());
         let stiffness = law.as_ref().map_or(0.0, RestoringLaw::largest_slope);
         let rises = law.as_ref().is_some_and(RestoringLaw::rises_with_corners);
+        let corners = law.as_ref().map_or_else(Vec::new, RestoringLaw::sharp_corners);
         let extent = elongation.extent();
         let mut new = Self {
             name,
@@ -84,6 +87,7 @@ impl SpringDamper {
             grounds,
             law,
             rises,
+            corners,
             words,
             damping,
             released: None,
@@ -268,7 +272,11 @@ impl Resistance for SpringDamper {
         self.elongation.advance(bodies, self.rotations);
         if self.duration.is_finite() && self.may_be_slack() {
             let is_slack = self.restoring_at_start() == 0.0;
-            self.contact.add([was_slack, is_slack], [before, self.last.1], self.spring.force);
+            self.contact.add(
+                [was_slack, is_slack],
+                [before, self.last.1],
+                (self.spring.force, self.duration),
+            );
         }
         self.spring.last = self.spring.force;
         self.damper.last = self.damper.force;
@@ -349,6 +357,16 @@ impl Resistance for SpringDamper {
         if self.may_be_slack() {
             self.contact.restore(next);
         }
+    }
+
+    fn branch(&self, bodies: &[Body], rates: &[f64]) -> Option<Branch> {
+        if self.corners.is_empty() || self.law.is_none() {
+            return None;
+        }
+        let Self { elongation, corners, .. } = self;
+        let along = if elongation.is_angle() { Along::Angle } else { Along::Length };
+        let index = corners.partition_point(|at| elongation.grown().beyond(*at) >= 0.0);
+        Some(Branch { index, rate: elongation.rate_behind(bodies, rates), along })
     }
 
     fn short_bounce(&self) -> Option<ShortBounce> {

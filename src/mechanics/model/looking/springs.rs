@@ -1,7 +1,8 @@
 //! Looking at springs and dampers: what they measure, their forces, and their part of the ledger.
 
+use crate::integrators::Mechanism;
 use crate::model::Model;
-use crate::model::elements::{Resistance, ShortBounce, Stretched};
+use crate::model::elements::{Branch, Resistance, ShortBounce, Stretched};
 
 /// What a spring measures is right to this part of it.
 const ROUNDING: f64 = 1e-14;
@@ -41,6 +42,13 @@ impl Model {
     /// What winds have given since the start, in the order of the scene [energy].
     pub fn works_of_wind(&self) -> impl Iterator<Item = f64> {
         self.elements().resistances().filter_map(Resistance::wind_work)
+    }
+
+    /// Writes the branches on which the springs are whose laws have sharp corners, in the order of the scene, over what a list holds.
+    pub fn write_branches(&self, branches: &mut Vec<Branch>) {
+        let all = self.elements().resistances();
+        branches.clear();
+        branches.extend(all.filter_map(|one| one.branch(self.bodies(), self.rates())));
     }
 
     /// The springs on which a bounce lasted so few steps that they do not resolve it, by name.

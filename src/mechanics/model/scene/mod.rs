@@ -3,6 +3,7 @@
 mod definitions;
 mod description;
 mod drives;
+mod extent;
 mod likeness;
 mod loads;
 mod releases;

@@ -61,7 +61,7 @@ impl Simulation {
             let Plan { interval, is_cut, is_least } = plan;
             let dt = interval.duration();
             match tried {
-                Ok(Doubled { report, trial }) if trial.error <= 1.0 => {
+                Ok(Doubled { report, trial, .. }) if trial.error <= 1.0 => {
                     let tries = pace.tries;
                     match is_cut {
                         true => controller.accept_cut(&mut pace, trial),
@@ -72,7 +72,7 @@ impl Simulation {
                     self.keep_present();
                     return self.ask(monitor);
                 }
-                Ok(Doubled { report, trial }) => {
+                Ok(Doubled { report, trial, .. }) => {
                     adaptive.doubling.take_back(&mut self.model);
                     self.progress.count_rejection(report.iterations);
                     controller.reject(&mut pace, trial);
@@ -137,7 +137,9 @@ impl Simulation {
     ) -> Result<Doubled, Failed> {
         let Adaptive { doubling, resampling, .. } = adaptive;
         let between = resampling.as_mut().map(Resampling::middle_mut);
-        doubling.step(&mut *self.stepper.integrator, &mut self.model, plan.interval, between)
+        let integrator = &mut *self.stepper.integrator;
+        let doubled = doubling.step(integrator, &mut self.model, plan.interval, between)?;
+        Ok(if plan.is_least { doubled.judged_by_places() } else { doubled })
     }
 
     /// Takes the second half of a step that waits in its middle, if one does.

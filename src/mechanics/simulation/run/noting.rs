@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use super::Simulation;
 use crate::geometry::larger;
-use crate::integrators::{EnergyClaim, Mechanism};
-use crate::model::{Model, Part, RESOLVED_BLOW, Resolution};
+use crate::integrators::{EnergyClaim, INTEGRATORS, Mechanism};
+use crate::model::{Model, Part, RESOLVED_BLOW, Resolution, RestoringLaw};
 use crate::simulation::notes::{LARGEST_ROTATION, MOST_SPANS, Suspect, short};
 use crate::simulation::{Invariant, Note, StepSize};
 use crate::vibration::{Modes, VibrationError};
@@ -58,7 +58,8 @@ impl Simulation {
             let share = resolution.unresolved_share();
             let period = TAU / resolution.angular_frequency();
             let (lowest, suspects) = (self.lowest_period(), self.suspects());
-            notes.push(Note::Motion { dt, share, period, lowest, suspects });
+            let damping = self.damping_method();
+            notes.push(Note::Motion { dt, share, period, lowest, suspects, damping });
         }
         if notes.is_empty() {
             notes.extend(self.beams_not_followed(dt));
@@ -95,8 +96,12 @@ impl Simulation {
         let bends = self.model.bends();
         notes.extend(bends.map(|(drive, bend)| Note::Bend { drive: drive.to_owned(), bend }));
         let bounces = self.model.short_bounces();
-        let told =
-            |(spring, bounce): (&str, _)| Note::Contact { spring: spring.to_owned(), dt, bounce };
+        let tolerance = self.adaptive.as_ref().map(|adaptive| adaptive.tolerance);
+        let told = |(spring, bounce): (&str, _)| Note::Contact {
+            spring: spring.to_owned(),
+            tolerance,
+            bounce,
+        };
         notes.extend(bounces.map(told));
         notes
     }
@@ -165,6 +170,17 @@ impl Simulation {
         }
         let drift = self.history().drift(Invariant::Energy);
         (drift > LARGEST_DRIFT).then_some(drift)
+    }
+
+    /// The method that damps vibration which steps do not follow, by name: none where it is in use. It damps what strains: beams, and springs whose law is a line.
+    fn damping_method(&self) -> Option<&'static str> {
+        let entries = INTEGRATORS.iter();
+        let damping = entries.filter(|entry| entry.claims.energy == EnergyClaim::Decays);
+        let is_line = |law: &RestoringLaw| matches!(law, RestoringLaw::Linear { .. });
+        let mut springs = self.scene.springs().filter_map(|spring| spring.law.as_ref());
+        let strains = !self.scene.beams.is_empty() || springs.any(is_line);
+        let mut others = damping.filter(|_| strains).map(|entry| entry.name);
+        others.find(|name| *name != self.settings.method.entry().name)
     }
 
     /// The most that something that dissipates gave back over a step; none where rounding explains it.

@@ -1,0 +1,255 @@
+//! Steps that keep a tolerance where springs are struck, and in scenes far from the origin: against closed forms.
+#![allow(clippy::unwrap_used)]
+
+use std::f64::consts::TAU;
+
+use crate::common::{at, settings, simulate};
+use withy::beams::Station;
+use withy::geometry::Vec2;
+use withy::integrators::{INTEGRATORS, Method};
+use withy::joints::{Components, JointKind, Partner};
+use withy::model::{
+    Anchor, Origin, ParticleDefinition, RestoringLaw, RigidBodyDefinition, Scene, Spring,
+    SpringKind, StartMotion,
+};
+use withy::simulation::{Invariant, Note, Simulation, StepControl};
+
+const MASS: f64 = 2.0;
+const GRAVITY: f64 = 9.81;
+
+fn particle(scene: &mut Scene, position: Vec2, mass: f64) -> Station {
+    let name = scene.free_name("particle");
+    scene.add_particle(ParticleDefinition { name, position }, mass).unwrap()
+}
+
+fn spring(scene: &mut Scene, [from, to]: [Anchor; 2], law: RestoringLaw) {
+    let (name, kind) = (scene.free_name("spring"), SpringKind::Way(vec![from, to]));
+    let (law, origin) = (Some(law), Origin::Zero);
+    scene.add_spring(Spring { name, kind, law, origin, damping: 0.0.into() }).unwrap();
+}
+
+/// A mass that falls through a height onto a bumper of a stiffness, whose face is at y = 1.
+fn drop(stiffness: f64, height: f64) -> Scene {
+    let mut scene = Scene::new("drop");
+    let mass = particle(&mut scene, at(0.0, 1.0 + height), MASS);
+    scene.join(JointKind::Support(Components::X), mass, Partner::Ground).unwrap();
+    let points = vec![(0.0, -stiffness), (1.0, 0.0), (2.0, 0.0)];
+    let anchors = [Anchor::Ground(at(0.0, 0.0)), Anchor::Station(mass)];
+    spring(&mut scene, anchors, RestoringLaw::Table { points });
+    scene.gravity = at(0.0, -GRAVITY);
+    scene
+}
+
+/// Where that is at a time: free fall, and a part of a vibration about where the bumper carries the weight.
+fn height_of_drop(stiffness: f64, height: f64, time: f64) -> f64 {
+    let omega = (stiffness / MASS).sqrt();
+    let (fall, sag) = ((2.0 * height / GRAVITY).sqrt(), GRAVITY / (omega * omega));
+    let speed = GRAVITY * fall;
+    let touch = 2.0 * touched(sag, speed, omega);
+    let phase = time % (2.0 * fall + touch);
+    if phase < fall {
+        1.0 + height - 0.5 * GRAVITY * phase * phase
+    } else if phase < fall + touch {
+        let turned = omega * (phase - fall);
+        1.0 - sag + sag * turned.cos() - speed / omega * turned.sin()
+    } else {
+        let left = 2.0 * fall + touch - phase;
+        1.0 + height - 0.5 * GRAVITY * left * left
+    }
+}
+
+/// Half the time of a touch: until `q' = 0` of `q = s cos ωt - v/ω sin ωt`.
+fn touched(sag: f64, speed: f64, omega: f64) -> f64 {
+    (0.25 * TAU + (sag * omega / speed).atan()) / omega
+}
+
+fn adaptive(tolerance: f64) -> StepControl {
+    StepControl::to(tolerance)
+}
+
+fn y(simulation: &Simulation) -> f64 {
+    simulation.model().control_points().next().unwrap()[0].y
+}
+
+#[test]
+fn bounces_on_a_bumper_of_any_stiffness_come_in_time() {
+    for stiffness in [1e3, 1e6, 1e8, 1e10, 1e12, 1e16] {
+        let (mut worst, mut steps, mut most) = (0.0_f64, 0, 0);
+        for number in 0..20 {
+            let height = 0.2 + 0.03 * f64::from(number);
+            let run =
+                simulate(drop(stiffness, height), Method::EnergyMomentum, adaptive(1e-4), 2.0);
+            let error = (y(&run) - height_of_drop(stiffness, height, 2.0)).abs() / (1.0 + height);
+            worst = worst.max(error);
+            steps += run.counts().steps;
+            most = most.max(run.counts().steps + run.counts().rejected);
+        }
+        println!(
+            "{stiffness:7.0e}: error {worst:.1e}, {steps} steps, at most {most} a run with those rejected"
+        );
+        assert!(worst < 3e-4 && most < 600, "{stiffness:e}: {worst:e}, {most}");
+    }
+}
+
+#[test]
+fn every_method_meets_a_stiff_bumper_in_time() {
+    for entry in INTEGRATORS {
+        for stiffness in [1e6, 1e12] {
+            let run = simulate(drop(stiffness, 0.36), entry.method, adaptive(1e-3), 1.0);
+            let error = (y(&run) - height_of_drop(stiffness, 0.36, 1.0)).abs();
+            let counts = run.counts();
+            println!(
+                "{:18} {stiffness:e}: {error:.1e}, {} steps, {} rejected",
+                entry.name, counts.steps, counts.rejected
+            );
+            // A method that takes forces at the ends of steps needs to see the blow: where it does not, that is told.
+            let is_told = run.notes().iter().any(|note| matches!(note, Note::Contact { .. }));
+            assert!(error < 6e-3 || is_told, "{}: {error:e}", entry.name);
+            assert!(error < 2e-4 || entry.method != Method::EnergyMomentum, "{error:e}");
+        }
+    }
+}
+
+#[test]
+fn a_rope_that_is_jerked_taut_throws_back() {
+    for stiffness in [1e8, 1e10, 1e11, 1e12] {
+        let mut scene = drop(1.0, 0.5);
+        scene.elements.pop();
+        scene.particles[0].position = at(0.0, -0.5);
+        let points = vec![(0.0, 0.0), (1.0, 0.0), (2.0, stiffness)];
+        let anchors = [Anchor::Ground(at(0.0, 0.0)), Anchor::Station(Station::on_particle(0))];
+        spring(&mut scene, anchors, RestoringLaw::Table { points });
+        let run = simulate(scene, Method::EnergyMomentum, adaptive(1e-4), 2.0);
+        let exact = height_of_drop(stiffness, 0.5, 2.0) - 2.0;
+        println!("{stiffness:e}: {} {exact}, {} steps", y(&run), run.counts().steps);
+        assert!((y(&run) - exact).abs() < 3e-4, "{stiffness:e}: {} {exact}", y(&run));
+    }
+}
+
+/// A mass on a spring, 0.2 beyond its ease at a place.
+fn oscillator(place: Vec2) -> Scene {
+    let mut scene = Scene::new("oscillator");
+    let mass = particle(&mut scene, place + at(1.2, 0.0), 1.0);
+    scene.join(JointKind::Support(Components::Y), mass, Partner::Ground).unwrap();
+    let law = RestoringLaw::Linear { stiffness: 25.0, natural: 1.0 };
+    spring(&mut scene, [Anchor::Ground(place), Anchor::Station(mass)], law);
+    scene
+}
+
+#[test]
+fn a_scene_takes_the_same_steps_wherever_it_is() {
+    let exact = 1.0 + 0.2 * 30_f64.cos();
+    let found = |scene: Scene, place: f64| {
+        let run = simulate(scene, Method::EnergyMomentum, adaptive(1e-4), 6.0);
+        let x = run.model().control_points().next().unwrap()[0].x - place;
+        println!("{place}: {x} {exact}, {} steps", run.counts().steps);
+        assert!((x - exact).abs() < 2e-3, "{place}: {x} {exact}");
+        run.counts().steps
+    };
+    let steps = found(oscillator(Vec2::zeros()), 0.0);
+    for place in [10.0, 1e3, -1e5] {
+        let other = found(oscillator(at(place, 0.0)), place);
+        assert!(steps.abs_diff(other) <= 2, "{place}: {steps} {other}");
+    }
+    let mut beside = oscillator(Vec2::zeros());
+    let far = particle(&mut beside, at(1e4, 0.0), 1.0);
+    beside.join(JointKind::Support(Components::Position), far, Partner::Ground).unwrap();
+    assert_eq!(found(beside, 0.0), steps);
+}
+
+#[test]
+fn a_lone_particle_has_no_place_that_counts() {
+    let steps = |place: f64| {
+        let mut scene = Scene::new("throw");
+        let mass = particle(&mut scene, at(place, place), 1.0);
+        scene.velocities.push(withy::model::StationVelocity {
+            station: mass,
+            velocity: at(3.0, 4.0),
+            spin: None,
+        });
+        scene.gravity = at(0.0, -GRAVITY);
+        simulate(scene, Method::Trapezoidal, adaptive(1e-6), 2.0).counts().steps
+    };
+    assert_eq!(steps(0.0), steps(1e3));
+}
+
+/// A rigid body at rest on two inclined rollers, at a height.
+fn resting(height: f64, directions: [f64; 2]) -> Scene {
+    let mut scene = Scene::new("rest");
+    let body = RigidBodyDefinition {
+        name: "body".to_owned(),
+        position: at(0.0, height),
+        angle: 0.0,
+        points: vec![("p".to_owned(), at(1.0, 0.0)), ("q".to_owned(), at(-1.0, 0.0))],
+        outline: Vec::new(),
+        motion: StartMotion::default(),
+    };
+    let body = scene.add_rigid_body(body, 2.0, 0.5).unwrap();
+    for (point, rise) in [1, 2].into_iter().zip(directions) {
+        let along = at(1.0, rise).normalize();
+        let station = Station::on_rigid_body(body, point);
+        scene.join(JointKind::InclinedRoller(along), station, Partner::Ground).unwrap();
+    }
+    scene.gravity = at(0.0, -GRAVITY);
+    scene
+}
+
+#[test]
+fn bodies_at_rest_have_no_drift_and_nothing_is_told() {
+    for height in [0.0, -1.0, 5.0] {
+        for directions in [[-1.0, 1.0], [1.0, -1.0]] {
+            let run = simulate(resting(height, directions), Method::EnergyMomentum, 0.01, 1.0);
+            let drift = run.history().drift(Invariant::Energy);
+            println!("{height} {directions:?}: {drift:e}");
+            assert!(drift < 1e-9, "{height} {directions:?}: {drift:e}");
+            assert_eq!(run.notes(), [], "{height} {directions:?}");
+        }
+    }
+}
+
+fn told(
+    scene: Scene,
+    method: Method,
+    dt: impl Into<withy::simulation::StepSize>,
+    end: f64,
+) -> Vec<String> {
+    let mut run = Simulation::start(scene, settings(method, dt)).unwrap();
+    run.run_to(end, &mut withy::simulation::Unwatched).unwrap();
+    run.notes().iter().map(Note::to_string).collect()
+}
+
+#[test]
+fn a_short_bounce_is_told_with_its_own_steps_and_what_makes_them_shorter() {
+    let fixed = told(drop(1e12, 0.36), Method::EnergyMomentum, 1e-3, 0.5);
+    assert!(
+        fixed[0].contains("steps (dt = 0.001 in it)") && fixed[0].contains("take dt below 0.0002"),
+        "{fixed:?}"
+    );
+    let varying = told(drop(1e16, 0.36), Method::EnergyMomentum, adaptive(1e-3), 0.5);
+    println!("{varying:?}");
+    assert!(varying[0].contains("take a tolerance below 0.0002"), "{varying:?}");
+    let least = told(drop(1e20, 0.36), Method::EnergyMomentum, adaptive(1e-9), 0.5);
+    println!("{least:?}");
+    assert!(least[0].ends_with("take a softer law"), "{least:?}");
+}
+
+#[test]
+fn a_method_that_damps_is_proposed_where_it_is_not_in_use_and_would() {
+    let stiff = |law| {
+        let mut scene = oscillator(Vec2::zeros());
+        scene.elements.pop();
+        let anchors = [Anchor::Ground(Vec2::zeros()), Anchor::Station(Station::on_particle(0))];
+        spring(&mut scene, anchors, law);
+        scene
+    };
+    let line = RestoringLaw::Linear { stiffness: 1e6, natural: 1.0 };
+    let table = RestoringLaw::Table { points: vec![(0.0, -1e6), (1.0, 0.0), (2.0, 1e6)] };
+    let proposed = |law: &RestoringLaw, method| {
+        let told = told(stiff(law.clone()), method, 0.1, 2.0);
+        assert!(told[0].contains("steps are too long for the motion"), "{told:?}");
+        told[0].contains("energy_decaying")
+    };
+    assert!(proposed(&line, Method::EnergyMomentum));
+    assert!(!proposed(&table, Method::EnergyMomentum));
+    assert!(!proposed(&line, Method::EnergyDecaying { chi: 0.01 }));
+}
