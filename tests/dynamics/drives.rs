@@ -363,10 +363,20 @@ fn drives_begin_at_an_equilibrium_as_in_a_scene_that_rests() {
         }
     }
 
-    let later = rest(Loading { time: 2.0, ..Loading::default() });
-    let refused = Simulation::start_at_rest(&later, dynamics).err().unwrap().to_string();
+    // One at a later time begins there: the drive leads on from where it is then.
+    let later = Loading { time: 2.0, ..Loading::default() };
+    let mut on = Simulation::start_at_rest(&rest(later), dynamics).unwrap();
+    assert_eq!(on.time(), 2.0);
+    run(&mut on, 3.0).unwrap();
+    let history = on.history();
+    let [angle, times] = ["move1.angle", "t"].map(|name| history.column(name).unwrap());
+    assert_eq!((times[0], *times.last().unwrap()), (2.0, 3.0));
+    assert!((angle.last().unwrap() - angle[0] - 0.5).abs() < 1e-12, "{angle:?}");
+    assert!(history.drift(Invariant::Energy) < 1e-12);
+    let half = Loading { factor: 0.5, ..later };
+    let refused = Simulation::start_at_rest(&rest(half), dynamics).err().unwrap().to_string();
     assert!(
-        refused.contains("holds what 'move1' moves at 1, and its function begins at t = 0"),
+        refused.contains("holds what 'move1' moves at 0.5, and at t = 2 its function has it at 1"),
         "{refused}"
     );
 }

@@ -24,6 +24,9 @@ use crate::simulation::cores;
 /// How often it is asked whether to go on while no job ends.
 const PULSE: Duration = Duration::from_millis(50);
 
+/// How long results gather where there are many.
+const REST: Duration = Duration::from_millis(1);
+
 /// What an engine on another thread needs to be like the one of the run.
 #[derive(Clone)]
 pub struct Blueprint {
@@ -165,6 +168,17 @@ impl<J, R> Crew<'_, J, R> {
     pub fn give(&self, number: usize, job: J) {
         // Without workers there is nobody to hear of.
         let _ = self.jobs.send((number, job));
+    }
+
+    /// As [`hear`](Self::hear), where so many jobs were given that results may gather for a while: to wake who waits for each takes time of a worker.
+    pub fn hear_of_many(&self) -> News<R> {
+        match self.results.try_recv() {
+            Ok((number, result)) => News::Done(number, result),
+            Err(_) => {
+                thread::sleep(REST);
+                self.hear()
+            }
+        }
     }
 
     /// Waits for the next result, in no order. A job that takes too long is stopped.

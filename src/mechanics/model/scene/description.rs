@@ -214,16 +214,8 @@ impl Scene {
     /// # Errors
     /// When the station lies outside the beam.
     pub fn station(&mut self, beam: usize, arc_length: f64) -> Result<Station, ModelError> {
-        let definition = &self.beams[beam];
-        let length = definition.axis.length();
-        let tolerance = ROUNDING_OF_PLACES * length;
-        if !(arc_length >= -tolerance && arc_length <= length + tolerance) {
-            return Err(ModelError::StationOutside {
-                beam: definition.name.clone(),
-                station: arc_length,
-                length,
-            });
-        }
+        self.check_station("a station", &Station::on_beam(beam, arc_length))?;
+        let length = self.beams[beam].axis.length();
         let station = Station::on_beam(beam, arc_length.clamp(0.0, length));
         if !self.stations.iter().any(|known| known.is_at(&station, length)) {
             self.stations.push(station);

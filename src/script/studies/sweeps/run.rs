@@ -22,8 +22,8 @@ use crate::script::words::error::ScriptError;
 /// Why a run of a sweep writes no files.
 const NO_FILES: &str = "a run of a sweep writes no files: give what is to be kept in its map";
 
-/// Rows that are given to workers ahead, for each of them.
-const AHEAD: usize = 64;
+/// Rows that are given to workers ahead, for each of them: more than the shortest that end while results gather.
+const AHEAD: usize = 4096;
 
 /// What a sweep is asked for.
 pub struct Order<'o> {
@@ -199,7 +199,7 @@ fn drive(
     let mut rows = unknown.iter().map(|row| *row as usize);
     rows.by_ref().take(AHEAD * crew.size()).for_each(|row| crew.give(row, row));
     while ledger.done < ledger.rows {
-        match crew.hear() {
+        match crew.hear_of_many() {
             News::Done(row, Made { result, steps }) => {
                 context.meter().count_steps(usize::try_from(steps).unwrap_or(usize::MAX));
                 early.insert(row, result);
