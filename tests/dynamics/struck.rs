@@ -228,9 +228,6 @@ fn a_short_bounce_is_told_with_its_own_steps_and_what_makes_them_shorter() {
     let varying = told(drop(1e16, 0.36), Method::EnergyMomentum, adaptive(1e-3), 0.5);
     println!("{varying:?}");
     assert!(varying[0].contains("take a tolerance below 0.0002"), "{varying:?}");
-    let least = told(drop(1e20, 0.36), Method::EnergyMomentum, adaptive(1e-9), 0.5);
-    println!("{least:?}");
-    assert!(least[0].ends_with("take a softer law"), "{least:?}");
 }
 
 #[test]
