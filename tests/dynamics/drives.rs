@@ -368,6 +368,8 @@ fn drives_begin_at_an_equilibrium_as_in_a_scene_that_rests() {
     let mut on = Simulation::start_at_rest(&rest(later), dynamics).unwrap();
     assert_eq!(on.time(), 2.0);
     run(&mut on, 3.0).unwrap();
+    let told = on.rewind(1.0).unwrap_err().to_string();
+    assert!(told.contains("the simulation has been from t = 2 to 3"), "{told}");
     let history = on.history();
     let times = history.column("t").unwrap();
     assert_eq!((times[0], *times.last().unwrap()), (2.0, 3.0));

@@ -195,6 +195,9 @@ fn numbers_and_names_that_make_no_body_are_refused() {
     let twice = definition("hub", &[("a", Vec2::x()), ("a", Vec2::y())]);
     let error = scene.add_rigid_body(twice, 1.0, 1.0).unwrap_err();
     assert!(matches!(error, ModelError::DuplicateName { kind: "point", .. }), "{error}");
+    let elsewhere = definition("hub", &[("centre", Vec2::x())]);
+    let error = scene.add_rigid_body(elsewhere, 1.0, 1.0).unwrap_err();
+    assert!(error.to_string().contains("the centre of mass of a body is called so"), "{error}");
     let lost = definition("hub", &[("a", at(f64::NAN, 0.0))]);
     assert!(scene.add_rigid_body(lost, 1.0, 1.0).is_err());
     let hub = scene.add_rigid_body(definition("hub", &[("a", Vec2::x())]), 1.0, 0.0).unwrap();

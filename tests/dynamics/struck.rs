@@ -173,6 +173,53 @@ fn a_lone_particle_has_no_place_that_counts() {
     assert_eq!(steps(0.0), steps(1e3));
 }
 
+#[test]
+fn sizes_that_are_rounding_and_ways_that_are_none_ask_for_no_small_steps() {
+    // A mass on a spring that is drawn where it is anchored, but for the last digit.
+    let mut scene = Scene::new("rounded");
+    let mass = particle(&mut scene, at(0.1 + 0.2, 0.0), 1.0);
+    let law = RestoringLaw::Linear { stiffness: 25.0, natural: 0.0 };
+    spring(&mut scene, [Anchor::Ground(at(0.3, 0.0)), Anchor::Station(mass)], law);
+    assert_eq!(scene.extent(), 0.0);
+    scene.gravity = at(0.0, -1.0);
+    let steps = simulate(scene, Method::EnergyMomentum, adaptive(1e-3), 1.0).counts().steps;
+    assert!(steps < 500, "{steps}");
+    // A mass that hardly moves when it is let go.
+    let mut scene = Scene::new("let go");
+    let mass = particle(&mut scene, at(0.0, 0.0), 1.0);
+    let velocity = at(1e-9, 0.0);
+    scene.velocities.push(withy::model::StationVelocity { station: mass, velocity, spin: None });
+    scene.gravity = at(0.0, -GRAVITY);
+    let steps = simulate(scene, Method::EnergyMomentum, adaptive(1e-3), 1.0).counts().steps;
+    assert!(steps < 100, "{steps}");
+}
+
+#[test]
+fn what_a_damper_gives_back_is_told_of_the_method_that_leads_back_in_time() {
+    let slowed = |method, dt: f64| {
+        let mut scene = Scene::new("slowed");
+        let mass = particle(&mut scene, at(0.0, 0.0), 1.0);
+        scene.join(JointKind::Support(Components::Y), mass, Partner::Ground).unwrap();
+        let velocity = at(1.0, 0.0);
+        scene.velocities.push(withy::model::StationVelocity {
+            station: mass,
+            velocity,
+            spin: None,
+        });
+        let kind = SpringKind::Way(vec![Anchor::Ground(at(-5.0, 0.0)), Anchor::Station(mass)]);
+        let (name, origin) = (scene.free_name("damper"), Origin::Zero);
+        let damper = Spring { name, kind, law: None, origin, damping: 10.0.into() };
+        scene.add_spring(damper).unwrap();
+        let run = simulate(scene, method, dt, 20.0 * dt);
+        run.notes().iter().any(|note| matches!(note, Note::Fed { .. }))
+    };
+    // The pole of its part that leads back lies at λΔt = 3.557.
+    assert!(slowed(Method::FourthOrder, 0.3557));
+    assert!(!slowed(Method::FourthOrder, 0.3));
+    assert!(!slowed(Method::EnergyMomentum, 0.3557));
+    assert!(!slowed(Method::GeneralizedAlpha { rho_infinity: 0.5 }, 0.3557));
+}
+
 /// A rigid body at rest on two inclined rollers, at a height.
 fn resting(height: f64, directions: [f64; 2]) -> Scene {
     let mut scene = Scene::new("rest");

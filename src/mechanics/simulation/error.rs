@@ -156,10 +156,12 @@ pub enum SimulationError {
         taken: usize,
     },
     /// A way back to a time that is not behind.
-    #[error("cannot go back to t = {time}: the simulation has been from t = 0 to {now}")]
+    #[error("cannot go back to t = {time}: the simulation has been from t = {begun} to {now}")]
     NotBehind {
         /// The time to go back to, which is not behind [time].
         time: f64,
+        /// The time at which the run began [time].
+        begun: f64,
         /// The present time of the run [time].
         now: f64,
     },

@@ -8,12 +8,18 @@ use crate::model::{Model, Scene};
 /// The part of the time in which a scene without beams moves as far as it is large.
 const PART: f64 = 1e-3;
 
+/// A way that is shorter says nothing of how far something goes that hardly moves at the start [length].
+const SHORTEST_WAY: f64 = 1e-3;
+
 /// The size of a scene: its longest beam; without beams its [extent](Scene::extent), or where each particle is by itself the way on which gravity makes
 /// as much speed as there is at the start, or 1 [length].
 pub(super) fn length_of(scene: &Scene) -> f64 {
     let is_length = |length: &f64| *length > 0.0 && length.is_finite();
     let extent = || Some(scene.extent()).filter(is_length);
-    let on_the_way = || Some(square(start_speed(scene)) / scene.gravity.norm()).filter(is_length);
+    let on_the_way = || {
+        let way = square(start_speed(scene)) / scene.gravity.norm();
+        Some(way).filter(is_length).filter(|way| *way > SHORTEST_WAY)
+    };
     scene.longest_beam().or_else(extent).or_else(on_the_way).unwrap_or(1.0)
 }
 

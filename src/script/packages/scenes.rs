@@ -257,13 +257,17 @@ fn tell_of_taper(call: &Call, scene: &SceneHandle, index: usize) -> Result<(), S
     if seen.largest() < MISSED {
         return Ok(());
     }
-    let percent = |part: f64| significant(100.0 * part, 2);
+    let parts = [
+        ("its mass", seen.mass),
+        ("how it stretches", seen.stretching),
+        ("how it bends", seen.bending),
+    ];
+    let off = parts.into_iter().filter(|(_, part)| *part >= MISSED);
+    let told: Vec<String> =
+        off.map(|(what, part)| format!("{what} by {} %", significant(100.0 * part, 2))).collect();
     call.context().tell(&format!(
-        "note: the section of beam '{name}' changes between the points at which its mesh sees it: its mass is off by {} %, how it stretches by {} % and bends by {} %. \
-         Let the mesh have knots where the section jumps or bends, knots(3, […]), or more spans, or join beams there",
-        percent(seen.mass),
-        percent(seen.stretching),
-        percent(seen.bending)
+        "note: the section of beam '{name}' changes between the points at which its mesh sees it, and is off: {}. Let the mesh have knots where the section jumps or bends, knots(3, […]), or more spans, or join beams there",
+        told.join(", ")
     ));
     Ok(())
 }

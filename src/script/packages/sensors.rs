@@ -31,7 +31,7 @@ pub const TABLE: Table = Table {
     name: "sensors",
     doc: "A scene records what it is asked to: scene.record(\"rod.end.x\") makes a column of the history, which is told, drawn, saved and counted like every other. \
           A ready sensor is an object, a place and a quantity. Places of a beam: rod.start, rod.end, rod[0.5] (arc length as drawn); with x, y, vx, vy, speed, ax, ay, angle, spin, \
-          N, Q, M, axial_strain, shear_strain, curvature. A particle has x to ay. A beam or a particle as a whole: energy, kinetic, strain, axial, shear, bending, potential. \
+          N, Q, M, axial_strain, shear_strain, curvature. A particle has x to ay; a rigid body x to ay, angle and spin, of its centre of mass, and of its points: hub.x, hub.pin.y. A beam, a particle or a body as a whole: energy, kinetic, strain, axial, shear, bending, potential. \
           Joints, counted by kind as they were made (hinge1, hinge2, clamp1, rigid1): force, fx, fy, moment, on the station that was named first, and mean_force, mean_fx, mean_fy, mean_moment in the mean of the last step. Sliders: present_force, present_force_x, present_force_y, on the beam. Section forces, accelerations and forces are \
           those of the present moment, by the equations of motion, of second order like the motion; where a stiff beam rings from step to step they ring with it, and \
           sim.history.averaged(column) does not. A scene without sensors pays nothing.",

@@ -35,7 +35,7 @@ pub const TABLE: Table = Table {
             go_back(call, Goal::Time(call.number("t")?))
         })
         .summary("Goes back to a time: to the end of the last step at or before it.")
-        .doc("sim.rewind(0) leads to the start, which is kept whatever else was forgotten.")
+        .doc("sim.rewind(0) leads to the start, whenever that was, which is kept whatever else was forgotten.")
         .example("sim.run_to(1);\nsim.rewind(0.55);\ncheck(sim.t == 0.5);\nsim.rewind(0);\ncheck(sim.t == 0);")
         .see(&["back", "run_to"]),
         method(SIMULATION, "fork", &[name("name").optional()], |call| {

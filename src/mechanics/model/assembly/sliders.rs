@@ -152,13 +152,12 @@ impl Model {
     /// rigid bodies those that fit.
     ///
     /// # Errors
-    /// When a function has no value there.
+    /// When a function has no value there, or velocities there do not fit the sliders.
     pub fn begin_at(&mut self, time: f64, scene: &Scene) -> Result<(), ModelError> {
         self.pass_time_to(time);
         self.set_given_in_motion(time)
             .map_err(|(drive, source)| ModelError::DriveValue { drive, source })?;
-        self.fit_links_to_drives(self.negligible_velocity(scene));
-        Ok(())
+        self.settle_start_velocities(scene)
     }
 
     fn negligible_velocity(&self, scene: &Scene) -> f64 {

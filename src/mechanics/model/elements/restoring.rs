@@ -91,7 +91,7 @@ impl RestoringLaw {
         }
     }
 
-    /// The elongations at which the stiffness jumps: from that of one segment to less than half of it, or to more than twice as much [length, rad].
+    /// The elongations at which the stiffness jumps, by more than half of the largest that the law has [length, rad].
     pub fn sharp_corners(&self) -> Vec<f64> {
         match self {
             Self::Linear { .. } => Vec::new(),
@@ -99,10 +99,10 @@ impl RestoringLaw {
                 let slope = |[a, b]: [(f64, f64); 2]| {
                     if b.0 > a.0 { (b.1 - a.1) / (b.0 - a.0) } else { 0.0 }
                 };
+                let sharp = SHARP * self.largest_slope();
                 let at = |three: &[(f64, f64)]| {
                     let slopes = [[three[0], three[1]], [three[1], three[2]]].map(slope);
-                    let jumps = (slopes[1] - slopes[0]).abs()
-                        > SHARP * larger(slopes[0].abs(), slopes[1].abs());
+                    let jumps = (slopes[1] - slopes[0]).abs() > sharp;
                     jumps.then_some(three[1].0)
                 };
                 points.windows(3).filter_map(at).collect()
@@ -337,6 +337,11 @@ mod tests {
         assert_eq!(table.sharp_corners(), [0.0, 0.5]);
         let hardening = |q: f64| Ok::<f64, ()>(q + q * q * q);
         assert!(RestoringLaw::sampled((-1.0, 1.0), hardening).unwrap().sharp_corners().is_empty());
+        // Nor are there where the stiffness passes zero.
+        let cubic = |q: f64| Ok::<f64, ()>(q * q * q);
+        let waves = |q: f64| Ok::<f64, ()>((3.0 * q) - q * q * q);
+        assert!(RestoringLaw::sampled((-1.0, 1.0), cubic).unwrap().sharp_corners().is_empty());
+        assert!(RestoringLaw::sampled((-2.0, 2.0), waves).unwrap().sharp_corners().is_empty());
     }
 
     #[test]

@@ -7,6 +7,9 @@ use crate::joints::Partner;
 use crate::loads::LoadKind;
 use crate::model::elements::{Anchor, Origin, RestoringLaw, Spring, SpringKind};
 
+/// Places that differ by less than this part of how far off they are, are one.
+const ROUNDED: f64 = 1e-9;
+
 /// Particles and rigid bodies that springs and joints hold together, with the ground that springs go to.
 #[derive(Default)]
 struct Group {
@@ -16,11 +19,16 @@ struct Group {
 }
 
 impl Group {
-    /// Twice the largest distance of a point from the mean of all, or a length at ease that is larger: of two points their distance [length].
+    /// Twice the largest distance of a point from the mean of all, if it is no rounding, or a length at ease that is larger: of two points their distance
+    /// [length].
     fn extent(&self) -> f64 {
         let count = self.points.len().max(1) as f64;
         let centre = self.points.iter().sum::<Vec2>() / count;
-        self.points.iter().fold(self.at_ease, |most, at| larger(most, 2.0 * (at - centre).norm()))
+        let farthest =
+            |from: Vec2| self.points.iter().map(|at| (at - from).norm()).fold(0.0, larger);
+        let extent = 2.0 * farthest(centre);
+        let is_rounding = extent <= ROUNDED * farthest(Vec2::zeros());
+        if is_rounding { self.at_ease } else { larger(self.at_ease, extent) }
     }
 }
 

@@ -2,9 +2,13 @@
 
 use super::{RigidBodyDefinition, Scene};
 use crate::beams::Station;
+use crate::geometry::Vec2;
 use crate::model::ModelError;
 use crate::model::elements::PointMass;
 use crate::model::words::{finite, refusal};
+
+/// What the language calls the centre of mass of a body: no other point may be called so.
+const CENTRE: &str = "centre";
 
 impl Scene {
     /// The number of the first rigid body among all bodies: beams come first, then particles.
@@ -53,6 +57,10 @@ impl Scene {
             finite(&object, "point", place.as_slice())?;
             if let Some(why) = refusal(name) {
                 return Err(ModelError::Unnamed { kind: "point", name: name.clone(), why });
+            }
+            if name == CENTRE && *place != Vec2::zeros() {
+                let (kind, why) = ("point", "the centre of mass of a body is called so");
+                return Err(ModelError::Unnamed { kind, name: name.clone(), why });
             }
             if body.points[..at].iter().any(|(other, _)| other == name) {
                 let name = name.clone();

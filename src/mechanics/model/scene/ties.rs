@@ -110,13 +110,14 @@ pub fn check_ties(scene: &Scene) -> Result<(), ModelError> {
     for (drive, place) in scene.drives.iter().zip(driven) {
         for (component, _) in drive.motions() {
             let root = ties.root(1 + 3 * place + component as usize);
-            let how = match () {
-                () if given.contains(&root) => Some("given"),
-                () if root == 0 => Some("held"),
-                () if on_rollers.iter().any(|held| held.contains(&root)) => {
-                    Some("tied to the other component by an inclined roller")
-                }
-                () => None,
+            let how = if given.contains(&root) {
+                Some("given")
+            } else if root == 0 {
+                Some("held")
+            } else if on_rollers.iter().any(|held| held.contains(&root)) {
+                Some("tied to the other component by an inclined roller")
+            } else {
+                None
             };
             if let Some(how) = how {
                 return Err(ModelError::AlreadyDriven {

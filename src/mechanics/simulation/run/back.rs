@@ -46,8 +46,11 @@ impl Simulation {
     /// When the time is before the start or to come, or the state there is not kept.
     pub fn rewind(&mut self, time: f64) -> Result<(), SimulationError> {
         let (now, slack) = (self.time(), self.slack());
-        if time.is_nan() || time < -slack || time > now + slack {
-            return Err(SimulationError::NotBehind { time, now });
+        let begun = self.history().samples().first().map_or(0.0, |row| row.measures.time);
+        // Zero stands for the start, which may be later.
+        let time = if time.abs() <= slack { begun } else { time };
+        if time.is_nan() || time < begun - slack || time > now + slack {
+            return Err(SimulationError::NotBehind { time, begun, now });
         }
         if time >= now - slack {
             return Ok(());

@@ -7,7 +7,8 @@ use crate::integrators::{Interval, Overshoot, StepError};
 use crate::joints::EndAction;
 use crate::model::{Arriving, MasterEnd, MasterLimit, SliderState};
 use crate::newton::NewtonReport;
-use crate::simulation::{Arrival, ArrivalKind, SimulationError};
+use crate::simulation::first_step::first_step;
+use crate::simulation::{Arrival, ArrivalKind, SimulationError, StepSize};
 
 /// Most tries to find the time of an arrival; few are needed, the rest is for bad luck.
 const MOST_TRIES: usize = 60;
@@ -290,9 +291,19 @@ impl Simulation {
         is_led_back || self.passes_to_and_fro(limit, dt)
     }
 
+    /// The time in which so many blows, or ways to and fro, are none that steps of a length tell apart [time]. Of varying steps, which grow as far as flights last,
+    /// those are taken in which a wave passes a span.
+    fn unresolved(&self, dt: f64) -> f64 {
+        CHATTER as f64
+            * match self.settings.dt {
+                StepSize::Fixed(_) => dt,
+                StepSize::Adaptive(_) => dt.min(first_step(&self.scene, &self.model)),
+            }
+    }
+
     /// Whether a slider has passed the same seam to and fro so often within as many steps that nothing is resolved of what is between.
     fn passes_to_and_fro(&self, limit: MasterLimit, dt: f64) -> bool {
-        let since = self.time() - CHATTER as f64 * dt;
+        let since = self.time() - self.unresolved(dt);
         let own = self.progress.arrivals.iter().rev();
         let own = own.filter(|arrival| arrival.limit.slider == limit.slider);
         let passed =
@@ -316,7 +327,7 @@ impl Simulation {
     fn chatters(&self, limit: MasterLimit, dt: f64) -> bool {
         let own = self.progress.arrivals.iter().rev();
         let mut last = own.filter(|arrival| arrival.limit.slider == limit.slider).take(CHATTER);
-        let since = self.time() - CHATTER as f64 * dt;
+        let since = self.time() - self.unresolved(dt);
         let again = |arrival: &Arrival| arrival.limit == limit && arrival.time >= since;
         last.by_ref().take_while(|arrival| again(arrival)).count() == CHATTER
     }

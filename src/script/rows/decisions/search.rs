@@ -1,5 +1,6 @@
 //! Looks through the text of a function for what decides by a parameter of a scene: itself, in functions that it calls, and in those that it has captured.
 
+use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 
 use rhai::{ASTNode, BinaryExpr, Dynamic, Expr, FnCallExpr, FnPtr, NativeCallContext, Position};
@@ -21,6 +22,9 @@ const JUMPING_SCHEDULES: &[&str] = &["pulse", "hold_for", "table"];
 
 /// The most functions that are looked into on one another's behalf.
 const DEEPEST: usize = 8;
+
+/// The most functions that are looked into in all: one that calls itself several times would have no end of them.
+const MOST: usize = 100;
 
 /// A place where a function decides by something that depends on a parameter, and by what it is asked at.
 pub(super) struct Decision {
@@ -58,6 +62,8 @@ struct Facts {
 struct Search<'s, 'n> {
     native: &'s NativeCallContext<'n>,
     depth: usize,
+    /// How many more functions may be looked into.
+    left: &'s Cell<usize>,
 }
 
 impl Decision {
@@ -66,7 +72,7 @@ impl Decision {
         let definition = defined(native, function.fn_name(), None)?;
         let (mut known, own) = Known::of(function, &definition);
         known.asked.extend(own);
-        Search { native, depth: 0 }.function(&definition, known)
+        Search { native, depth: 0, left: &Cell::new(MOST) }.function(&definition, known)
     }
 }
 
@@ -149,9 +155,10 @@ impl Known {
 impl Search<'_, '_> {
     /// The first decision in a function of which this is known.
     fn function(&self, definition: &ScriptFuncDef, mut known: Known) -> Option<Decision> {
-        if self.depth == DEEPEST {
+        if self.depth == DEEPEST || self.left.get() == 0 {
             return None;
         }
+        self.left.update(|left| left - 1);
         let mut found = None;
         body_named(self.native, &definition.name, definition.params.len()).walk(
             &mut |path: &[ASTNode]| {
@@ -276,7 +283,7 @@ impl Search<'_, '_> {
     }
 
     fn deeper(&self) -> Self {
-        Self { native: self.native, depth: self.depth + 1 }
+        Self { native: self.native, depth: self.depth + 1, left: self.left }
     }
 }
 

@@ -6,7 +6,7 @@ use super::PrescribedMovements;
 use crate::geometry::larger;
 use crate::loads::{LoadError, PrescribedMotion, Side};
 
-/// Places that differ by less than this part of them are one [-].
+/// Places that differ by less than this, or this part of them, are one [length, rad; -].
 const SAME_PLACE: f64 = 1e-12;
 
 impl PrescribedMovements {
@@ -33,7 +33,7 @@ impl PrescribedMovements {
             let (rests, wanted) =
                 (load_factor * present.goal, schedule.value(time, Side::After).ok()?);
             let size = larger(wanted.abs(), rests.abs());
-            let is_there = (rests - wanted).abs() <= SAME_PLACE * size;
+            let is_there = (rests - wanted).abs() <= SAME_PLACE * larger(1.0, size);
             let name = self.drives[movement.drive].name.as_str();
             (!is_there).then_some((name, [rests, wanted]))
         })
