@@ -25,6 +25,16 @@ pub struct Area {
 }
 
 impl Area {
+    /// The part of it that lies in another area.
+    pub fn within(&self, other: &Self) -> Self {
+        Self {
+            left: self.left.clamp(other.left, other.right),
+            top: self.top.clamp(other.top, other.bottom),
+            right: self.right.clamp(other.left, other.right),
+            bottom: self.bottom.clamp(other.top, other.bottom),
+        }
+    }
+
     /// The square around a point with sides twice as long as `reach`.
     pub fn around((x, y): Point, reach: f64) -> Self {
         Self { left: x - reach, top: y - reach, right: x + reach, bottom: y + reach }

@@ -42,6 +42,14 @@ mod tests {
     use crate::output::canvas::Shape;
 
     #[test]
+    fn what_lies_beyond_a_plot_is_cut_off_before_it_is_hatched() {
+        let plot = Area { left: 0.0, top: 0.0, right: 100.0, bottom: 50.0 };
+        let cell = Area { left: -1e300, top: 10.0, right: 30.0, bottom: 1e300 };
+        let seen = cell.within(&plot);
+        assert_eq!((seen.left, seen.top, seen.right, seen.bottom), (0.0, 10.0, 30.0, 50.0));
+    }
+
+    #[test]
     fn a_hatching_stays_in_its_area() {
         let area = Area { left: 10.0, top: 20.0, right: 90.0, bottom: 41.0 };
         let mut canvas = Canvas::default();

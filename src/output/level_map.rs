@@ -204,7 +204,8 @@ impl Panel for LevelMap {
                         };
                         canvas.fill(cell, ramp(bar.part(*value)));
                     }
-                    false => hatch(canvas, &cell),
+                    // Cells of numbers that are as large as numbers get reach far beyond the plot.
+                    false => hatch(canvas, &cell.within(plot)),
                 }
             }
         }
