@@ -41,5 +41,5 @@ pub use rotation::{Rotation, RotationIncrement};
 pub use section::{Section, Shape, Solid};
 pub use section_forces::{SectionForces, SectionPlace, SectionPoints};
 pub use section_variation::SectionVariation;
-pub use station::{BodyIndex, Place, ROUNDING_OF_PLACES, Station};
+pub use station::{BodyIndex, Place, Station};
 pub use taper_seen::TaperSeen;

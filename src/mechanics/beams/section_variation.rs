@@ -34,11 +34,10 @@ impl SectionVariation {
     /// # Errors
     /// When a number of a section is out of its range, or places do not rise from 0 to 1.
     pub fn validated(self) -> Result<Self, BeamError> {
-        let places: Vec<f64> = match &self {
+        match &self {
             Self::Uniform(section) => return section.validated().map(Self::Uniform),
             Self::Numbers(all) => {
                 all.iter().try_for_each(|(_, section)| section.validated().map(|_| ()))?;
-                all.iter().map(|(place, _)| *place).collect()
             }
             Self::Dimensions(all) => {
                 all.iter().try_for_each(|(_, solid)| Section::from_solid(*solid).map(|_| ()))?;
@@ -46,9 +45,9 @@ impl SectionVariation {
                 if !same {
                     return Err(BeamError::TaperShapes);
                 }
-                all.iter().map(|(place, _)| *place).collect()
             }
-        };
+        }
+        let places = self.places();
         if places.len() < 2 || places.len() > MOST_PLACES {
             return Err(BeamError::TaperPlaces { count: places.len(), most: MOST_PLACES });
         }
@@ -84,14 +83,12 @@ impl SectionVariation {
 
     /// The mean over the length: the section itself where it is the same everywhere.
     pub fn mean(&self) -> Section {
-        let places: Vec<f64> = match self {
-            Self::Uniform(section) => return *section,
-            Self::Numbers(all) => all.iter().map(|(place, _)| *place).collect(),
-            Self::Dimensions(all) => all.iter().map(|(place, _)| *place).collect(),
-        };
+        if let Self::Uniform(section) = self {
+            return *section;
+        }
         let mut sum = Section::default();
         let Ok(rule) = GaussRule::new(POINTS) else { return self.at(0.5) };
-        for pair in places.windows(2) {
+        for pair in self.places().windows(2) {
             for (place, weight) in rule.iter_on(pair[0], pair[1]) {
                 sum = sum.plus(&self.at(place), weight);
             }
@@ -101,16 +98,25 @@ impl SectionVariation {
 
     /// The largest of each number, wherever it is.
     pub fn largest(&self) -> Section {
-        self.places().into_iter().reduce(|a, b| a.each(&b, larger)).unwrap_or_default()
+        self.sections().into_iter().reduce(|a, b| a.each(&b, larger)).unwrap_or_default()
     }
 
     /// How fast the fastest wave of stretching runs, `√(EA/ρA)` [length/time]: between places it is no faster.
     pub fn axial_wave_speed(&self) -> f64 {
-        self.places().iter().map(Section::axial_wave_speed).fold(0.0, larger)
+        self.sections().iter().map(Section::axial_wave_speed).fold(0.0, larger)
+    }
+
+    /// The places of a taper, which are parts of the length [-]; none of a uniform beam.
+    pub fn places(&self) -> Vec<f64> {
+        match self {
+            Self::Uniform(_) => Vec::new(),
+            Self::Numbers(all) => all.iter().map(|(place, _)| *place).collect(),
+            Self::Dimensions(all) => all.iter().map(|(place, _)| *place).collect(),
+        }
     }
 
     /// The sections at the places of a taper; the one section of a uniform beam.
-    pub fn places(&self) -> Vec<Section> {
+    pub fn sections(&self) -> Vec<Section> {
         match self {
             Self::Uniform(section) => vec![*section],
             Self::Numbers(all) => all.iter().map(|(_, section)| *section).collect(),

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Mesh;
-use crate::geometry::{Curve, GeometryError, MAX_DEGREE, Vec2, corresponding};
+use crate::geometry::{Curve, GeometryError, MAX_DEGREE, ROUNDING_OF_PLACES, Vec2, corresponding};
 
 /// One of the bodies of a scene: a beam, a particle, or a rigid body with one of its points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -37,9 +37,6 @@ pub struct Place {
     /// The direction of the axis as drawn at this place, or the angle of a rigid body [rad].
     pub tangent_angle: f64,
 }
-
-/// Places nearer than this part of a length are one but for rounding.
-pub const ROUNDING_OF_PLACES: f64 = 1e-12;
 
 impl Station {
     /// The station of a beam, by its index, at an arc length [length] from its start as drawn.

@@ -23,15 +23,14 @@ impl TaperSeen {
     /// # Errors
     /// When the mesh has no quadrature.
     pub fn of(variation: &SectionVariation, mesh: &Mesh) -> Result<Self, BeamError> {
-        let places = match variation {
-            SectionVariation::Uniform(_) => return Ok(Self::default()),
-            SectionVariation::Numbers(all) => all.iter().map(|(place, _)| *place).collect(),
-            SectionVariation::Dimensions(all) => all.iter().map(|(place, _)| *place).collect(),
-        };
+        let mut cuts = variation.places();
+        if cuts.is_empty() {
+            return Ok(Self::default());
+        }
         let (first, last) = mesh.basis().domain();
         let part = |xi: f64| (xi - first) / (last - first);
         let (masses, fine) = (mesh.inertia_rule()?, GaussRule::new(POINTS)?);
-        let (mut seen, mut cuts): ([f64; 3], Vec<f64>) = ([0.0; 3], places);
+        let mut seen = [0.0; 3];
         for quadrature in mesh.quadrature_spans()? {
             let (start, end) = (quadrature.span.start, quadrature.span.end);
             cuts.extend([part(start), part(end)]);

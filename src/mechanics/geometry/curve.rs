@@ -6,11 +6,17 @@ use super::knots::check_inside;
 use super::{CircularArc, GeometryError, KnotVector, Line, SplineCurve, Vec2, cross, local_cubic};
 use crate::elementary::{atan2, hypot};
 
-/// Lengths that differ by less than this fraction are the same but for rounding.
-const ROUNDING: f64 = 1e-12;
+/// Places nearer to each other than this part of a length are one but for rounding.
+pub const ROUNDING_OF_PLACES: f64 = 1e-12;
 
 /// Speeds below this fraction of the mean one are zero but for rounding.
 const STANDSTILL: f64 = 1e-12;
+
+/// Whether an arc length lies on a curve of a length, but for rounding.
+pub fn is_on_length(arc_length: f64, length: f64) -> bool {
+    let tolerance = ROUNDING_OF_PLACES * length;
+    (-tolerance..=length + tolerance).contains(&arc_length)
+}
 
 /// A curve `x(ξ)` of the plane. Points are lengths, the parameter ξ is dimensionless.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -147,8 +153,7 @@ impl Curve {
     /// `arc_length` outside `[0, length]`, or not a number.
     pub fn parameter_at(&self, arc_length: f64) -> Result<f64, GeometryError> {
         let length = self.length();
-        let tolerance = ROUNDING * length;
-        if !(-tolerance..=length + tolerance).contains(&arc_length) {
+        if !is_on_length(arc_length, length) {
             return Err(GeometryError::OutsideLength { arc_length, length });
         }
         let arc_length = arc_length.clamp(0.0, length);

@@ -28,7 +28,7 @@ mod values;
 
 pub use arc::CircularArc;
 pub use basis::Basis;
-pub use curve::Curve;
+pub use curve::{Curve, ROUNDING_OF_PLACES, is_on_length};
 pub use error::GeometryError;
 pub use extremes::{larger, smaller};
 pub use fit::{corresponding, interpolate};

@@ -32,7 +32,6 @@ use super::stepper::Stepper;
 use super::{History, Monitor, SimulationError, StepSize, TimeGrid, Trajectory, WorkCounts, cores};
 use crate::geometry::larger;
 use crate::integrators::{Constraints, Interval, Mechanism, Method};
-use crate::joints::StartVelocities;
 use crate::model::{Model, Scene};
 use crate::newton::Tolerance;
 use crate::statics::Equilibrium;
@@ -86,18 +85,13 @@ impl Simulation {
     /// When the step size or the parameter of the method is out of its range, or a drive rests elsewhere than where its function is.
     pub fn start_at_rest(rest: &Equilibrium, settings: Settings) -> Result<Self, SimulationError> {
         let scene = rest.scene().clone();
-        // Whether velocities fit sliders is asked where and when it begins, and not of the scene as drawn.
-        let mut drawn = scene.clone();
-        drawn.sliders.iter_mut().for_each(|slider| slider.velocities = StartVelocities::Project);
-        let mut model = Model::assemble(&drawn)?;
         let elsewhere = |time| rest.model().drive_elsewhere(rest.path().load_factor(), time);
         let time = elsewhere(0.0).map_or(0.0, |_| larger(rest.loading().time, 0.0));
         if let Some((drive, [rests, wanted])) = elsewhere(time) {
             let drive = drive.to_owned();
             return Err(SimulationError::BeginsElsewhere { drive, rests, wanted, time });
         }
-        model.restore(&rest.model().state());
-        model.begin_at(time, &scene)?;
+        let model = Model::assemble_at_rest(&scene, &rest.model().state(), time)?;
         Self::of(scene, model, settings)
     }
 

@@ -4,9 +4,10 @@ use std::cell::{Cell, OnceCell, RefCell};
 use std::rc::Rc;
 
 use super::station::StationHandle;
-use crate::beams::{ROUNDING_OF_PLACES, Station};
+use crate::beams::Station;
+use crate::geometry::ROUNDING_OF_PLACES;
 use crate::loads::Beat;
-use crate::model::{BeamDefinition, Scene};
+use crate::model::Scene;
 use crate::script::looks::details;
 use crate::script::rows::kind::{Details, Scripted};
 use crate::script::rows::lifting::{Family, Present, Varied, present};
@@ -139,7 +140,6 @@ impl SceneHandle {
             return Err(ScriptError::new(told).hint(hint));
         }
         self.expect_unasked_beside()?;
-        self.expect_lengths_beside()?;
         let own = self.variants.scene.borrow();
         for scene in scenes.iter().map(|scene| scene.borrow()) {
             let is_one = |(one, other): (&Station, &Station)| one.is_at(other, own.length_at(one));
@@ -158,24 +158,23 @@ impl SceneHandle {
         Ok(family.parameters().into_iter().map_while(variation).collect())
     }
 
-    /// Refuses beams whose lengths depend on a parameter, as far as the scenes beside have them.
+    /// Refuses a beam, by its index, whose length depends on a parameter, where the scenes beside have it.
     ///
     /// # Errors
-    /// When one does.
-    pub fn expect_lengths_beside(&self) -> Result<(), ScriptError> {
+    /// When it does.
+    pub fn expect_length_beside(&self, beam: usize) -> Result<(), ScriptError> {
         let Some(Beside { scenes, .. }) = self.variants.beside.get() else { return Ok(()) };
-        let own = self.variants.scene.borrow();
-        for scene in scenes.iter().map(|scene| scene.borrow()) {
-            let mut pairs = own.beams.iter().zip(&scene.beams);
+        let own = &self.variants.scene.borrow().beams[beam];
+        let length = own.axis.length();
+        let is_other = |scene: &Rc<RefCell<Scene>>| {
+            let scene = scene.borrow();
             // What is turned is as long but for rounding.
-            let is_other = |(own, of): &(&BeamDefinition, &BeamDefinition)| {
-                let (own, of) = (own.axis.length(), of.axis.length());
-                (own - of).abs() > ROUNDING_OF_PLACES * own
-            };
-            if let Some((beam, _)) = pairs.find(is_other) {
-                let told = format!("the length of beam '{}' depends on a parameter", beam.name);
-                return Err(ScriptError::new(told).hint(SHAPED));
-            }
+            let apart = scene.beams.get(beam).map_or(0.0, |of| (length - of.axis.length()).abs());
+            apart > ROUNDING_OF_PLACES * length
+        };
+        if scenes.iter().any(is_other) {
+            let told = format!("the length of beam '{}' depends on a parameter", own.name);
+            return Err(ScriptError::new(told).hint(SHAPED));
         }
         Ok(())
     }

@@ -245,7 +245,7 @@ fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
     }
     tell_of_taper(call, &scene, index)?;
     // The call for the scene itself comes last: those beside have their beams.
-    scene.expect_lengths_beside().map_err(|error| error.at(Place::Key("axis".into())))?;
+    scene.expect_length_beside(index).map_err(|error| error.at(Place::Key("axis".into())))?;
     Ok(Dynamic::from(BeamHandle { scene, index }))
 }
 

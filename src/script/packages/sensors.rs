@@ -8,8 +8,8 @@ use super::simulations::SIMULATION;
 use super::sliding::{SLIDER, SliderHandle};
 use super::statistics::map;
 use super::vectors::VECTOR;
-use crate::beams::{ROUNDING_OF_PLACES, SectionForces, Station};
-use crate::geometry::Vec2;
+use crate::beams::{SectionForces, Station};
+use crate::geometry::{Vec2, is_on_length};
 use crate::model::{Given, ModelError, Scene, SectionSample};
 use crate::script::handles::beam::BeamHandle;
 use crate::script::handles::equilibrium::EquilibriumHandle;
@@ -331,8 +331,7 @@ fn known(call: &Call, built: &Scene, index: usize, beam: &BeamHandle) -> Result<
 fn wanted(call: &Call, scene: &Scene, beam: usize) -> Result<Option<Station>, ScriptError> {
     let Some(station) = call.number_if_given("s") else { return Ok(None) };
     let length = scene.beams[beam].axis.length();
-    let tolerance = ROUNDING_OF_PLACES * length;
-    if !(-tolerance..=length + tolerance).contains(&station) {
+    if !is_on_length(station, length) {
         let beam = scene.beams[beam].name.clone();
         let refused = ScriptError::from(ModelError::StationOutside { beam, station, length });
         return Err(refused.at(Place::Argument(1)));

@@ -11,7 +11,7 @@ use crate::model::links::{InclinedRoller, Links, RigidLink};
 use crate::model::motion::Motion;
 use crate::model::scene::same_place;
 use crate::model::sliders::Sliders;
-use crate::model::{BeamDefinition, Model, ModelError, Scene};
+use crate::model::{BeamDefinition, Model, ModelError, ModelState, Scene};
 
 /// Strains are known to so many roundings: they are differences of coordinates, which are larger than spans.
 const STRAIN_ROUNDINGS: f64 = 100.0;
@@ -31,6 +31,30 @@ impl Model {
     /// # Errors
     /// When the scene is empty, a beam cannot be put on its mesh, or start velocities do not fit the joints.
     pub fn assemble(scene: &Scene) -> Result<Self, ModelError> {
+        let mut model = Self::as_drawn(scene)?;
+        model.settle_start_velocities(scene)?;
+        model.begin();
+        Ok(model)
+    }
+
+    /// Builds the mechanism that a scene describes, at rest in a state at a time: only then and there velocities have to fit the joints.
+    ///
+    /// # Errors
+    /// Those of [`assemble`](Self::assemble), or when a function has no value at that time.
+    pub fn assemble_at_rest(
+        scene: &Scene,
+        state: &ModelState,
+        time: f64,
+    ) -> Result<Self, ModelError> {
+        let mut model = Self::as_drawn(scene)?;
+        model.begin();
+        model.restore(state);
+        model.begin_at(time, scene)?;
+        Ok(model)
+    }
+
+    /// A model as drawn; start velocities are those that were given, whether they fit or not.
+    fn as_drawn(scene: &Scene) -> Result<Self, ModelError> {
         if scene.beams.is_empty() && scene.particles.is_empty() && scene.rigid_bodies.is_empty() {
             return Err(ModelError::Empty { scene: scene.name.clone() });
         }
@@ -62,7 +86,7 @@ impl Model {
         let bodies = Bodies::new(bodies, meshes, trackers, joined, mass);
         let motion =
             Motion::new(rates, square(STRAIN_ROUNDINGS) * f64::EPSILON * scene.rounding_energy());
-        let mut model = Self::new(bodies, elements, links, sliders, supports, unknowns, motion);
+        let model = Self::new(bodies, elements, links, sliders, supports, unknowns, motion);
         if !scene.rigid_bodies.is_empty() {
             model.check_movements_held(scene)?;
         }
@@ -70,8 +94,6 @@ impl Model {
         if !scene.sliders.is_empty() {
             model.check_determined(scene)?;
         }
-        model.settle_start_velocities(scene)?;
-        model.begin();
         Ok(model)
     }
 }

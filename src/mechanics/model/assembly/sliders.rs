@@ -153,7 +153,7 @@ impl Model {
     ///
     /// # Errors
     /// When a function has no value there, or velocities there do not fit the sliders.
-    pub fn begin_at(&mut self, time: f64, scene: &Scene) -> Result<(), ModelError> {
+    pub(super) fn begin_at(&mut self, time: f64, scene: &Scene) -> Result<(), ModelError> {
         self.pass_time_to(time);
         self.set_given_in_motion(time)
             .map_err(|(drive, source)| ModelError::DriveValue { drive, source })?;

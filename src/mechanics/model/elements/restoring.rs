@@ -8,7 +8,7 @@ use crate::geometry::larger;
 /// A force is none that is no more than this part of the largest of its law.
 const ROUNDING: f64 = 1e-12;
 
-/// A corner is sharp where the stiffness changes by more than this part of the larger one.
+/// A corner is sharp where the stiffness changes by more than this part of the largest of its law.
 const SHARP: f64 = 0.5;
 
 /// A restoring force over an elongation `q`, a length or an angle.
@@ -74,10 +74,9 @@ impl RestoringLaw {
     pub fn largest_slope(&self) -> f64 {
         match self {
             Self::Linear { stiffness, .. } => stiffness.abs(),
-            Self::Table { points } | Self::Sampled { points, .. } => points
-                .windows(2)
-                .map(|pair| ((pair[1].1 - pair[0].1) / (pair[1].0 - pair[0].0)).abs())
-                .fold(0.0, larger),
+            Self::Table { points } | Self::Sampled { points, .. } => {
+                points.windows(2).map(|pair| slope([pair[0], pair[1]]).abs()).fold(0.0, larger)
+            }
         }
     }
 
@@ -96,9 +95,6 @@ impl RestoringLaw {
         match self {
             Self::Linear { .. } => Vec::new(),
             Self::Table { points } | Self::Sampled { points, .. } => {
-                let slope = |[a, b]: [(f64, f64); 2]| {
-                    if b.0 > a.0 { (b.1 - a.1) / (b.0 - a.0) } else { 0.0 }
-                };
                 let sharp = SHARP * self.largest_slope();
                 let at = |three: &[(f64, f64)]| {
                     let slopes = [[three[0], three[1]], [three[1], three[2]]].map(slope);
@@ -230,6 +226,11 @@ impl RestoringLaw {
 
 fn largest(points: &[(f64, f64)]) -> f64 {
     points.iter().map(|(_, force)| force.abs()).fold(0.0, larger)
+}
+
+/// That of a segment [force/length, force·length/rad]; zero of one without length, which no checked law has.
+fn slope([a, b]: [(f64, f64); 2]) -> f64 {
+    if b.0 > a.0 { (b.1 - a.1) / (b.0 - a.0) } else { 0.0 }
 }
 
 fn moved(points: &[(f64, f64)], by: f64) -> Vec<(f64, f64)> {

@@ -308,9 +308,7 @@ impl Resistance for SpringDamper {
         if self.damping.acts() {
             let mut elongation = self.elongation.clone();
             elongation.rest(bodies);
-            let slope = elongation.slope.clone();
-            let rate = elongation.along(&slope, rates);
-            take(self.damping.slope_at_rest(), rate);
+            take(self.damping.slope_at_rest(), elongation.rate_behind(bodies, rates));
         }
     }
 

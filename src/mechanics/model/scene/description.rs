@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 use super::stored::StoredScene;
 use super::ties::check_ties;
 use super::{BeamDefinition, ParticleDefinition, RigidBodyDefinition, Sensor, StationVelocity};
-use crate::beams::{BodyIndex, Mesh, Place, ROUNDING_OF_PLACES, Station};
-use crate::geometry::Vec2;
+use crate::beams::{BodyIndex, Mesh, Place, Station};
+use crate::geometry::{Vec2, is_on_length};
 use crate::joints::{Joint, JointKind, Partner, Release, Slider, Track};
 use crate::loads::{Load, Schedule};
 use crate::model::ModelError;
@@ -63,7 +63,7 @@ impl Scene {
 
     /// The speed of the fastest axial wave in the scene's beams; zero where there are no beams [length/time].
     pub(in crate::model) fn fastest_wave(&self) -> f64 {
-        let sections = self.beams.iter().flat_map(|beam| beam.section.places());
+        let sections = self.beams.iter().flat_map(|beam| beam.section.sections());
         let squares = sections.map(|section| section.axial_stiffness / section.mass_per_length);
         squares.fold(0.0, f64::max).sqrt()
     }
@@ -372,8 +372,7 @@ impl Setting for Scene {
             return Err(ModelError::Missing { object, kind: "point", index, count });
         }
         let length = self.length_at(station);
-        let tolerance = ROUNDING_OF_PLACES * length;
-        if (-tolerance..=length + tolerance).contains(&station.arc_length) {
+        if is_on_length(station.arc_length, length) {
             return Ok(());
         }
         let beam = station.beam().map_or_else(String::new, |beam| self.beams[beam].name.clone());

@@ -1,6 +1,6 @@
 //! How large a scene without beams is, wherever it is, and what rounding is worth in one.
 
-use super::Scene;
+use super::{Scene, Ties};
 use crate::beams::{BodyIndex, Station};
 use crate::geometry::{Vec2, larger};
 use crate::joints::Partner;
@@ -133,37 +133,26 @@ fn at_ease(spring: &Spring) -> f64 {
     }
 }
 
-/// A forest of members, each root with its group (R. E. Tarjan, Efficiency of a good but not linear set union algorithm, J. ACM 22 (1975) 215–225).
+/// What members are tied to each other, and the group of each set of them.
 struct Groups {
-    above: Vec<usize>,
+    ties: Ties,
     all: Vec<Group>,
 }
 
 impl Groups {
     fn new(count: usize) -> Self {
         let all = (0..count).map(|_| Group::default()).collect();
-        Self { above: (0..count).collect(), all }
+        Self { ties: Ties::new(count), all }
     }
 
-    fn root(&mut self, mut member: usize) -> usize {
-        while self.above[member] != member {
-            self.above[member] = self.above[self.above[member]];
-            member = self.above[member];
-        }
-        member
-    }
-
-    fn join(&mut self, members: impl Iterator<Item = usize>) {
-        let mut first = None;
+    fn join(&mut self, mut members: impl Iterator<Item = usize>) {
+        let Some(first) = members.next() else { return };
         for member in members {
-            let root = self.root(member);
-            let first = *first.get_or_insert(root);
-            self.above[root] = first;
+            self.ties.tie(first, member);
         }
     }
 
     fn of(&mut self, member: usize) -> &mut Group {
-        let root = self.root(member);
-        &mut self.all[root]
+        &mut self.all[self.ties.root(member)]
     }
 }

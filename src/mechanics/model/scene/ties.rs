@@ -13,7 +13,8 @@ const CLOSED: f64 = 1e-12;
 /// Inclined rollers are parallel whose directions differ by less than this angle [rad].
 const PARALLEL: f64 = 1e-9;
 
-/// Sets of things, by their numbers, that are one: union–find with path halving.
+/// Sets of things, by their numbers, that are one: union–find with path halving (R. E. Tarjan, Efficiency of a good but not linear set union
+/// algorithm, J. ACM 22 (1975) 215–225).
 pub struct Ties {
     parent: Vec<usize>,
 }
