@@ -9,6 +9,7 @@ mod loads;
 mod releases;
 mod resisting;
 mod rigid_bodies;
+mod rules;
 mod sensors;
 mod sliders;
 mod stored;
