@@ -171,7 +171,9 @@ impl SceneHandle {
     /// When it does.
     pub fn expect_length_beside(&self, beam: usize) -> Result<(), ScriptError> {
         let Some(Beside { scenes, .. }) = self.variants.beside.get() else { return Ok(()) };
-        let own = &self.variants.scene.borrow().beams[beam];
+        let own = self.variants.scene.borrow();
+        // The call for the scene itself comes after those for the scenes beside it.
+        let Some(own) = own.beams.get(beam) else { return Ok(()) };
         let length = own.axis.length();
         let is_other = |scene: &Rc<RefCell<Scene>>| {
             let scene = scene.borrow();
