@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::knots::check_inside;
+use super::values::LowDerivatives;
 use super::{BasisValues, GeometryError, KnotVector, LagrangeBasis, Span, bspline};
 
 /// A break closer than this fraction of the domain to an existing knot means that knot.
@@ -95,6 +96,21 @@ impl Basis {
             Self::BSpline(knots) => bspline::evaluate(knots, span, xi),
             Self::Lagrange(lagrange) => lagrange.evaluate_in(span, xi),
         }
+    }
+
+    /// What [`evaluate_in`](Self::evaluate_in) gives, up to the second derivatives, of functions of a degree less than `WIDTH`.
+    #[inline]
+    pub(super) fn evaluate_low<const WIDTH: usize>(
+        &self,
+        span: &Span,
+        xi: f64,
+    ) -> LowDerivatives<WIDTH> {
+        let mut low = LowDerivatives::zeros(span.first, self.degree());
+        match self {
+            Self::BSpline(knots) => bspline::fill(knots, span, xi, low.rows_mut()),
+            Self::Lagrange(lagrange) => lagrange.fill(span, xi, low.rows_mut()),
+        }
+        low
     }
 
     /// The number of continuous derivatives of the functions at the least smooth interior break; the degree if there is

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use super::piecewise::AlongWay;
-use super::{Basis, BasisValues, GaussRule, PiecewisePolynomial, Span};
+use super::values::Row;
+use super::{Basis, GaussRule, MAX_DEGREE, PiecewisePolynomial, Span};
 
 /// The basis functions `B_i` along a way from the parameter ξ₀ to ξ₁, as a point needs them that
 /// slides along `Σ B_i(ξ) x_i` during a time step: above all the quotients
@@ -23,7 +24,7 @@ pub struct Passage {
     line: Arc<Line>,
     way: Way,
     /// The functions at the start of the way, in the span of its departure: one way after another starts there.
-    departing: Option<(f64, usize, BasisValues)>,
+    departing: Option<(f64, usize, Row)>,
     first: usize,
     length: usize,
     start: Vec<f64>,
@@ -33,6 +34,9 @@ pub struct Passage {
     difference: Vec<f64>,
     change: Vec<f64>,
 }
+
+/// The functions of a span of the degrees that beams have, at most.
+const FEW: usize = 4;
 
 /// Along what ways lead.
 #[derive(Debug)]
@@ -107,8 +111,12 @@ impl Passage {
         self.length = self.line.spans[high].first + self.line.basis.degree() + 1 - self.first;
         if finite {
             self.fill(0.0);
-            self.add_ends(way);
-            self.add_quotients(way);
+            // The usual degrees need little room.
+            if self.line.basis.degree() < FEW {
+                self.add_values::<FEW>(way);
+            } else {
+                self.add_values::<{ MAX_DEGREE + 1 }>(way);
+            }
         } else {
             self.fill(f64::NAN);
         }
@@ -228,18 +236,27 @@ impl Passage {
         all.into_iter().for_each(|row| row[..self.length].fill(value));
     }
 
+    /// What the functions are on the way, added to zeros.
+    fn add_values<const WIDTH: usize>(&mut self, way: Way) {
+        self.add_ends::<WIDTH>(way);
+        self.add_quotients::<WIDTH>(way);
+    }
+
     /// What the functions are at the ends, added to zeros.
-    fn add_ends(&mut self, way: Way) {
+    fn add_ends<const WIDTH: usize>(&mut self, way: Way) {
         let Line { basis, spans, .. } = &*self.line;
+        let departure = &spans[way.departure];
         let values = match &self.departing {
             Some((from, span, values)) if (*from, *span) == (way.from, way.departure) => values,
             _ => {
-                let values = basis.evaluate_in(&spans[way.departure], way.from);
+                let own = basis.evaluate_low::<WIDTH>(departure, way.from);
+                let mut values = Row::default();
+                values[..=basis.degree()].copy_from_slice(own.values());
                 &self.departing.insert((way.from, way.departure, values)).2
             }
         };
-        add(&mut self.start, values.first - self.first, 1.0, values.values());
-        let values = basis.evaluate_in(&spans[way.arrival], way.to);
+        add(&mut self.start, departure.first - self.first, 1.0, &values[..=basis.degree()]);
+        let values = basis.evaluate_low::<WIDTH>(&spans[way.arrival], way.to);
         add(&mut self.end, values.first - self.first, 1.0, values.values());
         add(&mut self.slope, values.first - self.first, 1.0, values.slopes());
         add(&mut self.mean, 0, 0.5, &self.start[..self.length]);
@@ -248,7 +265,7 @@ impl Passage {
 
     /// The integrals over the way, added to zeros: `D = ∫ B'(ξ₀ + s Δξ) ds` over `0 < s < 1` and its
     /// derivative `∫ s B''(ξ₀ + s Δξ) ds`, unless `B'` jumps on the way.
-    fn add_quotients(&mut self, way: Way) {
+    fn add_quotients<const WIDTH: usize>(&mut self, way: Way) {
         let Line { basis, spans, kinks, rule } = &*self.line;
         let smooth = kinks[way.departure] == kinks[way.arrival];
         let (low, high) = way.lowest_and_highest();
@@ -257,12 +274,12 @@ impl Passage {
             let skip = span.first - self.first;
             for &(t, weight) in rule {
                 let xi = piece.enter + t * (piece.leave - piece.enter);
-                let values = basis.evaluate_in(span, xi);
+                let values = basis.evaluate_low::<WIDTH>(span, xi);
                 let weight = weight * piece.share;
                 add(&mut self.difference, skip, weight, values.slopes());
                 if smooth {
                     let moment = weight * (piece.before + t * piece.share);
-                    add(&mut self.change, skip, moment, values.derivatives(2));
+                    add(&mut self.change, skip, moment, values.bends());
                 }
             }
         }
