@@ -16,19 +16,21 @@ use super::{KnotVector, Span};
 /// ```
 pub(super) fn evaluate(knots: &KnotVector, span: &Span, xi: f64) -> BasisValues {
     let mut basis = BasisValues::zeros(span.first, knots.degree());
-    fill(knots, span, xi, basis.rows_mut());
+    fill((knots, knots.degree()), span, xi, basis.rows_mut());
     basis
 }
 
 /// Fills rows of zeros with the functions and as many of their derivatives as there are more rows.
-#[inline]
+///
+/// The degree of the knots stands beside them, for those to whom the compiler can tell it.
+#[inline(always)]
 pub(super) fn fill<const WIDTH: usize>(
-    knots: &KnotVector,
+    (knots, degree): (&KnotVector, usize),
     span: &Span,
     xi: f64,
     rows: &mut [[f64; WIDTH]],
 ) {
-    let (degree, most) = (knots.degree(), rows.len() - 1);
+    let most = rows.len() - 1;
     rows[0][0] = 1.0;
     // Before the span, `degree` knots count, and as many after it.
     let local = &knots.knots()[span.first + 1..=span.first + 2 * degree];
@@ -45,6 +47,7 @@ pub(super) fn fill<const WIDTH: usize>(
 }
 
 /// The values of degree one higher at `xi`, given the ends of the supports of the `lower` functions.
+#[inline(always)]
 fn raise<const WIDTH: usize>(
     lower: &[f64; WIDTH],
     xi: f64,
@@ -60,6 +63,7 @@ fn raise<const WIDTH: usize>(
 }
 
 /// The derivatives, one order higher, of the functions of degree `q`, given those of degree `q - 1`.
+#[inline(always)]
 fn differentiate<const WIDTH: usize>(
     lower: &[f64; WIDTH],
     q: usize,
