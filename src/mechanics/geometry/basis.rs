@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::knots::check_inside;
-use super::{BasisValues, GeometryError, KnotVector, LagrangeBasis, Span, bspline};
+use super::values::LowDerivatives;
+use super::{BasisValues, GeometryError, KnotVector, LagrangeBasis, MAX_DEGREE, Span, bspline};
 
 /// A break closer than this fraction of the domain to an existing knot means that knot.
 const SAME_BREAK: f64 = 1e-10;
@@ -95,6 +96,23 @@ impl Basis {
             Self::BSpline(knots) => bspline::evaluate(knots, span, xi),
             Self::Lagrange(lagrange) => lagrange.evaluate_in(span, xi),
         }
+    }
+
+    /// What [`evaluate_in`](Self::evaluate_in) gives, up to the second derivatives, of functions of the degree `WIDTH - 1`; where that is the largest, of any
+    /// degree.
+    #[inline]
+    pub(super) fn evaluate_low<const WIDTH: usize>(
+        &self,
+        span: &Span,
+        xi: f64,
+    ) -> LowDerivatives<WIDTH> {
+        let degree = if WIDTH > MAX_DEGREE { self.degree() } else { WIDTH - 1 };
+        let mut low = LowDerivatives::zeros(span.first, degree);
+        match self {
+            Self::BSpline(knots) => bspline::fill((knots, degree), span, xi, low.rows_mut()),
+            Self::Lagrange(lagrange) => lagrange.fill(span, xi, low.rows_mut()),
+        }
+        low
     }
 
     /// The number of continuous derivatives of the functions at the least smooth interior break; the degree if there is

@@ -1,6 +1,6 @@
 //! B-spline basis functions and their derivatives on one span.
 
-use super::values::{BasisValues, Row};
+use super::values::BasisValues;
 use super::{KnotVector, Span};
 
 /// The B-splines that are non-zero on `span` of `knots`, with all derivatives, at `xi`: the polynomials
@@ -15,9 +15,22 @@ use super::{KnotVector, Span};
 /// N_m       gets   (ξ - ξ_m)     / h_m · N_m       its derivatives    q / h_m · (those of N_m, one order less)
 /// ```
 pub(super) fn evaluate(knots: &KnotVector, span: &Span, xi: f64) -> BasisValues {
-    let degree = knots.degree();
-    let mut basis = BasisValues::zeros(span.first, degree);
-    let rows = basis.rows_mut();
+    let mut basis = BasisValues::zeros(span.first, knots.degree());
+    fill((knots, knots.degree()), span, xi, basis.rows_mut());
+    basis
+}
+
+/// Fills rows of zeros with the functions and as many of their derivatives as there are more rows.
+///
+/// The degree of the knots stands beside them, for those to whom the compiler can tell it.
+#[inline(always)]
+pub(super) fn fill<const WIDTH: usize>(
+    (knots, degree): (&KnotVector, usize),
+    span: &Span,
+    xi: f64,
+    rows: &mut [[f64; WIDTH]],
+) {
+    let most = rows.len() - 1;
     rows[0][0] = 1.0;
     // Before the span, `degree` knots count, and as many after it.
     let local = &knots.knots()[span.first + 1..=span.first + 2 * degree];
@@ -26,17 +39,21 @@ pub(super) fn evaluate(knots: &KnotVector, span: &Span, xi: f64) -> BasisValues 
             .iter()
             .zip(&local[degree..])
             .map(|(&start, &end)| (start, end));
-        for order in (1..=q).rev() {
+        for order in (1..=q.min(most)).rev() {
             rows[order] = differentiate(&rows[order - 1], q, supports.clone());
         }
         rows[0] = raise(&rows[0], xi, supports);
     }
-    basis
 }
 
 /// The values of degree one higher at `xi`, given the ends of the supports of the `lower` functions.
-fn raise(lower: &Row, xi: f64, supports: impl Iterator<Item = (f64, f64)>) -> Row {
-    let mut higher = Row::default();
+#[inline(always)]
+fn raise<const WIDTH: usize>(
+    lower: &[f64; WIDTH],
+    xi: f64,
+    supports: impl Iterator<Item = (f64, f64)>,
+) -> [f64; WIDTH] {
+    let mut higher = [0.0; WIDTH];
     for (j, (value, (start, end))) in lower.iter().zip(supports).enumerate() {
         // Quotients first: at the ends of the span they are exactly 0 and 1.
         higher[j] += (end - xi) / (end - start) * value;
@@ -46,8 +63,13 @@ fn raise(lower: &Row, xi: f64, supports: impl Iterator<Item = (f64, f64)>) -> Ro
 }
 
 /// The derivatives, one order higher, of the functions of degree `q`, given those of degree `q - 1`.
-fn differentiate(lower: &Row, q: usize, supports: impl Iterator<Item = (f64, f64)>) -> Row {
-    let mut higher = Row::default();
+#[inline(always)]
+fn differentiate<const WIDTH: usize>(
+    lower: &[f64; WIDTH],
+    q: usize,
+    supports: impl Iterator<Item = (f64, f64)>,
+) -> [f64; WIDTH] {
+    let mut higher = [0.0; WIDTH];
     for (j, (value, (start, end))) in lower.iter().zip(supports).enumerate() {
         let share = q as f64 * value / (end - start);
         higher[j] -= share;

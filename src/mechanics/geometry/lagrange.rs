@@ -123,15 +123,16 @@ impl LagrangeBasis {
     /// The polynomials of the element `span`, also beside it, with all derivatives, at `xi`.
     pub fn evaluate_in(&self, span: &Span, xi: f64) -> BasisValues {
         let mut basis = BasisValues::zeros(span.first, self.degree);
+        self.fill(span, xi, basis.rows_mut());
+        basis
+    }
+
+    /// Fills rows of zeros with the functions and as many of their derivatives as there are more rows.
+    pub(super) fn fill<const WIDTH: usize>(&self, span: &Span, xi: f64, rows: &mut [[f64; WIDTH]]) {
         for j in 0..=self.degree {
             let derivatives = self.polynomial(span, j, xi);
-            basis
-                .rows_mut()
-                .iter_mut()
-                .zip(derivatives)
-                .for_each(|(row, derivative)| row[j] = derivative);
+            rows.iter_mut().zip(derivatives).for_each(|(row, derivative)| row[j] = derivative);
         }
-        basis
     }
 
     /// `L_j = Π_{m≠j} (ξ - ξ_m) / (ξ_j - ξ_m)` and its derivatives, multiplied up factor by factor: a

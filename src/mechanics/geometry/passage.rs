@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use super::piecewise::AlongWay;
-use super::{Basis, BasisValues, GaussRule, PiecewisePolynomial, Span};
+use super::values::Row;
+use super::{Basis, GaussRule, MAX_DEGREE, PiecewisePolynomial, Span};
 
 /// The basis functions `B_i` along a way from the parameter ξ₀ to ξ₁, as a point needs them that
 /// slides along `Σ B_i(ξ) x_i` during a time step: above all the quotients
@@ -23,16 +24,26 @@ pub struct Passage {
     line: Arc<Line>,
     way: Way,
     /// The functions at the start of the way, in the span of its departure: one way after another starts there.
-    departing: Option<(f64, usize, BasisValues)>,
+    departing: Option<(f64, usize, Row)>,
     first: usize,
     length: usize,
-    start: Vec<f64>,
-    end: Vec<f64>,
-    mean: Vec<f64>,
-    slope: Vec<f64>,
-    difference: Vec<f64>,
-    change: Vec<f64>,
+    /// The numbers of the window, a row of them for each [`Quantity`]: side by side, as one way after another fills them.
+    numbers: Vec<f64>,
 }
+
+/// What is known of each function along a way, in the order of the rows.
+#[derive(Debug, Clone, Copy)]
+enum Quantity {
+    Start,
+    End,
+    Mean,
+    Slope,
+    Difference,
+    Change,
+}
+
+/// The number of rows.
+const QUANTITIES: usize = Quantity::Change as usize + 1;
 
 /// Along what ways lead.
 #[derive(Debug)]
@@ -68,7 +79,7 @@ impl Passage {
     /// A way of length zero at the start of the domain of `basis`. All the room that longer ways
     /// need is taken here; [`go`](Self::go) allocates nothing.
     pub fn new(basis: Basis) -> Self {
-        let room = vec![0.0; basis.functions()];
+        let room = QUANTITIES * basis.functions();
         let (start, _) = basis.domain();
         let spans = basis.spans();
         let kinks = kinks(&spans, basis.degree());
@@ -79,12 +90,7 @@ impl Passage {
             departing: None,
             first: 0,
             length: 0,
-            start: room.clone(),
-            end: room.clone(),
-            mean: room.clone(),
-            slope: room.clone(),
-            difference: room.clone(),
-            change: room,
+            numbers: Vec::with_capacity(room),
         };
         passage.go(start, start);
         passage
@@ -107,8 +113,13 @@ impl Passage {
         self.length = self.line.spans[high].first + self.line.basis.degree() + 1 - self.first;
         if finite {
             self.fill(0.0);
-            self.add_ends(way);
-            self.add_quotients(way);
+            // The compiler knows how many functions the usual degrees have.
+            match self.line.basis.degree() {
+                1 => self.add_values::<2>(way),
+                2 => self.add_values::<3>(way),
+                3 => self.add_values::<4>(way),
+                _ => self.add_values::<{ MAX_DEGREE + 1 }>(way),
+            }
         } else {
             self.fill(f64::NAN);
         }
@@ -126,28 +137,28 @@ impl Passage {
 
     /// The values `B_i(ξ₀)` at the start of the way, one for each function of its window. They sum to one.
     pub fn start(&self) -> &[f64] {
-        &self.start[..self.length]
+        self.row(Quantity::Start)
     }
 
     /// The values `B_i(ξ₁)` at the end of the way, one for each function of its window. They sum to one.
     pub fn end(&self) -> &[f64] {
-        &self.end[..self.length]
+        self.row(Quantity::End)
     }
 
     /// The means `½ (B_i(ξ₀) + B_i(ξ₁))` of start and end of the way, one for each function of its window. They sum to one.
     pub fn mean(&self) -> &[f64] {
-        &self.mean[..self.length]
+        self.row(Quantity::Mean)
     }
 
     /// The derivatives `B_i'(ξ₁)` at the end of the way, on its side, one for each function of its window. They sum to zero.
     pub fn slope(&self) -> &[f64] {
-        &self.slope[..self.length]
+        self.row(Quantity::Slope)
     }
 
     /// The divided differences `D_i = (B_i(ξ₁) - B_i(ξ₀)) / (ξ₁ - ξ₀)`, the means of `B_i'` over the way, to rounding;
     /// `B_i'(ξ₀)` for a way of length zero. One for each function of the window; they sum to zero.
     pub fn difference(&self) -> &[f64] {
-        &self.difference[..self.length]
+        self.row(Quantity::Difference)
     }
 
     /// The derivatives of the divided differences by the end of the way, `∂D_i/∂ξ₁ = (B_i'(ξ₁) - D_i) / (ξ₁ - ξ₀)` for fixed ξ₀;
@@ -156,7 +167,7 @@ impl Passage {
     /// To rounding, unless the way crosses a break at which the `B_i'` jump: then the rounding of
     /// `D_i` is divided by the length of the way.
     pub fn change(&self) -> &[f64] {
-        &self.change[..self.length]
+        self.row(Quantity::Change)
     }
 
     /// A function that is a polynomial on each span of the basis, along the way; NaN where an end of the way is not finite.
@@ -215,41 +226,51 @@ impl Passage {
         Way { from, to, departure, arrival }
     }
 
+    /// The numbers of one kind, one for each function of the window.
+    #[inline]
+    fn row(&self, quantity: Quantity) -> &[f64] {
+        &self.numbers[quantity as usize * self.length..][..self.length]
+    }
+
     /// Sets every number of the window.
     fn fill(&mut self, value: f64) {
-        let all = [
-            &mut self.start,
-            &mut self.end,
-            &mut self.mean,
-            &mut self.slope,
-            &mut self.difference,
-            &mut self.change,
-        ];
-        all.into_iter().for_each(|row| row[..self.length].fill(value));
+        self.numbers.clear();
+        self.numbers.resize(QUANTITIES * self.length, value);
+    }
+
+    /// What the functions are on the way, added to zeros.
+    fn add_values<const WIDTH: usize>(&mut self, way: Way) {
+        self.add_ends::<WIDTH>(way);
+        self.add_quotients::<WIDTH>(way);
     }
 
     /// What the functions are at the ends, added to zeros.
-    fn add_ends(&mut self, way: Way) {
+    fn add_ends<const WIDTH: usize>(&mut self, way: Way) {
         let Line { basis, spans, .. } = &*self.line;
+        let [start, end, mean, slope, ..] = rows(&mut self.numbers, self.length);
+        let departure = &spans[way.departure];
         let values = match &self.departing {
             Some((from, span, values)) if (*from, *span) == (way.from, way.departure) => values,
             _ => {
-                let values = basis.evaluate_in(&spans[way.departure], way.from);
+                let own = basis.evaluate_low::<WIDTH>(departure, way.from);
+                let mut values = Row::default();
+                values[..=basis.degree()].copy_from_slice(own.values());
                 &self.departing.insert((way.from, way.departure, values)).2
             }
         };
-        add(&mut self.start, values.first - self.first, 1.0, values.values());
-        let values = basis.evaluate_in(&spans[way.arrival], way.to);
-        add(&mut self.end, values.first - self.first, 1.0, values.values());
-        add(&mut self.slope, values.first - self.first, 1.0, values.slopes());
-        add(&mut self.mean, 0, 0.5, &self.start[..self.length]);
-        add(&mut self.mean, 0, 0.5, &self.end[..self.length]);
+        add(start, departure.first - self.first, 1.0, &values[..=basis.degree()]);
+        let values = basis.evaluate_low::<WIDTH>(&spans[way.arrival], way.to);
+        add(end, values.first - self.first, 1.0, values.values());
+        add(slope, values.first - self.first, 1.0, values.slopes());
+        add(mean, 0, 0.5, start);
+        add(mean, 0, 0.5, end);
     }
 
     /// The integrals over the way, added to zeros: `D = ∫ B'(ξ₀ + s Δξ) ds` over `0 < s < 1` and its
     /// derivative `∫ s B''(ξ₀ + s Δξ) ds`, unless `B'` jumps on the way.
-    fn add_quotients(&mut self, way: Way) {
+    fn add_quotients<const WIDTH: usize>(&mut self, way: Way) {
         let Line { basis, spans, kinks, rule } = &*self.line;
+        let [.., slope, difference, change] = rows(&mut self.numbers, self.length);
         let smooth = kinks[way.departure] == kinks[way.arrival];
         let (low, high) = way.lowest_and_highest();
         for (index, span) in spans[low..=high].iter().enumerate() {
@@ -257,19 +278,19 @@ impl Passage {
             let skip = span.first - self.first;
             for &(t, weight) in rule {
                 let xi = piece.enter + t * (piece.leave - piece.enter);
-                let values = basis.evaluate_in(span, xi);
+                let values = basis.evaluate_low::<WIDTH>(span, xi);
                 let weight = weight * piece.share;
-                add(&mut self.difference, skip, weight, values.slopes());
+                add(difference, skip, weight, values.slopes());
                 if smooth {
                     let moment = weight * (piece.before + t * piece.share);
-                    add(&mut self.change, skip, moment, values.derivatives(2));
+                    add(change, skip, moment, values.bends());
                 }
             }
         }
         if !smooth {
             let length = way.to - way.from;
-            add(&mut self.change, 0, 1.0 / length, &self.slope[..self.length]);
-            add(&mut self.change, 0, -1.0 / length, &self.difference[..self.length]);
+            add(change, 0, 1.0 / length, slope);
+            add(change, 0, -1.0 / length, difference);
         }
     }
 }
@@ -316,7 +337,14 @@ fn kinks(spans: &[Span], degree: usize) -> Vec<usize> {
         .collect()
 }
 
+/// The rows of numbers of a window of so many functions, in the order of [`Quantity`].
+fn rows(numbers: &mut [f64], length: usize) -> [&mut [f64]; QUANTITIES] {
+    let mut rows = numbers.chunks_exact_mut(length);
+    std::array::from_fn(|_| rows.next().unwrap_or_default())
+}
+
 /// Adds `factor · values` to the entries of `row` behind the first `skip`.
+#[inline]
 fn add(row: &mut [f64], skip: usize, factor: f64, values: &[f64]) {
     row[skip..].iter_mut().zip(values).for_each(|(entry, value)| *entry += factor * value);
 }

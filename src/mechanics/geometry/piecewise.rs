@@ -81,6 +81,7 @@ impl PiecewisePolynomial {
     }
 
     /// The value of the function, its first and its second derivative by ξ, by the polynomial of a span, also beside the span.
+    #[inline]
     pub fn in_span(&self, span: usize, xi: f64) -> [f64; 3] {
         let (middle, half) = self.spans[span];
         let t = (xi - middle) / half;

@@ -62,6 +62,36 @@ impl BasisValues {
     }
 }
 
+/// The basis functions that are non-zero at one parameter, of a degree less than `WIDTH`, with their first and second derivatives.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct LowDerivatives<const WIDTH: usize> {
+    pub first: usize,
+    degree: usize,
+    rows: [[f64; WIDTH]; 3],
+}
+
+impl<const WIDTH: usize> LowDerivatives<WIDTH> {
+    pub fn zeros(first: usize, degree: usize) -> Self {
+        Self { first, degree, rows: [[0.0; WIDTH]; 3] }
+    }
+
+    pub fn rows_mut(&mut self) -> &mut [[f64; WIDTH]] {
+        &mut self.rows
+    }
+
+    pub fn values(&self) -> &[f64] {
+        &self.rows[0][..=self.degree]
+    }
+
+    pub fn slopes(&self) -> &[f64] {
+        &self.rows[1][..=self.degree]
+    }
+
+    pub fn bends(&self) -> &[f64] {
+        &self.rows[2][..=self.degree]
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

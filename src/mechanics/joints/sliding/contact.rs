@@ -108,6 +108,7 @@ pub struct Contact<'a> {
 
 impl Contact<'_> {
     /// `Σ w_i (x_i0 + share Δx_i)`
+    #[inline]
     fn sum(&self, weights: &[f64], share: f64) -> Vec2 {
         let (before, moved) = self.master;
         let points = before.iter().zip(moved);
@@ -115,6 +116,7 @@ impl Contact<'_> {
     }
 
     /// `Σ w_i Δx_i`
+    #[inline]
     fn movement(&self, weights: &[f64]) -> Vec2 {
         let (_, moved) = self.master;
         weights.iter().zip(moved).map(|(w, moved)| moved * *w).sum()
@@ -132,6 +134,7 @@ impl Contact<'_> {
     }
 
     /// The place `Σ B_i(ξ1) x_i1` on the master at the end of the way and of the step [length].
+    #[inline]
     pub fn end_point(&self) -> WayVector {
         let value = self.sum(self.passage.end(), 1.0);
         WayVector { value, by_way: self.sum(self.passage.slope(), 1.0) }
@@ -154,12 +157,14 @@ impl Contact<'_> {
     }
 
     /// The mean tangent `τ = Σ D_i x̄_i` of the way on the master in its mean configuration [length].
+    #[inline]
     pub fn tangent(&self) -> WayVector {
         let value = self.sum(self.passage.difference(), 0.5);
         WayVector { value, by_way: self.sum(self.passage.change(), 0.5) }
     }
 
     /// The swing `d = ¼ Σ D_i Δx_i` of the master along the way: a quarter of the change of its tangent [length].
+    #[inline]
     pub fn swing(&self) -> WayVector {
         let value = self.movement(self.passage.difference()) * 0.25;
         WayVector { value, by_way: self.movement(self.passage.change()) * 0.25 }

@@ -1,7 +1,7 @@
 //! The rule of a slider whose kink stays as it is for a step.
 
-use super::jet::{ContactJets, Jet, JetVector};
-use super::kink_on_way::KinkOnWay;
+use super::jet::{ContactJets, Jet, JetVector, NO_SLOPES};
+use super::kink_on_way::{KinkOnWay, vanish};
 use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, KinkState, SlidingLaw};
 
 /// The law of a slider on a master whose kink turns with the master and otherwise stays as it is, whatever the contact force: energy, linear and angular
@@ -23,33 +23,33 @@ impl SlidingLaw for Frozen {
         let jets = ContactJets::of(contact);
         let step = FrozenInStep::of(&jets, kink);
         let balance = (jets.force - step.inertia).dot(&step.direction) - step.rise;
-        step.on_way.equations((contact, kink), &jets, step.jump, balance)
+        vanish(step.on_way.imbalances((contact, kink), &jets, step.jump, balance))
     }
 
     fn kink_at_end(&self, contact: &Contact<'_>) -> KinkState {
         let Some(kink) = &contact.kink else { return KinkState::default() };
-        let step = FrozenInStep::of(&ContactJets::of(contact), kink);
+        let step = FrozenInStep::<NO_SLOPES>::of(&ContactJets::of(contact), kink);
         KinkState { jump: step.jump.value(), speed: step.speed.value }
     }
 }
 
 /// A kink that stays as it is, in an iterate of a step.
-struct FrozenInStep {
-    on_way: KinkOnWay,
+struct FrozenInStep<const SLOPES: usize> {
+    on_way: KinkOnWay<SLOPES>,
     /// The direction `w` of the way [length].
-    direction: JetVector,
+    direction: JetVector<SLOPES>,
     /// The speed `v1` of the kink along the master at the end of the step [length/time].
-    speed: Jet,
+    speed: Jet<SLOPES>,
     /// The force `p1 = GA a1` that stands for the jump of the tangent at the end of the step [force].
-    jump: JetVector,
+    jump: JetVector<SLOPES>,
     /// What sets the kink in motion, `(Δπ/Δt) e` [force].
-    inertia: JetVector,
+    inertia: JetVector<SLOPES>,
     /// What the energy of the kink grows by on a unit of way [force·length].
-    rise: Jet,
+    rise: Jet<SLOPES>,
 }
 
-impl FrozenInStep {
-    fn of(jets: &ContactJets, kink: &Kink) -> Self {
+impl<const SLOPES: usize> FrozenInStep<SLOPES> {
+    fn of(jets: &ContactJets<SLOPES>, kink: &Kink) -> Self {
         let &ContactJets { tangent, swing, way, .. } = jets;
         let (along, motion, before) = (&kink.along, &kink.motion, JetVector::constant(kink.before));
         let one = Jet::constant(1.0);

@@ -7,7 +7,10 @@ use super::{Contact, ContactUnknowns, Equation, Unit};
 use crate::geometry::Vec2;
 
 /// How many numbers an equation of a contact depends on: offset of the slave, tangent, swing, `λ`, couple and way.
-const COUNT: usize = 11;
+pub(super) const ALL_SLOPES: usize = 11;
+
+/// No derivatives: where values only are asked for, they come from the same operations in the same order.
+pub(super) const NO_SLOPES: usize = 0;
 
 const OFFSET: usize = 0;
 const TANGENT: usize = 2;
@@ -17,38 +20,38 @@ const COUPLE: usize = 8;
 const WAY: usize = 10;
 
 /// A number of a contact with its derivatives by the offset of the slave from the smooth axis, the mean tangent `τ` and the swing `d` of the master, the
-/// force `λ`, the couple and the way `Δξ`.
+/// force `λ`, the couple and the way `Δξ`: with [`ALL_SLOPES`], or with [`NO_SLOPES`].
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Jet {
+pub(super) struct Jet<const SLOPES: usize> {
     pub value: f64,
-    slopes: [f64; COUNT],
+    slopes: [f64; SLOPES],
 }
 
 /// A vector of a contact with the derivatives of both components.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct JetVector {
-    x: Jet,
-    y: Jet,
+pub(super) struct JetVector<const SLOPES: usize> {
+    pub x: Jet<SLOPES>,
+    pub y: Jet<SLOPES>,
 }
 
 /// What the equations of a contact are made of.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct ContactJets {
+pub(super) struct ContactJets<const SLOPES: usize> {
     /// How far the slave is from the smooth axis at the end of the step, `x_s1 - Σ B_i(ξ1) x_i1` [length].
-    pub offset: JetVector,
+    pub offset: JetVector<SLOPES>,
     /// The mean tangent `τ` [length].
-    pub tangent: JetVector,
+    pub tangent: JetVector<SLOPES>,
     /// The swing `d` [length].
-    pub swing: JetVector,
+    pub swing: JetVector<SLOPES>,
     /// The contact force `λ` on the master [force].
-    pub force: JetVector,
+    pub force: JetVector<SLOPES>,
     /// The couple of the contact [force].
-    pub couple: JetVector,
+    pub couple: JetVector<SLOPES>,
     /// The way `Δξ` [-].
-    pub way: Jet,
+    pub way: Jet<SLOPES>,
 }
 
-impl ContactJets {
+impl<const SLOPES: usize> ContactJets<SLOPES> {
     pub fn of(contact: &Contact<'_>) -> Self {
         let ContactUnknowns { force, couple, way } = contact.unknowns;
         let end = contact.end_point();
@@ -65,23 +68,32 @@ impl ContactJets {
     }
 }
 
-impl Jet {
+impl<const SLOPES: usize> Jet<SLOPES> {
     pub fn constant(value: f64) -> Self {
-        Self { value, slopes: [0.0; COUNT] }
+        Self { value, slopes: [0.0; SLOPES] }
     }
 
     /// A number that depends on the way only, with its derivative by that.
     pub fn along_way(value: f64, by_way: f64) -> Self {
-        let mut slopes = [0.0; COUNT];
-        slopes[WAY] = by_way;
-        Self { value, slopes }
+        let mut jet = Self::constant(value);
+        jet.add_slope(WAY, by_way);
+        jet
+    }
+
+    /// Adds to the derivative by one of the numbers, where there are derivatives.
+    fn add_slope(&mut self, at: usize, slope: f64) {
+        if let Some(own) = self.slopes.get_mut(at) {
+            *own += slope;
+        }
     }
 
     pub fn inverse(self) -> Self {
         let value = 1.0 / self.value;
         Self { value, slopes: self.slopes.map(|slope| -slope * value * value) }
     }
+}
 
+impl Jet<ALL_SLOPES> {
     /// The equation that the number vanishes.
     pub fn vanishes(self, unit: Unit) -> Equation {
         let pair = |at: usize| Vec2::new(self.slopes[at], self.slopes[at + 1]);
@@ -99,7 +111,7 @@ impl Jet {
     }
 }
 
-impl Add for Jet {
+impl<const SLOPES: usize> Add for Jet<SLOPES> {
     type Output = Self;
 
     fn add(self, other: Self) -> Self {
@@ -108,7 +120,7 @@ impl Add for Jet {
     }
 }
 
-impl Neg for Jet {
+impl<const SLOPES: usize> Neg for Jet<SLOPES> {
     type Output = Self;
 
     fn neg(self) -> Self {
@@ -116,7 +128,7 @@ impl Neg for Jet {
     }
 }
 
-impl Sub for Jet {
+impl<const SLOPES: usize> Sub for Jet<SLOPES> {
     type Output = Self;
 
     fn sub(self, other: Self) -> Self {
@@ -124,7 +136,7 @@ impl Sub for Jet {
     }
 }
 
-impl Mul for Jet {
+impl<const SLOPES: usize> Mul for Jet<SLOPES> {
     type Output = Self;
 
     fn mul(self, other: Self) -> Self {
@@ -133,7 +145,7 @@ impl Mul for Jet {
     }
 }
 
-impl Mul<f64> for Jet {
+impl<const SLOPES: usize> Mul<f64> for Jet<SLOPES> {
     type Output = Self;
 
     fn mul(self, factor: f64) -> Self {
@@ -141,7 +153,7 @@ impl Mul<f64> for Jet {
     }
 }
 
-impl JetVector {
+impl<const SLOPES: usize> JetVector<SLOPES> {
     pub fn constant(value: Vec2) -> Self {
         Self { x: Jet::constant(value.x), y: Jet::constant(value.y) }
     }
@@ -149,7 +161,7 @@ impl JetVector {
     fn variable(vector: WayVector, first: usize) -> Self {
         let component = |value: f64, by_way: f64, at: usize| {
             let mut jet = Jet::along_way(value, by_way);
-            jet.slopes[at] += 1.0;
+            jet.add_slope(at, 1.0);
             jet
         };
         Self {
@@ -162,11 +174,11 @@ impl JetVector {
         Vec2::new(self.x.value, self.y.value)
     }
 
-    pub fn dot(&self, other: &Self) -> Jet {
+    pub fn dot(&self, other: &Self) -> Jet<SLOPES> {
         self.x * other.x + self.y * other.y
     }
 
-    pub fn cross(&self, other: &Self) -> Jet {
+    pub fn cross(&self, other: &Self) -> Jet<SLOPES> {
         self.x * other.y - self.y * other.x
     }
 
@@ -175,19 +187,14 @@ impl JetVector {
         Self { x: -self.y, y: self.x }
     }
 
-    /// The equations that both components vanish.
-    pub fn vanish(self, unit: Unit) -> [Equation; 2] {
-        [self.x.vanishes(unit), self.y.vanishes(unit)]
-    }
-
     /// The vector `p` with `a·p = α` and `b·p = β`.
-    pub fn with_products([a, b]: [Self; 2], [alpha, beta]: [Jet; 2]) -> Self {
+    pub fn with_products([a, b]: [Self; 2], [alpha, beta]: [Jet<SLOPES>; 2]) -> Self {
         let determinant = a.cross(&b).inverse();
         (a.turned() * beta - b.turned() * alpha) * determinant
     }
 }
 
-impl Add for JetVector {
+impl<const SLOPES: usize> Add for JetVector<SLOPES> {
     type Output = Self;
 
     fn add(self, other: Self) -> Self {
@@ -195,7 +202,7 @@ impl Add for JetVector {
     }
 }
 
-impl Sub for JetVector {
+impl<const SLOPES: usize> Sub for JetVector<SLOPES> {
     type Output = Self;
 
     fn sub(self, other: Self) -> Self {
@@ -203,15 +210,15 @@ impl Sub for JetVector {
     }
 }
 
-impl Mul<Jet> for JetVector {
+impl<const SLOPES: usize> Mul<Jet<SLOPES>> for JetVector<SLOPES> {
     type Output = Self;
 
-    fn mul(self, factor: Jet) -> Self {
+    fn mul(self, factor: Jet<SLOPES>) -> Self {
         Self { x: self.x * factor, y: self.y * factor }
     }
 }
 
-impl Mul<f64> for JetVector {
+impl<const SLOPES: usize> Mul<f64> for JetVector<SLOPES> {
     type Output = Self;
 
     fn mul(self, factor: f64) -> Self {

@@ -1,27 +1,36 @@
 //! A kink on the way of its slider: what the laws of kinked axes have in common.
 
-use super::jet::{ContactJets, Jet, JetVector};
+use super::jet::{ALL_SLOPES, ContactJets, Jet, JetVector};
 use super::{CONTACT_UNKNOWNS, Contact, Equation, Kink, Unit};
 use crate::elementary::square;
 
 /// A kink in an iterate of a step, as it follows from the way alone.
-pub(super) struct KinkOnWay {
+pub(super) struct KinkOnWay<const SLOPES: usize> {
     /// The kink length `g1` at the end of the way [length].
-    pub length: Jet,
+    pub length: Jet<SLOPES>,
     /// `Δg/Δξ` [length].
-    pub difference: Jet,
+    pub difference: Jet<SLOPES>,
     /// `Δs/Δξ` [length].
-    pub stretch: Jet,
+    pub stretch: Jet<SLOPES>,
     /// `1/|τ|²` [1/length²].
-    pub over_square: Jet,
+    pub over_square: Jet<SLOPES>,
     /// How far the slave was from the smooth axis at the start of the step, `g0 a0` [length].
-    pub offset_before: JetVector,
+    pub offset_before: JetVector<SLOPES>,
     /// The mean vector `r` from where the contact pushes the master to the slave [length].
-    pub arm: JetVector,
+    pub arm: JetVector<SLOPES>,
 }
 
-impl KinkOnWay {
-    pub fn of(jets: &ContactJets, kink: &Kink) -> Self {
+/// The units of the equations of a contact whose axis is kinked.
+pub(super) const UNITS: [Unit; CONTACT_UNKNOWNS] =
+    [Unit::Length, Unit::Length, Unit::Force, Unit::Force, Unit::Force];
+
+/// The equations that numbers vanish in their [`UNITS`].
+pub(super) fn vanish(numbers: [Jet<ALL_SLOPES>; CONTACT_UNKNOWNS]) -> [Equation; CONTACT_UNKNOWNS] {
+    std::array::from_fn(|at| numbers[at].vanishes(UNITS[at]))
+}
+
+impl<const SLOPES: usize> KinkOnWay<SLOPES> {
+    pub fn of(jets: &ContactJets<SLOPES>, kink: &Kink) -> Self {
         let (along, arc) = (&kink.along, &kink.motion.arc);
         let offset_before = JetVector::constant(kink.before * (along.start * kink.compliance));
         Self {
@@ -34,20 +43,19 @@ impl KinkOnWay {
         }
     }
 
-    /// The equations of a contact whose axis is kinked by `jump` [force] at the end of the step: the gap to it is closed, the contact turns nothing, and the
+    /// What vanishes for a contact whose axis is kinked by `jump` [force] at the end of the step: the gap to it is closed, the contact turns nothing, and the
     /// balance of forces along the way [force·length] vanishes.
-    pub fn equations(
+    pub fn imbalances(
         &self,
         (contact, kink): (&Contact<'_>, &Kink),
-        jets: &ContactJets,
-        jump: JetVector,
-        balance: Jet,
-    ) -> [Equation; CONTACT_UNKNOWNS] {
+        jets: &ContactJets<SLOPES>,
+        jump: JetVector<SLOPES>,
+        balance: Jet<SLOPES>,
+    ) -> [Jet<SLOPES>; CONTACT_UNKNOWNS] {
         let &ContactJets { offset, tangent, force, couple, .. } = jets;
         let gap = offset - jump * self.length * kink.compliance;
         let balanced = couple * tangent.dot(&tangent) + tangent.turned() * self.arm.cross(&force);
-        let [gap_x, gap_y] = gap.vanish(Unit::Length);
-        let [couple_x, couple_y] = (balanced * (1.0 / square(contact.length))).vanish(Unit::Force);
-        [gap_x, gap_y, couple_x, couple_y, (balance * (1.0 / contact.length)).vanishes(Unit::Force)]
+        let couple = balanced * (1.0 / square(contact.length));
+        [gap.x, gap.y, couple.x, couple.y, balance * (1.0 / contact.length)]
     }
 }

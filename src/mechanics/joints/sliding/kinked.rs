@@ -1,8 +1,8 @@
 //! The rule that keeps energy, both momenta and the gap to the kinked axis.
 
-use super::jet::{ContactJets, Jet, JetVector};
-use super::kink_on_way::KinkOnWay;
-use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, KinkState, SlidingLaw};
+use super::jet::{ContactJets, Jet, JetVector, NO_SLOPES};
+use super::kink_on_way::{KinkOnWay, UNITS, vanish};
+use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, KinkState, SlidingLaw, Unit};
 
 /// The conserving law of sliding: the gap is closed at the end of every step, and energy, linear and angular momentum are kept, for any
 /// step.
@@ -24,35 +24,49 @@ pub struct Kinked;
 impl SlidingLaw for Kinked {
     fn equations(&self, contact: &Contact<'_>) -> [Equation; CONTACT_UNKNOWNS] {
         let Some(kink) = &contact.kink else { return Conserving.equations(contact) };
-        let jets = ContactJets::of(contact);
-        let step = KinkInStep::of(&jets, kink);
-        let set_in_motion = step.inertia * step.on_way.stretch;
-        let balance = (jets.force - step.mean_force).dot(&jets.tangent) - set_in_motion;
-        step.on_way.equations((contact, kink), &jets, step.jump, balance)
+        vanish(imbalances(contact, kink))
+    }
+
+    fn values(&self, contact: &Contact<'_>) -> [(f64, Unit); CONTACT_UNKNOWNS] {
+        let Some(kink) = &contact.kink else { return Conserving.values(contact) };
+        let numbers = imbalances::<NO_SLOPES>(contact, kink);
+        std::array::from_fn(|at| (numbers[at].value, UNITS[at]))
     }
 
     fn kink_at_end(&self, contact: &Contact<'_>) -> KinkState {
         let Some(kink) = &contact.kink else { return KinkState::default() };
-        let step = KinkInStep::of(&ContactJets::of(contact), kink);
+        let step = KinkInStep::<NO_SLOPES>::of(&ContactJets::of(contact), kink);
         KinkState { jump: step.jump.value(), speed: step.speed.value }
     }
 }
 
-/// A kink in an iterate of a step.
-struct KinkInStep {
-    on_way: KinkOnWay,
-    /// The speed `v1` of the kink along the master at the end of the step [length/time].
-    speed: Jet,
-    /// The force `p1 = GA a1` that stands for the jump of the tangent at the end of the step [force].
-    jump: JetVector,
-    /// The mean force `κ ½ (p0 + p1)`, `κ = 1 - ρA v0 v1/GA`, with which the kink pushes [force].
-    mean_force: JetVector,
-    /// What sets the kink in motion, `Δπ/Δt` [force].
-    inertia: Jet,
+/// What vanishes under the law.
+fn imbalances<const SLOPES: usize>(
+    contact: &Contact<'_>,
+    kink: &Kink,
+) -> [Jet<SLOPES>; CONTACT_UNKNOWNS] {
+    let jets = ContactJets::of(contact);
+    let step = KinkInStep::of(&jets, kink);
+    let set_in_motion = step.inertia * step.on_way.stretch;
+    let balance = (jets.force - step.mean_force).dot(&jets.tangent) - set_in_motion;
+    step.on_way.imbalances((contact, kink), &jets, step.jump, balance)
 }
 
-impl KinkInStep {
-    fn of(jets: &ContactJets, kink: &Kink) -> Self {
+/// A kink in an iterate of a step.
+struct KinkInStep<const SLOPES: usize> {
+    on_way: KinkOnWay<SLOPES>,
+    /// The speed `v1` of the kink along the master at the end of the step [length/time].
+    speed: Jet<SLOPES>,
+    /// The force `p1 = GA a1` that stands for the jump of the tangent at the end of the step [force].
+    jump: JetVector<SLOPES>,
+    /// The mean force `κ ½ (p0 + p1)`, `κ = 1 - ρA v0 v1/GA`, with which the kink pushes [force].
+    mean_force: JetVector<SLOPES>,
+    /// What sets the kink in motion, `Δπ/Δt` [force].
+    inertia: Jet<SLOPES>,
+}
+
+impl<const SLOPES: usize> KinkInStep<SLOPES> {
+    fn of(jets: &ContactJets<SLOPES>, kink: &Kink) -> Self {
         let &ContactJets { offset, tangent, swing, force, way, .. } = jets;
         let (along, motion, before) = (&kink.along, &kink.motion, JetVector::constant(kink.before));
         let on_way = KinkOnWay::of(jets, kink);

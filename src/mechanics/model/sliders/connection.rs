@@ -49,14 +49,14 @@ impl Connection {
         bodies: &[Body],
         contact: &Contact<'_>,
         master_forces: impl Iterator<Item = Vec2>,
-        equations: &[Equation; CONTACT_UNKNOWNS],
+        values: [f64; CONTACT_UNKNOWNS],
         movements: usize,
         out: &mut [f64],
     ) {
         let on_master = master_forces.map(|force| -force);
         self.add_forces(bodies, contact.unknowns.force, contact.first(), on_master, out);
         let rows = &mut out[movements..][self.places()];
-        rows.iter_mut().zip(equations).for_each(|(row, equation)| *row += equation.value);
+        rows.iter_mut().zip(values).for_each(|(row, value)| *row += value);
     }
 
     /// Adds the derivatives of what [`add_values`](Self::add_values) adds, with those of the forces on control points of the master; supported movements

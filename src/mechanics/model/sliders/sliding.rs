@@ -279,10 +279,11 @@ impl Sliding {
         let (origin, cut_off) = slave.precise_point(point);
         let window = self.passage.first()..self.passage.first() + self.passage.end().len();
         self.before.clear();
-        self.before.extend(window.clone().map(|at| {
-            let (position, remainder) = master.precise_point(at);
-            (position - origin) + (remainder - cut_off)
-        }));
+        let positions = &master.dynamics.control_points()[window.clone()];
+        let precise = positions.iter().zip(&master.dynamics.remainders()[window.clone()]);
+        self.before.extend(
+            precise.map(|(position, remainder)| (position - origin) + (remainder - cut_off)),
+        );
         self.moved.clear();
         self.moved.extend(window.map(|at| master.vector_at(at, increments)));
         let slave_moved = slave.vector_at(point, increments);
@@ -302,8 +303,9 @@ impl Sliding {
     ) -> f64 {
         let (connection, state) = (self.connection, self.state);
         let leans_on_nothing = self.leans_on_nothing(bodies);
-        let (contact, equations) = P::iterate(self, bodies, increments, unknowns);
-        connection.add_values(bodies, &contact, P::forces(&contact), &equations, movements, out);
+        let (contact, equations) = P::iterate_values(self, bodies, increments, unknowns);
+        let values = equations.map(|(value, _)| value);
+        connection.add_values(bodies, &contact, P::forces(&contact), values, movements, out);
         let (pressing, chord) = (contact.unknowns.force, P::chord(&contact));
         let force = pressing.norm();
         let push = match state {
@@ -313,7 +315,7 @@ impl Sliding {
             SliderState::Sliding | SliderState::Released => 0.0,
         };
         (self.size, self.chord) = (contact.length + contact.slave_moved.norm(), chord);
-        self.units = equations.map(|equation| equation.unit);
+        self.units = equations.map(|(_, unit)| unit);
         (self.push, self.pressing) = (push, force);
         self.push_beyond = self.push_beyond_seam(bodies, increments, pressing);
         force
@@ -331,7 +333,8 @@ impl Sliding {
     ) {
         let connection = self.connection;
         let (contact, equations) = P::iterate(self, bodies, increments, unknowns);
-        connection.add_values(bodies, &contact, P::forces(&contact), &equations, movements, out);
+        let values = equations.map(|equation| equation.value);
+        connection.add_values(bodies, &contact, P::forces(&contact), values, movements, out);
         let slopes = P::slopes(&contact);
         connection.add_derivatives(bodies, &contact, slopes, &equations, movements, border);
     }

@@ -2,7 +2,7 @@
 
 use super::Sliding;
 use crate::geometry::Vec2;
-use crate::joints::{CONTACT_UNKNOWNS, Contact, Equation};
+use crate::joints::{CONTACT_UNKNOWNS, Contact, Equation, Unit};
 use crate::model::bodies::Body;
 
 /// What an iterate of a contact is part of: [`InStep`] or [`AtRest`].
@@ -14,6 +14,17 @@ pub trait Passing {
         increments: &[f64],
         unknowns: &[f64],
     ) -> (Contact<'s>, [Equation; CONTACT_UNKNOWNS]);
+
+    /// The contact with the values of its equations alone, and their units.
+    fn iterate_values<'s>(
+        slider: &'s mut Sliding,
+        bodies: &[Body],
+        increments: &[f64],
+        unknowns: &[f64],
+    ) -> (Contact<'s>, [(f64, Unit); CONTACT_UNKNOWNS]) {
+        let (contact, equations) = Self::iterate(slider, bodies, increments, unknowns);
+        (contact, equations.map(|equation| (equation.value, equation.unit)))
+    }
 
     /// The contact forces on the control points of the master in the window of the way [force], in order.
     fn forces<'c>(contact: &'c Contact<'_>) -> impl Iterator<Item = Vec2> + 'c;
@@ -42,6 +53,18 @@ impl Passing for InStep {
         let contact = slider.take(bodies, increments, unknowns);
         let equations = law.equations(&contact);
         (contact, equations)
+    }
+
+    fn iterate_values<'s>(
+        slider: &'s mut Sliding,
+        bodies: &[Body],
+        increments: &[f64],
+        unknowns: &[f64],
+    ) -> (Contact<'s>, [(f64, Unit); CONTACT_UNKNOWNS]) {
+        let law = slider.law();
+        let contact = slider.take(bodies, increments, unknowns);
+        let values = law.values(&contact);
+        (contact, values)
     }
 
     fn forces<'c>(contact: &'c Contact<'_>) -> impl Iterator<Item = Vec2> + 'c {
