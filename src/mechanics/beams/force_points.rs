@@ -252,18 +252,17 @@ impl<const N: usize> ForcePoints<N> {
         let (now, collocated_strain, _) = self.configuration(part, at, moved);
         let (tau, sigma) = (part.splat(at.configuration), part.splat(at.stress));
         let (rotation, gradient) = (now.collocated_rotation, now.collocated_gradient);
-        let condensed = rotation.to_space(stiffness.by_component(collocated_strain));
+        let condensed = force_in_space(rotation, stiffness, collocated_strain);
         self.weigh(part, weight, (gradient, condensed), resultant);
 
         // δn = A δg + b δω  and  δ(gτ × n) = e·δg + f δω, the geometric terms with the section force of the iterate.
         let (end, force) = (now.end_rotation, self.force.get(part));
-        let a1 = rotation.to_space(stiffness.by_component(end.to_section(Pair::first_axis(tau))))
-            * sigma;
-        let a2 = rotation.to_space(stiffness.by_component(end.to_section(Pair::second_axis(tau))))
-            * sigma;
-        let turned_strain = (now.end_strain + Pair::first_axis(tau)).perpendicular();
+        let (e1, e2) = (Pair::first_axis(tau), Pair::second_axis(tau));
+        let a1 = force_in_space(rotation, stiffness, end.to_section(e1)) * sigma;
+        let a2 = force_in_space(rotation, stiffness, end.to_section(e2)) * sigma;
+        let turned_strain = (now.end_strain + e1).perpendicular();
         let b = (end.to_space(force.perpendicular()) * tau
-            - rotation.to_space(stiffness.by_component(turned_strain)) * sigma)
+            - force_in_space(rotation, stiffness, turned_strain) * sigma)
             * now.inverse_q;
         let lever = gradient.perpendicular();
         let geometric = rotation.to_space(force).perpendicular() * tau;
@@ -323,8 +322,8 @@ impl<const N: usize> ForcePoints<N> {
         resultant: &mut Resultant,
     ) {
         let Configuration { collocated_rotation, collocated_gradient, .. } = self.linearised_at;
-        let strain = stiffness.by_component(self.mismatch.get(part));
-        let force = collocated_rotation.get(part).to_space(strain);
+        let rotation = collocated_rotation.get(part);
+        let force = force_in_space(rotation, stiffness, self.mismatch.get(part));
         self.weigh(part, weight, (collocated_gradient.get(part), force), resultant);
     }
 
@@ -383,4 +382,14 @@ impl Configuration<Lanes> {
 #[inline(always)]
 fn strain_of<T: Number>(rotation: Rotation<T>, gradient: Pair<T>) -> Pair<T> {
     rotation.to_section(gradient) - Pair::first_axis(gradient.x)
+}
+
+/// `Λ C Γ`
+#[inline(always)]
+fn force_in_space<T: Number>(
+    rotation: Rotation<T>,
+    stiffness: Pair<T>,
+    strain: Pair<T>,
+) -> Pair<T> {
+    rotation.to_space(stiffness.by_component(strain))
 }
