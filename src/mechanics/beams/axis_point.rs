@@ -1,6 +1,9 @@
 //! A place of the undeformed axis as quadrature needs it.
 
 use super::BeamError;
+use super::dynamics::Movement;
+use super::lanes::{LANES, Lanes};
+use super::span_points::window;
 use crate::geometry::{Basis, Span, Vec2};
 
 /// The slowest an axis may run along its parameter, relative to its mean.
@@ -14,6 +17,70 @@ pub(super) struct AxisPoint<const N: usize> {
     pub(super) slope: [f64; N],
     /// The weight of this point in integrals along the axis [length].
     pub(super) weight: f64,
+}
+
+impl<const N: usize> AxisPoint<N> {
+    /// No point: nothing of the axis counts there, whatever moves.
+    pub(super) const NOWHERE: Self = Self { shape: [0.0; N], slope: [0.0; N], weight: 0.0 };
+}
+
+/// Neighbouring points of the axis side by side, each with the first control point of its span.
+#[derive(Debug, Clone)]
+pub(super) struct AxisPoints<const N: usize> {
+    pub(super) shape: [Lanes; N],
+    pub(super) slope: [Lanes; N],
+    pub(super) weight: Lanes,
+    pub(super) first: [usize; LANES],
+}
+
+impl<const N: usize> AxisPoints<N> {
+    /// Points by lanes, in spans that begin with such control points.
+    pub(super) fn side_by_side(points: [&AxisPoint<N>; LANES], first: [usize; LANES]) -> Self {
+        let none = Lanes::default();
+        let mut axis = Self { shape: [none; N], slope: [none; N], weight: none, first };
+        for (lane, point) in points.into_iter().enumerate() {
+            for function in 0..N {
+                axis.shape[function].set_lane(lane, point.shape[function]);
+                axis.slope[function].set_lane(lane, point.slope[function]);
+            }
+            axis.weight.set_lane(lane, point.weight);
+        }
+        axis
+    }
+
+    /// The point of a lane.
+    pub(super) fn point(&self, lane: usize) -> AxisPoint<N> {
+        AxisPoint {
+            shape: self.shape.map(|value| value.lane(lane)),
+            slope: self.slope.map(|slope| slope.lane(lane)),
+            weight: self.weight.lane(lane),
+        }
+    }
+
+    /// The movements of the control points of each lane.
+    #[inline(always)]
+    pub(super) fn windows<'a>(&self, movements: &'a [Movement]) -> Windows<'a, N> {
+        let mut windows = [window(movements, self.first[0]); LANES];
+        for (window_of_lane, first) in windows.iter_mut().zip(self.first).skip(1) {
+            *window_of_lane = window(movements, first);
+        }
+        Windows(windows)
+    }
+}
+
+/// The movements of the control points that the points of each lane depend on.
+pub(super) struct Windows<'a, const N: usize>([&'a [Movement; N]; LANES]);
+
+impl<const N: usize> Windows<'_, N> {
+    /// A component of the movements of the control points of a function.
+    #[inline(always)]
+    pub(super) fn component(&self, function: usize, component: usize) -> Lanes {
+        let mut lanes = Lanes::default();
+        for (lane, window) in self.0.iter().enumerate() {
+            lanes.set_lane(lane, window[function][component]);
+        }
+        lanes
+    }
 }
 
 /// The axis that control points draw, of about a given length.

@@ -14,7 +14,7 @@ use super::sections::{MassIntegral, PerPoint, Sections, SectionsOnAxis, Uniform}
 use super::span_loops::{
     Advance, Correction, Forces, ForcesFrom, Iterate, Linearisation, MismatchForces, SpanLoop,
 };
-use super::span_points::SpanPoints;
+use super::span_points::{SPANS_AT_ONCE, SpanGroup, SpanOfPoints};
 use super::{
     BeamError, Mesh, RotationIncrement, Section, SectionForces, SectionPlace, SectionVariation,
 };
@@ -27,7 +27,7 @@ struct DiscreteBeam<const N: usize, S: Sections = Uniform> {
     section: Section,
     control_points: Vec<Vec2>,
     remainders: Vec<Vec2>,
-    spans: Vec<SpanPoints<N, S>>,
+    groups: Vec<SpanGroup<N, S>>,
     parts: Parts,
     inertia: InertiaMatrix<N, S::MassIntegral>,
 }
@@ -90,21 +90,16 @@ impl<const N: usize, S: Sections> DiscreteBeam<N, S> {
             let moment_rule = quadrature.moment_rule()?;
             let QuadratureSpan { span, force_rule, .. } = quadrature;
             let section = |(xi, _): (f64, f64)| on_axis.at(index, &span, xi);
-            let at_force = force_rule.iter().copied().map(section).collect();
-            let at_moment = moment_rule.iter_on(span.start, span.end).map(section).collect();
-            spans.push(SpanPoints {
+            let at_force: Vec<Section> = force_rule.iter().copied().map(section).collect();
+            let at_moment = moment_rule.iter_on(span.start, span.end).map(section);
+            let force_points = axis.points(span, force_rule)?.into_iter().map(ForcePoint::new);
+            let of_moment = moment_rule.iter_on(span.start, span.end);
+            let moment_points =
+                axis.points(span, of_moment)?.into_iter().map(|(axis, _)| MomentPoint::new(axis));
+            spans.push(SpanOfPoints {
                 first: span.first,
-                force_points: axis
-                    .points(span, force_rule)?
-                    .into_iter()
-                    .map(ForcePoint::new)
-                    .collect(),
-                moment_points: axis
-                    .points(span, moment_rule.iter_on(span.start, span.end))?
-                    .into_iter()
-                    .map(|(axis, _)| MomentPoint::new(axis))
-                    .collect(),
-                sections: S::new(at_force, at_moment),
+                force_points: force_points.zip(at_force).collect(),
+                moment_points: moment_points.zip(at_moment).collect(),
             });
             let of_inertia = || inertia_rule.iter_on(span.start, span.end);
             let points = axis.points::<N>(span, of_inertia())?;
@@ -117,11 +112,12 @@ impl<const N: usize, S: Sections> DiscreteBeam<N, S> {
                 }
             }
         }
+        let groups = spans.chunks(SPANS_AT_ONCE).map(SpanGroup::side_by_side).collect();
         let remainders = vec![Vec2::zeros(); control_points.len()];
         let parts = Parts::default();
         let section = variation.mean();
         let inertia = InertiaMatrix::new(gram, section);
-        Ok(Self { section, control_points, remainders, spans, parts, inertia })
+        Ok(Self { section, control_points, remainders, groups, parts, inertia })
     }
 }
 
@@ -139,7 +135,7 @@ impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
     }
 
     fn span_starts(&self) -> Vec<usize> {
-        self.spans.iter().map(|span| span.first).collect()
+        self.groups.iter().flat_map(|group| &group.spans).map(|span| span.first).collect()
     }
 
     fn control_points(&self) -> &[Vec2] {
@@ -151,16 +147,13 @@ impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
     }
 
     fn divide(&mut self, most: usize) -> Vec<usize> {
-        self.parts = Parts::worthwhile(&self.spans, most);
+        self.parts = Parts::worthwhile(&self.groups, most);
         self.parts.first_points()
     }
 
     fn begin_step(&mut self) {
-        self.parts.each(&mut self.spans, |spans| {
-            for span in spans {
-                span.force_points.iter_mut().for_each(ForcePoint::begin_step);
-                span.moment_points.iter_mut().for_each(MomentPoint::begin_step);
-            }
+        self.parts.each(&mut self.groups, |groups| {
+            groups.iter_mut().for_each(SpanGroup::begin_step);
         });
     }
 
@@ -171,15 +164,15 @@ impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
         weight: f64,
         forces: &mut [Movement],
     ) -> ForceSummary {
-        let Self { section, spans, parts, .. } = self;
+        let Self { section, groups, parts, .. } = self;
         let iterate = Iterate { section, at, moved, weight };
         let mut summaries = [ForceSummary::default(); MOST_PARTS];
         let summaries = &mut summaries[..parts.count()];
-        parts.sum(spans, forces, summaries, |summary, spans, first, forces| {
+        parts.sum(groups, forces, summaries, |summary, groups, first, forces| {
             // In memory of this thread: summaries of parts lie beside each other, in lines that caches of several cores would fight for.
             let mut own = *summary;
             let forces = ForcesFrom { first, forces };
-            Forces { iterate, forces, summary: &mut own }.over(spans);
+            Forces { iterate, forces, summary: &mut own }.over(groups);
             *summary = own;
         });
         let mut summary = ForceSummary::default();
@@ -195,25 +188,25 @@ impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
         forces: &mut [Movement],
         tangents: &mut [BlockSink<'_>],
     ) {
-        let Self { section, spans, parts, .. } = self;
+        let Self { section, groups, parts, .. } = self;
         let iterate = Iterate { section, at, moved, weight };
-        parts.sum(spans, forces, tangents, |tangent, spans, first, forces| {
-            Linearisation { iterate, forces: ForcesFrom { first, forces }, tangent }.over(spans);
+        parts.sum(groups, forces, tangents, |tangent, groups, first, forces| {
+            Linearisation { iterate, forces: ForcesFrom { first, forces }, tangent }.over(groups);
         });
     }
 
     fn add_mismatch_forces(&mut self, weight: f64, forces: &mut [Movement]) {
-        let Self { section, spans, parts, .. } = self;
+        let Self { section, groups, parts, .. } = self;
         let section = &*section;
-        parts.sum_lightly(spans, forces, |spans, first, forces| {
-            MismatchForces { section, weight, forces: ForcesFrom { first, forces } }.over(spans);
+        parts.sum_lightly(groups, forces, |groups, first, forces| {
+            MismatchForces { section, weight, forces: ForcesFrom { first, forces } }.over(groups);
         });
     }
 
     fn correct_section_forces(&mut self, correction: &[Movement]) {
-        let Self { section, spans, parts, .. } = self;
+        let Self { section, groups, parts, .. } = self;
         let correction = Correction { section, movements: correction };
-        parts.each(spans, |spans| correction.over(spans));
+        parts.each(groups, |groups| correction.over(groups));
     }
 
     fn advance(&mut self, moved: &[Movement], rotations: RotationIncrement) {
@@ -223,7 +216,7 @@ impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
             move_compensated(point, remainder, movement);
         }
         let advance = Advance { moved, rotations };
-        self.parts.each(&mut self.spans, |spans| advance.over(spans));
+        self.parts.each(&mut self.groups, |groups| advance.over(groups));
     }
 
     fn add_inertia(&self, factor: f64, rates: &[Movement], forces: &mut [Movement]) {
@@ -252,9 +245,8 @@ impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
 
     fn each_span_at_rest(&self, take: &mut dyn FnMut(&SpanAtRest)) {
         let mut rows = SpanAtRest::default();
-        for span in &self.spans {
-            span.write_at_rest(&self.section, &mut rows);
-            take(&rows);
+        for group in &self.groups {
+            group.each_at_rest(&self.section, &mut rows, take);
         }
     }
 
@@ -263,24 +255,25 @@ impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
     }
 
     fn write_normals(&self, normals: &mut Vec<Vec2>) {
-        let points = self.spans.iter().flat_map(|span| &span.force_points);
-        normals.extend(points.map(ForcePoint::normal));
+        for group in &self.groups {
+            group.write_normals(normals);
+        }
     }
 
     fn strain_energy(&self) -> f64 {
-        self.spans.iter().map(|span| span.strain_energy(&self.section)).sum()
+        self.groups.iter().flat_map(|group| group.strain_energies_of_spans(&self.section)).sum()
     }
 
     fn strain_energies(&self) -> [f64; 3] {
         let mut sums = [0.0; 3];
-        for span in &self.spans {
-            span.add_strain_energies(&self.section, &mut sums);
+        for group in &self.groups {
+            group.add_strain_energies(&self.section, &mut sums);
         }
         sums
     }
 
     fn section_forces(&self, place: &SectionPlace) -> SectionForces {
-        place.sum_up(&self.section, &self.spans)
+        place.sum_up(&self.section, &self.groups)
     }
 
     fn lumped_lengths(&self) -> Vec<f64> {
@@ -296,10 +289,7 @@ impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
         for (point, remainder) in self.control_points.iter().zip(&self.remainders) {
             state.extend([point.x, point.y, remainder.x, remainder.y]);
         }
-        for span in &self.spans {
-            span.force_points.iter().for_each(|point| point.save(state));
-            span.moment_points.iter().for_each(|point| point.save(state));
-        }
+        self.groups.iter().for_each(|group| group.save(state));
     }
 
     fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
@@ -307,14 +297,7 @@ impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
             *point = Vec2::new(next(), next());
             *remainder = Vec2::new(next(), next());
         }
-        for span in &mut self.spans {
-            span.force_points
-                .iter_mut()
-                .for_each(|point| point.restore(std::array::from_fn(|_| next())));
-            span.moment_points
-                .iter_mut()
-                .for_each(|point| point.restore(std::array::from_fn(|_| next())));
-        }
+        self.groups.iter_mut().for_each(|group| group.restore(next));
     }
 }
 

@@ -7,12 +7,13 @@
 use std::ops::Range;
 
 use super::dynamics::Movement;
-use super::span_points::{SpanPoints, window, window_mut};
+use super::sections::Sections;
+use super::span_points::{SPANS_AT_ONCE, SpanGroup};
 use crate::threads::at_once;
 
 /// What a part of a beam has for itself: what its work needs, its spans, its first control point and its sums.
 type PartOf<'a, const N: usize, S, C> =
-    (&'a mut C, &'a mut [SpanPoints<N, S>], usize, &'a mut [Movement]);
+    (&'a mut C, &'a mut [SpanGroup<N, S>], usize, &'a mut [Movement]);
 
 /// The largest number of parts of a beam that are worked on at once: a few cores use up the bandwidth of the memory.
 pub(super) const MOST_PARTS: usize = 8;
@@ -23,12 +24,16 @@ const SMALLEST_PART: usize = 4000;
 /// Fewest spans of a part for what takes little time at each: less than a tenth of what their tangents take.
 const SMALLEST_LIGHT_PART: usize = 2000;
 
+fn count_spans<const N: usize, S>(groups: &[SpanGroup<N, S>]) -> usize {
+    groups.iter().map(|group| group.spans.len()).sum()
+}
+
 /// Where one part ends and the next begins.
 #[derive(Debug, Clone, PartialEq)]
 struct Cut {
     /// The first control point behind it.
     point: usize,
-    /// The spans that reach over it.
+    /// The groups of spans that reach over it.
     astride: Range<usize>,
 }
 
@@ -40,16 +45,20 @@ pub(super) struct Parts {
 
 impl Parts {
     /// The cut of some spans into at most so many parts, each as large as is worth a thread.
-    pub(super) fn worthwhile<const N: usize, S>(spans: &[SpanPoints<N, S>], most: usize) -> Self {
-        Self::new(spans, most.min(MOST_PARTS).min(spans.len() / SMALLEST_PART))
+    pub(super) fn worthwhile<const N: usize, S: Sections>(
+        groups: &[SpanGroup<N, S>],
+        most: usize,
+    ) -> Self {
+        Self::new(groups, most.min(MOST_PARTS).min(count_spans(groups) / SMALLEST_PART))
     }
 
     /// So many parts, of about as many spans each.
-    fn new<const N: usize, S>(spans: &[SpanPoints<N, S>], count: usize) -> Self {
+    fn new<const N: usize, S: Sections>(groups: &[SpanGroup<N, S>], count: usize) -> Self {
         let cut = |part: usize| {
-            let behind = part * spans.len() / count;
-            let point = spans[behind].first;
-            let begin = spans[..behind].partition_point(|span| span.first + N <= point);
+            let behind = part * groups.len() / count;
+            let point = groups[behind].control_points().start;
+            let before = |group: &SpanGroup<N, S>| group.control_points().end <= point;
+            let begin = groups[..behind].partition_point(before);
             Cut { point, astride: begin..behind }
         };
         Self { cuts: (1..count).map(cut).collect() }
@@ -70,16 +79,16 @@ impl Parts {
     }
 
     /// Works a little on all spans of a beam, parts at once, where spans give nothing to each other.
-    pub(super) fn each<const N: usize, S: Send>(
+    pub(super) fn each<const N: usize, S: Sections>(
         &self,
-        spans: &mut [SpanPoints<N, S>],
-        work: impl Fn(&mut [SpanPoints<N, S>]) + Sync,
+        groups: &mut [SpanGroup<N, S>],
+        work: impl Fn(&mut [SpanGroup<N, S>]) + Sync,
     ) {
-        if !self.are_large(spans.len()) {
-            return work(spans);
+        if !self.are_large(count_spans(groups)) {
+            return work(groups);
         }
-        let most = spans.len().div_ceil(self.count());
-        at_once(spans.chunks_mut(most), work);
+        let most = groups.len().div_ceil(self.count());
+        at_once(groups.chunks_mut(most), work);
     }
 
     /// Works a little on the sums of the control points of each part of a beam, parts at once.
@@ -106,76 +115,78 @@ impl Parts {
     ///
     /// `work` is called with what a part has for itself, some spans, the first control point of some sums, and these. Of
     /// spans astride a cut it is called twice, and must do the same both times.
-    pub(super) fn sum<const N: usize, S: Send, C: Send>(
+    pub(super) fn sum<const N: usize, S: Sections, C: Send>(
         &self,
-        spans: &mut [SpanPoints<N, S>],
+        groups: &mut [SpanGroup<N, S>],
         sums: &mut [Movement],
         own: &mut [C],
-        work: impl Fn(&mut C, &mut [SpanPoints<N, S>], usize, &mut [Movement]) + Sync,
+        work: impl Fn(&mut C, &mut [SpanGroup<N, S>], usize, &mut [Movement]) + Sync,
     ) {
         if self.cuts.is_empty() {
-            return work(&mut own[0], spans, 0, sums);
+            return work(&mut own[0], groups, 0, sums);
         }
         let on_one_side = |own: &mut C,
-                           span: &mut SpanPoints<N, S>,
+                           group: &mut SpanGroup<N, S>,
                            sums: &mut [Movement],
                            side: Range<usize>| {
-            let first = span.first;
-            let mut copy: [Movement; N] = *window(sums, first);
-            work(own, std::slice::from_mut(span), first, &mut copy);
-            let sums = window_mut::<N>(sums, first);
-            let Range { start, end } = side;
-            let side = start.max(first) - first..end.min(first + N) - first;
+            let points = group.control_points();
+            let mut copy = [[Movement::default(); N]; SPANS_AT_ONCE];
+            let copy = &mut copy.as_flattened_mut()[..points.len()];
+            let sums = &mut sums[points.clone()];
+            copy.copy_from_slice(sums);
+            work(own, std::slice::from_mut(group), points.start, copy);
+            let Range { start, end } = points;
+            let side = side.start.max(start) - start..side.end.min(end) - start;
             sums[side.clone()].copy_from_slice(&copy[side]);
         };
         for (cut, own) in self.cuts.iter().zip(&mut own[1..]) {
-            for span in &mut spans[cut.astride.clone()] {
-                on_one_side(own, span, sums, cut.point..usize::MAX);
+            for group in &mut groups[cut.astride.clone()] {
+                on_one_side(own, group, sums, cut.point..usize::MAX);
             }
         }
-        at_once(self.split(spans, sums, own), |(own, spans, first, sums)| {
-            work(own, spans, first, sums);
+        at_once(self.split(groups, sums, own), |(own, groups, first, sums)| {
+            work(own, groups, first, sums);
         });
         for (cut, own) in self.cuts.iter().zip(own) {
-            for span in &mut spans[cut.astride.clone()] {
-                on_one_side(own, span, sums, 0..cut.point);
+            for group in &mut groups[cut.astride.clone()] {
+                on_one_side(own, group, sums, 0..cut.point);
             }
         }
     }
 
     /// The same for sums that take little time at each span.
-    pub(super) fn sum_lightly<const N: usize, S: Send>(
+    pub(super) fn sum_lightly<const N: usize, S: Sections>(
         &self,
-        spans: &mut [SpanPoints<N, S>],
+        groups: &mut [SpanGroup<N, S>],
         sums: &mut [Movement],
-        work: impl Fn(&mut [SpanPoints<N, S>], usize, &mut [Movement]) + Sync,
+        work: impl Fn(&mut [SpanGroup<N, S>], usize, &mut [Movement]) + Sync,
     ) {
-        if !self.are_large(spans.len()) {
-            return work(spans, 0, sums);
+        if !self.are_large(count_spans(groups)) {
+            return work(groups, 0, sums);
         }
         let own = &mut [(); MOST_PARTS];
-        self.sum(spans, sums, own, |(), spans, first, sums| work(spans, first, sums));
+        self.sum(groups, sums, own, |(), groups, first, sums| work(groups, first, sums));
     }
 
     /// What each part has for itself, without the spans astride.
     fn split<'a, const N: usize, S, C>(
         &self,
-        mut spans: &'a mut [SpanPoints<N, S>],
+        mut groups: &'a mut [SpanGroup<N, S>],
         mut sums: &'a mut [Movement],
         own: &'a mut [C],
     ) -> Vec<PartOf<'a, N, S, C>> {
         let mut parts = Vec::with_capacity(self.count());
-        let (mut next_span, mut next_point) = (0, 0);
+        let (mut next_group, mut next_point) = (0, 0);
         let mut own = own.iter_mut();
         for (cut, own) in self.cuts.iter().zip(&mut own) {
-            let (before, behind) = spans.split_at_mut(cut.astride.start - next_span);
+            let (before, behind) = groups.split_at_mut(cut.astride.start - next_group);
             let (sums_before, sums_behind) = sums.split_at_mut(cut.point - next_point);
             parts.push((own, before, next_point, sums_before));
-            spans = &mut behind[cut.astride.len()..];
+            groups = &mut behind[cut.astride.len()..];
             sums = sums_behind;
-            (next_span, next_point) = (cut.astride.end, cut.point);
+            (next_group, next_point) = (cut.astride.end, cut.point);
         }
-        parts.extend(own.next().map(|own| (own, spans, next_point, sums)));
+        parts.extend(own.next().map(|own| (own, groups, next_point, sums)));
         parts
     }
 }

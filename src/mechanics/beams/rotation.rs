@@ -1,7 +1,8 @@
 //! Section rotations as cosine and sine, advanced by tangent-scaled increments without trigonometric functions.
 
+use super::lanes::Number;
+use super::pair::Planar;
 use crate::elementary::{atan, sin_cos, tan};
-use crate::geometry::Vec2;
 
 /// What an interpolated rotation increment `Δω` stands for: which angle `Δθ` a section turns by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -14,40 +15,42 @@ pub enum RotationIncrement {
 
 /// The rotation by the angle `Δθ(Δω)` of an increment, with its derivative.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Turn {
-    cos: f64,
-    sin: f64,
+pub(super) struct Turn<T> {
+    cos: T,
+    sin: T,
     /// The derivative `dΔθ/dΔω` of the angle by the increment [-].
-    pub(super) rate: f64,
+    pub(super) rate: T,
 }
 
 impl RotationIncrement {
     /// The rotation that an increment `Δω` stands for.
-    #[inline]
-    pub(super) fn turn(self, increment: f64) -> Turn {
+    #[inline(always)]
+    pub(super) fn turn<T: Number>(self, increment: T) -> Turn<T> {
+        let one = increment.same(1.0);
         match self {
             Self::TangentScaled => {
-                let half = 0.5 * increment;
+                let half = increment.same(0.5) * increment;
                 let (rate, _) = self.rates(increment);
-                Turn { cos: (1.0 - half * half) * rate, sin: increment * rate, rate }
+                Turn { cos: (one - half * half) * rate, sin: increment * rate, rate }
             }
             Self::Angle => {
-                let (sin, cos) = sin_cos(increment);
-                Turn { cos, sin, rate: 1.0 }
+                let (sin, cos) = increment.sin_cos();
+                Turn { cos, sin, rate: one }
             }
         }
     }
 
     /// The first two derivatives of the angle by the increment, `dΔθ/dΔω` and `d²Δθ/dΔω²`, for which no angle needs its sine.
-    #[inline]
-    pub fn rates(self, increment: f64) -> (f64, f64) {
+    #[inline(always)]
+    pub fn rates<T: Number>(self, increment: T) -> (T, T) {
+        let one = increment.same(1.0);
         match self {
             Self::TangentScaled => {
-                let half = 0.5 * increment;
-                let rate = 1.0 / (1.0 + half * half);
+                let half = increment.same(0.5) * increment;
+                let rate = one / (one + half * half);
                 (rate, -half * rate * rate)
             }
-            Self::Angle => (1.0, 0.0),
+            Self::Angle => (one, increment.same(0.0)),
         }
     }
 
@@ -76,18 +79,19 @@ impl RotationIncrement {
     }
 
     /// The derivative `dΔθ/dΔω` of the angle by the increment [-].
-    pub fn rate(self, increment: f64) -> f64 {
+    #[inline(always)]
+    pub fn rate<T: Number>(self, increment: T) -> T {
         self.rates(increment).0
     }
 }
 
 /// The rotation `Λ = [[c, -s], [s, c]]` from the section frame to space; a mean of two rotations is not itself one.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rotation {
+pub struct Rotation<T = f64> {
     /// The cosine `c` of the angle of the rotation, or a mean of such.
-    pub cos: f64,
+    pub cos: T,
     /// The sine `s` of the angle of the rotation, or a mean of such.
-    pub sin: f64,
+    pub sin: T,
 }
 
 impl Rotation {
@@ -96,15 +100,18 @@ impl Rotation {
         let (sin, cos) = sin_cos(angle);
         Self { cos, sin }
     }
+}
 
+impl<T: Number> Rotation<T> {
     /// This rotation followed by the one that an increment stands for.
-    pub fn turned(self, kind: RotationIncrement, increment: f64) -> Self {
+    #[inline(always)]
+    pub fn turned(self, kind: RotationIncrement, increment: T) -> Self {
         self.times(&kind.turn(increment))
     }
 
     /// The product of this rotation with a turn.
-    #[inline]
-    pub(super) fn times(self, turn: &Turn) -> Self {
+    #[inline(always)]
+    pub(super) fn times(self, turn: &Turn<T>) -> Self {
         Self {
             cos: self.cos * turn.cos - self.sin * turn.sin,
             sin: self.sin * turn.cos + self.cos * turn.sin,
@@ -112,15 +119,16 @@ impl Rotation {
     }
 
     /// Pulls a rotation that rounding has moved off the unit circle back onto it.
-    #[inline]
+    #[inline(always)]
     pub fn normalised(self) -> Self {
-        let correction = 1.5 - 0.5 * (self.cos * self.cos + self.sin * self.sin);
+        let square = self.cos * self.cos + self.sin * self.sin;
+        let correction = square.same(1.5) - square.same(0.5) * square;
         Self { cos: self.cos * correction, sin: self.sin * correction }
     }
 
     /// The mixture `(1 - t) Λ + t Λ'` of this rotation and another.
-    #[inline]
-    pub fn mixed(self, other: Self, t: f64) -> Self {
+    #[inline(always)]
+    pub fn mixed(self, other: Self, t: T) -> Self {
         Self {
             cos: self.cos + t * (other.cos - self.cos),
             sin: self.sin + t * (other.sin - self.sin),
@@ -128,15 +136,17 @@ impl Rotation {
     }
 
     /// The vector `Λ a`: `a` of the section frame, in space.
-    #[inline]
-    pub fn to_space(self, a: Vec2) -> Vec2 {
-        Vec2::new(self.cos * a.x - self.sin * a.y, self.sin * a.x + self.cos * a.y)
+    #[inline(always)]
+    pub fn to_space<P: Planar<T>>(self, a: P) -> P {
+        let (x, y) = a.components();
+        P::of(self.cos * x - self.sin * y, self.sin * x + self.cos * y)
     }
 
     /// The vector `Λᵀ a`: `a` of space, in the section frame.
-    #[inline]
-    pub fn to_section(self, a: Vec2) -> Vec2 {
-        Vec2::new(self.cos * a.x + self.sin * a.y, self.cos * a.y - self.sin * a.x)
+    #[inline(always)]
+    pub fn to_section<P: Planar<T>>(self, a: P) -> P {
+        let (x, y) = a.components();
+        P::of(self.cos * x + self.sin * y, self.cos * y - self.sin * x)
     }
 }
 

@@ -21,7 +21,7 @@
 //! other: where they meet, at a joint or a node of Lagrange elements, both have a value.
 
 use super::sections::{Interpolation, Sections};
-use super::span_points::SpanPoints;
+use super::span_points::{SpanGroup, group_of};
 use super::{BeamError, Mesh, Section};
 use crate::geometry::{LowerSplines, Reproduction, Span, Vec2, cross, larger};
 
@@ -95,14 +95,13 @@ impl SectionPlace {
     pub(super) fn sum_up<const N: usize, S: Sections>(
         &self,
         section: &Section,
-        spans: &[SpanPoints<N, S>],
+        groups: &[SpanGroup<N, S>],
     ) -> SectionForces {
         let (mut normal, mut force, mut moment) = (Vec2::zeros(), Vec2::zeros(), 0.0);
         let mut here = S::Interpolation::default();
         for share in &self.force_shares {
-            let span = &spans[share.span];
-            let point = &span.force_points[share.point];
-            let of_point = span.sections.of_force(section, share.point);
+            let (group, span) = group_of(groups, share.span);
+            let (point, of_point) = group.force_point_of(section, span, share.point);
             let (at_point, couple) = point.transmitted(of_point);
             here.add(of_point, share.of_normal);
             normal += point.normal() * share.of_normal;
@@ -110,9 +109,9 @@ impl SectionPlace {
             moment += couple * share.of_couple;
         }
         for share in &self.moment_shares {
-            let span = &spans[share.span];
-            let of_point = span.sections.of_moment(section, share.point);
-            moment += span.moment_points[share.point].transmitted(of_point) * share.of_moment;
+            let (group, span) = group_of(groups, share.span);
+            let (point, of_point) = group.moment_point_of(section, span, share.point);
+            moment += point.transmitted(of_point) * share.of_moment;
         }
         SectionForces::of(here.section(section), normal, force, moment)
     }

@@ -1,30 +1,36 @@
 //! The loops of a step over the spans of a beam, by vector instructions.
+//!
+//! Points are computed side by side, several at once; what they give is added up span by span, in the order of the beam.
 
 use pulp::{Arch, Simd, WithSimd};
 
 use super::block::Block;
 use super::dynamics::{Collocation, ForceSummary, Movement};
+use super::force_maxima::ForceMaxima;
+use super::force_points::{ForceTangent, Resultant};
+use super::lanes::{LANES, Lanes, Part};
+use super::moment_points::MomentTangent;
 use super::sections::Sections;
-use super::span_points::{SpanPoints, window_mut};
+use super::span_points::{SpanGroup, window_mut};
 use super::{RotationIncrement, Section};
 
 /// A loop over spans: a type for each, so that the compiler knows which instructions it may use all through it.
 pub(super) trait SpanLoop<const N: usize, S> {
-    /// What the loop does at a span.
-    fn at<V: Simd>(&mut self, simd: V, span: &mut SpanPoints<N, S>);
+    /// What the loop does at a group of spans.
+    fn at<V: Simd>(&mut self, simd: V, group: &mut SpanGroup<N, S>);
 
-    /// Goes through some spans.
-    fn over(self, spans: &mut [SpanPoints<N, S>])
+    /// Goes through some groups of spans.
+    fn over(self, groups: &mut [SpanGroup<N, S>])
     where
         Self: Sized,
     {
-        Arch::new().dispatch(Over { spans, work: self });
+        Arch::new().dispatch(Over { groups, work: self });
     }
 }
 
 /// A loop, and the spans that it is over.
 pub(super) struct Over<'a, const N: usize, S, W> {
-    pub(super) spans: &'a mut [SpanPoints<N, S>],
+    pub(super) groups: &'a mut [SpanGroup<N, S>],
     pub(super) work: W,
 }
 
@@ -33,8 +39,8 @@ impl<const N: usize, S, W: SpanLoop<N, S>> WithSimd for Over<'_, N, S, W> {
 
     #[inline(always)]
     fn with_simd<V: Simd>(mut self, simd: V) {
-        for span in self.spans {
-            self.work.at(simd, span);
+        for group in self.groups {
+            self.work.at(simd, group);
         }
     }
 }
@@ -55,9 +61,10 @@ pub(super) struct ForcesFrom<'a> {
 }
 
 impl ForcesFrom<'_> {
+    /// Those on the control points of the span that begins with such a control point.
     #[inline(always)]
-    fn of<const N: usize, S>(&mut self, span: &SpanPoints<N, S>) -> &mut [Movement; N] {
-        window_mut(self.forces, span.first - self.first)
+    fn of<const N: usize>(&mut self, first: usize) -> &mut [Movement; N] {
+        window_mut(self.forces, first - self.first)
     }
 }
 
@@ -70,10 +77,43 @@ pub(super) struct Forces<'a> {
 
 impl<const N: usize, S: Sections> SpanLoop<N, S> for Forces<'_> {
     #[inline(always)]
-    fn at<V: Simd>(&mut self, _: V, span: &mut SpanPoints<N, S>) {
+    fn at<V: Simd>(&mut self, simd: V, group: &mut SpanGroup<N, S>) {
         let Iterate { section, at, moved, weight } = self.iterate;
-        let forces = self.forces.of(span);
-        span.add_forces(section, at, moved, weight, forces, self.summary);
+        let SpanGroup { spans, force_points, moment_points, sections } = group;
+        let mut maxima = ForceMaxima::default();
+        let (mut resultant, mut moment) = (Resultant::default(), Lanes::default());
+        for span in spans {
+            let forces = self.forces.of(span.first);
+            for point in span.force_points.clone() {
+                let (index, lane) = (point / LANES, point % LANES);
+                let points = &mut force_points[index];
+                if lane == 0 {
+                    let windows = points.windows(moved);
+                    for part in 0..Part::<V>::COUNT {
+                        let part = Part::new(simd, part);
+                        let stiffness = sections.force_stiffness(section, index, part);
+                        let by = (stiffness, weight);
+                        points.take_forces(part, by, at, &windows, &mut resultant, &mut maxima);
+                    }
+                }
+                points.distribute(lane, &resultant, forces);
+            }
+            for point in span.moment_points.clone() {
+                let (index, lane) = (point / LANES, point % LANES);
+                let points = &mut moment_points[index];
+                if lane == 0 {
+                    let windows = points.windows(moved);
+                    for part in 0..Part::<V>::COUNT {
+                        let part = Part::new(simd, part);
+                        let stiffness = sections.bending_stiffness(section, index, part);
+                        let by = (stiffness, weight);
+                        points.take_forces(part, by, at, &windows, &mut moment, &mut maxima);
+                    }
+                }
+                points.distribute(lane, &moment, forces);
+            }
+        }
+        maxima.join_to(self.summary);
     }
 }
 
@@ -86,12 +126,46 @@ pub(super) struct Linearisation<'a> {
 
 impl<const N: usize, S: Sections> SpanLoop<N, S> for Linearisation<'_> {
     #[inline(always)]
-    fn at<V: Simd>(&mut self, simd: V, span: &mut SpanPoints<N, S>) {
+    fn at<V: Simd>(&mut self, simd: V, group: &mut SpanGroup<N, S>) {
         let Iterate { section, at, moved, weight } = self.iterate;
-        let forces = self.forces.of(span);
-        let mut block = Block::zeros(simd);
-        span.add_linearised_forces(section, at, moved, weight, forces, &mut block);
-        (self.tangent)(span.first, block.entries());
+        let SpanGroup { spans, force_points, moment_points, sections } = group;
+        let (mut resultant, mut tangent) = (Resultant::default(), ForceTangent::default());
+        let (mut moment, mut moment_tangent) = (Lanes::default(), MomentTangent::default());
+        for span in spans {
+            let forces = self.forces.of(span.first);
+            let mut block = Block::zeros(simd);
+            for point in span.force_points.clone() {
+                let (index, lane) = (point / LANES, point % LANES);
+                let points = &mut force_points[index];
+                if lane == 0 {
+                    let windows = points.windows(moved);
+                    for part in 0..Part::<V>::COUNT {
+                        let part = Part::new(simd, part);
+                        let by = (sections.force_stiffness(section, index, part), weight);
+                        let out = (&mut resultant, &mut tangent);
+                        points.linearise(part, by, at, &windows, out);
+                    }
+                }
+                points.distribute(lane, &resultant, forces);
+                points.add_tangent(lane, &tangent, &mut block);
+            }
+            for point in span.moment_points.clone() {
+                let (index, lane) = (point / LANES, point % LANES);
+                let points = &mut moment_points[index];
+                if lane == 0 {
+                    let windows = points.windows(moved);
+                    for part in 0..Part::<V>::COUNT {
+                        let part = Part::new(simd, part);
+                        let by = (sections.bending_stiffness(section, index, part), weight);
+                        let out = (&mut moment, &mut moment_tangent);
+                        points.linearise(part, by, at, &windows, out);
+                    }
+                }
+                points.distribute(lane, &moment, forces);
+                points.add_tangent(lane, &moment_tangent, &mut block);
+            }
+            (self.tangent)(span.first, block.entries());
+        }
     }
 }
 
@@ -104,8 +178,37 @@ pub(super) struct MismatchForces<'a> {
 
 impl<const N: usize, S: Sections> SpanLoop<N, S> for MismatchForces<'_> {
     #[inline(always)]
-    fn at<V: Simd>(&mut self, _: V, span: &mut SpanPoints<N, S>) {
-        span.add_mismatch_forces(self.section, self.weight, self.forces.of(span));
+    fn at<V: Simd>(&mut self, simd: V, group: &mut SpanGroup<N, S>) {
+        let (section, weight) = (self.section, self.weight);
+        let SpanGroup { spans, force_points, moment_points, sections } = group;
+        let (mut resultant, mut moment) = (Resultant::default(), Lanes::default());
+        for span in spans {
+            let forces = self.forces.of(span.first);
+            for point in span.force_points.clone() {
+                let (index, lane) = (point / LANES, point % LANES);
+                let points = &force_points[index];
+                if lane == 0 {
+                    for part in 0..Part::<V>::COUNT {
+                        let part = Part::new(simd, part);
+                        let by = (sections.force_stiffness(section, index, part), weight);
+                        points.take_mismatch_forces(part, by, &mut resultant);
+                    }
+                }
+                points.distribute(lane, &resultant, forces);
+            }
+            for point in span.moment_points.clone() {
+                let (index, lane) = (point / LANES, point % LANES);
+                let points = &moment_points[index];
+                if lane == 0 {
+                    for part in 0..Part::<V>::COUNT {
+                        let part = Part::new(simd, part);
+                        let by = (sections.bending_stiffness(section, index, part), weight);
+                        points.take_mismatch_forces(part, by, &mut moment);
+                    }
+                }
+                points.distribute(lane, &moment, forces);
+            }
+        }
     }
 }
 
@@ -118,8 +221,8 @@ pub(super) struct Correction<'a> {
 
 impl<const N: usize, S: Sections> SpanLoop<N, S> for Correction<'_> {
     #[inline(always)]
-    fn at<V: Simd>(&mut self, _: V, span: &mut SpanPoints<N, S>) {
-        span.correct_section_forces(self.section, self.movements);
+    fn at<V: Simd>(&mut self, simd: V, group: &mut SpanGroup<N, S>) {
+        group.correct_section_forces(simd, self.section, self.movements);
     }
 }
 
@@ -132,7 +235,7 @@ pub(super) struct Advance<'a> {
 
 impl<const N: usize, S: Sections> SpanLoop<N, S> for Advance<'_> {
     #[inline(always)]
-    fn at<V: Simd>(&mut self, _: V, span: &mut SpanPoints<N, S>) {
-        span.advance(self.moved, self.rotations);
+    fn at<V: Simd>(&mut self, simd: V, group: &mut SpanGroup<N, S>) {
+        group.advance(simd, self.moved, self.rotations);
     }
 }

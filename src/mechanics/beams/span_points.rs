@@ -1,22 +1,47 @@
-//! The quadrature points of one span.
+//! The quadrature points of some neighbouring spans.
+
+use std::ops::Range;
 
 use pulp::Simd;
 
+use super::RotationIncrement;
+use super::Section;
 use super::at_rest::SpanAtRest;
-use super::block::Block;
-use super::dynamics::{Collocation, ForceSummary, Movement};
+use super::dynamics::Movement;
 use super::force_point::ForcePoint;
+use super::force_points::ForcePoints;
+use super::lanes::{LANES, Part};
 use super::moment_point::MomentPoint;
+use super::moment_points::MomentPoints;
 use super::sections::{Sections, Uniform};
-use super::{RotationIncrement, Section};
+use crate::geometry::Vec2;
 
-/// The quadrature points of a span on which `N` functions of the basis are not zero.
+/// So many spans share lanes: enough that few lanes are empty, and few enough that their points stay at hand.
+pub(super) const SPANS_AT_ONCE: usize = 16;
+
+/// A span, and which of the points of its group are its own.
 #[derive(Debug, Clone)]
-pub(super) struct SpanPoints<const N: usize, S = Uniform> {
+pub(super) struct SpanPlace {
     /// The index of the first control point of the span.
     pub(super) first: usize,
-    pub(super) force_points: Vec<ForcePoint<N>>,
-    pub(super) moment_points: Vec<MomentPoint<N>>,
+    pub(super) force_points: Range<usize>,
+    pub(super) moment_points: Range<usize>,
+}
+
+/// A span on which `N` functions of the basis are not zero, with its points one by one.
+pub(super) struct SpanOfPoints<const N: usize> {
+    /// The index of the first control point of the span.
+    pub(super) first: usize,
+    pub(super) force_points: Vec<(ForcePoint<N>, Section)>,
+    pub(super) moment_points: Vec<(MomentPoint<N>, Section)>,
+}
+
+/// The quadrature points of at most [`SPANS_AT_ONCE`] neighbouring spans on which `N` functions of the basis are not zero, side by side.
+#[derive(Debug, Clone)]
+pub(super) struct SpanGroup<const N: usize, S = Uniform> {
+    pub(super) spans: Vec<SpanPlace>,
+    pub(super) force_points: Vec<ForcePoints<N>>,
+    pub(super) moment_points: Vec<MomentPoints<N>>,
     pub(super) sections: S,
 }
 
@@ -38,125 +63,247 @@ pub(super) fn window_mut<const N: usize>(
         .expect("a span has as many control points as its basis has functions")
 }
 
-impl<const N: usize, S: Sections> SpanPoints<N, S> {
-    /// Adds the forces of this span on its control points; `moved` are the movements of all control points of the beam.
-    #[inline(always)]
-    pub(super) fn add_forces(
-        &mut self,
-        section: &Section,
-        at: Collocation,
-        moved: &[Movement],
-        weight: f64,
-        forces: &mut [Movement; N],
-        summary: &mut ForceSummary,
-    ) {
-        let moved = window(moved, self.first);
-        let Self { sections, force_points, moment_points, .. } = self;
-        for (index, point) in force_points.iter_mut().enumerate() {
-            let section = sections.of_force(section, index);
-            point.add_forces(section, at, moved, weight, forces, summary);
+/// The group of a span of a beam, by the number of the span, and its place in that.
+pub(super) fn group_of<const N: usize, S>(
+    groups: &[SpanGroup<N, S>],
+    span: usize,
+) -> (&SpanGroup<N, S>, &SpanPlace) {
+    let group = &groups[span / SPANS_AT_ONCE];
+    (group, &group.spans[span % SPANS_AT_ONCE])
+}
+
+impl<const N: usize, S: Sections> SpanGroup<N, S> {
+    /// The points of neighbouring spans side by side.
+    pub(super) fn side_by_side(spans: &[SpanOfPoints<N>]) -> Self {
+        let (mut places, mut of_force, mut of_moment) = (Vec::new(), 0, 0);
+        for span in spans {
+            let force_points = of_force..of_force + span.force_points.len();
+            let moment_points = of_moment..of_moment + span.moment_points.len();
+            (of_force, of_moment) = (force_points.end, moment_points.end);
+            places.push(SpanPlace { first: span.first, force_points, moment_points });
         }
-        for (index, point) in moment_points.iter_mut().enumerate() {
-            let section = sections.of_moment(section, index);
-            point.add_forces(section, at, moved, weight, forces, summary);
+        let force_points: Vec<(usize, &(ForcePoint<N>, Section))> = spans
+            .iter()
+            .flat_map(|span| span.force_points.iter().map(|point| (span.first, point)))
+            .collect();
+        let moment_points: Vec<(usize, &(MomentPoint<N>, Section))> = spans
+            .iter()
+            .flat_map(|span| span.moment_points.iter().map(|point| (span.first, point)))
+            .collect();
+        Self {
+            spans: places,
+            sections: S::new(
+                force_points.iter().map(|(_, (_, section))| *section).collect(),
+                moment_points.iter().map(|(_, (_, section))| *section).collect(),
+            ),
+            force_points: in_lanes(&force_points, &ForcePoint::NOWHERE)
+                .map(|(points, first)| ForcePoints::side_by_side(points, first))
+                .collect(),
+            moment_points: in_lanes(&moment_points, &MomentPoint::NOWHERE)
+                .map(|(points, first)| MomentPoints::side_by_side(points, first))
+                .collect(),
         }
     }
 
-    /// Adds the condensed forces of this span on its control points, and their derivatives to the block.
+    /// The control points of these spans.
+    pub(super) fn control_points(&self) -> Range<usize> {
+        self.spans[0].first..self.spans[self.spans.len() - 1].first + N
+    }
+
+    pub(super) fn begin_step(&mut self) {
+        self.force_points.iter_mut().for_each(ForcePoints::begin_step);
+        self.moment_points.iter_mut().for_each(MomentPoints::begin_step);
+    }
+
+    /// Updates the section forces for a correction of the movements of all control points.
     #[inline(always)]
-    pub(super) fn add_linearised_forces<V: Simd>(
+    pub(super) fn correct_section_forces<V: Simd>(
         &mut self,
+        simd: V,
         section: &Section,
-        at: Collocation,
-        moved: &[Movement],
-        weight: f64,
-        forces: &mut [Movement; N],
-        block: &mut Block<V, N>,
+        correction: &[Movement],
     ) {
-        let moved = window(moved, self.first);
-        let Self { sections, force_points, moment_points, .. } = self;
-        for (index, point) in force_points.iter_mut().enumerate() {
-            let section = sections.of_force(section, index);
-            point.add_linearised_forces(section, at, moved, weight, forces, block);
+        for (index, points) in self.force_points.iter_mut().enumerate() {
+            let windows = points.windows(correction);
+            for part in 0..Part::<V>::COUNT {
+                let part = Part::new(simd, part);
+                let stiffness = self.sections.force_stiffness(section, index, part);
+                points.correct_section_forces(part, stiffness, &windows);
+            }
         }
-        for (index, point) in moment_points.iter_mut().enumerate() {
-            let section = sections.of_moment(section, index);
-            point.add_linearised_forces(section, at, moved, weight, forces, block);
+        for (index, points) in self.moment_points.iter_mut().enumerate() {
+            let windows = points.windows(correction);
+            for part in 0..Part::<V>::COUNT {
+                let part = Part::new(simd, part);
+                let stiffness = self.sections.bending_stiffness(section, index, part);
+                points.correct_moments(part, stiffness, &windows);
+            }
         }
     }
 
-    /// Adds the forces that would close the strain mismatch in this span.
+    /// Accepts the movements of all control points, as far as they are of these spans.
     #[inline(always)]
-    pub(super) fn add_mismatch_forces(
+    pub(super) fn advance<V: Simd>(
+        &mut self,
+        simd: V,
+        moved: &[Movement],
+        rotations: RotationIncrement,
+    ) {
+        for points in &mut self.force_points {
+            let windows = points.windows(moved);
+            for part in 0..Part::<V>::COUNT {
+                points.advance(Part::new(simd, part), &windows, rotations);
+            }
+        }
+        for points in &mut self.moment_points {
+            let windows = points.windows(moved);
+            for part in 0..Part::<V>::COUNT {
+                points.advance(Part::new(simd, part), &windows, rotations);
+            }
+        }
+    }
+
+    /// The points for `Γ` of a span, each with its section.
+    pub(super) fn force_points_of<'a>(
+        &'a self,
+        uniform: &'a Section,
+        span: &SpanPlace,
+    ) -> impl Iterator<Item = (ForcePoint<N>, &'a Section)> {
+        (0..span.force_points.len()).map({
+            let span = span.clone();
+            move |point| self.force_point_of(uniform, &span, point)
+        })
+    }
+
+    /// The points for `κ` of a span, each with its section.
+    pub(super) fn moment_points_of<'a>(
+        &'a self,
+        uniform: &'a Section,
+        span: &SpanPlace,
+    ) -> impl Iterator<Item = (MomentPoint<N>, &'a Section)> {
+        (0..span.moment_points.len()).map({
+            let span = span.clone();
+            move |point| self.moment_point_of(uniform, &span, point)
+        })
+    }
+
+    /// One of the points for `Γ` of a span, with its section.
+    pub(super) fn force_point_of<'a>(
+        &'a self,
+        uniform: &'a Section,
+        span: &SpanPlace,
+        point: usize,
+    ) -> (ForcePoint<N>, &'a Section) {
+        let index = span.force_points.start + point;
+        (self.force_point(index), self.sections.of_force(uniform, index))
+    }
+
+    /// One of the points for `κ` of a span, with its section.
+    pub(super) fn moment_point_of<'a>(
+        &'a self,
+        uniform: &'a Section,
+        span: &SpanPlace,
+        point: usize,
+    ) -> (MomentPoint<N>, &'a Section) {
+        let index = span.moment_points.start + point;
+        (self.moment_point(index), self.sections.of_moment(uniform, index))
+    }
+
+    fn force_point(&self, index: usize) -> ForcePoint<N> {
+        self.force_points[index / LANES].point(index % LANES)
+    }
+
+    fn moment_point(&self, index: usize) -> MomentPoint<N> {
+        self.moment_points[index / LANES].point(index % LANES)
+    }
+
+    /// Writes how each span resists small movements at rest, and hands it on.
+    pub(super) fn each_at_rest(
         &self,
         section: &Section,
-        weight: f64,
-        forces: &mut [Movement; N],
+        rows: &mut SpanAtRest,
+        take: &mut dyn FnMut(&SpanAtRest),
     ) {
-        let Self { sections, force_points, moment_points, .. } = self;
-        for (index, point) in force_points.iter().enumerate() {
-            point.add_mismatch_forces(sections.of_force(section, index), weight, forces);
-        }
-        for (index, point) in moment_points.iter().enumerate() {
-            point.add_mismatch_forces(sections.of_moment(section, index), weight, forces);
-        }
-    }
-
-    /// Updates the section forces of this span for a correction of the movements of all control points.
-    #[inline(always)]
-    pub(super) fn correct_section_forces(&mut self, section: &Section, correction: &[Movement]) {
-        let correction = window(correction, self.first);
-        let Self { sections, force_points, moment_points, .. } = self;
-        for (index, point) in force_points.iter_mut().enumerate() {
-            point.correct_section_force(sections.of_force(section, index), correction);
-        }
-        for (index, point) in moment_points.iter_mut().enumerate() {
-            point.correct_moment(sections.of_moment(section, index), correction);
+        for span in &self.spans {
+            rows.begin(span.first);
+            for (point, section) in self.force_points_of(section, span) {
+                point.write_at_rest(section, rows);
+            }
+            for (point, section) in self.moment_points_of(section, span) {
+                point.write_at_rest(section, rows);
+            }
+            take(rows);
         }
     }
 
-    /// Accepts the movements of all control points, as far as they are of this span.
-    #[inline(always)]
-    pub(super) fn advance(&mut self, moved: &[Movement], rotations: RotationIncrement) {
-        let moved = window(moved, self.first);
-        self.force_points.iter_mut().for_each(|point| point.advance(moved, rotations));
-        self.moment_points.iter_mut().for_each(|point| point.advance(moved, rotations));
+    /// The strain energy of each span.
+    pub(super) fn strain_energies_of_spans(&self, section: &Section) -> impl Iterator<Item = f64> {
+        self.spans.iter().map(move |span| {
+            let points = self.force_points_of(section, span);
+            let force = points.map(|(point, section)| point.strain_energy(section)).sum::<f64>();
+            force + self.bending_energy(section, span)
+        })
     }
 
-    /// Writes how this span resists small movements at rest.
-    pub(super) fn write_at_rest(&self, section: &Section, span: &mut SpanAtRest) {
-        span.begin(self.first);
-        let Self { sections, force_points, moment_points, .. } = self;
-        for (index, point) in force_points.iter().enumerate() {
-            point.write_at_rest(sections.of_force(section, index), span);
-        }
-        for (index, point) in moment_points.iter().enumerate() {
-            point.write_at_rest(sections.of_moment(section, index), span);
-        }
+    fn bending_energy(&self, section: &Section, span: &SpanPlace) -> f64 {
+        let points = self.moment_points_of(section, span);
+        points.map(|(point, section)| point.strain_energy(section)).sum::<f64>()
     }
 
-    pub(super) fn strain_energy(&self, section: &Section) -> f64 {
-        let of_force = |(index, point): (usize, &ForcePoint<N>)| {
-            point.strain_energy(self.sections.of_force(section, index))
-        };
-        let force = self.force_points.iter().enumerate().map(of_force).sum::<f64>();
-        force + self.bending_energy(section)
-    }
-
-    fn bending_energy(&self, section: &Section) -> f64 {
-        let of_moment = |(index, point): (usize, &MomentPoint<N>)| {
-            point.strain_energy(self.sections.of_moment(section, index))
-        };
-        self.moment_points.iter().enumerate().map(of_moment).sum::<f64>()
-    }
-
-    /// Adds the energies of stretching, of shear and of bending of this span [energy].
+    /// Adds the energies of stretching, of shear and of bending of these spans [energy].
     pub(super) fn add_strain_energies(&self, section: &Section, sums: &mut [f64; 3]) {
-        for (index, point) in self.force_points.iter().enumerate() {
-            let [axial, shear] = point.strain_energies(self.sections.of_force(section, index));
-            sums[0] += axial;
-            sums[1] += shear;
+        for span in &self.spans {
+            for (point, section) in self.force_points_of(section, span) {
+                let [axial, shear] = point.strain_energies(section);
+                sums[0] += axial;
+                sums[1] += shear;
+            }
+            sums[2] += self.bending_energy(section, span);
         }
-        sums[2] += self.bending_energy(section);
     }
+
+    /// Writes the normals of the sections at the points for `Γ`, span by span.
+    pub(super) fn write_normals(&self, normals: &mut Vec<Vec2>) {
+        let count = self.spans[self.spans.len() - 1].force_points.end;
+        normals.extend((0..count).map(|index| self.force_point(index).normal()));
+    }
+
+    /// Writes the state of all points, span by span.
+    pub(super) fn save(&self, state: &mut Vec<f64>) {
+        for span in &self.spans {
+            span.force_points.clone().for_each(|index| self.force_point(index).save(state));
+            span.moment_points.clone().for_each(|index| self.moment_point(index).save(state));
+        }
+    }
+
+    /// Reads the state of all points as [`save`](Self::save) wrote it.
+    pub(super) fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
+        for place in 0..self.spans.len() {
+            let SpanPlace { force_points, moment_points, .. } = self.spans[place].clone();
+            for index in force_points {
+                let mut point = self.force_point(index);
+                point.restore(std::array::from_fn(|_| next()));
+                self.force_points[index / LANES].set(index % LANES, &point);
+            }
+            for index in moment_points {
+                let mut point = self.moment_point(index);
+                point.restore(std::array::from_fn(|_| next()));
+                self.moment_points[index / LANES].set(index % LANES, &point);
+            }
+        }
+    }
+}
+
+/// Points by lanes, with the first control points of their spans; lanes that are left over have no point.
+fn in_lanes<'a, P>(
+    points: &'a [(usize, &'a (P, Section))],
+    nowhere: &'a P,
+) -> impl Iterator<Item = ([&'a P; LANES], [usize; LANES])> {
+    points.chunks(LANES).map(move |points| {
+        let (mut of_lanes, mut first) = ([nowhere; LANES], [points[0].0; LANES]);
+        for (lane, (of_span, (point, _))) in points.iter().enumerate() {
+            (of_lanes[lane], first[lane]) = (point, *of_span);
+        }
+        (of_lanes, first)
+    })
 }

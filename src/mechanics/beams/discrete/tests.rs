@@ -14,16 +14,16 @@ fn linearised<const N: usize>(
     arch: Arch,
     beam: &DiscreteBeam<N>,
     moved: &[Movement],
-) -> (Vec<u64>, Vec<SpanPoints<N>>) {
-    let (mut spans, mut forces) = (beam.spans.clone(), vec![[0.0; 3]; moved.len()]);
+) -> (Vec<u64>, Vec<SpanGroup<N>>) {
+    let (mut groups, mut forces) = (beam.groups.clone(), vec![[0.0; 3]; moved.len()]);
     let mut found = Vec::new();
     let mut tangent = |_: usize, entries: &[f64]| found.extend(entries.iter().map(|x| x.to_bits()));
     let iterate = Iterate { section: &beam.section, at: TANGENT, moved, weight: 0.7 };
     let forces_from = ForcesFrom { first: 0, forces: &mut forces };
     let work = Linearisation { iterate, forces: forces_from, tangent: &mut tangent };
-    arch.dispatch(Over { spans: &mut spans, work });
+    arch.dispatch(Over { groups: &mut groups, work });
     found.extend(forces.as_flattened().iter().map(|x| x.to_bits()));
-    (found, spans)
+    (found, groups)
 }
 
 /// Moves a curved beam twice, and compares at either place.
@@ -43,9 +43,9 @@ fn assert_same<const N: usize>(mesh: &Mesh, movements: &[f64]) {
         let moved: Vec<Movement> =
             (0..count).map(|_| std::array::from_fn(|_| *movements.next().unwrap())).collect();
         let (scalar, _) = linearised(Arch::Scalar, &beam, &moved);
-        let (vectors, spans) = linearised(Arch::new(), &beam, &moved);
+        let (vectors, groups) = linearised(Arch::new(), &beam, &moved);
         assert!(scalar == vectors, "{N} functions");
-        beam.spans = spans;
+        beam.groups = groups;
         beam.correct_section_forces(&moved);
         beam.advance(&moved, RotationIncrement::TangentScaled);
     }

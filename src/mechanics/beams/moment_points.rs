@@ -1,0 +1,277 @@
+//! Quadrature points for the curvature `κ` side by side, in a step, and the moment as an unknown of its own.
+//!
+//! ```text
+//! κ1 = κ0 + Δω'/q     1/q = dΔθ/dΔω     M = EI ((1-σ) κ0 + σ κ1)     S_a = w N_a' M/q
+//! ```
+//!
+//! The moment is linear in the curvature, so that Newton's method gains nothing by the unknown; but a moment computed from
+//! increments of a configuration rounds like `EI` times these, which in a stiff beam is more than what is to be balanced.
+
+use pulp::Simd;
+
+use super::RotationIncrement;
+use super::axis_point::{AxisPoints, Windows};
+use super::block::Block;
+use super::dynamics::{Collocation, Movement};
+use super::force_maxima::ForceMaxima;
+use super::lanes::{LANES, Lanes, Number, Part, Vector};
+use super::moment_point::MomentPoint;
+
+#[derive(Debug, Clone)]
+pub(super) struct MomentPoints<const N: usize> {
+    axis: AxisPoints<N>,
+    /// `κ0`
+    curvature: Lanes,
+    /// The moment `M` of the iterate.
+    moment: Lanes,
+    /// That of the last step, from which the next one starts.
+    last_moment: Lanes,
+    /// `m = κσ - M/EI`, where forces were taken last.
+    mismatch: Lanes,
+    linearised_at: Bend<Lanes>,
+    /// `σ` there.
+    linearised_stress: f64,
+}
+
+/// What increments lead to.
+#[derive(Debug, Clone, Copy, Default)]
+struct Bend<T> {
+    /// `Δω'`
+    slope: T,
+    /// `1/q`, and its derivative by `Δω`.
+    inverse_q: T,
+    inverse_q_slope: T,
+}
+
+impl<T: Number> Bend<T> {
+    /// `δκ1 = δω'/q + Δω' δ(1/q)`, by `δω'` and `δω`.
+    #[inline(always)]
+    fn curvature_by(&self) -> (T, T) {
+        (self.inverse_q, self.slope * self.inverse_q_slope)
+    }
+}
+
+impl Bend<Lanes> {
+    #[inline(always)]
+    fn get<V: Simd>(&self, part: Part<V>) -> Bend<Vector<V>> {
+        Bend {
+            slope: self.slope.get(part),
+            inverse_q: self.inverse_q.get(part),
+            inverse_q_slope: self.inverse_q_slope.get(part),
+        }
+    }
+
+    #[inline(always)]
+    fn put<V: Simd>(&mut self, part: Part<V>, now: Bend<Vector<V>>) {
+        self.slope.put(part, now.slope);
+        self.inverse_q.put(part, now.inverse_q);
+        self.inverse_q_slope.put(part, now.inverse_q_slope);
+    }
+}
+
+/// The derivatives of the forces on rotations by rotations.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct MomentTangent<const N: usize>([[Lanes; N]; N]);
+
+impl<const N: usize> Default for MomentTangent<N> {
+    fn default() -> Self {
+        Self([[Lanes::default(); N]; N])
+    }
+}
+
+impl<const N: usize> MomentPoints<N> {
+    /// Points by lanes, in spans that begin with such control points.
+    pub(super) fn side_by_side(points: [&MomentPoint<N>; LANES], first: [usize; LANES]) -> Self {
+        let none = Lanes::default();
+        let mut side_by_side = Self {
+            axis: AxisPoints::side_by_side(points.map(|point| &point.axis), first),
+            curvature: none,
+            moment: none,
+            last_moment: none,
+            mismatch: none,
+            linearised_at: Bend::default(),
+            linearised_stress: 0.0,
+        };
+        points.iter().enumerate().for_each(|(lane, point)| side_by_side.set(lane, point));
+        side_by_side
+    }
+
+    /// What is kept of the point of a lane between two steps.
+    pub(super) fn point(&self, lane: usize) -> MomentPoint<N> {
+        MomentPoint {
+            axis: self.axis.point(lane),
+            curvature: self.curvature.lane(lane),
+            last_moment: self.last_moment.lane(lane),
+        }
+    }
+
+    /// Puts the point of a lane into another state.
+    pub(super) fn set(&mut self, lane: usize, point: &MomentPoint<N>) {
+        self.curvature.set_lane(lane, point.curvature);
+        self.last_moment.set_lane(lane, point.last_moment);
+    }
+
+    pub(super) fn begin_step(&mut self) {
+        self.moment = self.last_moment;
+    }
+
+    /// `(Δω', Δω)` of movements.
+    #[inline(always)]
+    fn interpolate<V: Simd>(
+        &self,
+        part: Part<V>,
+        moved: &Windows<'_, N>,
+    ) -> (Vector<V>, Vector<V>) {
+        let (mut slope, mut rotation) = (part.splat(0.0), part.splat(0.0));
+        for a in 0..N {
+            let omega = moved.component(a, 2).get(part);
+            slope += self.axis.slope[a].get(part) * omega;
+            rotation += self.axis.shape[a].get(part) * omega;
+        }
+        (slope, rotation)
+    }
+
+    /// The bend, and `κσ`.
+    #[inline(always)]
+    fn bend<V: Simd>(
+        &self,
+        part: Part<V>,
+        at: Collocation,
+        moved: &Windows<'_, N>,
+    ) -> (Bend<Vector<V>>, Vector<V>) {
+        let (slope, rotation) = self.interpolate(part, moved);
+        let (rate, rate_slope) = at.rotations.rates(rotation);
+        let curvature = self.curvature.get(part) + part.splat(at.stress) * slope * rate;
+        (Bend { slope, inverse_q: rate, inverse_q_slope: rate_slope }, curvature)
+    }
+
+    /// Adds the moments of the point of a lane on the control points of its span.
+    #[inline(always)]
+    pub(super) fn distribute(&self, lane: usize, moment: &Lanes, forces: &mut [Movement; N]) {
+        let moment = moment.lane(lane);
+        for (slope, [_, _, omega]) in self.axis.slope.iter().zip(forces) {
+            *omega += slope.lane(lane) * moment;
+        }
+    }
+
+    /// The moments `w M/q` of the moments as they are.
+    #[inline(always)]
+    pub(super) fn take_forces<V: Simd>(
+        &mut self,
+        part: Part<V>,
+        (stiffness, weight): (Vector<V>, f64),
+        at: Collocation,
+        moved: &Windows<'_, N>,
+        weighted_moment: &mut Lanes,
+        maxima: &mut ForceMaxima<Lanes>,
+    ) {
+        let (now, collocated_curvature) = self.bend(part, at, moved);
+        // Where the curvature of the start alone counts, the moment is known.
+        let known = stiffness * self.curvature.get(part);
+        let moment = if at.stress == 0.0 { known } else { self.moment.get(part) };
+        let length = self.axis.weight.get(part);
+        weighted_moment.put(part, part.splat(weight) * length * moment * now.inverse_q);
+        let mismatch = collocated_curvature - moment / stiffness;
+        self.mismatch.put(part, mismatch);
+        maxima.join_moment(part, length * mismatch.abs(), moment.abs());
+    }
+
+    /// The condensed moments, and their derivatives.
+    #[inline(always)]
+    pub(super) fn linearise<V: Simd>(
+        &mut self,
+        part: Part<V>,
+        (stiffness, weight): (Vector<V>, f64),
+        at: Collocation,
+        moved: &Windows<'_, N>,
+        (weighted_moment, tangent): (&mut Lanes, &mut MomentTangent<N>),
+    ) {
+        let (now, collocated_curvature) = self.bend(part, at, moved);
+        let w = part.splat(weight) * self.axis.weight.get(part);
+        weighted_moment.put(part, w * stiffness * collocated_curvature * now.inverse_q);
+
+        // δ(M/q) with the moment of the iterate in the geometric term.
+        let moment = self.moment.get(part);
+        let (curvature_by_slope, curvature_by_rotation) = now.curvature_by();
+        let resistance = stiffness * part.splat(at.stress) * now.inverse_q;
+        let moment_by_slope = resistance * curvature_by_slope;
+        let moment_by_rotation = resistance * curvature_by_rotation + moment * now.inverse_q_slope;
+        for (slope_a, row) in self.axis.slope.iter().zip(&mut tangent.0) {
+            let weighted = w * slope_a.get(part);
+            let (by_slope, by_rotation) =
+                (weighted * moment_by_slope, weighted * moment_by_rotation);
+            for ((entry, slope_b), shape_b) in
+                row.iter_mut().zip(&self.axis.slope).zip(&self.axis.shape)
+            {
+                entry.put(part, by_slope * slope_b.get(part) + by_rotation * shape_b.get(part));
+            }
+        }
+        self.mismatch.put(part, collocated_curvature - moment / stiffness);
+        self.linearised_at.put(part, now);
+        self.linearised_stress = at.stress;
+    }
+
+    /// Adds the derivatives of the moments of the point of a lane to the block of its span.
+    #[inline(always)]
+    pub(super) fn add_tangent<V: Simd>(
+        &self,
+        lane: usize,
+        tangent: &MomentTangent<N>,
+        block: &mut Block<V, N>,
+    ) {
+        for (row, [_, _, row_omega]) in tangent.0.iter().zip(&mut block.rows) {
+            for (entry, [_, _, by_omega]) in row.iter().zip(row_omega) {
+                *by_omega += entry.lane(lane);
+            }
+        }
+    }
+
+    /// The moments `EI m` of the curvature mismatch `m`, in the directions of the last linearisation.
+    #[inline(always)]
+    pub(super) fn take_mismatch_forces<V: Simd>(
+        &self,
+        part: Part<V>,
+        (stiffness, weight): (Vector<V>, f64),
+        weighted_moment: &mut Lanes,
+    ) {
+        let inverse_q = self.linearised_at.inverse_q.get(part);
+        let moment = stiffness * self.mismatch.get(part) * inverse_q;
+        let w = part.splat(weight) * self.axis.weight.get(part);
+        weighted_moment.put(part, w * moment);
+    }
+
+    /// Corrects the moments for a correction of the movements: `M ← M + EI (m + σ δκ1)`.
+    #[inline(always)]
+    pub(super) fn correct_moments<V: Simd>(
+        &mut self,
+        part: Part<V>,
+        stiffness: Vector<V>,
+        correction: &Windows<'_, N>,
+    ) {
+        let (slope, rotation) = self.interpolate(part, correction);
+        let (by_slope, by_rotation) = self.linearised_at.get(part).curvature_by();
+        let sigma = part.splat(self.linearised_stress);
+        let change = sigma * (by_slope * slope + by_rotation * rotation);
+        let missing = self.mismatch.get(part) + change;
+        self.moment.put(part, self.moment.get(part) + stiffness * missing);
+    }
+
+    #[inline(always)]
+    pub(super) fn advance<V: Simd>(
+        &mut self,
+        part: Part<V>,
+        moved: &Windows<'_, N>,
+        rotations: RotationIncrement,
+    ) {
+        let (slope, rotation) = self.interpolate(part, moved);
+        self.last_moment.put(part, self.moment.get(part));
+        let change = slope * rotations.rate(rotation);
+        self.curvature.put(part, self.curvature.get(part) + change);
+    }
+
+    /// The movements of the control points of each lane.
+    #[inline(always)]
+    pub(super) fn windows<'a>(&self, movements: &'a [Movement]) -> Windows<'a, N> {
+        self.axis.windows(movements)
+    }
+}
