@@ -129,7 +129,11 @@ fn the_derivatives_of_every_law_are_those_of_its_equations() {
                 continue;
             }
             let found = state.with(&numbers, |contact, passage| {
-                let rows = law.equations(contact).map(|equation| {
+                let equations = law.equations(contact);
+                let values = equations.map(|equation| equation.value.to_bits());
+                let alone = law.values(contact).map(|(value, _)| value.to_bits());
+                assert_eq!(alone, values, "{law_name}, {}: values without derivatives", state.name);
+                let rows = equations.map(|equation| {
                     let mut row = vec![0.0; numbers.len()];
                     let last = numbers.len() - 5;
                     row[..2].copy_from_slice(equation.by_slave.as_slice());
