@@ -27,7 +27,7 @@ pub struct Passage {
     departing: Option<(f64, usize, Row)>,
     first: usize,
     length: usize,
-    /// The numbers of the window, a row of them for each [`Quantity`]: side by side, as one way after another fills them.
+    /// The numbers of the window, a row of them for each [`Quantity`], side by side; behind them room for those of the longest way, in copies too.
     numbers: Vec<f64>,
 }
 
@@ -90,7 +90,7 @@ impl Passage {
             departing: None,
             first: 0,
             length: 0,
-            numbers: Vec::with_capacity(room),
+            numbers: vec![0.0; room],
         };
         passage.go(start, start);
         passage
@@ -234,8 +234,7 @@ impl Passage {
 
     /// Sets every number of the window.
     fn fill(&mut self, value: f64) {
-        self.numbers.clear();
-        self.numbers.resize(QUANTITIES * self.length, value);
+        self.numbers[..QUANTITIES * self.length].fill(value);
     }
 
     /// What the functions are on the way, added to zeros.
