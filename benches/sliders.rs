@@ -47,7 +47,7 @@ fn slide(scene: &mut Scene, slave: Station, master: usize, arc_length: f64) {
         master,
         track: None,
         arc_length,
-        rule: Some(SlidingRule::Kinked),
+        rule: SlidingRule::Kinked,
         ends: EndAction::Bounce,
         restitution: 1.0,
         velocities: StartVelocities::Check,

@@ -75,7 +75,7 @@ fn beaded_beam(spans: usize, beads: usize) -> Model {
             master: 0,
             track: None,
             arc_length,
-            rule: Some(SlidingRule::Conserving),
+            rule: SlidingRule::Conserving,
             ends: EndAction::Bounce,
             restitution: 1.0,
             velocities: StartVelocities::Check,

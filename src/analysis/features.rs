@@ -3,7 +3,7 @@
 use crate::beams::Station;
 use crate::elementary::square;
 use crate::geometry::Vec2;
-use crate::joints::{EndAction, JointKind, Partner, Slider, StartVelocities};
+use crate::joints::{EndAction, JointKind, Partner, Slider, SlidingRule, StartVelocities};
 use crate::loads::{Frame, LoadKind, Schedule};
 use crate::model::{ModelError, ParticleDefinition, PointMass, Scene};
 
@@ -95,7 +95,7 @@ fn bead(scene: &mut Scene) -> Result<(), ModelError> {
         master: 0,
         track: None,
         arc_length,
-        rule: None,
+        rule: SlidingRule::default(),
         ends: EndAction::Release,
         restitution: 1.0,
         velocities: StartVelocities::Project,

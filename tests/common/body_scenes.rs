@@ -140,7 +140,7 @@ pub fn carriage(mesh: &Mesh, rule: SlidingRule) -> Scene {
             master: rail,
             track: None,
             arc_length,
-            rule: Some(rule),
+            rule,
             ends: EndAction::Bounce,
             restitution: 1.0,
             velocities: StartVelocities::Check,

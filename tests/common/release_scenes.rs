@@ -72,7 +72,7 @@ pub fn bead(mesh: &Mesh) -> Scene {
         master: beam,
         track: None,
         arc_length: 1.0,
-        rule: Some(SlidingRule::Conserving),
+        rule: SlidingRule::Conserving,
         ends: EndAction::Stop,
         restitution: 1.0,
         velocities: StartVelocities::Check,

@@ -26,19 +26,14 @@ pub fn paper_section(axial: f64) -> Section {
     }
 }
 
-pub fn slider(
-    slave: Station,
-    master: usize,
-    arc_length: f64,
-    rule: impl Into<Option<SlidingRule>>,
-) -> Slider {
+pub fn slider(slave: Station, master: usize, arc_length: f64, rule: SlidingRule) -> Slider {
     Slider {
         name: "slider1".to_owned(),
         slave,
         master,
         track: None,
         arc_length,
-        rule: rule.into(),
+        rule,
         ends: EndAction::Stop,
         restitution: 1.0,
         velocities: StartVelocities::Check,

@@ -189,8 +189,7 @@ fn bead(scene: &mut Scene, master: usize, temper: Temper, draw: &mut Draw) {
 
 fn slide(scene: &mut Scene, slave: Station, master: usize, along: f64, draw: &mut Draw) {
     let arc_length = along * scene.beams[master].axis.length();
-    let rules = [Some(SlidingRule::Kinked), None, Some(SlidingRule::Conserving)];
-    let rule = rules[draw.below(4).min(2)];
+    let rule = if draw.below(4) == 0 { SlidingRule::Kinked } else { SlidingRule::Conserving };
     let ends = if draw.below(8) == 0 { EndAction::Release } else { EndAction::Bounce };
     let velocities = StartVelocities::Project;
     let name = scene.free_name("slider");

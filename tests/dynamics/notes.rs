@@ -157,7 +157,7 @@ fn ring(stiffness: f64, mass: f64, speed: f64) -> Scene {
         master: 0,
         track: None,
         arc_length: 0.8,
-        rule: Some(SlidingRule::Conserving),
+        rule: SlidingRule::Conserving,
         ends: EndAction::Bounce,
         restitution: 1.0,
         velocities: StartVelocities::Check,

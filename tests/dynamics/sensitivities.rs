@@ -125,7 +125,7 @@ fn derivatives_of_all_scenes_are_those_of_exact_runs() {
     let mut compared = 0;
     for method in METHODS {
         let bodies = body_scenes::all(&mesh);
-        let sliding = sliding_scenes::all(&mesh, SlidingRule::Conserving);
+        let sliding = sliding_scenes::all(&mesh, SlidingRule::default());
         for scene in scenes::all(&mesh).into_iter().chain(bodies).chain(sliding) {
             let of = |what: usize| variation("p", 1e-5, |by| scaled(&scene, what, by));
             let start = || {

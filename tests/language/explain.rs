@@ -50,7 +50,7 @@ fn with_bead() -> Scene {
         master: 0,
         track: None,
         arc_length: 0.5,
-        rule: Some(SlidingRule::Conserving),
+        rule: SlidingRule::Conserving,
         ends: EndAction::Stop,
         restitution: 1.0,
         velocities: StartVelocities::Check,

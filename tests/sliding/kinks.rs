@@ -117,7 +117,7 @@ fn a_slider_as_fast_as_shear_waves_goes_on_with_the_kink_that_it_has_and_is_told
         (section.axial_stiffness, section.shear_stiffness) = (1e3, 36.0);
         scene.beams[0].section = section.into();
         let slider = bead(&mut scene, 0.1, 0.3, at(speed, 0.0), EndAction::Bounce);
-        scene.sliders[slider].rule = Some(SlidingRule::Kinked);
+        scene.sliders[slider].rule = SlidingRule::Kinked;
         scene.gravity = at(0.0, -10.0);
         for method in [Method::EnergyMomentum, Method::FourthOrder] {
             let simulation = simulate(scene.clone(), method, 0.002, 0.4);

@@ -73,7 +73,7 @@ fn shuttle(spans: usize, stiffness: f64) -> Scene {
         let law = RestoringLaw::Linear { stiffness: 12.0, natural: 0.9 };
         spring(&mut scene, SpringKind::Way(anchors), law, 0.0);
     }
-    scene.sliders[0].rule = Some(SlidingRule::Kinked);
+    scene.sliders[0].rule = SlidingRule::Kinked;
     scene
 }
 
@@ -108,7 +108,7 @@ fn on_a_kinked_axis_a_bead_bounces_for_a_hundred_thousand_steps() {
         let mut section = scene.beams[0].section.mean();
         (section.axial_stiffness, section.shear_stiffness) = (stiffness, stiffness / 2.6);
         scene.beams[0].section = section.into();
-        scene.sliders[0].rule = Some(SlidingRule::Kinked);
+        scene.sliders[0].rule = SlidingRule::Kinked;
         let settings = settings(Method::EnergyMomentum, 0.01);
         let mut simulation = Simulation::start(scene, settings).unwrap();
         let ended = run(&mut simulation, steps * 0.01);

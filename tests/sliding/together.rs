@@ -27,7 +27,7 @@ fn mirrored(order: [usize; 4], axial: f64, restitution: f64, rule: SlidingRule) 
         let slider = bead(&mut scene, along, mass, at(speed, 0.0), EndAction::Bounce);
         scene.sliders[slider].name = format!("bead {number}");
         scene.sliders[slider].restitution = restitution;
-        scene.sliders[slider].rule = Some(rule);
+        scene.sliders[slider].rule = rule;
     }
     scene
 }

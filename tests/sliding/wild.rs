@@ -35,10 +35,9 @@ struct Row {
 #[test]
 fn wild_scenes_end_or_say_why() {
     let seeds = if std::env::var("WITHY_LONG").is_ok() { SEEDS } else { IN_SHORT };
-    // All sliders with one rule, by its name, or as scenes choose, to see what becomes of them; that is told, and not asked for.
+    // All sliders with one rule, by its name, to see what becomes of them; that is told, and not asked for.
     let named = std::env::var("WITHY_RULE").ok();
-    let entry = SLIDING_RULES.iter().find(|entry| Some(entry.name) == named.as_deref());
-    let rule = named.as_ref().map(|_| entry.map(|entry| entry.rule));
+    let rule = SLIDING_RULES.iter().find(|entry| Some(entry.name) == named.as_deref());
     // Likewise all with steps that keep a tolerance.
     let tolerance = std::env::var("WITHY_TOLERANCE").ok().map(|told| told.parse().unwrap());
     let adaptive = tolerance.map(StepControl::to);
@@ -47,7 +46,7 @@ fn wild_scenes_end_or_say_why() {
     for seed in 0..seeds {
         let (mut scene, method) = scene(seed);
         if let Some(rule) = &rule {
-            scene.sliders.iter_mut().for_each(|slider| slider.rule = *rule);
+            scene.sliders.iter_mut().for_each(|slider| slider.rule = rule.rule);
         }
         let name = format!("{} with {method:?}", scene.name);
         let mut settings = settings(method, DT);
@@ -96,7 +95,7 @@ fn wild_scenes_end_or_say_why() {
 fn steps_that_keep_a_tolerance_keep_kinks_where_there_is_no_other_step() {
     // Without that no step takes this scene beyond t = 0.285.
     let (mut scene, method) = scene(0);
-    scene.sliders.iter_mut().for_each(|slider| slider.rule = Some(SlidingRule::Kinked));
+    scene.sliders.iter_mut().for_each(|slider| slider.rule = SlidingRule::Kinked);
     let settings =
         Settings { dt: StepSize::Adaptive(StepControl::to(1e-3)), ..settings(method, DT) };
     let mut simulation = Simulation::start(scene, settings).unwrap();

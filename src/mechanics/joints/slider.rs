@@ -18,8 +18,8 @@ pub struct Slider {
     pub track: Option<usize>,
     /// The arc length at which the slider starts on its master, as drawn [length].
     pub arc_length: f64,
-    /// The law by which a step keeps the slider on its master; the one that fits the scene when it starts, unless given.
-    pub rule: Option<SlidingRule>,
+    /// The law by which a step keeps the slider on its master.
+    pub rule: SlidingRule,
     /// What happens when the slider reaches an end of its master, or of its track.
     pub ends: EndAction,
     /// How much of the speed with which the slider strikes an end it has when it leaves, from 0 to 1, where it bounces [-].

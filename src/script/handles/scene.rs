@@ -149,17 +149,10 @@ impl SceneHandle {
                 return Err(ScriptError::new(told).hint(SHAPED));
             }
         }
-        let (mut pairs, rules) = (scenes.chunks_exact(2), own.sliding_rules());
+        let mut pairs = scenes.chunks_exact(2);
         let variation = |(name, distance): (String, f64)| {
             let [plus, minus] = pairs.next()? else { return None };
-            // Beside the border between two rules a scene and those beside it would have others.
-            let with_rules = |scene: &Rc<RefCell<Scene>>| {
-                let mut scene = scene.borrow().clone();
-                let sliders = scene.sliders.iter_mut().zip(&rules);
-                sliders.for_each(|(slider, rule)| slider.rule = Some(*rule));
-                scene
-            };
-            let scenes = [plus, minus].map(with_rules);
+            let scenes = [plus, minus].map(|scene| scene.borrow().clone());
             Some(Variation { name, distance, scenes })
         };
         Ok(family.parameters().into_iter().map_while(variation).collect())

@@ -41,7 +41,7 @@ pub const TABLE: Table = Table {
     constants: &[],
     rows: &[
         rule("conserving", |_| Ok(Dynamic::from(SlidingRule::Conserving)))
-            .summary("The rule that keeps everything at any step size; the default where kinked() is none.")
+            .summary("The rule that keeps everything at any step size; the default.")
             .doc("With energy_momentum(): keeps energy, linear momentum, angular momentum and the gap to rounding. withy, docs/theory.md, section 10.")
             .see(&["kinked", "exact", "relaxed", "slider"]),
         rule("kinked", |_| Ok(Dynamic::from(SlidingRule::Kinked)))
@@ -168,9 +168,7 @@ const SLIDER_KEYS: &[Parameter] = &[
         .unit("part of the length")
         .doc("where it starts, as a part of the length of the beam or the track as drawn; the nearest place unless given")
         .optional(),
-    object("rule", RULE)
-        .doc("the one that fits the scene when it starts, unless given: kinked() where contacts kink the beam by little, else conserving()")
-        .optional(),
+    object("rule", RULE).doc("conserving() unless given").optional(),
     choice("ends", &[ENDS[0].0, ENDS[1].0, ENDS[2].0])
         .doc("what happens where the beam or the track ends: the run stops, the slider bounces off an elastic stop, or it flies free")
         .or(Presence::Text("stop")),
@@ -230,7 +228,7 @@ impl Scripted for SliderHandle {
             slider.name,
             scene.describe(&slider.slave),
             significant(part, 7),
-            details::rule_of(&scene, self.index)
+            slider.rule.entry().name
         )
     }
 
@@ -284,7 +282,7 @@ fn slider(call: &mut Call) -> Result<Dynamic, ScriptError> {
         master,
         track: guide.track(),
         arc_length,
-        rule: options.get_if("rule"),
+        rule: options.get_if("rule").unwrap_or_default(),
         ends,
         restitution,
         velocities: meant(&VELOCITIES, &options.text("velocities")?),

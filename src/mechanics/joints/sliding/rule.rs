@@ -5,13 +5,14 @@ use serde::{Deserialize, Serialize};
 use super::{Conserving, Exact, Kinked, Relaxed, SlidingLaw};
 
 /// A choice of the law by which a step keeps a slider on its master.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum SlidingRule {
     /// The law [`Relaxed`]: the contact is closed in the mean of each step.
     Relaxed,
     /// The law [`Exact`]: the contact is closed at the end of each step; angular momentum is not kept.
     Exact,
     /// The law [`Conserving`]: the contact is closed at the end of each step; energy and momenta are kept.
+    #[default]
     Conserving,
     /// The law [`Kinked`]: the contact is closed on the kinked axis at the end of each step; energy and momenta are kept.
     Kinked,
@@ -43,13 +44,13 @@ pub struct RuleEntry {
     pub source: &'static str,
 }
 
-/// All laws of sliding, those between which a scene chooses first.
+/// All laws of sliding, the default first.
 pub const SLIDING_RULES: &[RuleEntry] = &[CONSERVING, KINKED, EXACT, RELAXED];
 
 const CONSERVING: RuleEntry = RuleEntry {
     rule: SlidingRule::Conserving,
     name: "conserving",
-    summary: "keeps energy, both momenta and the gap to rounding at any step",
+    summary: "keeps energy, both momenta and the gap to rounding at any step; the default",
     claims: RuleClaims { energy: true, angular_momentum: true, gap: true },
     source: "withy, docs/theory.md, section 10",
 };

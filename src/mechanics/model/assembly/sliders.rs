@@ -24,8 +24,7 @@ impl Assembly<'_> {
         let mut kink_lengths = vec![None; self.scene.beams.len()];
         let mut passages: Vec<Option<Passage>> = vec![None; self.scene.beams.len()];
         let mut routes: Vec<Option<Arc<[RouteLeg]>>> = vec![None; self.scene.tracks.len()];
-        let rules = self.scene.sliding_rules();
-        for (index, (slider, rule)) in self.scene.sliders.iter().zip(rules).enumerate() {
+        for (index, slider) in self.scene.sliders.iter().enumerate() {
             let place = self.place(&slider.slave)?;
             let slave = (place.body, place.nearest_control_point());
             let [x, ..] = numbering.degrees_of_freedom[slave.0][slave.1];
@@ -50,15 +49,8 @@ impl Assembly<'_> {
             let parameter = self.slider_parameter(slider)?;
             let rail = self.rail(slider.master);
             let passage = self.passage(slider.master, &mut passages);
-            let axis = match rule {
-                SlidingRule::Kinked => self.kinked_axis(slider, &mut kink_lengths)?,
-                _ => None,
-            };
-            // What has no kink length on its mesh has none to follow.
-            let is_plain = slider.rule.is_none() && axis.is_none();
-            let rule = if is_plain { SlidingRule::Conserving } else { rule };
-            let described = (slider, rule);
-            let mut new = Sliding::new(described, connection, passage, parameter, rail, bars, axis);
+            let axis = self.kinked_axis(slider, &mut kink_lengths)?;
+            let mut new = Sliding::new(slider, connection, passage, parameter, rail, bars, axis);
             if let Some(track) = slider.track {
                 let Track { legs, course, .. } = &self.scene.tracks[track];
                 let route = &mut routes[track];
@@ -90,7 +82,8 @@ impl Assembly<'_> {
         legs.iter().map(leg).collect()
     }
 
-    /// The axis of a slider's master as the contact force kinks it, if the mesh of the master is smooth; kink lengths are found once.
+    /// The axis of a slider's master as the contact force kinks it, if the rule knows of that and the mesh of the master is smooth; kink
+    /// lengths are found once.
     fn kinked_axis(
         &self,
         slider: &Slider,
@@ -100,7 +93,7 @@ impl Assembly<'_> {
         let basis = self.mesh(master).basis();
         // At a node where the mesh itself may kink there is no kink length, and a slider would have to pass a wall.
         let has_nodes = basis.breaks().len() > 2 && basis.continuity() == 0;
-        if has_nodes {
+        if slider.rule != SlidingRule::Kinked || has_nodes {
             return Ok(None);
         }
         if found[master].is_none() {

@@ -206,7 +206,7 @@ impl Model {
             return Part::left_out("sliders", saved);
         }
         let used = SLIDING_RULES.iter().filter_map(|entry| {
-            let count = self.sliders().iter().filter(|slider| slider.rule == entry.rule).count();
+            let count = scene.sliders.iter().filter(|slider| slider.rule == entry.rule).count();
             (count > 0).then(|| format!("{count} {}", entry.name))
         });
         let rules = used.collect::<Vec<_>>().join(", ");
@@ -220,13 +220,12 @@ impl Model {
         };
         let on_tracks = scene.sliders.iter().any(|slider| slider.track.is_some());
         let seams = if on_tracks { ", steps are cut at seams of tracks" } else { "" };
-        let may_kink = |(index, slider): (usize, &Slider)| {
+        let may_kink = |slider: &Slider| {
             let basis = self.meshes()[slider.master].basis();
             let is_smooth = basis.breaks().len() == 2 || basis.continuity() > 0;
-            let rule = self.slider_rule(index);
-            rule == SlidingRule::Conserving && slider.track.is_none() && is_smooth
+            slider.rule == SlidingRule::Conserving && slider.track.is_none() && is_smooth
         };
-        let choice = match scene.sliders.iter().enumerate().any(may_kink) {
+        let choice = match scene.sliders.iter().any(may_kink) {
             true => {
                 "; the conserving rule is of first order in the length of spans, the kinked one of second to third"
             }

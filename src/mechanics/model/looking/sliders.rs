@@ -2,7 +2,7 @@
 
 use crate::geometry::Vec2;
 use crate::integrators::Mechanism;
-use crate::joints::{EndAction, SlidingRule};
+use crate::joints::EndAction;
 use crate::model::Model;
 use crate::model::sliders::{MasterLimit, SliderState};
 
@@ -15,11 +15,6 @@ impl Model {
     /// What a slider does at present, by its index: slide, rest at a stop, or fly free.
     pub fn slider_state(&self, slider: usize) -> SliderState {
         self.slider(slider).state
-    }
-
-    /// The law by which steps keep a slider on its master, by its index.
-    pub fn slider_rule(&self, slider: usize) -> SlidingRule {
-        self.slider(slider).rule
     }
 
     /// On what a slider leans, if it does: the `start` or the `end` of its master or its track, or a `seam` of that.

@@ -85,7 +85,7 @@ impl Scene {
     }
 
     /// The force of a spring along a way as drawn [force].
-    pub(super) fn held_by(&self, spring: &Spring) -> Option<f64> {
+    fn held_by(&self, spring: &Spring) -> Option<f64> {
         let SpringKind::Way(anchors) = &spring.kind else { return None };
         let places = anchors.iter().map(|anchor| match anchor {
             Anchor::Ground(at) => Ok(*at),

@@ -9,7 +9,6 @@ mod loads;
 mod releases;
 mod resisting;
 mod rigid_bodies;
-mod rules;
 mod sensors;
 mod sliders;
 mod stored;

@@ -61,10 +61,8 @@ impl Scene {
         if slider.slave.beam().is_some_and(|beam| masters.contains(&beam)) {
             return Err(SliderError::OnItself(parts).into());
         }
-        if let (Some(_), Some(rule)) = (slider.track, slider.rule)
-            && let Some(why) = at_seams(rule)
-        {
-            let rule = rule.entry().name;
+        if let (Some(_), Some(why)) = (slider.track, at_seams(slider.rule)) {
+            let rule = slider.rule.entry().name;
             return Err(SliderError::RuleOfOneBeam { parts, rule, why }.into());
         }
         if !(0.0..=1.0).contains(&slider.restitution) {

@@ -97,9 +97,9 @@ pub(super) fn would_pull(push: f64, force: f64, length: f64) -> bool {
 }
 
 impl Sliding {
-    /// A slider under a law, at a parameter of the mesh of its master.
+    /// A slider at a parameter of the mesh of its master.
     pub fn new(
-        (slider, rule): (&Slider, SlidingRule),
+        slider: &Slider,
         connection: Connection,
         passage: Passage,
         parameter: f64,
@@ -112,7 +112,7 @@ impl Sliding {
         let mut new = Self {
             name: slider.name.clone(),
             connection,
-            rule,
+            rule: slider.rule,
             ends: slider.ends,
             restitution: slider.restitution,
             state: SliderState::Sliding,

@@ -14,7 +14,7 @@ use super::ArchiveError;
 const MARK: [u8; 8] = *b"\x89withy\r\n";
 
 /// Of this program. A change of anything that is stored makes it one more.
-const FORMAT: u16 = 23;
+const FORMAT: u16 = 22;
 
 const PROGRAM: &str = env!("CARGO_PKG_VERSION");
 

@@ -99,7 +99,7 @@ impl Simulation {
                     short(pressed)
                 )
             });
-            let hovers = (self.model.slider_rule(index) == SlidingRule::Kinked && left < HOVERS).then(|| {
+            let hovers = (slider.rule == SlidingRule::Kinked && left < HOVERS).then(|| {
                 format!(
                     "slider '{name}' hovers at {} of the length of beam '{master}' before its end, where the kink under its force is squeezed",
                     short(left)

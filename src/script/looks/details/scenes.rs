@@ -154,16 +154,10 @@ pub fn of_track(scene: &Scene, index: usize) -> Details {
     ]
 }
 
-/// The name of the rule of a slider: its own, or the one that fits what the scene has so far.
-pub fn rule_of(scene: &Scene, index: usize) -> &'static str {
-    scene.sliding_rules()[index].entry().name
-}
-
 /// The details of a slider: what slides on what, and how.
 pub fn of_slider(scene: &Scene, index: usize) -> Details {
     let slider = &scene.sliders[index];
     let guide = guide_of(scene, slider);
-    let chosen = if slider.rule.is_none() { ", which fits what the scene has so far" } else { "" };
     let ends = match slider.ends {
         EndAction::Stop => "the run stops".to_owned(),
         EndAction::Bounce if slider.restitution < 1.0 => {
@@ -179,7 +173,7 @@ pub fn of_slider(scene: &Scene, index: usize) -> Details {
     vec![
         line("slides", scene.describe(&slider.slave)),
         line("on", format!("{}, from {} of its length", guide.0, number(guide.1))),
-        line("rule", format!("{}{chosen}", rule_of(scene, index))),
+        line("rule", slider.rule.entry().name),
         line("at the ends", ends),
         line("start velocities", velocities),
     ]
