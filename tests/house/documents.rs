@@ -67,6 +67,23 @@ fn every_block_of_rhai_in_the_documents_runs() {
     assert!(count > 0, "the README has an example");
 }
 
+#[test]
+fn the_readme_shows_what_its_script_prints() {
+    let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md"));
+    let text = text.unwrap();
+    let script = blocks(&text, "rhai").remove(0);
+    let shown = blocks(&text, "text").remove(0);
+    let out = tempfile::tempdir().unwrap();
+    let printed = Notepad::default();
+    let settings = Settings {
+        out: out.path().to_owned(),
+        printed: Box::new(printed.clone()),
+        ..Settings::silent(Mode::Run)
+    };
+    run(&Program::named("README.md", &script.text), &language(), settings);
+    assert_eq!(printed.take().trim_end(), shown.text.trim_end());
+}
+
 /// Where a document shows a picture that one of its blocks draws, that picture is kept when asked for, and must be there.
 fn keep_pictures(document: &Path, drawn: &Path) {
     let text = std::fs::read_to_string(document).unwrap();
