@@ -6,14 +6,14 @@ use std::process::{Command, Stdio};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-use withy::script::engine::host::Host;
 use withy::script::engine::parse::parse;
 use withy::script::engine::runner::{Ending, run};
+use withy::script::engine::script_engine::ScriptEngine;
 use withy::script::engine::stack::on_large_stack;
 use withy::script::packages::language;
 use withy::script::source::program::Program;
 use withy::script::state::limits::Limits;
-use withy::script::state::settings::{Mode, Settings};
+use withy::script::state::settings::{RunMode, RunSettings};
 
 /// Every figure is the least of so many repeats, taken in turns with what it is compared to.
 const REPEATS: usize = 15;
@@ -54,7 +54,8 @@ fn seconds(scene: &str, work: &str) -> f64 {
          let begun = timestamp(); {work} print(begun.elapsed);"
     );
     let printed = Printed::default();
-    let settings = Settings { printed: Box::new(printed.clone()), ..Settings::silent(Mode::Run) };
+    let settings =
+        RunSettings { printed: Box::new(printed.clone()), ..RunSettings::silent(RunMode::Run) };
     let outcome = run(&Program::named("bench", &text), &language(), settings);
     if let Ending::Failed(diagnostic) = outcome.ending {
         panic!("{diagnostic}");
@@ -123,7 +124,8 @@ fn main() {
     let [least, middle] = on_large_stack(&Limits::default(), || {
         median(|| {
             timed(|| {
-                let host = Host::open(language(), Settings::silent(Mode::Run)).unwrap();
+                let host =
+                    ScriptEngine::open(language(), RunSettings::silent(RunMode::Run)).unwrap();
                 let ast = parse(host.engine(), &Program::named("empty", "")).unwrap();
                 host.engine().run_ast(&ast).unwrap();
             })

@@ -9,12 +9,12 @@ use withy::beams::Station;
 use withy::geometry::Vec2;
 use withy::integrators::Method;
 use withy::joints::{JointKind, Partner};
-use withy::model::{
-    Anchor, Origin, ParticleDefinition, RestoringLaw, RigidBodyDefinition, Scene, Spring,
-    SpringKind, StartMotion,
-};
 use withy::newton::Tolerance;
-use withy::simulation::{Settings, Simulation, Unwatched};
+use withy::simulation::{NoMonitor, Simulation, SimulationSettings};
+use withy::system::{
+    Anchor, Origin, ParticleDefinition, RigidBodyDefinition, Scene, Spring, SpringKind, SpringLaw,
+    StartMotion,
+};
 
 /// Every figure is measured for about this long.
 const PATIENCE: Duration = Duration::from_millis(600);
@@ -32,7 +32,7 @@ fn springs(count: usize) -> Scene {
         let bead = scene.add_particle(ParticleDefinition { name, position }, 1.0).unwrap();
         if let Some(before) = before.replace(bead) {
             let kind = SpringKind::Way([before, bead].map(Anchor::Station).to_vec());
-            let law = Some(RestoringLaw::Linear { stiffness: 100.0, natural: 1.0 });
+            let law = Some(SpringLaw::Linear { stiffness: 100.0, natural: 1.0 });
             let (name, damping) = (scene.free_name("spring"), 0.0.into());
             scene.add_spring(Spring { name, kind, law, origin: Origin::Zero, damping }).unwrap();
         }
@@ -67,7 +67,7 @@ fn bodies(count: usize) -> Scene {
 
 /// The time of a step: the shortest mean of a run.
 fn step(scene: &Scene) -> Duration {
-    let settings = || Settings {
+    let settings = || SimulationSettings {
         method: Method::EnergyMomentum,
         dt: DT.into(),
         tolerance: Tolerance::default(),
@@ -76,7 +76,7 @@ fn step(scene: &Scene) -> Duration {
     while start.elapsed() < PATIENCE {
         let mut simulation = Simulation::start(scene.clone(), settings()).unwrap();
         let begun = Instant::now();
-        simulation.run_to(f64::from(RUN) * DT, &mut Unwatched).unwrap();
+        simulation.run_to(f64::from(RUN) * DT, &mut NoMonitor).unwrap();
         least = least.min(begun.elapsed() / RUN);
     }
     least

@@ -7,7 +7,7 @@ use withy::geometry::{Curve, Vec2};
 use withy::integrators::Mechanism;
 use withy::joints::{JointKind, Partner};
 use withy::linalg::{BorderShape, BorderedMatrix};
-use withy::model::{BeamDefinition, Model, Scene, StartMotion};
+use withy::system::{BeamDefinition, Scene, StartMotion, System};
 use withy::vibration::Modes;
 
 const FACTORISATIONS: usize = 30;
@@ -41,7 +41,7 @@ fn main() {
             let start = scene.station(beam, 0.0).unwrap();
             scene.join(JointKind::Rigid, start, Partner::Ground).unwrap();
         }
-        let mut model = Model::assemble(&scene).unwrap();
+        let mut model = System::assemble(&scene).unwrap();
         let still = vec![0.0; model.unknowns()];
         let mut forces = vec![0.0; model.degrees_of_freedom()];
         let none = BorderShape::default();

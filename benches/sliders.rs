@@ -10,9 +10,9 @@ use withy::beams::{Mesh, Section, Station};
 use withy::geometry::{Curve, Vec2};
 use withy::integrators::{Interval, Mechanism, Method};
 use withy::joints::{EndAction, JointKind, Partner, Slider, SlidingRule, StartVelocities};
-use withy::loads::{Frame, LoadKind, Schedule};
-use withy::model::{BeamDefinition, Model, ParticleDefinition, Scene, StartMotion};
+use withy::loads::{LoadFrame, LoadKind, Schedule};
 use withy::newton::Tolerance;
+use withy::system::{BeamDefinition, ParticleDefinition, Scene, StartMotion, System};
 
 /// Every figure is measured for about this long.
 const PATIENCE: Duration = Duration::from_millis(600);
@@ -69,7 +69,7 @@ fn beads(spans: usize, beads: usize) -> Scene {
     let rod = add_beam(&mut scene, Vec2::zeros(), Vec2::new(0.6, -0.8) * length, spans, section);
     let station = scene.station(rod, length).unwrap();
     let push = Schedule::hold_for(2.5).unwrap();
-    let force = LoadKind::Force { station, force: Vec2::new(8.0, 0.0), frame: Frame::Dead };
+    let force = LoadKind::Force { station, force: Vec2::new(8.0, 0.0), frame: LoadFrame::Dead };
     scene.add_load(force, push.clone());
     scene.add_load(LoadKind::Moment { station, moment: -80.0 }, push);
     for bead in 0..beads {
@@ -132,7 +132,7 @@ fn chain(links: usize) -> Scene {
 
 /// The unknowns, the least time of a step and its mean Newton iterations.
 fn cost(scene: &Scene, dt: f64) -> (usize, Duration, f64) {
-    let mut model = Model::assemble(scene).unwrap();
+    let mut model = System::assemble(scene).unwrap();
     let mut integrator = Method::EnergyMomentum.build(&mut model, Tolerance::default());
     let start = model.state();
     let (mut steps, mut iterations, mut least) = (0, 0, Duration::MAX);

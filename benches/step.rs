@@ -14,10 +14,10 @@ use withy::geometry::{Curve, Vec2};
 use withy::integrators::{Forces, INTEGRATORS, Inertia, Interval, Mechanism, Method, Stage};
 use withy::joints::{EndAction, Slider, SlidingRule, StartVelocities};
 use withy::linalg::{BorderShape, BorderedMatrix};
-use withy::loads::{Frame, LoadKind, Schedule};
-use withy::model::{BeamDefinition, Model, ParticleDefinition, Scene, StartMotion};
+use withy::loads::{LoadFrame, LoadKind, Schedule};
 use withy::newton::Tolerance;
-use withy::simulation::{Settings, Simulation, Unwatched};
+use withy::simulation::{NoMonitor, Simulation, SimulationSettings};
+use withy::system::{BeamDefinition, ParticleDefinition, Scene, StartMotion, System};
 
 /// Every figure is measured for about this long.
 const PATIENCE: Duration = Duration::from_millis(300);
@@ -49,18 +49,18 @@ fn flying_scene(spans: usize) -> Scene {
     let rod = scene.add_beam(beam).unwrap();
     let station = scene.station(rod, length).unwrap();
     let push = Schedule::hold_for(2.5).unwrap();
-    let force = LoadKind::Force { station, force: Vec2::new(8.0, 0.0), frame: Frame::Dead };
+    let force = LoadKind::Force { station, force: Vec2::new(8.0, 0.0), frame: LoadFrame::Dead };
     scene.add_load(force, push.clone());
     scene.add_load(LoadKind::Moment { station, moment: -80.0 }, push);
     scene
 }
 
-fn flying_beam(spans: usize) -> Model {
-    Model::assemble(&flying_scene(spans)).unwrap()
+fn flying_beam(spans: usize) -> System {
+    System::assemble(&flying_scene(spans)).unwrap()
 }
 
 /// The same with particles that slide along it.
-fn beaded_beam(spans: usize, beads: usize) -> Model {
+fn beaded_beam(spans: usize, beads: usize) -> System {
     let mut scene = flying_scene(spans);
     let length = scene.beams[0].axis.length();
     for bead in 0..beads {
@@ -82,7 +82,7 @@ fn beaded_beam(spans: usize, beads: usize) -> Model {
         };
         scene.add_slider(slider).unwrap();
     }
-    Model::assemble(&scene).unwrap()
+    System::assemble(&scene).unwrap()
 }
 
 /// A whole step with so many sliders.
@@ -107,10 +107,10 @@ fn sliding_cost(spans: usize, beads: usize) -> (usize, (f64, f64), f64) {
 /// A step of a simulation, its rows recorded, with a limit for snapshots [bytes]; and the bytes of a snapshot.
 fn recorded_cost(spans: usize, limit: usize) -> ((f64, f64), usize) {
     let (method, tolerance) = (Method::EnergyMomentum, Tolerance::default());
-    let settings = Settings { method, dt: DT.into(), tolerance };
+    let settings = SimulationSettings { method, dt: DT.into(), tolerance };
     let mut simulation = Simulation::start(flying_scene(spans), settings).unwrap();
     simulation.keep_snapshots(limit);
-    let cost = measure(|| timed(|| simulation.step(&mut Unwatched).unwrap()));
+    let cost = measure(|| timed(|| simulation.step(&mut NoMonitor).unwrap()));
     let (kept, bytes) = simulation.snapshots_kept();
     (cost, bytes / kept.max(1))
 }
@@ -188,7 +188,7 @@ fn costs(spans: usize, threads: usize) -> Costs {
     let half_bandwidth = model.half_bandwidth();
     let mut tangent = BorderedMatrix::zeros(unknowns, half_bandwidth, BorderShape::default());
     tangent.use_threads(threads);
-    let mut assemble = |model: &mut Model, tangent: &mut BorderedMatrix| {
+    let mut assemble = |model: &mut System, tangent: &mut BorderedMatrix| {
         tangent.clear();
         let tangent = tangent.band_mut();
         residual.fill(0.0);
@@ -222,7 +222,7 @@ fn costs(spans: usize, threads: usize) -> Costs {
 }
 
 /// Flying beams of so many spans, side by side.
-fn flying_beams(beams: usize, spans: usize) -> Model {
+fn flying_beams(beams: usize, spans: usize) -> System {
     let mut scene = flying_scene(spans);
     let first = scene.beams[0].clone();
     for beam in 1..beams {
@@ -233,7 +233,7 @@ fn flying_beams(beams: usize, spans: usize) -> Model {
             .add_beam(BeamDefinition { name: format!("rod{beam}"), axis, ..first.clone() })
             .unwrap();
     }
-    Model::assemble(&scene).unwrap()
+    System::assemble(&scene).unwrap()
 }
 
 /// Takes steps of flying beams with so many threads, and nothing else: to be counted by valgrind, as the difference of two numbers of steps, or timed.

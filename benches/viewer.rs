@@ -7,11 +7,11 @@ use std::time::Instant;
 use withy::beams::{Mesh, Section};
 use withy::geometry::{Curve, Vec2};
 use withy::integrators::Method;
-use withy::model::{BeamDefinition, Scene, StartMotion};
 use withy::newton::Tolerance;
 use withy::output::viewer::Viewer;
-use withy::script::looks::film::{Inside, Wishes, film};
-use withy::simulation::{Settings, Simulation, Unwatched};
+use withy::script::presentation::viewer_data::{FieldReader, ViewerOptions, film};
+use withy::simulation::{NoMonitor, Simulation, SimulationSettings};
+use withy::system::{BeamDefinition, Scene, StartMotion};
 
 /// Beams and frames.
 const SIZES: [(usize, usize); 4] = [(1, 200), (1, 1000), (10, 1000), (50, 1000)];
@@ -37,14 +37,14 @@ fn turning(beams: usize, steps: usize) -> Simulation {
         };
         scene.add_beam(beam).expect("a beam");
     }
-    let settings = Settings {
+    let settings = SimulationSettings {
         method: Method::EnergyMomentum,
         dt: 0.01.into(),
         tolerance: Tolerance::default(),
     };
     let mut simulation = Simulation::start(scene, settings).expect("a scene");
     let end = 0.01 * (steps - 1) as f64;
-    simulation.run_to(end, &mut Unwatched).expect("steps");
+    simulation.run_to(end, &mut NoMonitor).expect("steps");
     simulation
 }
 
@@ -57,18 +57,18 @@ fn main() {
         let begun = Instant::now();
         let shown = simulation.frames_between(0.0, f64::INFINITY, frames);
         // Where the states come from is not of the film: all frames have the last one here.
-        let mut inside = Inside::of(&simulation, shown.len(), &fields).expect("places");
+        let mut inside = FieldReader::of(&simulation, shown.len(), &fields).expect("places");
         if let Some(inside) = &mut inside {
             (0..shown.len()).for_each(|frame| inside.take(frame, &simulation));
         }
-        let wishes = Wishes {
+        let wishes = ViewerOptions {
             span: (0.0, f64::INFINITY),
             frames: shown,
             label: "rods".into(),
             trails: None,
             columns: &columns,
             fields: &fields,
-            inside: inside.map(Inside::fields).unwrap_or_default(),
+            inside: inside.map(FieldReader::fields).unwrap_or_default(),
         };
         let films = vec![film(&simulation, wishes).expect("a film")];
         let filmed = begun.elapsed();

@@ -13,17 +13,17 @@
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 pub use withy_mechanics::{
-    beams, elementary, geometry, integrators, joints, linalg, loads, model, newton, simulation,
-    statics, vibration,
+    beams, elementary, geometry, integrators, joints, linalg, loads, newton, simulation, statics,
+    system, vibration,
 };
 
 pub mod analysis;
 pub mod cli;
 pub mod exercises;
 pub mod fitting;
-pub mod folders;
 pub mod output;
 pub mod panics;
 pub mod repl;
 pub mod sampling;
+pub mod sandbox_fs;
 pub mod script;

@@ -6,10 +6,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use serde::{Deserialize, Serialize};
 
-use super::Outcome;
-use super::patience::{Patience, Wait};
-use crate::model::{Scene, Sensor};
-use crate::simulation::{Monitor, Recording, Settings, Simulation, SimulationError, StepSize};
+use super::CaseOutcome;
+use super::run_limits::{CaseTimer, RunLimits};
+use crate::simulation::{
+    Monitor, Recording, Simulation, SimulationError, SimulationSettings, StepSize,
+};
+use crate::system::{Scene, Sensor};
 
 /// A run of a study that is to be made, as data.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -17,7 +19,7 @@ pub struct Case {
     /// The scene that is simulated.
     pub scene: Scene,
     /// How the scene is simulated: integrator, step size, tolerance.
-    pub settings: Settings,
+    pub settings: SimulationSettings,
     /// The times at which the simulation is looked at, in order; the last one ends the run [time].
     pub stops: Vec<f64>,
 }
@@ -29,14 +31,14 @@ const MOST_ROWS: f64 = 1e5;
 const SAME_STEP: f64 = 1e-9;
 
 /// Watches a run: it ends when nobody wants it any more or patience is at its end.
-struct Watch<'a> {
-    wait: Wait,
+struct CaseMonitor<'a> {
+    wait: CaseTimer,
     steps: usize,
     is_wanted: &'a mut dyn FnMut() -> bool,
     exceeded: Option<String>,
 }
 
-impl Monitor for Watch<'_> {
+impl Monitor for CaseMonitor<'_> {
     fn goes_on(&mut self, _time: f64) -> bool {
         self.steps += 1;
         self.exceeded = self.wait.exceeded(self.steps);
@@ -66,10 +68,10 @@ impl Case {
     /// start. A study that is stopped meanwhile leaves an unfinished run, whose outcome means nothing.
     pub fn run(
         &self,
-        patience: Patience,
+        patience: RunLimits,
         stop: &AtomicBool,
         look: impl FnMut(&Simulation),
-    ) -> (Outcome, Option<Simulation>) {
+    ) -> (CaseOutcome, Option<Simulation>) {
         let mut simulation = match self.start(patience) {
             Ok(simulation) => simulation,
             Err(outcome) => return (outcome, None),
@@ -105,12 +107,12 @@ impl Case {
 
     /// The simulation of the case at its start, or why there is none. It keeps to one thread: the cores are busy with other cases, or
     /// the time of this one is taken.
-    pub fn start(&self, patience: Patience) -> Result<Simulation, Outcome> {
+    pub fn start(&self, patience: RunLimits) -> Result<Simulation, CaseOutcome> {
         let wait = patience.begin();
         let started = Simulation::start(self.scene.clone(), self.settings);
         let mut simulation = started.map_err(|error| match wait.exceeded(0) {
-            Some(limit) => Outcome::GaveUp { time: 0.0, limit },
-            None => Outcome::Failed { time: 0.0, reason: error.to_string() },
+            Some(limit) => CaseOutcome::GaveUp { time: 0.0, limit },
+            None => CaseOutcome::Failed { time: 0.0, reason: error.to_string() },
         })?;
         simulation.use_threads(1);
         Ok(simulation)
@@ -121,11 +123,11 @@ impl Case {
     pub fn go(
         &self,
         simulation: &mut Simulation,
-        patience: Patience,
+        patience: RunLimits,
         is_wanted: &mut dyn FnMut() -> bool,
         mut look: impl FnMut(&Simulation),
-    ) -> Outcome {
-        let mut watch = Watch { wait: patience.begin(), steps: 0, is_wanted, exceeded: None };
+    ) -> CaseOutcome {
+        let mut watch = CaseMonitor { wait: patience.begin(), steps: 0, is_wanted, exceeded: None };
         for stop in &self.stops {
             let run = simulation.run_to(*stop, &mut watch);
             let time = simulation.time();
@@ -135,18 +137,20 @@ impl Case {
                 Err(_) => watch.exceeded.take().or_else(|| watch.wait.exceeded(watch.steps)),
             };
             match (run, exceeded) {
-                (_, Some(limit)) => return Outcome::GaveUp { time, limit },
-                (Err(error), None) => return Outcome::Failed { time, reason: error.to_string() },
+                (_, Some(limit)) => return CaseOutcome::GaveUp { time, limit },
+                (Err(error), None) => {
+                    return CaseOutcome::Failed { time, reason: error.to_string() };
+                }
                 (Ok(()), None) => match simulation.ending() {
                     Some(ending) if !simulation.has_reached(*stop) => {
                         let reason = SimulationError::Ended { ending }.to_string();
-                        return Outcome::Failed { time, reason };
+                        return CaseOutcome::Failed { time, reason };
                     }
                     _ => look(simulation),
                 },
             }
         }
-        Outcome::Finished
+        CaseOutcome::Finished
     }
 }
 
@@ -155,7 +159,7 @@ mod tests {
     use std::rc::Rc;
     use std::time::Duration;
 
-    use super::super::patience::is_out_of_patience;
+    use super::super::run_limits::is_out_of_patience;
     use super::super::samples::{never, spinning};
     use super::*;
     use crate::loads::{FunctionError, LoadKind, Schedule};
@@ -170,7 +174,7 @@ mod tests {
                 let last = simulation.history().samples().last().unwrap();
                 seen.push((simulation.time(), last.measures.energy.total()));
             };
-            assert!(case.run(Patience::default(), &never(), look).0.is_finished());
+            assert!(case.run(RunLimits::default(), &never(), look).0.is_finished());
             seen
         };
         assert_eq!(energies(&case).iter().map(|(time, _)| *time).collect::<Vec<_>>(), [0.25, 1.0]);
@@ -203,10 +207,10 @@ mod tests {
     #[test]
     fn what_ends_a_run_early_is_said() {
         let (outcome, simulation) =
-            spinning(-1.0, &[1.0]).run(Patience::default(), &never(), |_| ());
+            spinning(-1.0, &[1.0]).run(RunLimits::default(), &never(), |_| ());
         assert!(outcome.describe().contains("failed at t = 0: the step size"), "{outcome:?}");
         assert!(simulation.is_none());
-        let patience = Patience { steps: 3, ..Patience::default() };
+        let patience = RunLimits { steps: 3, ..RunLimits::default() };
         let (outcome, simulation) = spinning(0.1, &[1.0]).run(patience, &never(), |_| ());
         assert!(outcome.describe().contains("more than 3 steps"), "{outcome:?}");
         assert_eq!(simulation.unwrap().counts().steps, 4);
@@ -226,7 +230,7 @@ mod tests {
         });
         let schedule = Schedule::Function { function, breaks: Vec::new() };
         case.scene.add_load(LoadKind::Moment { station, moment: 1.0 }, schedule);
-        let patience = Patience { wall: Duration::from_millis(50), ..Patience::default() };
+        let patience = RunLimits { wall: Duration::from_millis(50), ..RunLimits::default() };
         let (outcome, _) = case.run(patience, &never(), |_| ());
         let told = outcome.describe();
         assert!(told.starts_with("ran out of patience at t = 0.5"), "{told}");

@@ -3,12 +3,12 @@
 use super::Case;
 use super::observable::Observable;
 use crate::integrators::Method;
-use crate::model::Scene;
-use crate::simulation::Settings;
+use crate::simulation::SimulationSettings;
+use crate::system::Scene;
 
 /// A scene on a mesh, and what is looked at in it.
 #[derive(Debug, Clone)]
-pub struct Subject {
+pub struct ObservedScene {
     /// The name of the mesh.
     pub mesh: String,
     /// The scene on the mesh.
@@ -17,7 +17,7 @@ pub struct Subject {
     pub observables: Vec<Observable>,
 }
 
-impl Subject {
+impl ObservedScene {
     /// The spans of all beams together, a measure of how fine the mesh is.
     pub fn spans(&self) -> usize {
         self.scene.beams.iter().map(|beam| beam.mesh.spans()).sum()
@@ -30,26 +30,29 @@ pub struct Combination {
     /// The index of the subject, a scene on a mesh.
     pub subject: usize,
     /// Integrator and step size of the combination.
-    pub settings: Settings,
+    pub settings: SimulationSettings,
 }
 
 impl Combination {
     /// The run that the combination asks for.
-    pub fn case(&self, subjects: &[Subject], stops: &[f64]) -> Case {
+    pub fn case(&self, subjects: &[ObservedScene], stops: &[f64]) -> Case {
         let scene = subjects[self.subject].scene.clone();
         Case { scene, settings: self.settings, stops: stops.to_vec() }
     }
 }
 
 /// All combinations of subjects and settings, mesh by mesh.
-pub fn all_combinations(subjects: &[Subject], settings: &[Settings]) -> Vec<Combination> {
+pub fn all_combinations(
+    subjects: &[ObservedScene],
+    settings: &[SimulationSettings],
+) -> Vec<Combination> {
     let with = |subject| settings.iter().map(move |settings| (subject, *settings));
     let pairs = (0..subjects.len()).flat_map(with);
     pairs.map(|(subject, settings)| Combination { subject, settings }).collect()
 }
 
 /// The index of the subject with the most spans; of equal ones the last.
-pub fn finest_mesh(subjects: &[Subject]) -> Option<usize> {
+pub fn finest_mesh(subjects: &[ObservedScene]) -> Option<usize> {
     (0..subjects.len()).max_by_key(|index| subjects[*index].spans())
 }
 
@@ -72,12 +75,12 @@ mod tests {
         let subject = |mesh: &str, spans: usize| {
             let mut scene = spinning(0.1, &[1.0]).scene;
             scene.beams[0].mesh = crate::beams::Mesh::bspline(spans, 3, 2).unwrap();
-            Subject { mesh: mesh.to_owned(), scene, observables: Vec::new() }
+            ObservedScene { mesh: mesh.to_owned(), scene, observables: Vec::new() }
         };
         let subjects = [subject("a", 2), subject("b", 8), subject("c", 4)];
         let methods = [Method::EnergyMomentum, Method::FourthOrder, Method::Trapezoidal];
         let usual = spinning(0.1, &[1.0]).settings;
-        let settings = methods.map(|method| Settings { method, ..usual });
+        let settings = methods.map(|method| SimulationSettings { method, ..usual });
         let all = all_combinations(&subjects, &settings);
         assert_eq!(all.len(), 9);
         assert_eq!((all[8].subject, all[8].settings), (2, settings[2]));

@@ -1,14 +1,14 @@
 //! Convergence: how errors fall with the step size or the size of the mesh, and at which order.
 
 use super::observable::Observable;
-use super::trial::Trial;
-use super::truth::{Deviation, Truth};
+use super::reference::{Deviation, ReferenceSolution};
+use super::run_result::RunResult;
 use crate::elementary::{ln, square};
 use crate::integrators::Method;
 
 /// What a study of convergence refines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Refined {
+pub enum RefinedParameter {
     /// The step size is refined.
     Step,
     /// The mesh is refined; its size is one over the number of spans.
@@ -77,7 +77,7 @@ pub struct Convergence {
     /// The name of the study.
     pub name: String,
     /// What the study refines.
-    pub refined: Refined,
+    pub refined: RefinedParameter,
     /// What the study does not refine, in words.
     pub fixed: String,
     /// The times at which errors are taken [time].
@@ -85,7 +85,7 @@ pub struct Convergence {
     /// The length that errors of positions are relative to [length].
     pub length: f64,
     /// The reference: what the quantities should be.
-    pub truth: Truth,
+    pub truth: ReferenceSolution,
     /// The errors of all quantities with the first integrator, then with the next.
     pub ladders: Vec<Ladder>,
     /// The runs that failed: the size, the integrator, why.
@@ -99,12 +99,12 @@ impl Convergence {
     /// The ladders of one integrator: all positions together, relative to the length; then what each observable does.
     pub fn ladders_of(
         method: Method,
-        rungs: &[(f64, Trial)],
-        (observables, truth, length): (&[Observable], &Truth, f64),
+        rungs: &[(f64, RunResult)],
+        (observables, truth, length): (&[Observable], &ReferenceSolution, f64),
     ) -> Vec<Ladder> {
-        let ladder = |quantity: String, read: &dyn Fn(&Trial) -> Option<Deviation>| {
+        let ladder = |quantity: String, read: &dyn Fn(&RunResult) -> Option<Deviation>| {
             let read =
-                |(_, trial): &(f64, Trial)| read(trial).filter(|_| trial.outcome.is_finished());
+                |(_, trial): &(f64, RunResult)| read(trial).filter(|_| trial.outcome.is_finished());
             let sizes = rungs.iter().map(|(size, _)| *size).collect();
             Ladder { method, quantity, sizes, deviations: rungs.iter().map(read).collect() }
         };
@@ -140,13 +140,13 @@ impl Convergence {
 
     /// The order that an integrator claims, where the study refines steps.
     pub fn claimed_order(&self, method: &Method) -> Option<u32> {
-        (self.refined == Refined::Step).then(|| method.entry().claims.order)
+        (self.refined == RefinedParameter::Step).then(|| method.entry().claims.order)
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::Patience;
+    use super::super::RunLimits;
     use super::super::samples::{never, spinning};
     use super::*;
     use crate::beams::Station;
@@ -190,10 +190,10 @@ mod tests {
             (section.axial_stiffness, section.shear_stiffness) = (100.0, 100.0);
             (section.bending_stiffness, section.rotary_inertia) = (10.0, 1.0);
             case.scene.beams[0].section = section.into();
-            Trial::of(&case, &observables, Patience::default(), &never())
+            RunResult::of(&case, &observables, RunLimits::default(), &never())
         };
         let fine = trial(Method::FourthOrder, 0.000625);
-        let truth = Truth::of_run("own", &fine.readings);
+        let truth = ReferenceSolution::of_run("own", &fine.readings);
         for entry in INTEGRATORS.iter().filter(|entry| entry.claims.order > 1) {
             let rungs: Vec<_> =
                 [0.01, 0.005, 0.0025].map(|dt| (dt, trial(entry.method, dt))).into_iter().collect();

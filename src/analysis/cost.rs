@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use super::timing::median;
-use super::{Case, Outcome, Patience};
+use super::{Case, CaseOutcome, RunLimits};
 use crate::integrators::Constraints;
 use crate::simulation::{Recording, Simulation};
 
@@ -26,7 +26,7 @@ pub struct StepCost {
     /// The name of the case.
     pub name: String,
     /// How the run of the case ended.
-    pub outcome: Outcome,
+    pub outcome: CaseOutcome,
     /// The number of unknowns of a step.
     pub unknowns: usize,
     /// The half-bandwidth of the matrix of a step: how far from the diagonal it has entries.
@@ -46,7 +46,7 @@ pub struct StepCost {
 }
 
 impl CostCase {
-    fn start(&self, patience: Patience) -> Result<Simulation, Outcome> {
+    fn start(&self, patience: RunLimits) -> Result<Simulation, CaseOutcome> {
         let mut simulation = self.case.start(patience)?;
         simulation.record(self.recording);
         simulation.keep_snapshots(self.snapshots);
@@ -56,7 +56,7 @@ impl CostCase {
 
 impl StepCost {
     /// The cost of a case of which nothing is known but how it ended.
-    pub fn unmeasured(case: &CostCase, outcome: Outcome) -> Self {
+    pub fn unmeasured(case: &CostCase, outcome: CaseOutcome) -> Self {
         Self {
             name: case.name.clone(),
             outcome,
@@ -76,7 +76,7 @@ impl StepCost {
 /// a while disturbs all of them. Building a scene is not counted. None when `is_wanted` says no on the way.
 pub fn step_costs(
     cases: &[CostCase],
-    patience: Patience,
+    patience: RunLimits,
     repeats: usize,
     is_wanted: &mut dyn FnMut() -> bool,
 ) -> Option<Vec<StepCost>> {
@@ -105,7 +105,7 @@ pub fn step_costs(
 /// Runs a case once: its work, and the time of a step.
 fn measure(
     case: &CostCase,
-    patience: Patience,
+    patience: RunLimits,
     is_wanted: &mut dyn FnMut() -> bool,
 ) -> (StepCost, Duration) {
     let mut simulation = match case.start(patience) {
@@ -145,7 +145,7 @@ mod tests {
     fn costs_are_those_of_a_step_in_the_order_of_the_cases() {
         let mut never_enough = || true;
         let cases = [case("first", 0.1), case("lost", -1.0), case("second", 0.05)];
-        let costs = step_costs(&cases, Patience::default(), 2, &mut never_enough).unwrap();
+        let costs = step_costs(&cases, RunLimits::default(), 2, &mut never_enough).unwrap();
         assert_eq!(
             costs.iter().map(|cost| &*cost.name).collect::<Vec<_>>(),
             ["first", "lost", "second"]
@@ -153,9 +153,9 @@ mod tests {
         assert!(costs[0].iterations >= 1.0 && costs[0].unknowns == 15, "{:?}", costs[0]);
         assert!(costs[0].shortest > Duration::ZERO && costs[0].shortest <= costs[0].median);
         assert!(!costs[1].outcome.is_finished());
-        assert_eq!(step_costs(&cases, Patience::default(), 2, &mut || false), None);
-        let impatient = Patience { steps: 3, ..Patience::default() };
+        assert_eq!(step_costs(&cases, RunLimits::default(), 2, &mut || false), None);
+        let impatient = RunLimits { steps: 3, ..RunLimits::default() };
         let costs = step_costs(&cases, impatient, 1, &mut || true).unwrap();
-        assert!(matches!(costs[0].outcome, Outcome::GaveUp { .. }), "{:?}", costs[0]);
+        assert!(matches!(costs[0].outcome, CaseOutcome::GaveUp { .. }), "{:?}", costs[0]);
     }
 }

@@ -4,8 +4,8 @@ use crate::beams::Station;
 use crate::elementary::square;
 use crate::geometry::Vec2;
 use crate::joints::{EndAction, JointKind, Partner, Slider, SlidingRule, StartVelocities};
-use crate::loads::{Frame, LoadKind, Schedule};
-use crate::model::{ModelError, ParticleDefinition, PointMass, Scene};
+use crate::loads::{LoadFrame, LoadKind, Schedule};
+use crate::system::{ParticleDefinition, PointMass, Scene, SystemError};
 
 /// How large what is added is, as a part of what the first beam has.
 const SMALL: f64 = 1e-3;
@@ -16,7 +16,7 @@ pub struct Feature {
     /// The name of the feature.
     pub name: &'static str,
     /// Adds the feature to the first beam of a scene.
-    pub add: fn(&mut Scene) -> Result<(), ModelError>,
+    pub add: fn(&mut Scene) -> Result<(), SystemError>,
 }
 
 /// Features, each of which costs what it costs and none of which another pays for.
@@ -28,10 +28,10 @@ pub const FEATURES: &[Feature] = &[
             Ok(())
         },
     },
-    Feature { name: "force", add: |scene| force_at_end(scene, Frame::Dead) },
-    Feature { name: "follower force", add: |scene| force_at_end(scene, Frame::Follower) },
-    Feature { name: "line load", add: |scene| line_load(scene, Frame::Dead) },
-    Feature { name: "follower line load", add: |scene| line_load(scene, Frame::Follower) },
+    Feature { name: "force", add: |scene| force_at_end(scene, LoadFrame::Dead) },
+    Feature { name: "follower force", add: |scene| force_at_end(scene, LoadFrame::Follower) },
+    Feature { name: "line load", add: |scene| line_load(scene, LoadFrame::Dead) },
+    Feature { name: "follower line load", add: |scene| line_load(scene, LoadFrame::Follower) },
     Feature {
         name: "point mass",
         add: |scene| {
@@ -62,19 +62,19 @@ fn small_force(scene: &Scene) -> f64 {
     SMALL * scene.beams[0].section.mean().bending_stiffness / square(length(scene))
 }
 
-fn end(scene: &mut Scene) -> Result<Station, ModelError> {
+fn end(scene: &mut Scene) -> Result<Station, SystemError> {
     let length = length(scene);
     scene.station(0, length)
 }
 
-fn force_at_end(scene: &mut Scene, frame: Frame) -> Result<(), ModelError> {
+fn force_at_end(scene: &mut Scene, frame: LoadFrame) -> Result<(), SystemError> {
     let (station, size) = (end(scene)?, small_force(scene));
     let kind = LoadKind::Force { station, force: Vec2::new(0.0, size), frame };
     scene.add_load(kind, Schedule::Constant(1.0));
     Ok(())
 }
 
-fn line_load(scene: &mut Scene, frame: Frame) -> Result<(), ModelError> {
+fn line_load(scene: &mut Scene, frame: LoadFrame) -> Result<(), SystemError> {
     let size = small_force(scene) / length(scene);
     let kind = LoadKind::Line { beam: 0, force: Vec2::new(0.0, size), frame };
     scene.add_load(kind, Schedule::Constant(1.0));
@@ -82,7 +82,7 @@ fn line_load(scene: &mut Scene, frame: Frame) -> Result<(), ModelError> {
 }
 
 /// A small particle that slides from a place near the middle of the beam: in the middle of one that spins it would rest.
-fn bead(scene: &mut Scene) -> Result<(), ModelError> {
+fn bead(scene: &mut Scene) -> Result<(), SystemError> {
     let arc_length = 0.4 * length(scene);
     let place = scene.station(0, arc_length)?;
     let position = scene.drawn_at(&place)?;
@@ -107,14 +107,14 @@ fn bead(scene: &mut Scene) -> Result<(), ModelError> {
 mod tests {
     use super::super::samples::spinning;
     use super::*;
-    use crate::simulation::{Simulation, Unwatched};
+    use crate::simulation::{NoMonitor, Simulation};
 
     #[test]
     fn every_feature_can_be_added_and_hardly_disturbs() {
         let case = spinning(0.05, &[0.5]);
         let energy = |scene: Scene| {
             let mut simulation = Simulation::start(scene, case.settings).unwrap();
-            simulation.run_to(0.5, &mut Unwatched).unwrap();
+            simulation.run_to(0.5, &mut NoMonitor).unwrap();
             simulation.history().column("kinetic").unwrap().pop().unwrap()
         };
         let plain = energy(case.scene.clone());

@@ -13,7 +13,7 @@ use std::sync::OnceLock;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use crate::folders::{Folder, Imprint};
+use crate::sandbox_fs::{FileChecksum, Folder};
 
 /// Of one record; more is damage.
 const LONGEST: usize = 1 << 30;
@@ -33,7 +33,7 @@ fn build() -> Build {
     *BUILD.get_or_init(|| {
         let file = || {
             let file = File::open(std::env::current_exe().ok()?).ok()?;
-            let imprint = Imprint::of(file).ok()?;
+            let imprint = FileChecksum::of(file).ok()?;
             Some((imprint.length, imprint.checksum))
         };
         (env!("CARGO_PKG_VERSION"), file())

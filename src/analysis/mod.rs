@@ -12,21 +12,21 @@ mod case;
 mod combination;
 mod convergence;
 mod cost;
+mod csv_table;
+mod external_results;
 mod features;
 mod journal;
 mod observable;
 mod outcome;
 mod pareto;
-mod patience;
 mod precision;
-mod rivals;
+mod reference;
 mod row_journal;
-mod sheet;
+mod run_limits;
+mod run_result;
 mod stability;
 mod sweep;
 mod timing;
-mod trial;
-mod truth;
 mod workers;
 
 #[cfg(test)]
@@ -34,25 +34,26 @@ mod samples;
 
 pub use case::Case;
 pub use combination::{
-    Combination, PART_OF_THE_SMALLEST_STEP, Subject, all_combinations, finest_mesh, highest_order,
+    Combination, ObservedScene, PART_OF_THE_SMALLEST_STEP, all_combinations, finest_mesh,
+    highest_order,
 };
-pub use convergence::{ALL_POSITIONS, Convergence, Ladder, Refined};
+pub use convergence::{ALL_POSITIONS, Convergence, Ladder, RefinedParameter};
 pub use cost::{CostCase, StepCost, step_costs};
+pub use csv_table::{ParsedCsv, ParsedCsvError};
+pub use external_results::{ExternalResult, ExternalResultError, machines};
 pub use features::{FEATURES, Feature};
 pub use journal::{Journal, JournalError};
 pub use observable::{Observable, ObservableKind, SYMBOLS};
-pub use outcome::Outcome;
+pub use outcome::CaseOutcome;
 pub use pareto::pareto_front;
-pub use patience::{Patience, is_out_of_patience};
 pub use precision::{Precision, PrecisionRow};
-pub use rivals::{Rival, RivalError, machines};
+pub use reference::{Deviation, Readings, ReferenceError, ReferenceSolution};
 pub use row_journal::{RowEntry, RowJournal, read_rows, remove_rows};
-pub use sheet::{Sheet, SheetError};
-pub use stability::Verdict;
+pub use run_limits::{RunLimits, is_out_of_patience};
+pub use run_result::RunResult;
+pub use stability::StabilityVerdict;
 pub use sweep::{
-    Arrangement, Choice, Sweep, SweepColumn, SweepDesign, SweepResults, SweptParameter, SweptValues,
+    Choice, RowLayout, Sweep, SweepColumn, SweepDesign, SweepResults, SweptParameter, SweptValues,
 };
 pub use timing::Timing;
-pub use trial::Trial;
-pub use truth::{Deviation, Readings, Truth, TruthError};
 pub use workers::on_all_cores;

@@ -105,7 +105,7 @@ mod tests {
 
     #[test]
     fn stations_have_a_place_and_an_angle_and_histories_their_columns() {
-        let simulation = spinning(0.1, &[1.0]).start(super::super::Patience::default()).unwrap();
+        let simulation = spinning(0.1, &[1.0]).start(super::super::RunLimits::default()).unwrap();
         let tip: Vec<_> = Observable::of_station("tip", Station::on_beam(0, 2.0)).collect();
         assert_eq!(tip[0].read(&simulation), Vec2::new(2.0, 0.0));
         assert_eq!((tip[1].describe().as_str(), tip[1].read(&simulation).x), ("angle of tip", 0.0));

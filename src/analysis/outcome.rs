@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// How a run of a study ended.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub enum Outcome {
+pub enum CaseOutcome {
     /// The run came to its end.
     Finished,
     /// The run could not start or not go on.
@@ -28,7 +28,7 @@ pub enum Outcome {
     },
 }
 
-impl Outcome {
+impl CaseOutcome {
     /// Whether the run came to its end.
     pub fn is_finished(&self) -> bool {
         *self == Self::Finished

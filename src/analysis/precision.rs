@@ -1,12 +1,12 @@
 //! Error against run time: what each combination costs and what it gives, and which of them are worth it.
 
+use super::external_results::ExternalResult;
 use super::observable::Observable;
 use super::pareto::pareto_front;
-use super::rivals::Rival;
+use super::reference::{Deviation, ReferenceSolution};
+use super::run_result::RunResult;
 use super::timing::Timing;
-use super::trial::Trial;
-use super::truth::{Deviation, Truth};
-use crate::simulation::{Settings, StepSize};
+use crate::simulation::{SimulationSettings, StepSize};
 
 /// A combination of mesh, integrator and step size that was run and timed.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,9 +14,9 @@ pub struct PrecisionRow {
     /// The name of the mesh.
     pub mesh: String,
     /// Integrator and step size of the run.
-    pub settings: Settings,
+    pub settings: SimulationSettings,
     /// What the run showed.
-    pub trial: Trial,
+    pub trial: RunResult,
     /// The time that the run took; none where it failed.
     pub timing: Option<Timing>,
     /// The largest distance of a station from the reference, relative to the length of the study; none where the run failed.
@@ -31,10 +31,10 @@ pub struct PrecisionRow {
 impl PrecisionRow {
     /// The row of a combination: what its run showed and took, and how far it is from the reference.
     pub fn new(
-        (mesh, settings): (String, Settings),
-        trial: Trial,
+        (mesh, settings): (String, SimulationSettings),
+        trial: RunResult,
         timing: Option<Timing>,
-        (observables, truth, length): (&[Observable], &Truth, f64),
+        (observables, truth, length): (&[Observable], &ReferenceSolution, f64),
     ) -> Self {
         let is_finished = trial.outcome.is_finished();
         let of = |index| truth.deviation(index, &trial.readings).filter(|_| is_finished);
@@ -72,11 +72,11 @@ pub struct Precision {
     /// What the study looked at.
     pub observables: Vec<Observable>,
     /// The reference: what the observables should be.
-    pub truth: Truth,
+    pub truth: ReferenceSolution,
     /// All combinations in their order, those that failed too.
     pub rows: Vec<PrecisionRow>,
     /// The runs of other programs with which the study compares.
-    pub rivals: Vec<Rival>,
+    pub rivals: Vec<ExternalResult>,
 }
 
 impl Precision {
@@ -126,7 +126,7 @@ impl Precision {
     }
 
     /// The fastest run of another program whose error is at most `error` [-].
-    pub fn cheapest_of(&self, peer: &str, error: f64) -> Option<&Rival> {
+    pub fn cheapest_of(&self, peer: &str, error: f64) -> Option<&ExternalResult> {
         let able = self.rivals.iter().filter(|rival| rival.peer == peer && rival.error <= error);
         able.min_by(|a, b| a.run_time.total_cmp(&b.run_time))
     }
@@ -136,7 +136,7 @@ impl Precision {
 mod tests {
     use std::time::Duration;
 
-    use super::super::Patience;
+    use super::super::RunLimits;
     use super::super::samples::{never, spinning};
     use super::*;
     use crate::beams::Station;
@@ -144,9 +144,10 @@ mod tests {
     /// A short spinning rod with three step sizes, the first of which cannot be; the last is the reference.
     fn study() -> Precision {
         let observables: Vec<_> = Observable::of_station("tip", Station::on_beam(0, 2.0)).collect();
-        let trial =
-            |dt| Trial::of(&spinning(dt, &[0.5, 1.0]), &observables, Patience::default(), &never());
-        let truth = Truth::of_run("own", &trial(0.01).readings);
+        let trial = |dt| {
+            RunResult::of(&spinning(dt, &[0.5, 1.0]), &observables, RunLimits::default(), &never())
+        };
+        let truth = ReferenceSolution::of_run("own", &trial(0.01).readings);
         let row = |(dt, millis): (f64, u64)| {
             let run = Duration::from_millis(millis);
             let timing = Timing { setup: run, run, shortest: run, processor: None, repeats: 1 };
@@ -156,7 +157,7 @@ mod tests {
             PrecisionRow::new(("m".into(), settings), trial, timing, (&observables, &truth, 2.0))
         };
         let rows = [(-0.1, 1), (0.25, 2), (0.125, 4), (0.25, 3)].map(row).to_vec();
-        let rival = |peer: &str, run_time, error| Rival {
+        let rival = |peer: &str, run_time, error| ExternalResult {
             peer: peer.into(),
             series: peer.into(),
             setting: String::new(),

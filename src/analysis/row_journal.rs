@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
-use crate::folders::Folder;
+use crate::sandbox_fs::Folder;
 
 /// Of one entry; more is damage.
 const LONGEST: u32 = 1 << 20;

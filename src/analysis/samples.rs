@@ -7,10 +7,10 @@ use super::Case;
 use crate::beams::{Mesh, Section};
 use crate::geometry::{Curve, Vec2};
 use crate::integrators::Method;
-use crate::loads::{Frame, LoadKind, Schedule};
-use crate::model::{BeamDefinition, Scene, StartMotion};
+use crate::loads::{LoadFrame, LoadKind, Schedule};
 use crate::newton::Tolerance;
-use crate::simulation::Settings;
+use crate::simulation::SimulationSettings;
+use crate::system::{BeamDefinition, Scene, StartMotion};
 
 /// A flag for tests by which nobody stops a study.
 pub fn never() -> AtomicBool {
@@ -36,8 +36,11 @@ pub fn spinning(dt: f64, stops: &[f64]) -> Case {
         motion,
     };
     scene.add_beam(beam).unwrap();
-    let settings =
-        Settings { method: Method::default(), dt: dt.into(), tolerance: Tolerance::default() };
+    let settings = SimulationSettings {
+        method: Method::default(),
+        dt: dt.into(),
+        tolerance: Tolerance::default(),
+    };
     Case { scene, settings, stops: stops.to_vec() }
 }
 
@@ -45,7 +48,7 @@ pub fn spinning(dt: f64, stops: &[f64]) -> Case {
 pub fn pushed_by_a_function(dt: f64, stops: &[f64]) -> Case {
     let mut case = spinning(dt, stops);
     let station = case.scene.station(0, 0.0).unwrap();
-    let force = LoadKind::Force { station, force: Vec2::new(1.0, 0.0), frame: Frame::Dead };
+    let force = LoadKind::Force { station, force: Vec2::new(1.0, 0.0), frame: LoadFrame::Dead };
     let function = Rc::new(|t: f64| Ok(t));
     case.scene.add_load(force, Schedule::Function { function, breaks: Vec::new() });
     case

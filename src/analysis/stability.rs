@@ -4,15 +4,15 @@ use std::sync::atomic::AtomicBool;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Case, Outcome, Patience};
-use crate::model::Scene;
+use super::{Case, CaseOutcome, RunLimits};
 use crate::simulation::Simulation;
+use crate::system::Scene;
 
 /// The verdict on a run: how it ended, whether its energy grew, and the work of its steps.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Verdict {
+pub struct StabilityVerdict {
     /// How the run ended.
-    pub outcome: Outcome,
+    pub outcome: CaseOutcome,
     /// The largest rise of `E - W` above an earlier value after the last schedule has come to rest, relative to the largest
     /// energy; NaN when there was no run, or it was lost in numbers that are none.
     pub energy_growth: f64,
@@ -26,9 +26,9 @@ pub struct Verdict {
     pub retries: usize,
 }
 
-impl Verdict {
+impl StabilityVerdict {
     /// Runs a case and judges it.
-    pub fn of(case: &Case, patience: Patience, stop: &AtomicBool) -> Self {
+    pub fn of(case: &Case, patience: RunLimits, stop: &AtomicBool) -> Self {
         let (outcome, simulation) = case.run(patience, stop, |_| ());
         match simulation {
             Some(simulation) => Self::on(&simulation, outcome),
@@ -36,7 +36,7 @@ impl Verdict {
         }
     }
 
-    fn on(simulation: &Simulation, outcome: Outcome) -> Self {
+    fn on(simulation: &Simulation, outcome: CaseOutcome) -> Self {
         let counts = simulation.counts();
         let free = simulation.history().between(rest(simulation.scene()), f64::INFINITY);
         let rows = if free.samples().len() > 1 { &free } else { simulation.history() };
@@ -51,7 +51,7 @@ impl Verdict {
     }
 
     /// The verdict on a run that never began.
-    pub fn without_a_run(outcome: Outcome) -> Self {
+    pub fn without_a_run(outcome: CaseOutcome) -> Self {
         Self {
             outcome,
             energy_growth: f64::NAN,
@@ -75,8 +75,8 @@ mod tests {
     use crate::integrators::Method;
     use crate::loads::{LoadKind, Schedule};
 
-    fn verdict(case: &Case) -> Verdict {
-        Verdict::of(case, Patience::default(), &never())
+    fn verdict(case: &Case) -> StabilityVerdict {
+        StabilityVerdict::of(case, RunLimits::default(), &never())
     }
 
     #[test]
@@ -98,7 +98,7 @@ mod tests {
     fn what_cannot_begin_has_a_reason_and_no_numbers() {
         let lost = verdict(&spinning(f64::NAN, &[1.0]));
         assert!(
-            matches!(&lost.outcome, Outcome::Failed { reason, .. } if reason.contains("step size"))
+            matches!(&lost.outcome, CaseOutcome::Failed { reason, .. } if reason.contains("step size"))
         );
         assert!(lost.energy_growth.is_nan() && lost.steps == 0);
     }

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use crate::sampling::{Share, shares_by_rank, shares_of_grid, shares_of_saltelli};
+use crate::sampling::{VarianceShare, shares_by_rank, shares_of_grid, shares_of_saltelli};
 
 /// A parameter of a sweep with its values.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,7 +75,7 @@ impl SweptValues {
 
 /// How the rows of a sweep lie among all that they could be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Arrangement {
+pub enum RowLayout {
     /// Every value with every other.
     Grid,
     /// Points that are independent of one another, or more even than that.
@@ -92,7 +92,7 @@ pub struct SweepDesign {
     /// How many runs there are.
     pub rows: usize,
     /// How they are arranged.
-    pub arrangement: Arrangement,
+    pub arrangement: RowLayout,
 }
 
 /// What was found in the rows of a sweep: a column of numbers for each result, and the reasons of rows that failed.
@@ -102,12 +102,12 @@ pub struct SweepResults {
     pub names: Vec<String>,
     /// A column for each name; not-a-number in rows that failed.
     columns: Vec<Vec<f64>>,
-    reasons: Reasons,
+    reasons: FailureReasons,
 }
 
 /// Reasons of failures, each kept once.
 #[derive(Clone, Debug, Default)]
-struct Reasons {
+struct FailureReasons {
     texts: Vec<String>,
     known: HashMap<String, u32>,
     of_rows: BTreeMap<u32, u32>,
@@ -159,7 +159,7 @@ impl SweepResults {
 
     /// Writes down why a row failed.
     pub fn fail(&mut self, row: usize, reason: &str) {
-        let Reasons { texts, known, of_rows } = &mut self.reasons;
+        let FailureReasons { texts, known, of_rows } = &mut self.reasons;
         let number = *known.entry(reason.to_owned()).or_insert_with(|| {
             texts.push(reason.to_owned());
             texts.len() as u32 - 1
@@ -175,7 +175,7 @@ impl SweepResults {
 
     /// The rows that failed, with their reasons.
     pub fn failures(&self) -> impl ExactSizeIterator<Item = (usize, &str)> {
-        let Reasons { texts, of_rows, .. } = &self.reasons;
+        let FailureReasons { texts, of_rows, .. } = &self.reasons;
         of_rows.iter().map(|(row, number)| (*row as usize, texts[*number as usize].as_str()))
     }
 
@@ -210,19 +210,19 @@ impl Sweep {
         let results = self.results.column(result).unwrap_or_default();
         let is_whole = |rows: &&[f64]| rows.iter().all(|x| x.is_finite());
         let block = match self.design.arrangement {
-            Arrangement::Saltelli => self.design.parameters.len() + 2,
-            Arrangement::Grid | Arrangement::Points => 1,
+            RowLayout::Saltelli => self.design.parameters.len() + 2,
+            RowLayout::Grid | RowLayout::Points => 1,
         };
         results.chunks_exact(block).filter(is_whole).count() * block
     }
 
     /// How much of the variance of a result each parameter explains, in the order of the parameters; none where it does not vary, where rows of a grid
     /// failed, or where there are too few points.
-    pub fn shares(&self, result: &str) -> Option<Vec<Share>> {
+    pub fn shares(&self, result: &str) -> Option<Vec<VarianceShare>> {
         let results = self.results.column(result)?;
         let parameters = &self.design.parameters;
         match self.design.arrangement {
-            Arrangement::Grid => {
+            RowLayout::Grid => {
                 let length = |of: &SweptParameter| match &of.values {
                     SweptValues::Levels { labels, .. } => labels.len(),
                     SweptValues::Numbers(numbers) => numbers.len(),
@@ -230,8 +230,8 @@ impl Sweep {
                 let lengths: Vec<usize> = parameters.iter().map(length).collect();
                 results.iter().all(|x| x.is_finite()).then(|| shares_of_grid(&lengths, results))?
             }
-            Arrangement::Saltelli => shares_of_saltelli(parameters.len(), results),
-            Arrangement::Points => {
+            RowLayout::Saltelli => shares_of_saltelli(parameters.len(), results),
+            RowLayout::Points => {
                 let place = |of: &SweptParameter, row: usize| {
                     of.values.number(row).or_else(|| Some(of.values.level(row)? as f64))
                 };
@@ -260,7 +260,7 @@ mod tests {
             parameter("a", levels(&[1.0, 2.0], 3)),
             parameter("b", levels(&[0.0, 1.0, 2.0], 1)),
         ];
-        let design = SweepDesign { parameters, rows: 6, arrangement: Arrangement::Grid };
+        let design = SweepDesign { parameters, rows: 6, arrangement: RowLayout::Grid };
         let mut results = SweepResults::default();
         results.begin(vec!["sum".into()], 6);
         for row in 0..6 {
@@ -293,7 +293,7 @@ mod tests {
         assert!(sweep.results.failures().eq([(0, "lost"), (2, "lost")]));
         assert!(sweep.shares("sum").is_none());
         assert_eq!(sweep.telling_rows("sum"), 5);
-        sweep.design.arrangement = Arrangement::Saltelli;
+        sweep.design.arrangement = RowLayout::Saltelli;
         // Two parameters: blocks of four rows, of which the first has a failed one, and the second is cut off.
         assert_eq!(sweep.telling_rows("sum"), 0);
     }

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
-use super::{Case, Patience};
+use super::{Case, RunLimits};
 
 /// The times that a case of a study takes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -42,7 +42,7 @@ impl Timing {
     /// once at least. None when `is_wanted` says no on the way, or a run fails.
     pub fn of(
         case: &Case,
-        patience: Patience,
+        patience: RunLimits,
         repeats: usize,
         is_wanted: &mut dyn FnMut() -> bool,
     ) -> Option<Self> {
@@ -86,10 +86,13 @@ mod tests {
     #[test]
     fn a_case_is_timed_as_often_as_asked_unless_nobody_wants_it() {
         let case = spinning(0.1, &[0.2]);
-        let timing = Timing::of(&case, Patience::default(), 3, &mut || true).unwrap();
+        let timing = Timing::of(&case, RunLimits::default(), 3, &mut || true).unwrap();
         assert!(timing.repeats == 3 && timing.shortest <= timing.run && timing.price() > 0.0);
-        assert_eq!(Timing::of(&case, Patience::default(), 3, &mut || false), None);
-        assert_eq!(Timing::of(&spinning(-1.0, &[1.0]), Patience::default(), 3, &mut || true), None);
+        assert_eq!(Timing::of(&case, RunLimits::default(), 3, &mut || false), None);
+        assert_eq!(
+            Timing::of(&spinning(-1.0, &[1.0]), RunLimits::default(), 3, &mut || true),
+            None
+        );
     }
 
     #[test]

@@ -90,11 +90,11 @@ pub fn on_all_cores<R: Send>(
 #[cfg(test)]
 mod tests {
     use super::super::samples::{never, pushed_by_a_function, spinning};
-    use super::super::{Outcome, Patience};
+    use super::super::{CaseOutcome, RunLimits};
     use super::*;
 
-    fn steps(case: &Case, stop: &AtomicBool) -> (Outcome, usize) {
-        let (outcome, simulation) = case.run(Patience::default(), stop, |_| ());
+    fn steps(case: &Case, stop: &AtomicBool) -> (CaseOutcome, usize) {
+        let (outcome, simulation) = case.run(RunLimits::default(), stop, |_| ());
         (outcome, simulation.map_or(0, |simulation| simulation.counts().steps))
     }
 
@@ -147,7 +147,7 @@ mod tests {
                 _ => ControlFlow::Continue(()),
             },
         );
-        assert_eq!(results[0], Some(Ok((Outcome::Finished, 1))));
+        assert_eq!(results[0], Some(Ok((CaseOutcome::Finished, 1))));
         assert_eq!(results[1..], [None, None]);
     }
 }

@@ -9,17 +9,17 @@ use super::learn_options::LearnOptions;
 use super::limits::LimitOptions;
 use super::view_options::ViewOptions;
 use crate::repl::editor::Keys;
-use crate::script::state::parts::Part;
+use crate::script::state::parts::StudyPart;
 
 /// Planar dynamics of flexible beams, scripted.
 ///
 /// Without a command it opens a prompt.
 #[derive(Parser)]
 #[command(version, args_conflicts_with_subcommands = true, after_help = EXIT_CODES)]
-pub struct Arguments {
+pub struct CliArguments {
     /// What to do.
     #[command(subcommand)]
-    pub command: Option<Command>,
+    pub command: Option<CliCommand>,
     /// How a session goes, where there is no command.
     #[command(flatten)]
     pub session: SessionOptions,
@@ -27,7 +27,7 @@ pub struct Arguments {
 
 /// What withy can do.
 #[derive(Subcommand)]
-pub enum Command {
+pub enum CliCommand {
     /// Run a script: simulate, check, draw.
     #[command(after_help = EXIT_CODES)]
     Run(RunOptions),
@@ -135,7 +135,7 @@ pub struct StudyOptions {
     pub fresh: bool,
     /// Make only this part of each study, such as 3/16, and keep it in the folder of --out until --merge joins all parts.
     #[arg(long, value_name = "K/N", conflicts_with = "merge")]
-    pub part: Option<Part>,
+    pub part: Option<StudyPart>,
     /// Join the parts in these folders in the place of making them: the same files as those of one machine.
     #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with = "fresh")]
     pub merge: Vec<PathBuf>,

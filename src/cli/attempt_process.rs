@@ -14,17 +14,17 @@ use std::{env, io, process, thread};
 use serde_json::{Value, json};
 
 use super::Exit;
+use super::console::{say, tell};
 use super::limits::LimitOptions;
-use super::say::{say, tell};
 use crate::exercises::attempt;
 use crate::exercises::exercise::Exercise;
 use crate::exercises::grading::{self, Mark};
-use crate::exercises::judging::{Verdict, judge};
+use crate::exercises::judging::{AttemptVerdict, judge};
 use crate::exercises::submissions::Submission;
-use crate::folders::Scratch;
+use crate::sandbox_fs::Scratch;
+use crate::script::messages::stop::Stop;
 use crate::script::state::limits::Limits;
-use crate::script::state::settings::{Mode, Settings};
-use crate::script::words::stop::Stop;
+use crate::script::state::settings::{RunMode, RunSettings};
 
 /// How often a process is looked at.
 const INTERVAL: Duration = Duration::from_millis(5);
@@ -36,7 +36,7 @@ const LONGEST_MESSAGE: usize = 4000;
 const LONGEST_VERDICT: u64 = 1 << 20;
 
 /// What the processes that judge the attempts of a class have in common.
-pub(super) struct Room<'a> {
+pub(super) struct JudgeLimits<'a> {
     /// The folder in which each process gets one of its own.
     pub scratch: &'a Scratch,
     /// The limits of what each process may use.
@@ -53,21 +53,21 @@ pub(super) fn mark_apart(
     submission: &Submission,
     file: &Path,
     exercise: &Exercise,
-    room: &Room,
+    room: &JudgeLimits,
 ) -> io::Result<Option<(Mark, String)>> {
     let bounds = room.limits.for_an_attempt();
     Ok(match run_apart(submission, file, exercise, room)? {
-        Said::Line(line) => {
+        ProcessReport::Line(line) => {
             Some(read(&line).unwrap_or_else(|| (Mark::Broken, "its judge said nothing".into())))
         }
-        Said::Nothing(status) => Some(mark_of_death(status, &bounds)),
-        Said::TooLate => Some((Mark::Stopped, too_late(&bounds))),
-        Said::Interrupted => None,
+        ProcessReport::Nothing(status) => Some(mark_of_death(status, &bounds)),
+        ProcessReport::TooLate => Some((Mark::Stopped, too_late(&bounds))),
+        ProcessReport::Interrupted => None,
     })
 }
 
 /// What came of a process.
-enum Said {
+enum ProcessReport {
     /// It said its verdict.
     Line(String),
     /// It died without a word.
@@ -82,8 +82,8 @@ fn run_apart(
     submission: &Submission,
     file: &Path,
     exercise: &Exercise,
-    Room { scratch, limits, stop }: &Room,
-) -> io::Result<Said> {
+    JudgeLimits { scratch, limits, stop }: &JudgeLimits,
+) -> io::Result<ProcessReport> {
     let folder = scratch.part()?;
     let begun = Instant::now();
     let home = submission.folder.canonicalize()?;
@@ -104,17 +104,23 @@ fn run_apart(
     let time = limits.for_an_attempt().time.unwrap_or_default() * 2 + START;
     let ended = loop {
         if let Some(status) = process.try_wait()? {
-            break Said::Nothing(status);
+            break ProcessReport::Nothing(status);
         }
         if stop.load(Ordering::Relaxed) || begun.elapsed() > time {
             process.kill()?;
             process.wait()?;
-            break if stop.load(Ordering::Relaxed) { Said::Interrupted } else { Said::TooLate };
+            break if stop.load(Ordering::Relaxed) {
+                ProcessReport::Interrupted
+            } else {
+                ProcessReport::TooLate
+            };
         }
         thread::sleep(INTERVAL);
     };
     Ok(match (ended, line_of(&mut process)) {
-        (Said::Nothing(status), Some(line)) if status.success() => Said::Line(line),
+        (ProcessReport::Nothing(status), Some(line)) if status.success() => {
+            ProcessReport::Line(line)
+        }
         (ended, _) => ended,
     })
 }
@@ -144,10 +150,10 @@ fn too_late(limits: &Limits) -> String {
 /// What the way in which a process died says of its attempt.
 fn mark_of_death(status: ExitStatus, limits: &Limits) -> (Mark, String) {
     let passed = match cause_of_death(status) {
-        Cause::Time => return (Mark::Stopped, too_late(limits)),
-        Cause::Memory => limits.memory.map(Stop::Memory),
-        Cause::Written => limits.written.map(Stop::Written),
-        Cause::Other => None,
+        KillReason::Time => return (Mark::Stopped, too_late(limits)),
+        KillReason::Memory => limits.memory.map(Stop::Memory),
+        KillReason::Written => limits.written.map(Stop::Written),
+        KillReason::Other => None,
     };
     match passed {
         Some(stop) => (Mark::Stopped, stop.words().0),
@@ -156,7 +162,7 @@ fn mark_of_death(status: ExitStatus, limits: &Limits) -> (Mark, String) {
 }
 
 /// Which limit of the system ended a process.
-enum Cause {
+enum KillReason {
     Time,
     Memory,
     Written,
@@ -164,21 +170,21 @@ enum Cause {
 }
 
 #[cfg(unix)]
-fn cause_of_death(status: ExitStatus) -> Cause {
+fn cause_of_death(status: ExitStatus) -> KillReason {
     use nix::sys::signal::Signal;
     use std::os::unix::process::ExitStatusExt;
     match status.signal().and_then(|number| Signal::try_from(number).ok()) {
-        Some(Signal::SIGXCPU) => Cause::Time,
-        Some(Signal::SIGXFSZ) => Cause::Written,
+        Some(Signal::SIGXCPU) => KillReason::Time,
+        Some(Signal::SIGXFSZ) => KillReason::Written,
         // An allocation that is refused aborts; the system ends who takes too much.
-        Some(Signal::SIGABRT | Signal::SIGKILL) => Cause::Memory,
-        _ => Cause::Other,
+        Some(Signal::SIGABRT | Signal::SIGKILL) => KillReason::Memory,
+        _ => KillReason::Other,
     }
 }
 
 #[cfg(not(unix))]
-fn cause_of_death(_: ExitStatus) -> Cause {
-    Cause::Other
+fn cause_of_death(_: ExitStatus) -> KillReason {
+    KillReason::Other
 }
 
 /// Keeps Ctrl-C at the terminal from the process: whoever grades decides what becomes of it.
@@ -206,14 +212,14 @@ pub(super) fn judge_one(
         tell(&format!("error: this process cannot be given limits: {error}\n"));
         return Exit::Wrong;
     }
-    let settings = Settings {
+    let settings = RunSettings {
         limits,
         last_resort: Some(Arc::new(stopped_hard)),
-        ..Settings::silent(Mode::Run)
+        ..RunSettings::silent(RunMode::Run)
     };
     let verdict = match attempt::load(file, folder) {
         Ok(attempt) => judge(exercise, &attempt, settings),
-        Err(why) => Verdict::Broken(why),
+        Err(why) => AttemptVerdict::Broken(why),
     };
     match grading::mark(verdict) {
         Some(mark) => say(&write(&mark)),

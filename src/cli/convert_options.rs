@@ -13,7 +13,7 @@ pub struct ConvertOptions {
     pub file: PathBuf,
     /// What it becomes.
     #[arg(long, value_enum)]
-    pub to: Target,
+    pub to: ConvertTarget,
     /// Folder for what is written, under the name of FILE; that of FILE unless given.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
@@ -27,7 +27,7 @@ pub struct ConvertOptions {
 
 /// What a saved simulation can become.
 #[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum Target {
+pub enum ConvertTarget {
     /// Frames for ParaView: NAME.pvd and NAME/NAME_0001.vtu …; runs again where velocities and section forces are forgotten.
     Vtk,
     /// Arrays for NumPy: NAME.npz.

@@ -6,15 +6,15 @@ use std::path::Path;
 use super::Exit;
 use super::args::DocsOptions;
 use super::run::refuse;
-use crate::folders::read_text;
-use crate::output::{Colours, Style, write_whole};
+use crate::output::{Colours, TerminalStyle, write_whole};
+use crate::sandbox_fs::read_text;
+use crate::script::bindings::catalog::Catalog;
 use crate::script::diagnose::Diagnostic;
+use crate::script::help::definitions::definitions;
+use crate::script::help::grammar::grammar;
+use crate::script::help::lookup::{self, WIDTH};
+use crate::script::help::reference::reference;
 use crate::script::packages::language;
-use crate::script::pages::definitions::definitions;
-use crate::script::pages::grammar::grammar;
-use crate::script::pages::help::{self, WIDTH};
-use crate::script::pages::reference::reference;
-use crate::script::rows::catalog::Catalog;
 
 /// The largest definition file that is looked at before it is replaced [bytes].
 const LARGEST_DEFINITION: u64 = 1 << 24;
@@ -35,13 +35,13 @@ pub fn docs(options: &DocsOptions) -> Exit {
 }
 
 fn page(catalog: &Catalog, name: &str) -> Result<String, Diagnostic> {
-    let page = help::page(catalog, name).map_err(|unknown| {
+    let page = lookup::page(catalog, name).map_err(|unknown| {
         Diagnostic::general(unknown.to_string()).with_hint(match unknown.is_strange() {
             true => "withy docs lists what there is".to_owned(),
             false => unknown.hint(),
         })
     })?;
-    let style = Style::of_environment(|name| std::env::var(name).ok());
+    let style = TerminalStyle::of_environment(|name| std::env::var(name).ok());
     let wants_colours = stdout().is_terminal() && style.colours == Colours::Ansi;
     Ok(if wants_colours { page.ansi(width()) } else { page.plain(width()) })
 }

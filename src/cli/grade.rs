@@ -6,24 +6,24 @@ use std::sync::atomic::Ordering;
 use std::thread;
 
 use super::Exit;
-use super::attempt_process::{Room, mark_apart};
-use super::interrupt::{self, AtStake};
+use super::attempt_process::{JudgeLimits, mark_apart};
+use super::console::{say, tell};
+use super::interrupt::{self, InterruptLoss};
 use super::limits::LimitOptions;
-use super::say::{say, tell};
 use crate::exercises::catalogue::EXERCISES;
 use crate::exercises::class;
 use crate::exercises::error::ExerciseError;
 use crate::exercises::exercise::Exercise;
 use crate::exercises::fingerprint::fingerprint;
-use crate::exercises::grading::{Graded, Mark, Report, Task};
+use crate::exercises::grading::{Graded, GradingTask, Mark, StudentReport};
 use crate::exercises::marks::{self, KnownMarks};
 use crate::exercises::submissions::Submission;
-use crate::folders::Scratch;
-use crate::output::{Cell, Table, columns, padded};
+use crate::output::{Cell, TextTable, columns, padded};
+use crate::sandbox_fs::Scratch;
 
 /// How the marks of a class are shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
+pub enum GradeFormat {
     /// Marks are shown as a table for people.
     Table,
     /// Marks are shown as JSON for programs.
@@ -31,11 +31,11 @@ pub enum Form {
 }
 
 /// Which class is to be graded, and how.
-pub struct Wishes<'a> {
+pub struct GradeOptions<'a> {
     /// The folder of the class.
     pub folder: &'a Path,
     /// How marks are shown.
-    pub form: Form,
+    pub form: GradeFormat,
     /// The file that gets the marks as well.
     pub marks: Option<&'a Path>,
     /// How many attempts are judged at the same time.
@@ -45,7 +45,7 @@ pub struct Wishes<'a> {
 }
 
 /// Grades all submissions of a folder and prints the marks as they come. What attempts write is thrown away.
-pub fn grade(wishes: &Wishes) -> Result<Exit, ExerciseError> {
+pub fn grade(wishes: &GradeOptions) -> Result<Exit, ExerciseError> {
     let submissions = Submission::all_in(wishes.folder)?;
     let refused = |path: &Path, source| ExerciseError::Marks { path: path.into(), source };
     let (known, mut file) = match wishes.marks {
@@ -56,17 +56,17 @@ pub fn grade(wishes: &Wishes) -> Result<Exit, ExerciseError> {
         None => (KnownMarks::default(), None),
     };
     let scratch = Scratch::new().map_err(ExerciseError::Scratch)?;
-    let stop = interrupt::flag(AtStake::Run);
+    let stop = interrupt::flag(InterruptLoss::Run);
     let cores = thread::available_parallelism().map_or(1, usize::from);
     let workers = wishes.jobs.map_or(cores, usize::from);
-    let mut sheet = Sheet::begin(wishes.form, &submissions);
+    let mut sheet = GradeSheet::begin(wishes.form, &submissions);
     let (mut trouble, mut kept) = (None, 0);
-    let room = Room { scratch: &scratch, limits: wishes.limits, stop: &stop };
+    let room = JudgeLimits { scratch: &scratch, limits: wishes.limits, stop: &stop };
     let judge = |submission: &Submission, exercise: &'static Exercise| {
-        Judged::find(submission, exercise, &known, &room)
+        GradedMark::find(submission, exercise, &known, &room)
     };
-    let note = |submission: &Submission, exercise: &'static Exercise, judged: &Judged| {
-        if judged.origin == Origin::EarlierRun {
+    let note = |submission: &Submission, exercise: &'static Exercise, judged: &GradedMark| {
+        if judged.origin == MarkOrigin::EarlierRun {
             kept += 1;
         } else if let Some((path, file)) = &mut file {
             let mark = (judged.mark, judged.message.as_str());
@@ -85,7 +85,7 @@ pub fn grade(wishes: &Wishes) -> Result<Exit, ExerciseError> {
         &stop,
         judge,
         note,
-        |submission, exercise, Judged { mark, message, .. }| {
+        |submission, exercise, GradedMark { mark, message, .. }| {
             sheet.add(submission, Graded { exercise, mark, message });
         },
     );
@@ -104,38 +104,38 @@ pub fn grade(wishes: &Wishes) -> Result<Exit, ExerciseError> {
 }
 
 /// A mark, and what it is known from.
-struct Judged {
+struct GradedMark {
     mark: Mark,
     message: String,
     /// None where the same attempt may get another mark the next time.
     fingerprint: Option<String>,
-    origin: Origin,
+    origin: MarkOrigin,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Origin {
+enum MarkOrigin {
     ThisRun,
     EarlierRun,
 }
 
-impl Judged {
+impl GradedMark {
     /// Looks for the mark of an attempt, and judges it where there is none. Nothing when that was interrupted.
     fn find(
         submission: &Submission,
         exercise: &'static Exercise,
         known: &KnownMarks,
-        room: &Room,
+        room: &JudgeLimits,
     ) -> Option<Self> {
         let limits = room.limits.words();
         let of_attempt = || fingerprint(submission, exercise, &limits);
         let before = of_attempt();
         if let Some((mark, message)) = known.find(submission, exercise, &before) {
-            let origin = Origin::EarlierRun;
+            let origin = MarkOrigin::EarlierRun;
             return Some(Self { mark, message, fingerprint: Some(before), origin });
         }
-        let marked = match Task::of(submission, exercise) {
-            Task::Known(mark, message) => Ok(Some((mark, message))),
-            Task::Judge(file) => mark_apart(submission, &file, exercise, room),
+        let marked = match GradingTask::of(submission, exercise) {
+            GradingTask::Known(mark, message) => Ok(Some((mark, message))),
+            GradingTask::Judge(file) => mark_apart(submission, &file, exercise, room),
         };
         let (is_ours, (mark, message)) = match marked {
             Ok(marked) => (false, marked?),
@@ -143,30 +143,30 @@ impl Judged {
         };
         // What was changed in the meantime may not be what was judged.
         let fingerprint = (!is_ours && of_attempt() == before).then_some(before);
-        Some(Self { mark, message, fingerprint, origin: Origin::ThisRun })
+        Some(Self { mark, message, fingerprint, origin: MarkOrigin::ThisRun })
     }
 }
 
 /// What is shown, line by line for people and student by student for programs.
-struct Sheet {
-    form: Form,
+struct GradeSheet {
+    form: GradeFormat,
     student_width: usize,
     exercise_width: usize,
-    reports: Vec<Report>,
+    reports: Vec<StudentReport>,
 }
 
 /// Columns of the widest student's name that lines are made for.
 const WIDEST: usize = 40;
 
-impl Sheet {
-    fn begin(form: Form, submissions: &[Submission]) -> Self {
+impl GradeSheet {
+    fn begin(form: GradeFormat, submissions: &[Submission]) -> Self {
         let names = submissions.iter().map(|of| columns(&of.student));
         let student_width = names.max().unwrap_or(0).clamp("student".len(), WIDEST);
         let exercise_width = EXERCISES.iter().map(|it| it.id().len()).max().unwrap_or(0);
         let sheet = Self { form, student_width, exercise_width, reports: Vec::new() };
         match form {
-            Form::Table => sheet.line("student", "exercise", "result", "what is off"),
-            Form::Json => {
+            GradeFormat::Table => sheet.line("student", "exercise", "result", "what is off"),
+            GradeFormat::Json => {
                 say(&format!("{{\n  \"exercises\": {},\n  \"students\": [", EXERCISES.len()))
             }
         }
@@ -180,7 +180,7 @@ impl Sheet {
     }
 
     fn add(&mut self, submission: &Submission, graded: Graded) {
-        if self.form == Form::Table {
+        if self.form == GradeFormat::Table {
             let off = graded.message.lines().next().unwrap_or_default();
             self.line(
                 &shown(&submission.student),
@@ -192,11 +192,11 @@ impl Sheet {
         let is_new = self.reports.last().is_none_or(|last| last.graded.len() == EXERCISES.len());
         if is_new {
             let student = submission.student.clone();
-            self.reports.push(Report { student, graded: Vec::new() });
+            self.reports.push(StudentReport { student, graded: Vec::new() });
         }
         if let Some(report) = self.reports.last_mut() {
             report.graded.push(graded);
-            if self.form == Form::Json && report.graded.len() == EXERCISES.len() {
+            if self.form == GradeFormat::Json && report.graded.len() == EXERCISES.len() {
                 self.tell_student();
             }
         }
@@ -214,9 +214,9 @@ impl Sheet {
     /// What follows the last mark, also when there are fewer than there should be.
     fn end(&self) {
         match self.form {
-            Form::Json => say("  ]\n}"),
-            Form::Table => {
-                let mut sums = Table::new(&["student", "passed", "of"]);
+            GradeFormat::Json => say("  ]\n}"),
+            GradeFormat::Table => {
+                let mut sums = TextTable::new(&["student", "passed", "of"]);
                 for report in &self.reports {
                     let counts =
                         [report.passed(), EXERCISES.len()].map(|count| Cell::from(count as f64));

@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 use std::{process, thread};
 
 use super::Exit;
-use super::say::tell;
-use super::watching::terminal;
+use super::console::tell;
+use super::tui::terminal;
 use crate::repl::editor::typed_ahead;
 use crate::script::state::limits::INTERRUPT_HEARD;
 
@@ -19,7 +19,7 @@ const TO_WRITE: Duration = Duration::from_secs(20);
 
 /// What is lost when Ctrl-C ends the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum AtStake {
+pub enum InterruptLoss {
     /// A run is at stake: what does not hear of Ctrl-C ends soon after, or with the second one.
     Run,
     /// A session with everything that was built in it is at stake: a Ctrl-C ends it that comes a while after the first was not heard.
@@ -27,10 +27,10 @@ pub enum AtStake {
 }
 
 /// A flag that Ctrl-C sets.
-pub fn flag(at_stake: AtStake) -> Arc<AtomicBool> {
+pub fn flag(at_stake: InterruptLoss) -> Arc<AtomicBool> {
     let patience = match at_stake {
-        AtStake::Run => Duration::ZERO,
-        AtStake::Session => Duration::from_secs(1),
+        InterruptLoss::Run => Duration::ZERO,
+        InterruptLoss::Session => Duration::from_secs(1),
     };
     let flag = Arc::new(AtomicBool::new(false));
     let set = Arc::clone(&flag);
@@ -38,7 +38,7 @@ pub fn flag(at_stake: AtStake) -> Arc<AtomicBool> {
     let installed = ctrlc::set_handler(move || {
         if !set.swap(true, Ordering::Relaxed) {
             asked = Instant::now();
-            if at_stake == AtStake::Run {
+            if at_stake == InterruptLoss::Run {
                 // Beside this thread, which waits for the second Ctrl-C.
                 thread::spawn(|| {
                     thread::sleep(GRACE);

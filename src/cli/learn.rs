@@ -6,25 +6,25 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::{env, thread};
 
-use super::bar::{self, Wish};
-use super::grade::{Form, Wishes, grade};
-use super::interrupt::{self, AtStake};
+use super::console::{is_output_lost, say};
+use super::grade::{GradeFormat, GradeOptions, grade};
+use super::interrupt::{self, InterruptLoss};
 use super::learn_options::{LearnAction, LearnOptions};
 use super::limits::LimitOptions;
+use super::progress_display::{self, ProgressPreference};
 use super::run::{last_resort, refuse};
-use super::say::{is_output_lost, say};
-use super::watching::{self, Painter, terminal, trial};
+use super::tui::{self, ScriptPainter, judge_process, terminal};
 use super::{Exit, attempt_process};
 use crate::exercises::attempt;
 use crate::exercises::catalogue::{EXERCISES, TRACKS, find};
 use crate::exercises::error::ExerciseError;
 use crate::exercises::exercise::Exercise;
-use crate::exercises::judging::{Verdict, judge};
+use crate::exercises::judging::{AttemptVerdict, judge};
 use crate::exercises::watch::{INTERVAL, Watcher};
 use crate::exercises::workbook::{Advice, Workbook};
 use crate::panics;
 use crate::script::diagnose::{Colours, Diagnostic};
-use crate::script::state::settings::{Mode, Settings};
+use crate::script::state::settings::{RunMode, RunSettings};
 
 /// Does what `withy learn` asks for.
 pub fn learn(options: &LearnOptions) -> Exit {
@@ -35,7 +35,7 @@ pub fn learn(options: &LearnOptions) -> Exit {
         Some(LearnAction::List) => list(&workbook),
         Some(LearnAction::Next) => begin(&workbook).and_then(|()| show_next(&workbook)),
         Some(LearnAction::Check { name: Some(name), limits, .. }) => {
-            let flag = interrupt::flag(AtStake::Run);
+            let flag = interrupt::flag(InterruptLoss::Run);
             begin(&workbook).and_then(|()| check(&workbook, find(name)?, limits, &flag))
         }
         Some(LearnAction::Check { name: None, all, limits }) => {
@@ -47,11 +47,11 @@ pub fn learn(options: &LearnOptions) -> Exit {
         Some(LearnAction::Reset { name }) => reset(&workbook, name),
         Some(LearnAction::Watch { limits }) => watch(&workbook, limits),
         Some(LearnAction::Try { name, limits }) => {
-            find(name).map(|exercise| trial::try_here(&workbook, exercise, limits))
+            find(name).map(|exercise| judge_process::try_here(&workbook, exercise, limits))
         }
         Some(LearnAction::Grade { folder, json, marks, jobs, limits }) => {
-            let form = if *json { Form::Json } else { Form::Table };
-            grade(&Wishes { folder, form, marks: marks.as_deref(), jobs: *jobs, limits })
+            let form = if *json { GradeFormat::Json } else { GradeFormat::Table };
+            grade(&GradeOptions { folder, form, marks: marks.as_deref(), jobs: *jobs, limits })
         }
         Some(LearnAction::Attempt { folder, file, name, limits }) => {
             find(name).map(|exercise| attempt_process::judge_one(folder, file, exercise, limits))
@@ -124,33 +124,34 @@ fn check(
     limits: &LimitOptions,
     flag: &Arc<AtomicBool>,
 ) -> Done {
-    let settings = Settings {
+    let settings = RunSettings {
         out: workbook.folder().join("out"),
         interrupt: Arc::clone(flag),
         limits: limits.limits(),
         printed: Box::new(stdout()),
         told: Box::new(stderr()),
-        progress: bar::progress(Wish::Show),
+        progress: progress_display::progress(ProgressPreference::Show),
         last_resort: Some(last_resort()),
-        ..Settings::silent(Mode::Run)
+        ..RunSettings::silent(RunMode::Run)
     };
     let verdict = judge_file(workbook, exercise, settings);
-    let has_passed = matches!(verdict, Verdict::Passed);
-    let is_noted = matches!(verdict, Verdict::Interrupted) || note(workbook, exercise, has_passed);
+    let has_passed = matches!(verdict, AttemptVerdict::Passed);
+    let is_noted =
+        matches!(verdict, AttemptVerdict::Interrupted) || note(workbook, exercise, has_passed);
     let off = match verdict {
-        Verdict::Passed => {
+        AttemptVerdict::Passed => {
             say(&format!("passed: {}", exercise.id()));
             if is_noted {
                 show_next(workbook)?;
             }
             return Ok(Exit::Good);
         }
-        Verdict::Interrupted => {
+        AttemptVerdict::Interrupted => {
             say("interrupted: the attempt was not judged");
             return Ok(Exit::Interrupted);
         }
-        Verdict::Broken(why) | Verdict::Stopped(why) => why.render(colours()),
-        Verdict::Off(found) => found.iter().map(|found| format!("  - {found}\n")).collect(),
+        AttemptVerdict::Broken(why) | AttemptVerdict::Stopped(why) => why.render(colours()),
+        AttemptVerdict::Off(found) => found.iter().map(|found| format!("  - {found}\n")).collect(),
     };
     say(&format!("{off}\nnot yet: {}", exercise.id()));
     say(&format!("a hint: withy learn hint {}", exercise.name));
@@ -166,10 +167,10 @@ fn note(workbook: &Workbook, exercise: &Exercise, has_passed: bool) -> bool {
     noted.is_ok()
 }
 
-fn judge_file(workbook: &Workbook, exercise: &Exercise, settings: Settings) -> Verdict {
+fn judge_file(workbook: &Workbook, exercise: &Exercise, settings: RunSettings) -> AttemptVerdict {
     match attempt::load(&workbook.file(exercise), workbook.folder()) {
         Ok(attempt) => judge(exercise, &attempt, settings),
-        Err(why) => Verdict::Broken(why),
+        Err(why) => AttemptVerdict::Broken(why),
     }
 }
 
@@ -185,23 +186,23 @@ enum Detail {
 /// Judges all attempts.
 fn check_all(workbook: &Workbook, detail: Detail, limits: &LimitOptions) -> Done {
     begin(workbook)?;
-    let flag = interrupt::flag(AtStake::Run);
-    let bar = bar::progress(Wish::Show);
+    let flag = interrupt::flag(InterruptLoss::Run);
+    let bar = progress_display::progress(ProgressPreference::Show);
     bar.begin_cases("judging", EXERCISES.len());
     let (mut passed, mut begun) = (0, Vec::new());
     for (done, exercise) in EXERCISES.iter().enumerate() {
         bar.reach_case(done);
-        let settings = Settings {
+        let settings = RunSettings {
             out: workbook.folder().join("out"),
             interrupt: Arc::clone(&flag),
             limits: limits.limits(),
             last_resort: Some(last_resort()),
-            ..Settings::silent(Mode::Run)
+            ..RunSettings::silent(RunMode::Run)
         };
         let verdict = judge_file(workbook, exercise, settings);
-        let has_passed = matches!(verdict, Verdict::Passed);
+        let has_passed = matches!(verdict, AttemptVerdict::Passed);
         let word = match verdict {
-            Verdict::Interrupted => {
+            AttemptVerdict::Interrupted => {
                 bar.end();
                 return Ok(Exit::Interrupted);
             }
@@ -243,7 +244,7 @@ fn solution(workbook: &Workbook, name: &str) -> Done {
     }
     let solution = exercise.solution.trim_end();
     match colours() {
-        Colours::Ansi => say(&Painter::new().paint(solution)),
+        Colours::Ansi => say(&ScriptPainter::new().paint(solution)),
         Colours::None => say(solution),
     }
     Ok(Exit::Good)
@@ -285,11 +286,11 @@ fn reset(workbook: &Workbook, name: &str) -> Done {
 /// Judges what is saved: on a screen where there is one, else in lines.
 fn watch(workbook: &Workbook, limits: &LimitOptions) -> Done {
     begin(workbook)?;
-    let flag = interrupt::flag(AtStake::Run);
+    let flag = interrupt::flag(InterruptLoss::Run);
     if !terminal::is_there() {
         return watch_in_lines(workbook, limits, &flag);
     }
-    watching::watch(workbook, limits, &flag)?;
+    tui::watch(workbook, limits, &flag)?;
     let progress = workbook.progress()?;
     let passed = EXERCISES.iter().filter(|exercise| progress.has_passed(exercise)).count();
     say(&format!("{passed} of {} exercises are passed.", EXERCISES.len()));

@@ -5,10 +5,10 @@ use std::time::Duration;
 use clap::Args;
 
 use crate::exercises::judging::PATIENCE;
+use crate::script::messages::stop::MEGABYTE;
 use crate::script::state::limits::{
     DEEPEST, DEFAULT_DEPTH, DEFAULT_FILES, DEFAULT_MEGABYTES, DEFAULT_MEGABYTES_WRITTEN, Limits,
 };
-use crate::script::words::stop::MEGABYTE;
 
 /// What a script may use.
 #[derive(Args, Clone, Debug)]

@@ -2,7 +2,7 @@
 
 mod args;
 mod attempt_process;
-mod bar;
+mod console;
 mod convert;
 mod convert_options;
 mod docs;
@@ -12,14 +12,14 @@ mod interrupt;
 mod learn;
 mod learn_options;
 mod limits;
+mod progress_display;
 mod run;
 mod saved;
-mod say;
 mod session;
 mod start;
+mod tui;
 mod view;
 mod view_options;
-mod watching;
 
 pub use exit::Exit;
 pub use start::main;

@@ -7,39 +7,39 @@ use std::sync::Arc;
 
 use super::Exit;
 use super::args::{CheckOptions, RunOptions, StudyOptions};
-use super::bar::{self, Wish};
-use super::interrupt::{self, AtStake};
-use super::say::tell;
-use crate::folders::read_file;
+use super::console::tell;
+use super::interrupt::{self, InterruptLoss};
+use super::progress_display::{self, ProgressPreference};
 use crate::output::write_whole;
 use crate::panics;
 use crate::repl::editor::typed_ahead;
+use crate::sandbox_fs::read_file;
 use crate::script::diagnose::{Colours, Diagnostic};
-use crate::script::engine::runner::{self, Ending, Outcome};
+use crate::script::engine::runner::{self, Ending, RunOutcome};
+use crate::script::messages::stop::Stop;
 use crate::script::packages::language;
 use crate::script::source::program::Program;
-use crate::script::state::limits::LastResort;
-use crate::script::state::settings::{JournalWish, Mode, Settings, StudyWishes};
-use crate::script::words::stop::Stop;
+use crate::script::state::limits::HardAbort;
+use crate::script::state::settings::{JournalPreference, RunMode, RunSettings, StudyPreferences};
 
 /// The largest report that is looked at before it is replaced [bytes].
 const LARGEST_REPORT: u64 = 1 << 28;
 
 /// Does what `withy run` asks for: runs a script.
 pub fn run(options: &RunOptions) -> Exit {
-    let wish = if options.quiet { Wish::Hide } else { Wish::Show };
+    let wish = if options.quiet { ProgressPreference::Hide } else { ProgressPreference::Show };
     if let Some(Err(diagnostic)) = options.report.as_deref().map(expect_report) {
         return refuse(&diagnostic);
     }
-    let settings = Settings {
+    let settings = RunSettings {
         out: options.out.clone(),
-        interrupt: interrupt::flag(AtStake::Run),
+        interrupt: interrupt::flag(InterruptLoss::Run),
         limits: options.limits.limits(),
         printed: Box::new(stdout()),
         told: Box::new(stderr()),
-        progress: bar::progress(wish),
+        progress: progress_display::progress(wish),
         last_resort: Some(last_resort()),
-        ..Settings::silent(Mode::Run)
+        ..RunSettings::silent(RunMode::Run)
     };
     let outcome = match start(&options.file, settings) {
         Ok(outcome) => outcome,
@@ -50,7 +50,7 @@ pub fn run(options: &RunOptions) -> Exit {
     {
         return refuse(&diagnostic);
     }
-    if wish == Wish::Show {
+    if wish == ProgressPreference::Show {
         show_summary(&outcome);
     }
     exit_for(&outcome)
@@ -58,28 +58,28 @@ pub fn run(options: &RunOptions) -> Exit {
 
 /// Does what `withy study` asks for: runs a script whose studies keep a journal.
 pub fn study(options: &StudyOptions) -> Exit {
-    let wish = if options.quiet { Wish::Hide } else { Wish::Show };
-    let studies = StudyWishes {
-        journal: if options.fresh { JournalWish::Anew } else { JournalWish::GoOn },
+    let wish = if options.quiet { ProgressPreference::Hide } else { ProgressPreference::Show };
+    let studies = StudyPreferences {
+        journal: if options.fresh { JournalPreference::Anew } else { JournalPreference::GoOn },
         repeats: options.repeats.map(|repeats| repeats as usize),
         part: options.part,
         merge: options.merge.clone(),
     };
-    let settings = Settings {
+    let settings = RunSettings {
         out: options.out.clone(),
-        interrupt: interrupt::flag(AtStake::Run),
+        interrupt: interrupt::flag(InterruptLoss::Run),
         limits: options.limits.limits(),
         printed: if options.part.is_some() { Box::new(sink()) } else { Box::new(stdout()) },
         told: Box::new(stderr()),
-        progress: bar::progress(wish),
+        progress: progress_display::progress(wish),
         studies,
         last_resort: Some(last_resort()),
-        ..Settings::silent(Mode::Run)
+        ..RunSettings::silent(RunMode::Run)
     };
     match start(&options.file, settings) {
         Ok(outcome) if options.part.is_some() => exit_for_part(&outcome, options),
         Ok(outcome) => {
-            if wish == Wish::Show {
+            if wish == ProgressPreference::Show {
                 show_summary(&outcome);
             }
             exit_for_study(&outcome, &options.out)
@@ -90,11 +90,11 @@ pub fn study(options: &StudyOptions) -> Exit {
 
 /// Does what `withy check` asks for: parses a script and builds its scenes.
 pub fn check(options: &CheckOptions) -> Exit {
-    let settings = Settings {
-        interrupt: interrupt::flag(AtStake::Run),
+    let settings = RunSettings {
+        interrupt: interrupt::flag(InterruptLoss::Run),
         limits: options.limits.limits(),
         last_resort: Some(last_resort()),
-        ..Settings::silent(Mode::DryBuild)
+        ..RunSettings::silent(RunMode::DryBuild)
     };
     match start(&options.file, settings) {
         Ok(outcome) => {
@@ -113,13 +113,13 @@ pub fn check(options: &CheckOptions) -> Exit {
     }
 }
 
-fn start(file: &Path, settings: Settings) -> Result<Outcome, Diagnostic> {
+fn start(file: &Path, settings: RunSettings) -> Result<RunOutcome, Diagnostic> {
     let program = Program::load(file)?;
     panics::silence();
     Ok(runner::run(&program, &language(), settings))
 }
 
-pub(super) fn exit_for(outcome: &Outcome) -> Exit {
+pub(super) fn exit_for(outcome: &RunOutcome) -> Exit {
     match &outcome.ending {
         Ending::Failed(diagnostic) => refuse(diagnostic),
         Ending::Interrupted => {
@@ -133,7 +133,7 @@ pub(super) fn exit_for(outcome: &Outcome) -> Exit {
 }
 
 /// The same for a script of studies that can go on: what is kept of them is told.
-fn exit_for_study(outcome: &Outcome, out: &Path) -> Exit {
+fn exit_for_study(outcome: &RunOutcome, out: &Path) -> Exit {
     let (cases, are) = match outcome.kept_cases {
         0 => return exit_for(outcome),
         1 => ("1 finished case".to_owned(), "is"),
@@ -160,7 +160,7 @@ fn exit_for_study(outcome: &Outcome, out: &Path) -> Exit {
 }
 
 /// The same for a part of the studies of a script: what the script does behind them with results that are not known here is of no matter.
-fn exit_for_part(outcome: &Outcome, options: &StudyOptions) -> Exit {
+fn exit_for_part(outcome: &RunOutcome, options: &StudyOptions) -> Exit {
     let cases = match outcome.kept_cases {
         1 => "1 finished case is".to_owned(),
         many => format!("{many} finished cases are"),
@@ -197,7 +197,7 @@ pub(super) fn refuse(diagnostic: &Diagnostic) -> Exit {
     Exit::Wrong
 }
 
-pub(super) fn show_summary(outcome: &Outcome) {
+pub(super) fn show_summary(outcome: &RunOutcome) {
     for file in &outcome.files {
         tell(&format!("wrote {}\n", file.display()));
     }
@@ -207,7 +207,7 @@ pub(super) fn show_summary(outcome: &Outcome) {
 }
 
 /// What ends the program when a limit is passed in the middle of something that does not hear of it.
-pub(super) fn last_resort() -> LastResort {
+pub(super) fn last_resort() -> HardAbort {
     Arc::new(end_at)
 }
 
@@ -239,7 +239,7 @@ fn expect_report(file: &Path) -> Result<(), Diagnostic> {
     }
 }
 
-fn write_report(file: &Path, outcome: &Outcome) -> Result<(), Diagnostic> {
+fn write_report(file: &Path, outcome: &RunOutcome) -> Result<(), Diagnostic> {
     let report = serde_json::json!({ "simulations": outcome.simulations });
     write_whole(file, format!("{report:#}\n").as_bytes()).map_err(|error| {
         Diagnostic::general(format!("cannot write the report '{}': {error}", file.display()))

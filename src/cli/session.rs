@@ -5,23 +5,23 @@ use std::path::{Path, PathBuf};
 
 use super::Exit;
 use super::args::{ReplOptions, SessionOptions};
-use super::bar::{self, Wish};
-use super::interrupt::{self, AtStake};
+use super::console::tell;
+use super::interrupt::{self, InterruptLoss};
+use super::progress_display::{self, ProgressPreference};
 use super::run::{last_resort, refuse};
-use super::say::tell;
-use crate::output::{Glyphs, Style};
+use crate::output::{Glyphs, TerminalStyle};
 use crate::panics;
 use crate::repl::editor::{self, Editor};
 use crate::repl::pager::TerminalPager;
 use crate::repl::session::Session;
-use crate::repl::shell::{Outcome, Screen, Shell};
+use crate::repl::shell::{CommandOutcome, ReplyTarget, Shell};
 use crate::repl::{batch, prompt};
 use crate::script::diagnose::Diagnostic;
 use crate::script::engine::stack::on_large_stack;
+use crate::script::messages::stop::{MEGABYTE, Stop};
 use crate::script::packages::language;
 use crate::script::source::program::Program;
-use crate::script::state::settings::{Mode, Settings};
-use crate::script::words::stop::{MEGABYTE, Stop};
+use crate::script::state::settings::{RunMode, RunSettings};
 
 /// Does what `withy repl` asks for: opens a session in which a file may be evaluated first.
 pub fn open(options: &ReplOptions) -> Exit {
@@ -49,23 +49,24 @@ fn is_conversation(options: &SessionOptions) -> bool {
 fn hold(options: &ReplOptions) -> Result<Exit, Diagnostic> {
     let ReplOptions { file, session: options } = options;
     let is_conversation = is_conversation(options);
-    let settings = Settings { folder: folder_of(file), ..settings(options, is_conversation) };
+    let settings = RunSettings { folder: folder_of(file), ..settings(options, is_conversation) };
     let session = Session::new(language(), settings)?;
-    let screen = if is_conversation { Screen::Terminal(style(options)) } else { Screen::Pipe };
+    let screen =
+        if is_conversation { ReplyTarget::Terminal(style(options)) } else { ReplyTarget::Pipe };
     let mut shell = Shell::new(session, screen);
     let mut outcome = match file {
         Some(file) => shell.run_program(Program::load(file)?),
-        None => Outcome::Good,
+        None => CommandOutcome::Good,
     };
     if is_conversation {
         return converse(&mut shell, options).map(|()| Exit::Good);
     }
     for input in &options.inputs {
-        if outcome == Outcome::Good {
+        if outcome == CommandOutcome::Good {
             outcome = batch::run(&mut shell, input.as_bytes());
         }
     }
-    if options.inputs.is_empty() && outcome == Outcome::Good {
+    if options.inputs.is_empty() && outcome == CommandOutcome::Good {
         outcome = batch::run(&mut shell, stdin().lock());
     }
     Ok(exit_for(&shell, outcome))
@@ -80,7 +81,7 @@ fn converse(shell: &mut Shell, options: &SessionOptions) -> Result<(), Diagnosti
     if let Some(pager) = TerminalPager::of_environment(|name| std::env::var(name).ok()) {
         shell.page_with(Box::new(pager));
     }
-    let mut editing = editor::Options::from_environment(shell.colours());
+    let mut editing = editor::EditorOptions::from_environment(shell.colours());
     if let Some(keys) = options.keys {
         editing.keys = keys.into();
     }
@@ -93,37 +94,41 @@ fn converse(shell: &mut Shell, options: &SessionOptions) -> Result<(), Diagnosti
     prompt::run(shell, &mut editor).map_err(no_terminal)
 }
 
-fn exit_for(shell: &Shell, outcome: Outcome) -> Exit {
+fn exit_for(shell: &Shell, outcome: CommandOutcome) -> Exit {
     let has_failed = shell.session().context().with_checks(|checks| !checks.failed().is_empty());
     let stopped = shell.session().context().stopped_by();
     let is_lost = matches!(stopped, Some(Stop::OutputLost(_)));
-    if is_lost && outcome != Outcome::Failed {
+    if is_lost && outcome != CommandOutcome::Failed {
         tell("error: some of the output could not be written\n");
     }
     match outcome {
-        Outcome::Failed => Exit::Wrong,
-        Outcome::Interrupted => Exit::Interrupted,
-        Outcome::Good | Outcome::Quit if is_lost => Exit::Wrong,
-        Outcome::PipeClosed => Exit::Good,
-        Outcome::Good | Outcome::Quit if has_failed => Exit::CheckFailed,
-        Outcome::Good | Outcome::Quit => Exit::Good,
+        CommandOutcome::Failed => Exit::Wrong,
+        CommandOutcome::Interrupted => Exit::Interrupted,
+        CommandOutcome::Good | CommandOutcome::Quit if is_lost => Exit::Wrong,
+        CommandOutcome::PipeClosed => Exit::Good,
+        CommandOutcome::Good | CommandOutcome::Quit if has_failed => Exit::CheckFailed,
+        CommandOutcome::Good | CommandOutcome::Quit => Exit::Good,
     }
 }
 
-fn settings(options: &SessionOptions, is_conversation: bool) -> Settings {
-    Settings {
+fn settings(options: &SessionOptions, is_conversation: bool) -> RunSettings {
+    RunSettings {
         out: options.out.clone(),
         interrupt: interrupt::flag(match is_conversation {
-            true => AtStake::Session,
-            false => AtStake::Run,
+            true => InterruptLoss::Session,
+            false => InterruptLoss::Run,
         }),
         limits: options.limits.limits(),
         snapshots: (u64::from(options.snapshots) * MEGABYTE) as usize,
         printed: Box::new(stdout()),
         told: Box::new(stderr()),
-        progress: bar::progress(if is_conversation { Wish::Show } else { Wish::Hide }),
+        progress: progress_display::progress(if is_conversation {
+            ProgressPreference::Show
+        } else {
+            ProgressPreference::Hide
+        }),
         last_resort: Some(last_resort()),
-        ..Settings::silent(Mode::Run)
+        ..RunSettings::silent(RunMode::Run)
     }
 }
 
@@ -134,10 +139,10 @@ fn folder_of(file: &Option<PathBuf>) -> PathBuf {
 }
 
 /// What the terminal can show.
-fn style(options: &SessionOptions) -> Style {
-    let style = Style::of_environment(|name| std::env::var(name).ok());
+fn style(options: &SessionOptions) -> TerminalStyle {
+    let style = TerminalStyle::of_environment(|name| std::env::var(name).ok());
     match options.ascii {
-        true => Style { glyphs: Glyphs::Ascii, ..style },
+        true => TerminalStyle { glyphs: Glyphs::Ascii, ..style },
         false => style,
     }
 }

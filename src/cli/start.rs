@@ -5,28 +5,28 @@ use std::process::ExitCode;
 
 use clap::Parser;
 
-use super::args::{Arguments, Command};
-use super::{Exit, convert, docs, learn, run, say, session, view};
+use super::args::{CliArguments, CliCommand};
+use super::{Exit, console, convert, docs, learn, run, session, view};
 
 /// Runs the program: reads the command line and does what it says.
 pub fn main() -> ExitCode {
-    let arguments = match Arguments::try_parse() {
+    let arguments = match CliArguments::try_parse() {
         Ok(arguments) => arguments,
         Err(answer) => return answered(&answer).into(),
     };
     let exit = match arguments.command {
-        Some(Command::Run(options)) => run::run(&options),
-        Some(Command::Study(options)) => run::study(&options),
-        Some(Command::Check(options)) => run::check(&options),
-        Some(Command::View(options)) => view::view(&options),
-        Some(Command::Repl(options)) => session::open(&options),
-        Some(Command::Convert(options)) => convert::convert(&options),
-        Some(Command::Docs(options)) => docs::docs(&options),
-        Some(Command::Learn(options)) => learn::learn(&options),
+        Some(CliCommand::Run(options)) => run::run(&options),
+        Some(CliCommand::Study(options)) => run::study(&options),
+        Some(CliCommand::Check(options)) => run::check(&options),
+        Some(CliCommand::View(options)) => view::view(&options),
+        Some(CliCommand::Repl(options)) => session::open(&options),
+        Some(CliCommand::Convert(options)) => convert::convert(&options),
+        Some(CliCommand::Docs(options)) => docs::docs(&options),
+        Some(CliCommand::Learn(options)) => learn::learn(&options),
         None => session::start(arguments.session),
     };
     match exit {
-        Exit::Good if say::is_output_lost() => Exit::Wrong.into(),
+        Exit::Good if console::is_output_lost() => Exit::Wrong.into(),
         exit => exit.into(),
     }
 }

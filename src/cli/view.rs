@@ -8,25 +8,25 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use super::Exit;
-use super::bar::{self, Wish};
-use super::interrupt::{self, AtStake};
+use super::console::tell;
+use super::interrupt::{self, InterruptLoss};
+use super::progress_display::{self, ProgressPreference};
 use super::run::{exit_for, last_resort, refuse, show_summary};
 use super::saved::{folder_of, literal, program, stem_of};
-use super::say::tell;
 use super::view_options::ViewOptions;
-use crate::folders::Scratch;
 use crate::output::write_whole;
 use crate::panics;
+use crate::sandbox_fs::Scratch;
 use crate::script::diagnose::Diagnostic;
 use crate::script::engine::runner::{self, Ending};
 use crate::script::packages::language;
-use crate::script::source::outline::Outline;
+use crate::script::source::outline::ScriptOutline;
 use crate::script::source::program::Program;
 use crate::script::source::text::Source;
-use crate::script::state::settings::{Mode, Settings};
+use crate::script::state::settings::{RunMode, RunSettings};
 
 /// What is run, and where it may write.
-struct Run {
+struct ViewRun {
     program: Program,
     out: PathBuf,
     /// The name of the page in that folder.
@@ -43,7 +43,7 @@ pub fn view(options: &ViewOptions) -> Exit {
     }
 }
 
-fn prepare(options: &ViewOptions) -> Result<Run, Diagnostic> {
+fn prepare(options: &ViewOptions) -> Result<ViewRun, Diagnostic> {
     let file = &options.file;
     let page = format!("{}.html", stem_of(file));
     let is_saved = file.extension().is_some_and(|ending| ending == "withy");
@@ -51,7 +51,7 @@ fn prepare(options: &ViewOptions) -> Result<Run, Diagnostic> {
         let program = Program::load(file)?;
         let text = format!("{}\n;\n{}", &*program.text, showing_all(&program, &page));
         let program = Program { text: text.as_str().into(), ..program };
-        return Ok(Run { program, out: options.out.clone(), page, _scratch: None });
+        return Ok(ViewRun { program, out: options.out.clone(), page, _scratch: None });
     }
     let line = format!("write_viewer(sim, {});", literal(&page));
     let program = program("withy view", file, &line);
@@ -60,13 +60,13 @@ fn prepare(options: &ViewOptions) -> Result<Run, Diagnostic> {
         Diagnostic::general(format!("cannot make a folder for what is not ready yet: {error}"))
     })?;
     let out = scratch.as_ref().map_or_else(|| folder_of(file), |scratch| scratch.path().to_owned());
-    Ok(Run { program, out, page, _scratch: scratch })
+    Ok(ViewRun { program, out, page, _scratch: scratch })
 }
 
 /// Lines that show all simulations which the variables of a script hold at its end, also in arrays, each once; where there is none, the last.
 fn showing_all(program: &Program, page: &str) -> String {
     let mut names: Vec<String> = Vec::new();
-    for (name, _) in Outline::of(&Source::from(&*program.text)).top_level {
+    for (name, _) in ScriptOutline::of(&Source::from(&*program.text)).top_level {
         if !names.contains(&name) {
             names.push(name);
         }
@@ -79,17 +79,17 @@ fn showing_all(program: &Program, page: &str) -> String {
     )
 }
 
-fn perform(run: Run, options: &ViewOptions) -> Exit {
-    let wish = if options.quiet { Wish::Hide } else { Wish::Show };
-    let settings = Settings {
+fn perform(run: ViewRun, options: &ViewOptions) -> Exit {
+    let wish = if options.quiet { ProgressPreference::Hide } else { ProgressPreference::Show };
+    let settings = RunSettings {
         out: run.out.clone(),
-        interrupt: interrupt::flag(AtStake::Run),
+        interrupt: interrupt::flag(InterruptLoss::Run),
         limits: options.limits.limits(),
         printed: Box::new(stdout()),
         told: Box::new(std::io::stderr()),
-        progress: bar::progress(wish),
+        progress: progress_display::progress(wish),
         last_resort: Some(last_resort()),
-        ..Settings::silent(Mode::Run)
+        ..RunSettings::silent(RunMode::Run)
     };
     panics::silence();
     let mut outcome = runner::run(&run.program, &language(), settings);
@@ -102,7 +102,7 @@ fn perform(run: Run, options: &ViewOptions) -> Exit {
         outcome.files.push(place.clone());
         page = place.clone();
     }
-    if wish == Wish::Show {
+    if wish == ProgressPreference::Show {
         show_summary(&outcome);
     }
     if matches!(outcome.ending, Ending::Finished) && !options.no_open && !open(&page) {

@@ -3,7 +3,7 @@
 use std::io::ErrorKind;
 use std::path::Path;
 
-use crate::folders::Folder;
+use crate::sandbox_fs::Folder;
 use crate::script::diagnose::Diagnostic;
 use crate::script::source::program::Program;
 

@@ -2,11 +2,11 @@
 
 use super::error::ExerciseError;
 use super::exercise::Exercise;
-use crate::script::words::suggest::nearest;
+use crate::script::messages::suggest::nearest;
 
 /// A track: exercises on one subject.
 #[derive(Debug, PartialEq, Eq)]
-pub struct Track {
+pub struct ExerciseTrack {
     /// The name of the track, and that of its folders.
     pub name: &'static str,
     /// What the track is about.
@@ -14,12 +14,12 @@ pub struct Track {
 }
 
 /// The tracks of exercises, in their order.
-pub const TRACKS: &[Track] = &[
-    Track { name: "beams", title: "Beams and sections" },
-    Track { name: "splines", title: "Splines and knot vectors" },
-    Track { name: "integrators", title: "Integrators and invariants" },
-    Track { name: "sliding", title: "Joints and sliding" },
-    Track { name: "studies", title: "Sweeps and fits" },
+pub const TRACKS: &[ExerciseTrack] = &[
+    ExerciseTrack { name: "beams", title: "Beams and sections" },
+    ExerciseTrack { name: "splines", title: "Splines and knot vectors" },
+    ExerciseTrack { name: "integrators", title: "Integrators and invariants" },
+    ExerciseTrack { name: "sliding", title: "Joints and sliding" },
+    ExerciseTrack { name: "studies", title: "Sweeps and fits" },
 ];
 
 /// An exercise from its files.

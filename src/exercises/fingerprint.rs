@@ -4,7 +4,7 @@ use super::attempt;
 use super::exercise::Exercise;
 use super::submissions::Submission;
 use crate::analysis::Journal;
-use crate::folders::Folder;
+use crate::sandbox_fs::Folder;
 use crate::script::source::text::Source;
 
 /// The fingerprint of a student's attempt at an exercise, as a word, made of all that its mark depends on: its text, the files that it may

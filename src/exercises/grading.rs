@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use super::attempt;
 use super::exercise::Exercise;
-use super::judging::Verdict;
+use super::judging::AttemptVerdict;
 use super::submissions::Submission;
 
 /// The mark of an attempt at an exercise.
@@ -60,14 +60,14 @@ pub struct Graded {
 
 /// The marks of one student.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Report {
+pub struct StudentReport {
     /// The name of the student.
     pub student: String,
     /// The marks of all exercises, in the order of the table.
     pub graded: Vec<Graded>,
 }
 
-impl Report {
+impl StudentReport {
     /// The number of exercises that the student has passed.
     pub fn passed(&self) -> usize {
         self.graded.iter().filter(|graded| graded.mark == Mark::Passed).count()
@@ -87,14 +87,14 @@ impl Report {
 }
 
 /// What is to be done to find the mark of an attempt.
-pub enum Task {
+pub enum GradingTask {
     /// Nothing is to be done: the mark is known without judging, with what is off.
     Known(Mark, String),
     /// The attempt in this file, which can be read, is to be judged.
     Judge(PathBuf),
 }
 
-impl Task {
+impl GradingTask {
     /// Looks at what a student has handed in for an exercise.
     pub fn of(submission: &Submission, exercise: &Exercise) -> Self {
         if submission.is_link() {
@@ -118,16 +118,16 @@ impl Task {
 }
 
 /// The mark of an attempt from its verdict, and what is off. Nothing when it was interrupted.
-pub fn mark(verdict: Verdict) -> Option<(Mark, String)> {
+pub fn mark(verdict: AttemptVerdict) -> Option<(Mark, String)> {
     let (mark, message) = match verdict {
-        Verdict::Passed => (Mark::Passed, String::new()),
-        Verdict::Off(found) => (Mark::Off, found.join("\n")),
-        Verdict::Broken(why) => {
+        AttemptVerdict::Passed => (Mark::Passed, String::new()),
+        AttemptVerdict::Off(found) => (Mark::Off, found.join("\n")),
+        AttemptVerdict::Broken(why) => {
             let line = why.location.as_ref().map(|at| format!("line {}: ", at.line));
             (Mark::Broken, format!("{}{}", line.unwrap_or_default(), why.message))
         }
-        Verdict::Stopped(why) => (Mark::Stopped, why.message),
-        Verdict::Interrupted => return None,
+        AttemptVerdict::Stopped(why) => (Mark::Stopped, why.message),
+        AttemptVerdict::Interrupted => return None,
     };
     Some((mark, message))
 }

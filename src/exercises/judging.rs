@@ -10,23 +10,23 @@ use rhai::{AST, Dynamic, FnPtr, NativeCallContext, Scope};
 
 use super::exercise::Exercise;
 use super::judge::Need;
-use super::muffle::Silence;
+use super::silenced_writer::SilenceSwitch;
 use crate::script::diagnose::{Blame, Diagnostic};
-use crate::script::engine::host::{Halt, Host};
 use crate::script::engine::parse::parse;
 use crate::script::engine::runner::SNAPSHOTS;
+use crate::script::engine::script_engine::{Halt, ScriptEngine};
 use crate::script::engine::stack::on_large_stack;
+use crate::script::messages::nouns::with_article;
 use crate::script::packages::language;
 use crate::script::source::program::Program;
-use crate::script::state::settings::Settings;
-use crate::script::words::nouns::with_article;
+use crate::script::state::settings::RunSettings;
 
 /// How long an attempt may take, and its judge as well, unless a limit is set.
 pub const PATIENCE: Duration = Duration::from_secs(20);
 
 /// The verdict on an attempt at an exercise.
 #[derive(Debug)]
-pub enum Verdict {
+pub enum AttemptVerdict {
     /// The attempt does what the exercise asks for.
     Passed,
     /// The attempt runs, and this is off, in the judge's words.
@@ -40,37 +40,38 @@ pub enum Verdict {
 }
 
 /// Runs an attempt at an exercise, then its judge. What the attempt prints goes where the settings say.
-pub fn judge(exercise: &Exercise, attempt: &Program, settings: Settings) -> Verdict {
+pub fn judge(exercise: &Exercise, attempt: &Program, settings: RunSettings) -> AttemptVerdict {
     let mut limits = settings.limits;
     limits.time = limits.time.or(Some(PATIENCE));
     let settings =
-        Settings { limits, snapshots: SNAPSHOTS, folder: attempt.folder.clone(), ..settings };
-    let hold = || match Trial::open(settings).and_then(|trial| trial.hold(exercise, attempt)) {
-        Ok(()) => Verdict::Passed,
-        Err(verdict) => verdict,
-    };
-    on_large_stack(&limits, hold).unwrap_or_else(Verdict::Broken)
+        RunSettings { limits, snapshots: SNAPSHOTS, folder: attempt.folder.clone(), ..settings };
+    let hold =
+        || match JudgingContext::open(settings).and_then(|trial| trial.hold(exercise, attempt)) {
+            Ok(()) => AttemptVerdict::Passed,
+            Err(verdict) => verdict,
+        };
+    on_large_stack(&limits, hold).unwrap_or_else(AttemptVerdict::Broken)
 }
 
 /// What attempt and judge share: the host, and who hears what they print.
-struct Trial {
-    host: Host,
-    silence: Silence,
+struct JudgingContext {
+    host: ScriptEngine,
+    silence: SilenceSwitch,
 }
 
-impl Trial {
-    fn open(settings: Settings) -> Result<Self, Verdict> {
-        let silence = Silence::default();
-        let settings = Settings {
+impl JudgingContext {
+    fn open(settings: RunSettings) -> Result<Self, AttemptVerdict> {
+        let silence = SilenceSwitch::default();
+        let settings = RunSettings {
             printed: silence.muffle(settings.printed),
             told: silence.muffle(settings.told),
             ..settings
         };
-        let host = Host::open(language(), settings).map_err(Verdict::Broken)?;
+        let host = ScriptEngine::open(language(), settings).map_err(AttemptVerdict::Broken)?;
         Ok(Self { host, silence })
     }
 
-    fn hold(&self, exercise: &Exercise, attempt: &Program) -> Result<(), Verdict> {
+    fn hold(&self, exercise: &Exercise, attempt: &Program) -> Result<(), AttemptVerdict> {
         let mut scope = Scope::new();
         let held = self.hold_within(&mut scope, exercise, attempt);
         // Letting go of what the attempt has made may take time and memory as well.
@@ -84,17 +85,17 @@ impl Trial {
         scope: &mut Scope<'static>,
         exercise: &Exercise,
         attempt: &Program,
-    ) -> Result<(), Verdict> {
+    ) -> Result<(), AttemptVerdict> {
         let functions = self.run(attempt, scope)?.clone_functions_only();
         self.silence.begin();
         let judge = exercise.judge();
-        let mut seen = self.show(&judge.needs, scope, &functions).map_err(Verdict::Off)?;
+        let mut seen = self.show(&judge.needs, scope, &functions).map_err(AttemptVerdict::Off)?;
         let (made, failed) =
             self.host.context().with_checks(|checks| (checks.made(), checks.failed().len()));
         let program = Program::named(&format!("the judge of {}", exercise.id()), exercise.judge);
         self.run(&program, &mut seen).map_err(|verdict| match verdict {
-            Verdict::Broken(why) if why.blame == Blame::User => {
-                Verdict::Off(vec![format!("the judge could not go on: {}", why.message)])
+            AttemptVerdict::Broken(why) if why.blame == Blame::User => {
+                AttemptVerdict::Off(vec![format!("the judge could not go on: {}", why.message)])
             }
             other => other,
         })?;
@@ -105,10 +106,10 @@ impl Trial {
         match found {
             None => {
                 let why = format!("{} has looked at nothing", program.name);
-                Err(Verdict::Broken(Diagnostic::bug(why)))
+                Err(AttemptVerdict::Broken(Diagnostic::bug(why)))
             }
             Some(found) if found.is_empty() => Ok(()),
-            Some(found) => Err(Verdict::Off(found)),
+            Some(found) => Err(AttemptVerdict::Off(found)),
         }
     }
 
@@ -157,7 +158,7 @@ impl Trial {
     }
 
     /// Runs a script; its variables stay in the scope.
-    fn run(&self, program: &Program, scope: &mut Scope<'static>) -> Result<AST, Verdict> {
+    fn run(&self, program: &Program, scope: &mut Scope<'static>) -> Result<AST, AttemptVerdict> {
         let ran = self.host.watch().and_then(|guard| {
             self.host.run(
                 &guard,
@@ -171,13 +172,13 @@ impl Trial {
         ran.map_err(|halt| self.verdict(halt))
     }
 
-    fn verdict(&self, halt: Halt) -> Verdict {
+    fn verdict(&self, halt: Halt) -> AttemptVerdict {
         match halt {
             Halt::Failed(why) | Halt::Undecided(why) if self.host.context().is_stopped() => {
-                Verdict::Stopped(why)
+                AttemptVerdict::Stopped(why)
             }
-            Halt::Failed(why) | Halt::Undecided(why) => Verdict::Broken(why),
-            Halt::Interrupted | Halt::PipeClosed => Verdict::Interrupted,
+            Halt::Failed(why) | Halt::Undecided(why) => AttemptVerdict::Broken(why),
+            Halt::Interrupted | Halt::PipeClosed => AttemptVerdict::Interrupted,
         }
     }
 }

@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use super::exercise::Exercise;
 use super::grading::Mark;
 use super::submissions::Submission;
-use crate::folders::Folder;
+use crate::sandbox_fs::Folder;
 
 /// The largest file of marks that is read [bytes].
 const LARGEST: u64 = 1 << 30;
@@ -21,14 +21,14 @@ const HEAD: &str = "{\"student\":";
 
 /// The marks of earlier runs, by student and exercise.
 #[derive(Debug, Default)]
-pub struct KnownMarks(BTreeMap<Whose, Known>);
+pub struct KnownMarks(BTreeMap<StudentExercise, KnownMark>);
 
 /// A student and an exercise.
-type Whose = (String, String);
+type StudentExercise = (String, String);
 
 /// A mark of an earlier run.
 #[derive(Debug)]
-struct Known {
+struct KnownMark {
     fingerprint: String,
     mark: Mark,
     message: String,
@@ -70,13 +70,13 @@ pub fn open(path: &Path) -> io::Result<(KnownMarks, MarksFile)> {
     Ok((KnownMarks(known.into_iter().collect()), MarksFile(file)))
 }
 
-fn read_line(line: &str) -> Option<(Whose, Known)> {
+fn read_line(line: &str) -> Option<(StudentExercise, KnownMark)> {
     let line: Value = serde_json::from_str(line).ok()?;
     let text = |key: &str| Some(line.get(key)?.as_str()?.to_owned());
     let mark = Mark::of(&text("result")?)?;
     // What was marked without one is judged again.
     let fingerprint = text("fingerprint").unwrap_or_default();
-    let known = Known { fingerprint, mark, message: text("message")? };
+    let known = KnownMark { fingerprint, mark, message: text("message")? };
     Some(((text("student")?, text("exercise")?), known))
 }
 

@@ -4,6 +4,7 @@
 //! [`submissions`] are the folders of a class, [`marks`] the file of their marks. Nothing is printed here: `cli` does that.
 
 pub mod attempt;
+pub mod captured_output;
 pub mod catalogue;
 pub mod class;
 pub mod error;
@@ -13,10 +14,9 @@ pub mod grading;
 pub mod judge;
 pub mod judging;
 pub mod marks;
-mod muffle;
-pub mod overheard;
 pub mod progress;
 pub mod report;
+mod silenced_writer;
 pub mod submissions;
 pub mod task;
 pub mod watch;

@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 
 use super::error::ExerciseError;
 use super::exercise::Exercise;
-use crate::folders::read_text;
 use crate::output::write_whole;
+use crate::sandbox_fs::read_text;
 
 /// The largest file of a progress [bytes].
 const LARGEST: u64 = 1 << 20;
@@ -20,14 +20,14 @@ pub const FILE: &str = "withy-progress.json";
 /// How far a student has come. Exercises that this program does not know are kept: another version may.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Progress {
+pub struct StudentProgress {
     /// The exercises that the last check of them passed.
     passed: BTreeSet<String>,
     /// How many hints were given.
     hints: BTreeMap<String, usize>,
 }
 
-impl Progress {
+impl StudentProgress {
     /// Reads the progress of a student's folder; it is empty where there is no file.
     ///
     /// # Errors
@@ -92,7 +92,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let text = r#"{ "passed": ["beams/of_tomorrow"], "hints": { "beams/of_tomorrow": 2 } }"#;
         fs::write(folder.path().join(FILE), text).unwrap();
-        let mut progress = Progress::read(folder.path()).unwrap();
+        let mut progress = StudentProgress::read(folder.path()).unwrap();
         progress.note(&EXERCISES[0], true);
         progress.write(folder.path()).unwrap();
         let text = fs::read_to_string(folder.path().join(FILE)).unwrap();
@@ -104,11 +104,11 @@ mod tests {
 
     #[test]
     fn what_is_forgotten_has_neither_passed_nor_had_hints() {
-        let mut progress = Progress::default();
+        let mut progress = StudentProgress::default();
         progress.note(&EXERCISES[0], true);
         progress.note_hint(&EXERCISES[0]);
         assert_eq!((progress.has_passed(&EXERCISES[0]), progress.hints(&EXERCISES[0])), (true, 1));
         progress.forget(&EXERCISES[0]);
-        assert_eq!(progress, Progress::default());
+        assert_eq!(progress, StudentProgress::default());
     }
 }

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::judging::Verdict;
-use super::overheard::Overheard;
+use super::captured_output::CapturedOutput;
+use super::judging::AttemptVerdict;
 use crate::script::diagnose::{Diagnostic, Location};
 
 /// The longest message that is passed on, in characters: nobody reads more.
@@ -13,44 +13,44 @@ const EXCERPT: (usize, usize) = (400, 150);
 
 /// What became of an attempt at an exercise, and what it has printed.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Report {
+pub struct AttemptReport {
     /// What became of the attempt.
-    pub outcome: Outcome,
+    pub outcome: AttemptOutcome,
     /// What the attempt has printed.
-    pub printed: Overheard,
+    pub printed: CapturedOutput,
 }
 
 /// What became of an attempt at an exercise.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Outcome {
+pub enum AttemptOutcome {
     /// The attempt does what the exercise asks for.
     Passed,
     /// The attempt runs, and this is off, in the judge's words.
     Off(Vec<String>),
     /// The attempt does not run to its end.
-    Broken(Trouble),
+    Broken(AttemptError),
     /// A limit stopped the attempt.
-    Stopped(Trouble),
+    Stopped(AttemptError),
     /// The attempt was stopped from outside.
     Interrupted,
 }
 
 /// An error of an attempt at an exercise.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Trouble {
+pub struct AttemptError {
     /// What is wrong in the attempt.
     pub message: String,
     /// What to do about the error.
     pub help: Option<String>,
     /// The place of the error in a script, if it is known.
-    pub place: Option<Place>,
+    pub place: Option<ScriptPosition>,
     /// The calls that led to the error.
     pub calls: Vec<String>,
 }
 
 /// The place of an error in a script.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Place {
+pub struct ScriptPosition {
     /// The name of the file with the error.
     pub file: String,
     /// The line of the error, from 1.
@@ -63,30 +63,32 @@ pub struct Place {
     pub length: usize,
 }
 
-impl From<Verdict> for Outcome {
-    fn from(verdict: Verdict) -> Self {
+impl From<AttemptVerdict> for AttemptOutcome {
+    fn from(verdict: AttemptVerdict) -> Self {
         match verdict {
-            Verdict::Passed => Self::Passed,
-            Verdict::Off(found) => Self::Off(found.iter().map(|found| shortened(found)).collect()),
-            Verdict::Broken(why) => Self::Broken(Trouble::from(why)),
-            Verdict::Stopped(why) => Self::Stopped(Trouble::from(why)),
-            Verdict::Interrupted => Self::Interrupted,
+            AttemptVerdict::Passed => Self::Passed,
+            AttemptVerdict::Off(found) => {
+                Self::Off(found.iter().map(|found| shortened(found)).collect())
+            }
+            AttemptVerdict::Broken(why) => Self::Broken(AttemptError::from(why)),
+            AttemptVerdict::Stopped(why) => Self::Stopped(AttemptError::from(why)),
+            AttemptVerdict::Interrupted => Self::Interrupted,
         }
     }
 }
 
-impl From<Diagnostic> for Trouble {
+impl From<Diagnostic> for AttemptError {
     fn from(why: Diagnostic) -> Self {
         Self {
             message: shortened(&why.message),
             help: why.hint.as_deref().map(shortened),
-            place: why.location.as_ref().map(Place::from),
+            place: why.location.as_ref().map(ScriptPosition::from),
             calls: why.trace.iter().take(3).map(|step| shortened(&step.to_string())).collect(),
         }
     }
 }
 
-impl From<&Location> for Place {
+impl From<&Location> for ScriptPosition {
     fn from(location: &Location) -> Self {
         let line = location.program.text.lines().nth(location.line.saturating_sub(1));
         let column = location.column.saturating_sub(1);
@@ -117,9 +119,9 @@ mod tests {
     use super::*;
     use crate::script::source::program::Program;
 
-    fn place(text: &str, line: usize, column: usize) -> Place {
+    fn place(text: &str, line: usize, column: usize) -> ScriptPosition {
         let program = Arc::new(Program::named("mine.rhai", text));
-        Place::from(&Location { program, line, column, length: 4 })
+        ScriptPosition::from(&Location { program, line, column, length: 4 })
     }
 
     #[test]
@@ -135,10 +137,10 @@ mod tests {
     #[test]
     fn a_report_comes_through_a_line_whatever_it_says() {
         let why = Diagnostic::general("x".repeat(1 << 20)).with_hint("two\nlines \u{1b}[2J");
-        let printed = Overheard { lines: vec!["\u{7}".into()], more: 3 };
-        let report = Report { outcome: Verdict::Broken(why).into(), printed };
+        let printed = CapturedOutput { lines: vec!["\u{7}".into()], more: 3 };
+        let report = AttemptReport { outcome: AttemptVerdict::Broken(why).into(), printed };
         let line = serde_json::to_string(&report).unwrap();
         assert!(!line.contains(['\n', '\u{1b}']) && line.len() < 3 * LONGEST);
-        assert_eq!(serde_json::from_str::<Report>(&line).unwrap(), report);
+        assert_eq!(serde_json::from_str::<AttemptReport>(&line).unwrap(), report);
     }
 }

@@ -10,7 +10,7 @@ use super::attempt::LARGEST;
 use super::catalogue::EXERCISES;
 use super::exercise::Exercise;
 use super::workbook::Workbook;
-use crate::folders::read_file;
+use crate::sandbox_fs::read_file;
 
 /// How long to wait between two looks at the attempts.
 pub const INTERVAL: Duration = Duration::from_millis(200);

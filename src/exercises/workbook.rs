@@ -7,9 +7,9 @@ use super::attempt::LARGEST;
 use super::catalogue::EXERCISES;
 use super::error::ExerciseError;
 use super::exercise::Exercise;
-use super::progress::{self, Progress};
-use crate::folders::read_file;
+use super::progress::{self, StudentProgress};
 use crate::output::write_whole;
+use crate::sandbox_fs::read_file;
 
 /// The folder of exercises that is made where there is none yet.
 pub const FOLDER: &str = "withy-exercises";
@@ -61,7 +61,7 @@ impl Workbook {
             write_whole(self.file(exercise), exercise.start.as_bytes())?;
         }
         if !self.folder.join(progress::FILE).exists() {
-            Progress::default().write(&self.folder)?;
+            StudentProgress::default().write(&self.folder)?;
         }
         Ok(missing.len())
     }
@@ -85,8 +85,8 @@ impl Workbook {
     ///
     /// # Errors
     /// When the file of the progress cannot be used.
-    pub fn progress(&self) -> Result<Progress, ExerciseError> {
-        Progress::read(&self.folder)
+    pub fn progress(&self) -> Result<StudentProgress, ExerciseError> {
+        StudentProgress::read(&self.folder)
     }
 
     /// The first exercise that the student has not passed; none when all are.
@@ -138,7 +138,7 @@ impl Workbook {
     }
 
     /// The file is read again each time: a student may ask for a hint while another window watches.
-    fn change(&self, change: impl FnOnce(&mut Progress)) -> Result<(), ExerciseError> {
+    fn change(&self, change: impl FnOnce(&mut StudentProgress)) -> Result<(), ExerciseError> {
         let before = self.progress()?;
         let mut progress = before.clone();
         change(&mut progress);

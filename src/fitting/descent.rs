@@ -5,7 +5,7 @@ use std::cell::RefCell;
 use slsqp::{FailStatus, StopTols, minimize};
 
 use super::design::{PENALTY, Scaled};
-use super::trust::{DISTRUST, agree, beside};
+use super::gradient_check::{DISTRUST, agree, beside};
 use super::{Design, Designed, Rating};
 
 /// Rounds, each of which leaves constraints a margin if the last one missed one by a little.
@@ -262,11 +262,14 @@ mod tests {
     use std::convert::Infallible;
 
     use super::*;
-    use crate::fitting::Range;
+    use crate::fitting::SearchRange;
 
     fn design(ranges: &[(f64, f64, f64)], constraints: usize) -> Design {
-        let ranges =
-            ranges.iter().map(|(start, low, high)| Range { start: *start, low: *low, high: *high });
+        let ranges = ranges.iter().map(|(start, low, high)| SearchRange {
+            start: *start,
+            low: *low,
+            high: *high,
+        });
         Design { ranges: ranges.collect(), constraints, tolerance: 1e-4, most_runs: 500 }
     }
 

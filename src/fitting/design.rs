@@ -4,7 +4,7 @@ use std::cell::RefCell;
 
 use cobyla::{RhoBeg, StopTols, minimize};
 
-use super::Range;
+use super::SearchRange;
 
 /// The first steps, as a part of the sizes of the parameters.
 const FIRST_STEP: f64 = 0.1;
@@ -17,7 +17,7 @@ pub(super) const PENALTY: f64 = 10.0;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Design {
     /// The parameters.
-    pub ranges: Vec<Range>,
+    pub ranges: Vec<SearchRange>,
     /// How many constraints there are.
     pub constraints: usize,
     /// How well parameters are to be known, as a part of their sizes.
@@ -61,7 +61,7 @@ pub(super) struct Scaled {
 }
 
 /// What is known during a search.
-struct Search<E> {
+struct DesignSearch<E> {
     best: Option<(Vec<f64>, Rating)>,
     last: Option<(Vec<f64>, Rating)>,
     worst: f64,
@@ -105,7 +105,7 @@ impl Design {
         let unscaled = |u: &[f64]| self.unscaled(u);
         let rate = RefCell::new(rate);
         let search =
-            RefCell::new(Search { best: None, last: None, worst: 0.0, runs: 0, error: None });
+            RefCell::new(DesignSearch { best: None, last: None, worst: 0.0, runs: 0, error: None });
         // Objective and constraints are asked for one by one at the same design.
         let rated = |u: &[f64]| -> Rating {
             let mut search = search.borrow_mut();
@@ -157,7 +157,7 @@ impl Design {
             Some(stop),
         );
         drop(constraints);
-        let Search { best, runs, error, .. } = search.into_inner();
+        let DesignSearch { best, runs, error, .. } = search.into_inner();
         if let Some(error) = error {
             return Err(error);
         }
@@ -175,7 +175,7 @@ impl Design {
 
     /// Start and bounds of the parameters, in parts of their sizes.
     pub(super) fn scaled(&self) -> Scaled {
-        let of = |range: &Range| {
+        let of = |range: &SearchRange| {
             let size = range.width();
             (range.first() / size, (range.low / size, range.high / size))
         };
@@ -201,8 +201,11 @@ mod tests {
         constraints: usize,
         rate: impl Fn(&[f64]) -> Option<Rating>,
     ) -> Designed {
-        let ranges =
-            ranges.iter().map(|(start, low, high)| Range { start: *start, low: *low, high: *high });
+        let ranges = ranges.iter().map(|(start, low, high)| SearchRange {
+            start: *start,
+            low: *low,
+            high: *high,
+        });
         let design =
             Design { ranges: ranges.collect(), constraints, tolerance: 1e-6, most_runs: 500 };
         let Ok(found) = design.solve(|x| Ok::<_, Infallible>(rate(x)));

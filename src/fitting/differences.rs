@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{Evaluate, Evaluation, Range};
+use super::{Evaluate, Evaluation, SearchRange};
 
 /// The distance at which differences are taken, as a part of the size of a parameter. Central differences err by `h² f‴/6` and by the noise of a run over
 /// `h`; runs repeat to about 1e-12 of their results (where Newton's method ends), so that 1e-4 makes both about 1e-8.
@@ -17,7 +17,7 @@ enum Stencil {
 }
 
 impl Stencil {
-    fn of(range: Range, x: f64, relative: f64) -> Self {
+    fn of(range: SearchRange, x: f64, relative: f64) -> Self {
         // From a bound it reaches two steps inwards.
         let step = (relative * range.size(x)).min(0.25 * (range.high - range.low));
         match (x - step >= range.low, x + step <= range.high) {
@@ -49,7 +49,7 @@ impl Stencil {
 /// # Errors
 /// The inner one says which run gave nothing.
 pub fn derivatives<E>(
-    ranges: &[Range],
+    ranges: &[SearchRange],
     (x, here): (&[f64], &DVector<f64>),
     relative: f64,
     evaluate: &mut Evaluate<'_, E>,
@@ -95,8 +95,8 @@ mod tests {
             Ok(points.iter().map(|x| Ok(vec![exp(x[0]), x[0] * x[1] * x[1]])).collect())
         };
         let ranges = [
-            Range { start: 1.0, low: 1.0, high: 2.0 },
-            Range { start: 3.0, low: 0.0, high: f64::INFINITY },
+            SearchRange { start: 1.0, low: 1.0, high: 2.0 },
+            SearchRange { start: 3.0, low: 0.0, high: f64::INFINITY },
         ];
         let here = DVector::from_vec(vec![exp(1.0), 9.0]);
         let Ok(found) = derivatives(&ranges, (&[1.0, 3.0], &here), RELATIVE_STEP, &mut evaluate);

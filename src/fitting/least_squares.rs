@@ -2,8 +2,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::asking::{Asked, Asking};
-use super::{Estimate, Evaluate, RELATIVE_STEP, Range, Slopes};
+use super::evaluator::{CountedEvaluator, EvaluatedPoint};
+use super::{Estimate, Evaluate, RELATIVE_STEP, SearchRange, Slopes};
 
 /// Rounds of steps from fresh derivatives.
 const MOST_ROUNDS: usize = 30;
@@ -27,14 +27,14 @@ const DAMPING: (f64, f64, f64) = (1e-3, 1e-14, 1e12);
 #[derive(Clone, Debug, PartialEq)]
 pub struct LeastSquares {
     /// The parameters.
-    pub ranges: Vec<Range>,
+    pub ranges: Vec<SearchRange>,
     /// The distance of differences as a part of the size of a parameter.
     pub relative_step: f64,
 }
 
 /// How a search ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Settling {
+pub enum TerminationReason {
     /// Nothing is to be gained any more.
     Settled,
     /// No step makes the squares less, though the derivatives promise it: they are as good as the noise of the runs allows, or the function jumps.
@@ -53,7 +53,7 @@ pub struct Fitted {
     /// How well they are known, where that can be told.
     pub estimate: Option<Estimate>,
     /// How it ended.
-    pub settling: Settling,
+    pub settling: TerminationReason,
     /// How often the function was called.
     pub runs: usize,
     /// How often it was called for its derivatives, which are among all calls.
@@ -65,7 +65,7 @@ pub struct Fitted {
 }
 
 /// Where a search stands.
-struct State {
+struct LeastSquaresState {
     x: Vec<f64>,
     residuals: DVector<f64>,
     derivatives: DMatrix<f64>,
@@ -74,13 +74,13 @@ struct State {
     damping: f64,
 }
 
-impl State {
+impl LeastSquaresState {
     fn squares(&self) -> f64 {
         self.residuals.norm_squared()
     }
 
     /// Whether a parameter may move in the direction that makes the squares less; one on which nothing depends stays where it is.
-    fn free(&self, ranges: &[Range]) -> Vec<bool> {
+    fn free(&self, ranges: &[SearchRange]) -> Vec<bool> {
         let gradient = self.derivatives.tr_mul(&self.residuals);
         let is_free = |at: usize| {
             let (x, slope) = (self.x[at], gradient[at]);
@@ -92,7 +92,7 @@ impl State {
     }
 
     /// The largest cosine of an angle between the residuals and what a free parameter changes.
-    fn cosine(&self, ranges: &[Range]) -> f64 {
+    fn cosine(&self, ranges: &[SearchRange]) -> f64 {
         let length = self.residuals.norm();
         let columns = self.derivatives.column_iter().zip(self.free(ranges));
         let cosines = columns.filter(|(_, free)| *free).map(|(column, _)| {
@@ -104,7 +104,7 @@ impl State {
 
     /// The step of the free parameters that makes `|r + J δ|² + λ |D δ|²` least; those that it would take beyond a bound go there, and the others do what is best
     /// then.
-    fn step(&self, ranges: &[Range]) -> DVector<f64> {
+    fn step(&self, ranges: &[SearchRange]) -> DVector<f64> {
         let mut free = self.free(ranges);
         let mut step = DVector::zeros(self.x.len());
         loop {
@@ -184,7 +184,7 @@ enum Round {
 
 impl LeastSquares {
     /// A problem with these parameters.
-    pub fn new(ranges: Vec<Range>) -> Self {
+    pub fn new(ranges: Vec<SearchRange>) -> Self {
         Self { ranges, relative_step: RELATIVE_STEP }
     }
 
@@ -206,18 +206,19 @@ impl LeastSquares {
         evaluate: &mut Evaluate<'_, E>,
         slopes: &mut Slopes<'_, E>,
     ) -> Result<Result<Fitted, String>, E> {
-        let mut asking = Asking::new(evaluate, slopes, &self.ranges);
+        let mut asking = CountedEvaluator::new(evaluate, slopes, &self.ranges);
         let x: Vec<f64> = self.ranges.iter().map(|range| range.first()).collect();
-        let Asked { values, derivatives: mut known } = asking.at(&x)?;
+        let EvaluatedPoint { values, derivatives: mut known } = asking.at(&x)?;
         let residuals = match values {
             Ok(residuals) => DVector::from_vec(residuals),
             Err(reason) => return Ok(Err(reason)),
         };
         let sizes = vec![f64::MIN_POSITIVE; x.len()];
         let empty = DMatrix::zeros(residuals.len(), x.len());
-        let mut state = State { x, residuals, derivatives: empty, sizes, damping: DAMPING.0 };
+        let mut state =
+            LeastSquaresState { x, residuals, derivatives: empty, sizes, damping: DAMPING.0 };
         let least = ROUNDING * state.squares();
-        let (mut steps, mut settling) = (0, Settling::Unfinished);
+        let (mut steps, mut settling) = (0, TerminationReason::Unfinished);
         for _ in 0..MOST_ROUNDS {
             let found = match known.take() {
                 Some(known) => Ok(known),
@@ -231,17 +232,17 @@ impl LeastSquares {
                 Err(reason) => return Ok(Err(reason)),
             }
             if state.squares() <= least || state.cosine(&self.ranges) <= ORTHOGONAL {
-                settling = Settling::Settled;
+                settling = TerminationReason::Settled;
                 break;
             }
             match self.round(&mut state, least, &mut steps, &mut asking)? {
                 Round::Goes(found) => known = found,
                 Round::Sticks => {
-                    settling = Settling::Stuck;
+                    settling = TerminationReason::Stuck;
                     break;
                 }
                 Round::Rests => {
-                    settling = Settling::Settled;
+                    settling = TerminationReason::Settled;
                     break;
                 }
             }
@@ -264,10 +265,10 @@ impl LeastSquares {
     /// Steps from fresh derivatives on.
     fn round<E>(
         &self,
-        state: &mut State,
+        state: &mut LeastSquaresState,
         least: f64,
         steps: &mut usize,
-        asking: &mut Asking<'_, '_, E>,
+        asking: &mut CountedEvaluator<'_, '_, E>,
     ) -> Result<Round, E> {
         let (mut is_fresh, mut taken, start) = (true, 0, state.x.clone());
         while taken < self.ranges.len() + MORE_STEPS {
@@ -288,8 +289,9 @@ impl LeastSquares {
             }
             let x: Vec<f64> = state.x.iter().zip(step.iter()).map(|(x, step)| x + step).collect();
             // A bound may stand in the way of what the others promise: a shorter step does not reach it.
-            let nothing = || Asked { values: Err("nothing is promised".into()), derivatives: None };
-            let Asked { values: found, derivatives } =
+            let nothing =
+                || EvaluatedPoint { values: Err("nothing is promised".into()), derivatives: None };
+            let EvaluatedPoint { values: found, derivatives } =
                 if promised > 0.0 { asking.at(&x)? } else { nothing() };
             let found = found.ok().filter(|found| found.len() == state.residuals.len());
             let found = found.map(DVector::from_vec);

@@ -9,23 +9,23 @@
 
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
-mod asking;
 mod descent;
 mod design;
 mod differences;
 mod estimate;
+mod evaluator;
+mod gradient_check;
 mod least_squares;
 mod range;
 mod root;
 mod student;
-mod trust;
 
 pub use descent::{Rate, RateWithSlopes, SlopedRating, SlopesOfRating};
 pub use design::{Design, Designed, Rating};
 pub use differences::RELATIVE_STEP;
 pub use estimate::Estimate;
-pub use least_squares::{Fitted, LeastSquares, Settling};
-pub use range::Range;
+pub use least_squares::{Fitted, LeastSquares, TerminationReason};
+pub use range::SearchRange;
 pub use root::{Root, RootError, root};
 pub use student::student_quantile;
 

@@ -2,7 +2,7 @@
 
 /// The start and the bounds of a parameter; these may be infinite.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Range {
+pub struct SearchRange {
     /// Where the search begins.
     pub start: f64,
     /// The smallest value.
@@ -11,7 +11,7 @@ pub struct Range {
     pub high: f64,
 }
 
-impl Range {
+impl SearchRange {
     /// The value to begin with: the start, or the bound nearest to it.
     pub fn first(self) -> f64 {
         self.clip(self.start)

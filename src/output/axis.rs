@@ -5,7 +5,7 @@ use crate::elementary::{log10, power, whole_power};
 
 /// How numbers are laid out along an axis of a chart.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Scale {
+pub enum AxisScale {
     /// Equal differences of numbers are equally long on the axis.
     #[default]
     Linear,
@@ -34,16 +34,16 @@ pub struct Tick {
 /// An axis of a chart: a range of numbers and how it is laid out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axis {
-    scale: Scale,
+    scale: AxisScale,
     /// The ends; on a logarithmic axis those of the exponents.
     low: f64,
     high: f64,
     /// Whether numbers were cut at the low end of a logarithmic axis.
-    cut: Cut,
+    cut: AxisCut,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Cut {
+enum AxisCut {
     Nothing,
     Below,
 }
@@ -66,7 +66,12 @@ impl Axis {
         } else {
             1.0
         };
-        Self { scale: Scale::Linear, low: low - spare, high: high + spare, cut: Cut::Nothing }
+        Self {
+            scale: AxisScale::Linear,
+            low: low - spare,
+            high: high + spare,
+            cut: AxisCut::Nothing,
+        }
     }
 
     /// A linear axis with the given ends, in the numbers of the data.
@@ -78,35 +83,35 @@ impl Axis {
     /// ten below the least number that is above it.
     pub fn logarithmic(values: impl IntoIterator<Item = f64>, floor: f64) -> Self {
         let floor = if floor > 0.0 && floor.is_finite() { floor } else { DEFAULT_FLOOR };
-        let mut cut = Cut::Nothing;
+        let mut cut = AxisCut::Nothing;
         let above = values.into_iter().filter(|x| x.is_finite()).filter(|&x| {
             if x <= floor {
-                cut = Cut::Below;
+                cut = AxisCut::Below;
             }
             x > floor
         });
         let bottom = log10(floor).floor();
         let (least, most) = extent(above).unwrap_or((floor, floor));
         let (mut low, high) = (log10(least).floor(), log10(most).ceil());
-        if cut == Cut::Below {
+        if cut == AxisCut::Below {
             low = (low - 1.0).max(bottom);
         }
-        Self { scale: Scale::Logarithmic, low, high: high.max(low + 1.0), cut }
+        Self { scale: AxisScale::Logarithmic, low, high: high.max(low + 1.0), cut }
     }
 
     /// A logarithmic axis with the given ends, both positive.
     pub fn powers_between(low: f64, high: f64) -> Self {
         let (low, high) = (log10(low), log10(high));
-        Self { scale: Scale::Logarithmic, low, high, cut: Cut::Nothing }
+        Self { scale: AxisScale::Logarithmic, low, high, cut: AxisCut::Nothing }
     }
 
     /// The place of `x` on the axis, from 0 at the low end to 1 at the high end; beyond them outside the range, `nan` for `nan`.
     pub fn place(&self, x: f64) -> f64 {
         match self.scale {
-            Scale::Linear => (x.clamp(-LARGEST, LARGEST) - self.low) / (self.high - self.low),
-            Scale::Logarithmic if x.is_nan() => x,
-            Scale::Logarithmic if x <= 0.0 => 0.0,
-            Scale::Logarithmic => ((log10(x) - self.low) / (self.high - self.low)).max(0.0),
+            AxisScale::Linear => (x.clamp(-LARGEST, LARGEST) - self.low) / (self.high - self.low),
+            AxisScale::Logarithmic if x.is_nan() => x,
+            AxisScale::Logarithmic if x <= 0.0 => 0.0,
+            AxisScale::Logarithmic => ((log10(x) - self.low) / (self.high - self.low)).max(0.0),
         }
     }
 
@@ -114,9 +119,11 @@ impl Axis {
     pub fn ticks(&self, count: usize) -> (Vec<Tick>, Factor) {
         let count = count.max(2) as f64;
         match self.scale {
-            Scale::Linear => self.linear_ticks(count),
-            Scale::Logarithmic if self.high - self.low < 1.0 => self.ticks_within_a_power(count),
-            Scale::Logarithmic => (self.power_ticks(count), Factor(0)),
+            AxisScale::Linear => self.linear_ticks(count),
+            AxisScale::Logarithmic if self.high - self.low < 1.0 => {
+                self.ticks_within_a_power(count)
+            }
+            AxisScale::Logarithmic => (self.power_ticks(count), Factor(0)),
         }
     }
 
@@ -148,7 +155,7 @@ impl Axis {
         let powers = (0..200)
             .map(|index| first + f64::from(index) * stride)
             .take_while(|&power| power <= self.high);
-        let bottom = (self.cut == Cut::Below)
+        let bottom = (self.cut == AxisCut::Below)
             .then(|| Tick { place: 0.0, label: format!("≤ {}", power_of_ten(self.low)) });
         let tick =
             |power: f64| Tick { place: self.place_of_power(power), label: power_of_ten(power) };

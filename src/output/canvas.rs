@@ -64,7 +64,7 @@ pub enum Align {
 
 /// The direction in which a text is written.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Direction {
+pub enum TextDirection {
     /// The text runs from left to right.
     Level,
     /// The text runs from bottom to top, as the label of a vertical axis does.
@@ -83,7 +83,7 @@ pub struct Text {
     /// The colour of the glyphs.
     pub colour: Colour,
     /// The direction of the text.
-    pub direction: Direction,
+    pub direction: TextDirection,
 }
 
 /// One thing that is drawn on a canvas.
@@ -155,7 +155,7 @@ impl Canvas {
 
     /// Writes a text on the canvas with its baseline at `anchor`.
     pub fn text(&mut self, text: &str, anchor: Point, size: f64, align: Align, colour: Colour) {
-        self.write(text, anchor, size, align, Direction::Level, colour);
+        self.write(text, anchor, size, align, TextDirection::Level, colour);
     }
 
     /// Writes a text on the canvas that runs from bottom to top, with its baseline at `anchor`.
@@ -167,7 +167,7 @@ impl Canvas {
         align: Align,
         colour: Colour,
     ) {
-        self.write(text, anchor, size, align, Direction::Upwards, colour);
+        self.write(text, anchor, size, align, TextDirection::Upwards, colour);
     }
 
     fn write(
@@ -176,7 +176,7 @@ impl Canvas {
         anchor: Point,
         size: f64,
         align: Align,
-        direction: Direction,
+        direction: TextDirection,
         colour: Colour,
     ) {
         let back = match align {
@@ -185,8 +185,8 @@ impl Canvas {
             Align::End => fonts::width(text, size),
         };
         let start = match direction {
-            Direction::Level => (anchor.0 - back, anchor.1),
-            Direction::Upwards => (anchor.0, anchor.1 + back),
+            TextDirection::Level => (anchor.0 - back, anchor.1),
+            TextDirection::Upwards => (anchor.0, anchor.1 + back),
         };
         if let Some(start) = reachable(start).filter(|_| !text.is_empty()) {
             self.shapes.push(Shape::Text(Text {

@@ -1,14 +1,14 @@
 //! Line charts: series of points over a horizontal axis, linear or logarithmic.
 
 use super::{
-    axis::{Axis, DEFAULT_FLOOR, Scale},
+    axis::{Axis, AxisScale, DEFAULT_FLOOR},
     canvas::{Align, Area, Canvas, Point},
     colour::{Colour, GREY, HUE_COUNT, INK, hue, tint},
     frame::{Frame, Margins},
-    legend::Entry,
+    legend::LegendEntry,
     marker::Marker,
     page::Panel,
-    plane::Limits,
+    plane::AxisLimits,
     stroke::Stroke,
 };
 
@@ -21,7 +21,7 @@ const NOTE: f64 = 12.0;
 
 /// The colour of a series of a chart.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Ink {
+pub enum SeriesColour {
     /// The series gets the next colour of the palette.
     #[default]
     Next,
@@ -35,7 +35,7 @@ pub enum Ink {
 
 /// How much a series of a chart catches the eye.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Weight {
+pub enum SeriesEmphasis {
     /// The line of the series is as thick as usual.
     #[default]
     Full,
@@ -57,9 +57,9 @@ pub struct Series {
     /// The shape of the marks of the series, where it has some.
     pub marker: Marker,
     /// The colour of the series.
-    pub ink: Ink,
+    pub ink: SeriesColour,
     /// How much the series catches the eye.
-    pub weight: Weight,
+    pub weight: SeriesEmphasis,
 }
 
 impl Series {
@@ -75,20 +75,20 @@ impl Series {
     }
 
     /// Chooses the colour of the series.
-    pub fn ink(mut self, ink: Ink) -> Self {
+    pub fn ink(mut self, ink: SeriesColour) -> Self {
         self.ink = ink;
         self
     }
 
     /// Draws the series thin.
     pub fn thin(mut self) -> Self {
-        self.weight = Weight::Thin;
+        self.weight = SeriesEmphasis::Thin;
         self
     }
 
     /// Draws the series thin and pale.
     pub fn faint(mut self) -> Self {
-        self.weight = Weight::Faint;
+        self.weight = SeriesEmphasis::Faint;
         self
     }
 
@@ -105,10 +105,10 @@ pub struct LineChart {
     title: String,
     x_label: String,
     y_label: String,
-    x_scale: Scale,
-    y_scale: Scale,
+    x_scale: AxisScale,
+    y_scale: AxisScale,
     floor: f64,
-    limits: Limits,
+    limits: AxisLimits,
     size: (f64, f64),
     pub(super) series: Vec<Series>,
     captions: Vec<String>,
@@ -122,10 +122,10 @@ impl LineChart {
             title: title.into(),
             x_label: String::new(),
             y_label: String::new(),
-            x_scale: Scale::Linear,
-            y_scale: Scale::Linear,
+            x_scale: AxisScale::Linear,
+            y_scale: AxisScale::Linear,
             floor: DEFAULT_FLOOR,
-            limits: Limits::default(),
+            limits: AxisLimits::default(),
             size: (900.0, 560.0),
             series: Vec::new(),
             captions: Vec::new(),
@@ -152,13 +152,13 @@ impl LineChart {
     }
 
     /// Chooses the scale of the horizontal axis of the chart.
-    pub fn x_scale(mut self, scale: Scale) -> Self {
+    pub fn x_scale(mut self, scale: AxisScale) -> Self {
         self.x_scale = scale;
         self
     }
 
     /// Chooses the scale of the vertical axis of the chart.
-    pub fn y_scale(mut self, scale: Scale) -> Self {
+    pub fn y_scale(mut self, scale: AxisScale) -> Self {
         self.y_scale = scale;
         self
     }
@@ -170,7 +170,7 @@ impl LineChart {
     }
 
     /// Fixes the ends of axes; what lies beyond is cut off. An axis without limits fits what is seen of the series.
-    pub fn limits(mut self, limits: Limits) -> Self {
+    pub fn limits(mut self, limits: AxisLimits) -> Self {
         self.limits = limits;
         self
     }
@@ -235,15 +235,15 @@ impl LineChart {
     pub(super) fn frame(&self) -> Frame {
         let marked = self.series.iter().any(|series| series.stroke.is_some_and(Stroke::has_marks));
         let axis = |scale, values: &mut dyn Iterator<Item = f64>, margin| match scale {
-            Scale::Linear => Axis::linear(values, margin),
-            Scale::Logarithmic => Axis::logarithmic(values, self.floor),
+            AxisScale::Linear => Axis::linear(values, margin),
+            AxisScale::Logarithmic => Axis::logarithmic(values, self.floor),
         };
         let fixed = |scale, ends: Option<(f64, f64)>| {
             let (low, high) = ends.filter(|(low, high)| low < high)?;
             Some(match scale {
-                Scale::Linear => Axis::between(low, high),
-                Scale::Logarithmic if low > 0.0 => Axis::powers_between(low, high),
-                Scale::Logarithmic => Axis::logarithmic([low, high], self.floor),
+                AxisScale::Linear => Axis::between(low, high),
+                AxisScale::Logarithmic if low > 0.0 => Axis::powers_between(low, high),
+                AxisScale::Logarithmic => Axis::logarithmic([low, high], self.floor),
             })
         };
         let is_between = |x: f64| self.limits.x.is_none_or(|(low, high)| (low..=high).contains(&x));
@@ -266,10 +266,10 @@ impl LineChart {
     }
 
     /// One series whose name is the title or the label of the axis needs no legend.
-    fn legend(&self) -> Vec<Entry> {
+    fn legend(&self) -> Vec<LegendEntry> {
         let entry = |(index, series): (usize, &Series)| {
             let (colour, stroke) = look(index, series);
-            Entry { name: series.name.clone(), colour, stroke, marker: series.marker }
+            LegendEntry { name: series.name.clone(), colour, stroke, marker: series.marker }
         };
         match self.series.as_slice() {
             [only] if only.name == self.title || only.name == self.y_label => Vec::new(),
@@ -285,10 +285,10 @@ impl LineChart {
 
 fn look(index: usize, series: &Series) -> (Colour, Stroke) {
     let colour = match series.ink {
-        Ink::Next => hue(index),
-        Ink::OfSeries(number) => hue(number),
-        Ink::Black => INK,
-        Ink::Grey => GREY,
+        SeriesColour::Next => hue(index),
+        SeriesColour::OfSeries(number) => hue(number),
+        SeriesColour::Black => INK,
+        SeriesColour::Grey => GREY,
     };
     (colour, series.stroke.unwrap_or(Stroke::of_round(index / HUE_COUNT)))
 }
@@ -308,16 +308,17 @@ impl Panel for LineChart {
         if self.points().next().is_none() {
             frame.say_no_data(canvas, plot);
         }
-        let faint_first =
-            [Weight::Faint, Weight::Thin, Weight::Full].into_iter().flat_map(|weight| {
+        let faint_first = [SeriesEmphasis::Faint, SeriesEmphasis::Thin, SeriesEmphasis::Full]
+            .into_iter()
+            .flat_map(|weight| {
                 self.series.iter().enumerate().filter(move |(_, series)| series.weight == weight)
             });
         for (index, series) in faint_first {
             let (colour, stroke) = look(index, series);
             let (line, mark, colour) = match series.weight {
-                Weight::Full => (LINE, MARK, colour),
-                Weight::Thin => (THIN, FAINT.1, colour),
-                Weight::Faint => (FAINT.0, FAINT.1, tint(colour, FAINT.2)),
+                SeriesEmphasis::Full => (LINE, MARK, colour),
+                SeriesEmphasis::Thin => (THIN, FAINT.1, colour),
+                SeriesEmphasis::Faint => (FAINT.0, FAINT.1, tint(colour, FAINT.2)),
             };
             for run in frame.curve(plot, &series.points) {
                 match run.as_slice() {
@@ -385,7 +386,7 @@ mod tests {
             name in ".*",
             scales in (0..4usize, 0..5usize),
         ) {
-            let scale = |which| if which == 0 { Scale::Linear } else { Scale::Logarithmic };
+            let scale = |which| if which == 0 { AxisScale::Linear } else { AxisScale::Logarithmic };
             let stroke = [Stroke::Solid, Stroke::Dashed, Stroke::Dotted, Stroke::Marked][scales.0];
             let chart = LineChart::new(name.clone()).x_label(name.clone()).y_label("y").x_scale(scale(scales.0 % 2))
                 .y_scale(scale(scales.1 % 2)).sized(300.0, 200.0)

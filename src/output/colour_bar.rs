@@ -20,7 +20,7 @@ const PIECES: usize = 100;
 
 /// How broad a bar is from its low end to its high one.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Form {
+enum BarWidth {
     Even,
     /// As broad as the lines that it explains.
     Wedge(f64, f64),
@@ -31,7 +31,7 @@ pub struct ColourBar {
     label: String,
     axis: Option<Axis>,
     shade: fn(f64) -> Colour,
-    form: Form,
+    form: BarWidth,
 }
 
 impl ColourBar {
@@ -44,12 +44,12 @@ impl ColourBar {
         let axis = extent(numbers)
             .filter(|(first, last)| last > first)
             .map(|(first, last)| Axis::between(first, last));
-        Self { label: label.into(), axis, shade, form: Form::Even }
+        Self { label: label.into(), axis, shade, form: BarWidth::Even }
     }
 
     /// Makes it as broad as lines are: from the first width, in pixels, for the least number to the second for the largest.
     pub fn wedge(mut self, least: f64, most: f64) -> Self {
-        self.form = Form::Wedge(least, most);
+        self.form = BarWidth::Wedge(least, most);
         self
     }
 
@@ -79,8 +79,8 @@ impl ColourBar {
             let under = if piece == 0 { 0.0 } else { 0.5 };
             let right = left
                 + match self.form {
-                    Form::Even => BREADTH,
-                    Form::Wedge(least, most) => least + (most - least) * (low + high) / 2.0,
+                    BarWidth::Even => BREADTH,
+                    BarWidth::Wedge(least, most) => least + (most - least) * (low + high) / 2.0,
                 };
             let area = Area { left, top: piece_top, right, bottom: bottom + under };
             canvas.fill(area, (self.shade)((low + high) / 2.0));

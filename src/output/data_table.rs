@@ -36,7 +36,7 @@ pub enum DataValues {
 
 /// What stands above the rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Heading {
+pub enum TableHeading {
     /// A line of names.
     Names,
     /// A line of names, and one of dimensions.
@@ -71,11 +71,11 @@ impl DataTable {
     ///
     /// # Errors
     /// When the columns are not equally long.
-    pub fn to_csv(&self, heading: Heading) -> Result<String, OutputError> {
+    pub fn to_csv(&self, heading: TableHeading) -> Result<String, OutputError> {
         let rows = self.rows()?;
         let mut writer = ::csv::Writer::from_writer(Vec::new());
         writer.write_record(self.columns.iter().map(|column| &column.name))?;
-        if heading == Heading::NamesAndUnits {
+        if heading == TableHeading::NamesAndUnits {
             writer.write_record(self.columns.iter().map(|column| &column.dimension))?;
         }
         for row in 0..rows {
@@ -128,8 +128,8 @@ mod tests {
     fn names_stand_in_the_first_line_and_units_in_the_second_where_they_are_wanted() {
         let rows = "1.0000000000000001e-1,3,true,\"a, b\"\n,-1,,\n";
         let names = "t,steps,good,told\n";
-        assert_eq!(table().to_csv(Heading::Names).unwrap(), format!("{names}{rows}"));
-        let with_units = table().to_csv(Heading::NamesAndUnits).unwrap();
+        assert_eq!(table().to_csv(TableHeading::Names).unwrap(), format!("{names}{rows}"));
+        let with_units = table().to_csv(TableHeading::NamesAndUnits).unwrap();
         assert_eq!(with_units, format!("{names}time,-,,\n{rows}"));
     }
 
@@ -137,6 +137,6 @@ mod tests {
     fn ragged_columns_are_refused() {
         let mut ragged = table();
         ragged.columns[1].values = DataValues::Whole(vec![]);
-        assert!(ragged.to_csv(Heading::Names).is_err());
+        assert!(ragged.to_csv(TableHeading::Names).is_err());
     }
 }

@@ -8,9 +8,9 @@ use super::{
     fonts,
     frame::{Frame, Margins},
     marker::Marker,
+    mechanism_outline::MechanismOutline,
     page::Panel,
-    plane::{Limits, View},
-    scenery::Scenery,
+    plane::{AxisLimits, View},
 };
 use crate::elementary::hypot;
 
@@ -29,8 +29,8 @@ pub struct FieldPicture {
     captions: Vec<String>,
     label: String,
     beams: Vec<Vec<(Point, f64)>>,
-    scenery: Scenery,
-    limits: Limits,
+    scenery: MechanismOutline,
+    limits: AxisLimits,
 }
 
 impl FieldPicture {
@@ -52,13 +52,13 @@ impl FieldPicture {
     }
 
     /// Draws rigid bodies, supports, joints, sliders and loads over all.
-    pub fn scenery(mut self, scenery: Scenery) -> Self {
+    pub fn scenery(mut self, scenery: MechanismOutline) -> Self {
         self.scenery = scenery;
         self
     }
 
     /// Fixes the ends of axes. Units stay equally long, so one of the axes may show more.
-    pub fn limits(mut self, limits: Limits) -> Self {
+    pub fn limits(mut self, limits: AxisLimits) -> Self {
         self.limits = limits;
         self
     }

@@ -6,7 +6,7 @@
 use std::{fs, path::Path};
 
 use super::OutputError;
-use crate::folders::Folder;
+use crate::sandbox_fs::Folder;
 
 /// Writes `bytes` to `path`, a person's own word, making missing folders on the way. What stands there is replaced if it is a
 /// file; a link is replaced too, and not followed.

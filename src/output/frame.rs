@@ -5,7 +5,7 @@ use super::{
     canvas::{Align, Area, Canvas, Point},
     colour::{AXIS, GREY, GRID, INK},
     curve, fonts, legend,
-    legend::Entry,
+    legend::LegendEntry,
 };
 
 const TITLE: f64 = 16.0;
@@ -71,7 +71,7 @@ pub struct Frame {
     /// The vertical axis of the panel.
     pub y: Axis,
     /// The entries of the legend: names of the lines; none when they need none.
-    pub legend: Vec<Entry>,
+    pub legend: Vec<LegendEntry>,
 }
 
 impl Frame {
@@ -82,12 +82,13 @@ impl Frame {
         let numbers =
             y_ticks.iter().map(|tick| fonts::width(&tick.label, NUMBER)).fold(0.0, f64::max);
         let last = x_ticks.last().map_or(0.0, |tick| fonts::width(&tick.label, NUMBER));
-        let y_label = Words::of(&self.y_ticks(height).after(&self.y_label), LABEL, height - 90.0);
+        let y_label =
+            FittedText::of(&self.y_ticks(height).after(&self.y_label), LABEL, height - 90.0);
         let left = EDGE + numbers + 10.0 + y_label.height(10.0);
         let right = (EDGE + last / 2.0).max(24.0);
         let x_label =
-            Words::of(&self.x_ticks(width).after(&self.x_label), LABEL, width - left - right);
-        let title = Words::of(&self.title, TITLE, width - left - EDGE).height(10.0);
+            FittedText::of(&self.x_ticks(width).after(&self.x_label), LABEL, width - left - right);
+        let title = FittedText::of(&self.title, TITLE, width - left - EDGE).height(10.0);
         let title = title + self.caption_lines(width - left - EDGE).len() as f64 * (CAPTION + 5.0);
         Margins {
             left,
@@ -113,7 +114,7 @@ impl Frame {
     /// Draws the frame, all but the data; `plot` is what the margins leave of `area`.
     pub fn draw(&self, canvas: &mut Canvas, area: &Area, plot: &Area) {
         let room = area.right - plot.left - EDGE;
-        let title = Words::of(&self.title, TITLE, room);
+        let title = FittedText::of(&self.title, TITLE, room);
         let mut baseline = area.top + EDGE + TITLE * 0.8;
         for (index, line) in title.lines.iter().enumerate() {
             baseline += if index == 0 { 0.0 } else { title.apart() };
@@ -175,7 +176,7 @@ impl Frame {
                 canvas.text(&tick.label, (x, baseline), NUMBER, Align::Middle, INK);
             }
         }
-        let label = Words::of(&factor.after(&self.x_label), LABEL, plot.width());
+        let label = FittedText::of(&factor.after(&self.x_label), LABEL, plot.width());
         let middle = (plot.left + plot.right) / 2.0;
         for (index, line) in label.lines.iter().enumerate() {
             let y = baseline + LABEL + 11.0 + index as f64 * label.apart();
@@ -190,7 +191,7 @@ impl Frame {
             canvas.line([(plot.left, y), (plot.right, y)].map(crisp), 1.0, GRID);
             canvas.text(&tick.label, (plot.left - 8.0, y + NUMBER * 0.36), NUMBER, Align::End, INK);
         }
-        let label = Words::of(&factor.after(&self.y_label), LABEL, plot.height() + 20.0);
+        let label = FittedText::of(&factor.after(&self.y_label), LABEL, plot.height() + 20.0);
         let middle = (plot.top + plot.bottom) / 2.0;
         for (index, line) in label.lines.iter().enumerate() {
             let x = area.left + EDGE + LABEL * 0.8 + index as f64 * label.apart();
@@ -213,14 +214,14 @@ impl Frame {
 }
 
 /// A title or a label: set smaller where it is too long for a line, and then in several.
-struct Words {
+struct FittedText {
     lines: Vec<String>,
     /// The size of its letters, and that of a text which is not too long.
     size: f64,
     full: f64,
 }
 
-impl Words {
+impl FittedText {
     fn of(text: &str, size: f64, room: f64) -> Self {
         let full = size;
         let smallest = fonts::shrunk(text, full, room);
@@ -295,10 +296,10 @@ mod tests {
             let length = fonts::width(&text.text, text.size);
             let (x, y) = text.start;
             match text.direction {
-                super::super::canvas::Direction::Level => {
+                super::super::canvas::TextDirection::Level => {
                     assert!(x >= 0.0 && x + length <= 500.0, "{text:?}")
                 }
-                super::super::canvas::Direction::Upwards => {
+                super::super::canvas::TextDirection::Upwards => {
                     assert!(y <= 300.0 && y - length >= 0.0, "{text:?}")
                 }
             }

@@ -25,7 +25,7 @@ const MOST_LINES: usize = 3;
 
 /// An entry of a legend: a name with a sample of its line.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Entry {
+pub struct LegendEntry {
     /// The name of the entry.
     pub name: String,
     /// The colour of the line of the entry.
@@ -38,13 +38,13 @@ pub struct Entry {
 
 /// A name in its lines, with the entry that it is of.
 struct Item<'a> {
-    entry: &'a Entry,
+    entry: &'a LegendEntry,
     lines: Vec<String>,
 }
 
 impl<'a> Item<'a> {
     /// A name is set in several lines where it is longer than a row.
-    fn of(entry: &'a Entry, width: f64) -> Self {
+    fn of(entry: &'a LegendEntry, width: f64) -> Self {
         let room = (width - SAMPLE - GAP).max(ROW);
         let mut lines = fonts::lines(&entry.name, TEXT, room);
         if lines.len() > MOST_LINES {
@@ -60,7 +60,7 @@ impl<'a> Item<'a> {
     }
 
     fn draw(&self, canvas: &mut Canvas, (x, middle): (f64, f64)) {
-        let Entry { colour, stroke, marker, .. } = *self.entry;
+        let LegendEntry { colour, stroke, marker, .. } = *self.entry;
         stroke.draw(canvas, &[(x, middle), (x + SAMPLE, middle)], 2.0, colour);
         if stroke.has_marks() {
             marker.draw(canvas, (x + SAMPLE / 2.0, middle), 3.5, colour);
@@ -73,7 +73,7 @@ impl<'a> Item<'a> {
 }
 
 /// The height that a legend takes when it is `width` wide [pixels].
-pub fn height(entries: &[Entry], width: f64) -> f64 {
+pub fn height(entries: &[LegendEntry], width: f64) -> f64 {
     rows(entries, width).iter().map(|row| height_of(row)).sum()
 }
 
@@ -83,7 +83,7 @@ fn height_of(row: &[Item]) -> f64 {
 }
 
 /// Draws a legend from the top of `area` downwards.
-pub fn draw(canvas: &mut Canvas, entries: &[Entry], area: &Area) {
+pub fn draw(canvas: &mut Canvas, entries: &[LegendEntry], area: &Area) {
     let rows = rows(entries, area.width());
     let shown: usize = rows.iter().map(Vec::len).sum();
     let mut top = area.top;
@@ -102,7 +102,7 @@ pub fn draw(canvas: &mut Canvas, entries: &[Entry], area: &Area) {
     }
 }
 
-fn rows(entries: &[Entry], width: f64) -> Vec<Vec<Item<'_>>> {
+fn rows(entries: &[LegendEntry], width: f64) -> Vec<Vec<Item<'_>>> {
     let mut rows: Vec<Vec<Item>> = Vec::new();
     let mut used = f64::INFINITY;
     for entry in entries {
@@ -130,9 +130,9 @@ fn rows(entries: &[Entry], width: f64) -> Vec<Vec<Item<'_>>> {
 mod tests {
     use super::*;
 
-    fn entries(count: usize, name: &str) -> Vec<Entry> {
+    fn entries(count: usize, name: &str) -> Vec<LegendEntry> {
         let (stroke, marker) = (Stroke::Solid, Marker::Disc);
-        vec![Entry { name: name.into(), colour: INK, stroke, marker }; count]
+        vec![LegendEntry { name: name.into(), colour: INK, stroke, marker }; count]
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Level maps: a field of cells over two axes of numbers, each coloured by a number on a linear scale; cells that have none are hatched.
 
 use super::{
-    axis::{Axis, Scale},
+    axis::{Axis, AxisScale},
     canvas::{Area, Canvas},
     colour::ramp,
     colour_bar::ColourBar,
@@ -56,13 +56,13 @@ fn means(values: &[Vec<f64>], (across, up): (usize, usize)) -> Vec<Vec<f64>> {
 
 impl LevelAxis {
     /// How the axis is laid out: by ratios where all of its numbers are positive and follow one another by equal ones.
-    pub fn scale(&self) -> Scale {
+    pub fn scale(&self) -> AxisScale {
         let ratios: Vec<f64> = self.middles.windows(2).map(|pair| pair[1] / pair[0]).collect();
         let is_equal = |ratio: &f64| (ratio / ratios[0] - 1.0).abs() < EQUAL_RATIOS;
         let is_positive = self.middles.iter().all(|x| *x > 0.0);
         match is_positive && ratios.len() > 1 && ratios.iter().all(is_equal) {
-            true => Scale::Logarithmic,
-            false => Scale::Linear,
+            true => AxisScale::Logarithmic,
+            false => AxisScale::Linear,
         }
     }
 
@@ -73,18 +73,18 @@ impl LevelAxis {
 
     /// The numbers halfway between the middles, and beyond the first and the last as far.
     pub fn ends_halfway(&self) -> Vec<f64> {
-        self.ends_by(Scale::Linear)
+        self.ends_by(AxisScale::Linear)
     }
 
-    fn ends_by(&self, scale: Scale) -> Vec<f64> {
+    fn ends_by(&self, scale: AxisScale) -> Vec<f64> {
         let between = |a: f64, b: f64| match scale {
-            Scale::Linear => 0.5 * a + 0.5 * b,
-            Scale::Logarithmic => (a * b).sqrt(),
+            AxisScale::Linear => 0.5 * a + 0.5 * b,
+            AxisScale::Logarithmic => (a * b).sqrt(),
         };
         let beyond = |a: f64, end: f64| match scale {
             // Twice the largest numbers are none.
-            Scale::Linear => Some(2.0 * a - end).filter(|far| far.is_finite()).unwrap_or(a),
-            Scale::Logarithmic => a * a / end,
+            AxisScale::Linear => Some(2.0 * a - end).filter(|far| far.is_finite()).unwrap_or(a),
+            AxisScale::Logarithmic => a * a / end,
         };
         let mut ends: Vec<f64> =
             self.middles.windows(2).map(|pair| between(pair[0], pair[1])).collect();
@@ -120,7 +120,7 @@ impl LevelAxis {
         let (low, high) = (ends[0], ends[ends.len() - 1]);
         match self.scale() {
             // Less than a hair of a power of ten is no axis.
-            Scale::Logarithmic if ln(high / low) > 1e-3 => Axis::powers_between(low, high),
+            AxisScale::Logarithmic if ln(high / low) > 1e-3 => Axis::powers_between(low, high),
             _ => Axis::between(low, high),
         }
     }
@@ -230,7 +230,7 @@ mod tests {
 
     #[test]
     fn cells_end_halfway_between_their_middles() {
-        assert_eq!(axis("", &[1.0, 2.0, 4.0]).scale(), Scale::Logarithmic);
+        assert_eq!(axis("", &[1.0, 2.0, 4.0]).scale(), AxisScale::Logarithmic);
         let ends = axis("", &[1.0, 2.0, 5.0]).ends();
         assert_eq!(ends, [0.5, 1.5, 3.5, 6.5]);
         let ends = axis("", &[0.1, 1.0, 10.0]).ends();

@@ -5,10 +5,10 @@ use super::{
     colour::{Colour, HUE_COUNT, INK, hue, ramp, tint},
     colour_bar::ColourBar,
     frame::{Frame, Margins},
-    legend::Entry,
+    legend::LegendEntry,
     marker::Marker,
     page::{Page, Panel},
-    plane::{Limits, View},
+    plane::{AxisLimits, View},
     stroke::Stroke,
     symbol::PlacedSymbol,
 };
@@ -21,7 +21,7 @@ const PARTICLE: f64 = 4.5;
 
 /// A snapshot of a motion picture: the beams at one time.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Snapshot {
+pub struct MotionFrame {
     /// The time of the snapshot.
     pub time: f64,
     /// The centre line of each beam in the snapshot, always in the same order.
@@ -42,11 +42,11 @@ pub struct MotionPicture {
     y_label: String,
     time_label: String,
     beams: Vec<String>,
-    snapshots: Vec<Snapshot>,
+    snapshots: Vec<MotionFrame>,
     traces: Vec<(String, Vec<Point>)>,
     symbols: Vec<PlacedSymbol>,
     captions: Vec<String>,
-    limits: Limits,
+    limits: AxisLimits,
 }
 
 impl MotionPicture {
@@ -87,7 +87,7 @@ impl MotionPicture {
     }
 
     /// Adds a snapshot to the motion picture. Later snapshots are drawn over earlier ones, whatever the order they come in.
-    pub fn snapshot(mut self, snapshot: Snapshot) -> Self {
+    pub fn snapshot(mut self, snapshot: MotionFrame) -> Self {
         self.snapshots.push(snapshot);
         self
     }
@@ -111,7 +111,7 @@ impl MotionPicture {
     }
 
     /// Fixes the ends of axes. Units stay equally long, so one of the axes may show more.
-    pub fn limits(mut self, limits: Limits) -> Self {
+    pub fn limits(mut self, limits: AxisLimits) -> Self {
         self.limits = limits;
         self
     }
@@ -125,8 +125,8 @@ impl MotionPicture {
     }
 
     /// The ends of axes with which each of some pictures shows what all of them do; the limits of the first one hold.
-    pub fn shared_limits(pictures: &[Self]) -> Limits {
-        let given = pictures.first().map_or_else(Limits::default, |first| first.limits);
+    pub fn shared_limits(pictures: &[Self]) -> AxisLimits {
+        let given = pictures.first().map_or_else(AxisLimits::default, |first| first.limits);
         let points = pictures.iter().flat_map(Self::points);
         let symbols: Vec<PlacedSymbol> =
             pictures.iter().flat_map(|picture| &picture.symbols).copied().collect();
@@ -160,10 +160,10 @@ impl MotionPicture {
         }
     }
 
-    fn legend(&self) -> Vec<Entry> {
+    fn legend(&self) -> Vec<LegendEntry> {
         let beams =
             self.beams.iter().take(self.beam_count()).enumerate().filter(|_| self.beam_count() > 1);
-        let beams = beams.map(|(index, name)| Entry {
+        let beams = beams.map(|(index, name)| LegendEntry {
             name: name.clone(),
             colour: hue(index),
             stroke: Stroke::of_round(index / HUE_COUNT),
@@ -171,7 +171,7 @@ impl MotionPicture {
         });
         let traces = self.traces.iter().enumerate().map(|(index, (name, _))| {
             let (colour, stroke) = self.trace_look(index);
-            Entry { name: name.clone(), colour, stroke, marker: Marker::Disc }
+            LegendEntry { name: name.clone(), colour, stroke, marker: Marker::Disc }
         });
         beams.chain(traces).filter(|entry| !entry.name.is_empty()).collect()
     }
@@ -206,7 +206,7 @@ impl MotionPicture {
         canvas: &mut Canvas,
         frame: &Frame,
         plot: &Area,
-        snapshot: &Snapshot,
+        snapshot: &MotionFrame,
         part: f64,
     ) {
         let shade = if self.beam_count() > 1 { tint(INK, part) } else { self.colour(0, part) };
@@ -250,7 +250,7 @@ impl Panel for MotionPicture {
         }
         let bar = self.time_bar();
         bar.draw(canvas, plot);
-        let mut snapshots: Vec<&Snapshot> = self.snapshots.iter().collect();
+        let mut snapshots: Vec<&MotionFrame> = self.snapshots.iter().collect();
         snapshots.sort_by(|a, b| a.time.total_cmp(&b.time));
         for snapshot in snapshots {
             self.draw_snapshot(canvas, &frame, plot, snapshot, bar.part(snapshot.time));
@@ -271,8 +271,8 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn snapshot(time: f64, lines: Vec<Vec<Point>>) -> Snapshot {
-        Snapshot { time, lines, ..Snapshot::default() }
+    fn snapshot(time: f64, lines: Vec<Vec<Point>>) -> MotionFrame {
+        MotionFrame { time, lines, ..MotionFrame::default() }
     }
 
     #[test]
@@ -321,7 +321,7 @@ mod tests {
                 let lines = vec![points.clone(); points.len() % 3];
                 let (marks, particles) = (points.clone(), points.clone());
                 let bodies = lines.clone();
-                picture = picture.snapshot(Snapshot { time, lines, marks, particles, bodies });
+                picture = picture.snapshot(MotionFrame { time, lines, marks, particles, bodies });
             }
             let figure = picture.figure().unwrap();
             figure.to_png().unwrap();

@@ -14,7 +14,7 @@ const SPARE: f64 = 0.05;
 
 /// The ends of the axes, where a reader asks for others than those that fit the data.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Limits {
+pub struct AxisLimits {
     /// The least and the largest value of the horizontal axis.
     pub x: Option<(f64, f64)>,
     /// The least and the largest value of the vertical axis.
@@ -31,7 +31,7 @@ pub struct View {
 impl View {
     /// The box that points need with some paper around them, or that limits ask for; an axis without limits fits what is between those of the
     /// other one.
-    pub fn of(points: impl Iterator<Item = Point> + Clone, limits: &Limits) -> Self {
+    pub fn of(points: impl Iterator<Item = Point> + Clone, limits: &AxisLimits) -> Self {
         let within = |value: f64, ends: Option<(f64, f64)>| {
             ends.is_none_or(|(low, high)| (low..=high).contains(&value))
         };
@@ -60,7 +60,7 @@ impl View {
         self,
         about: impl Iterator<Item = Point> + Clone,
         pixels: f64,
-        limits: &Limits,
+        limits: &AxisLimits,
     ) -> Self {
         let (width, height) = self.size();
         let room = pixels * (self.needs.0 / width).max(self.needs.1 / height);
@@ -90,9 +90,9 @@ impl View {
     }
 
     /// The ends of axes between which it is all that is seen.
-    pub fn limits(&self) -> Limits {
+    pub fn limits(&self) -> AxisLimits {
         let ends = |centre: f64, size: f64| Some((centre - size / 2.0, centre + size / 2.0));
-        Limits { x: ends(self.centre.0, self.needs.0), y: ends(self.centre.1, self.needs.1) }
+        AxisLimits { x: ends(self.centre.0, self.needs.0), y: ends(self.centre.1, self.needs.1) }
     }
 
     /// The axes of a plot of the given size in pixels.
@@ -121,25 +121,25 @@ mod tests {
     fn symbols_at_an_edge_get_paper_unless_limits_cut_them() {
         let points = [(0.0, 0.0), (10.0, 10.0)];
         for (limits, low) in
-            [(Limits::default(), -0.31), (Limits { y: Some((0.0, 10.0)), x: None }, 0.0)]
+            [(AxisLimits::default(), -0.31), (AxisLimits { y: Some((0.0, 10.0)), x: None }, 0.0)]
         {
             let view = View::of(points.into_iter(), &limits);
             let seen = view.with_room([(5.0, 0.0)].into_iter(), 20.0, &limits);
             let bottom = seen.centre.1 - seen.needs.1 / 2.0;
             assert!((bottom - low).abs() < 0.25 && bottom <= 0.0, "{bottom}");
         }
-        let view = View::of(points.into_iter(), &Limits::default());
-        assert_eq!(view.with_room([(5.0, 5.0)].into_iter(), 20.0, &Limits::default()), view);
+        let view = View::of(points.into_iter(), &AxisLimits::default());
+        assert_eq!(view.with_room([(5.0, 5.0)].into_iter(), 20.0, &AxisLimits::default()), view);
     }
 
     #[test]
     fn limits_are_kept_and_the_other_axis_fits_what_is_between_them() {
         let points = [(0.0, 0.0), (1.0, 1.0), (10.0, 100.0)];
-        let view = View::of(points.into_iter(), &Limits { x: Some((0.0, 2.0)), y: None });
+        let view = View::of(points.into_iter(), &AxisLimits { x: Some((0.0, 2.0)), y: None });
         assert_eq!(view.centre, (1.0, 0.5));
         assert_eq!(view.needs.0, 2.0);
         assert!((view.needs.1 - 1.1).abs() < 1e-12);
-        let limits = Limits { x: Some((0.0, 2.0)), y: Some((-1.0, 3.0)) };
+        let limits = AxisLimits { x: Some((0.0, 2.0)), y: Some((-1.0, 3.0)) };
         assert_eq!(View::of(points.into_iter(), &limits).needs, (2.0, 4.0));
     }
 }

@@ -9,7 +9,7 @@ use plotters::style::Color;
 
 use super::{
     OutputError,
-    canvas::{Area, Canvas, Direction, Point, Shape, Text},
+    canvas::{Area, Canvas, Point, Shape, Text, TextDirection},
     colour::{Colour, WHITE},
     fonts,
 };
@@ -25,7 +25,7 @@ pub fn pixels(canvas: &Canvas, width: u32, height: u32) -> Result<Vec<u8>, Outpu
     let Colour(paper, ..) = WHITE;
     let mut pixels = vec![paper; width as usize * height as usize * 3];
     {
-        let mut sheet = Sheet {
+        let mut sheet = PngPage {
             backend: BitMapBackend::with_buffer(&mut pixels, (width, height)),
             width,
             height,
@@ -50,13 +50,13 @@ fn refused(error: impl std::fmt::Display) -> OutputError {
 }
 
 /// The paper with its size in pixels.
-struct Sheet<'a> {
+struct PngPage<'a> {
     backend: BitMapBackend<'a>,
     width: u32,
     height: u32,
 }
 
-impl Sheet<'_> {
+impl PngPage<'_> {
     fn paint(&mut self, shape: &Shape) -> Result<(), OutputError> {
         match shape {
             Shape::Line { points, width, colour } => self.line(points, width / 2.0, *colour),
@@ -67,7 +67,7 @@ impl Sheet<'_> {
     }
 
     fn line(&mut self, points: &[Point], radius: f64, colour: Colour) -> Result<(), OutputError> {
-        let mut cover = Cover::around(points, radius + 1.0, self.width, self.height);
+        let mut cover = PixelCoverage::around(points, radius + 1.0, self.width, self.height);
         match points {
             [dot] => cover.piece(*dot, *dot, radius),
             _ => points.windows(2).for_each(|pair| cover.piece(pair[0], pair[1], radius)),
@@ -101,8 +101,8 @@ impl Sheet<'_> {
             for (x, y, amount) in covered {
                 // A pixel is a box: turned upwards, the box right of the start lies above it.
                 let (x, y) = match text.direction {
-                    Direction::Level => (start.0 + x, start.1 + y),
-                    Direction::Upwards => (start.0 + y, start.1 - x - 1),
+                    TextDirection::Level => (start.0 + x, start.1 + y),
+                    TextDirection::Upwards => (start.0 + y, start.1 - x - 1),
                 };
                 self.mix(x, y, amount, text.colour)?;
             }
@@ -126,7 +126,7 @@ impl Sheet<'_> {
 }
 
 /// How much of each pixel a line covers, over the part of the picture that the line can reach.
-struct Cover {
+struct PixelCoverage {
     left: usize,
     top: usize,
     columns: usize,
@@ -134,7 +134,7 @@ struct Cover {
     amounts: Vec<f32>,
 }
 
-impl Cover {
+impl PixelCoverage {
     fn around(points: &[Point], reach: f64, width: u32, height: u32) -> Self {
         let span = |pick: fn(&Point) -> f64, limit: u32| {
             let low = points.iter().map(pick).fold(f64::INFINITY, f64::min) - reach;

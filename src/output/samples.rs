@@ -33,17 +33,17 @@ fn series(name: &str, value: impl Fn(f64) -> f64) -> Series {
     Series::new(name, (0..=400).map(|i| f64::from(i) * 0.025).map(|t| (t, value(t))).collect())
 }
 
-fn tumbling(time: f64, bend: f64) -> Snapshot {
+fn tumbling(time: f64, bend: f64) -> MotionFrame {
     let place = |s: f64| {
         let angle = -0.7 - 0.9 * time + bend * (s - 0.5) * (1.3 * time).sin();
         (1.6 * time + 5.0 * (s - 0.5) * angle.cos() + 3.0, 4.0 + 5.0 * (s - 0.5) * angle.sin())
     };
     let line = (0..=60).map(|i| place(f64::from(i) / 60.0)).collect();
-    Snapshot {
+    MotionFrame {
         time,
         lines: vec![line],
         marks: (0..=7).map(|i| place(f64::from(i) / 7.0)).collect(),
-        ..Snapshot::default()
+        ..MotionFrame::default()
     }
 }
 
@@ -70,7 +70,7 @@ fn drift() -> LineChart {
     LineChart::new("Relative drift")
         .x_label("t [s]")
         .y_label("|E − E₀| / E₀")
-        .y_scale(Scale::Logarithmic)
+        .y_scale(AxisScale::Logarithmic)
         .series(series("energy", |t| (1e-15 * t * (1.0 + (17.0 * t).sin())).abs()))
         .series(series("linear momentum", |_| 0.0))
         .series(series("midpoint rule", |t| 1e-6 * t * t))
@@ -83,8 +83,8 @@ fn convergence() -> LineChart {
     LineChart::new("Error against step")
         .x_label("dt [s]")
         .y_label("error [m]")
-        .x_scale(Scale::Logarithmic)
-        .y_scale(Scale::Logarithmic)
+        .x_scale(AxisScale::Logarithmic)
+        .y_scale(AxisScale::Logarithmic)
         .series(Series::new("energy–momentum", order(2, 0.5)).stroke(Stroke::Marked))
         .series(Series::new("Gauss, two stages", order(4, 3.0)).stroke(Stroke::Marked))
         .series(Series::new("slope 2", order(2, 1.0)).stroke(Stroke::Dotted))
@@ -95,7 +95,7 @@ fn two_beams() -> MotionPicture {
         let (a, b) = (-1.5 + 1.2 * (2.0 * time).cos(), -1.5 + 1.8 * (2.7 * time).sin());
         let elbow = (a.cos(), a.sin());
         let tip = (elbow.0 + 0.8 * b.cos(), elbow.1 + 0.8 * b.sin());
-        Snapshot {
+        MotionFrame {
             time,
             lines: vec![vec![(0.0, 0.0), elbow], vec![elbow, tip]],
             marks: vec![(0.0, 0.0), elbow],

@@ -6,9 +6,9 @@ use super::{
     colour::{Colour, INK, hue, tint},
     fonts,
     frame::{Frame, Margins},
+    mechanism_outline::MechanismOutline,
     page::Panel,
-    plane::{Limits, View},
-    scenery::Scenery,
+    plane::{AxisLimits, View},
 };
 use crate::elementary::hypot;
 
@@ -26,7 +26,7 @@ const DIGITS: usize = 4;
 
 /// The side of a beam, seen along it, on which positive values stand.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Side {
+pub enum BeamSide {
     /// At the left.
     #[default]
     Left,
@@ -36,7 +36,7 @@ pub enum Side {
 
 /// A beam with values along it.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Strip {
+pub struct BeamStrip {
     /// The centre line.
     pub line: Vec<Point>,
     /// Places along it with their values; two at one place where the value jumps.
@@ -48,10 +48,10 @@ pub struct Strip {
 pub struct StripPicture {
     title: String,
     captions: Vec<String>,
-    strips: Vec<Strip>,
-    side: Side,
-    scenery: Scenery,
-    limits: Limits,
+    strips: Vec<BeamStrip>,
+    side: BeamSide,
+    scenery: MechanismOutline,
+    limits: AxisLimits,
 }
 
 /// A value at its place, and the tip of its ordinate, in the reader's units.
@@ -75,25 +75,25 @@ impl StripPicture {
     }
 
     /// Adds a beam.
-    pub fn strip(mut self, strip: Strip) -> Self {
+    pub fn strip(mut self, strip: BeamStrip) -> Self {
         self.strips.push(strip);
         self
     }
 
     /// Chooses the side of positive values.
-    pub fn side(mut self, side: Side) -> Self {
+    pub fn side(mut self, side: BeamSide) -> Self {
         self.side = side;
         self
     }
 
     /// Draws rigid bodies, supports, joints, sliders and loads over all.
-    pub fn scenery(mut self, scenery: Scenery) -> Self {
+    pub fn scenery(mut self, scenery: MechanismOutline) -> Self {
         self.scenery = scenery;
         self
     }
 
     /// Fixes the ends of axes. Units stay equally long, so one of the axes may show more.
-    pub fn limits(mut self, limits: Limits) -> Self {
+    pub fn limits(mut self, limits: AxisLimits) -> Self {
         self.limits = limits;
         self
     }
@@ -105,12 +105,12 @@ impl StripPicture {
     }
 
     /// The ordinates of a strip, run by run: a run ends where the value jumps.
-    fn runs(&self, strip: &Strip) -> Vec<Vec<Ordinate>> {
+    fn runs(&self, strip: &BeamStrip) -> Vec<Vec<Ordinate>> {
         let largest = self.largest();
         let scale = if largest > 0.0 { LARGEST * self.beam_size() / largest } else { 0.0 };
         let scale = match self.side {
-            Side::Left => scale,
-            Side::Right => -scale,
+            BeamSide::Left => scale,
+            BeamSide::Right => -scale,
         };
         let runs = strip.values.chunk_by(|(a, _), (b, _)| a != b);
         let run = |places: &[(Point, f64)]| {
@@ -134,7 +134,7 @@ impl StripPicture {
         let side = |pick: fn(Point) -> f64| {
             super::axis::extent(points().map(pick)).map_or(0.0, |(low, high)| high - low)
         };
-        let length = |strip: &Strip| {
+        let length = |strip: &BeamStrip| {
             let pairs = strip.line.windows(2);
             pairs.map(|pair| hypot(pair[1].0 - pair[0].0, pair[1].1 - pair[0].1)).sum::<f64>()
         };
@@ -308,9 +308,9 @@ impl Panel for StripPicture {
 mod tests {
     use super::*;
 
-    fn beam(value: impl Fn(f64) -> f64) -> Strip {
+    fn beam(value: impl Fn(f64) -> f64) -> BeamStrip {
         let places = (0..=8).map(|index| f64::from(index) / 8.0);
-        Strip {
+        BeamStrip {
             line: vec![(0.0, 0.0), (1.0, 0.0)],
             values: places.map(|s| ((s, 0.0), value(s))).collect(),
         }
@@ -318,7 +318,7 @@ mod tests {
 
     #[test]
     fn the_largest_strip_has_its_part_of_the_beam_on_its_side() {
-        for (side, sign) in [(Side::Left, 1.0), (Side::Right, -1.0)] {
+        for (side, sign) in [(BeamSide::Left, 1.0), (BeamSide::Right, -1.0)] {
             let picture = StripPicture::new("").strip(beam(|s| 40.0 * s)).side(side);
             let runs = picture.runs(&picture.strips[0]);
             let tip = runs[0].last().unwrap().tip;

@@ -7,7 +7,7 @@ use plotters::prelude::{DrawingBackend, RGBColor, SVGBackend, ShapeStyle};
 
 use super::{
     OutputError,
-    canvas::{Canvas, Direction, Point, Shape, Text},
+    canvas::{Canvas, Point, Shape, Text, TextDirection},
     colour::{Colour, WHITE},
     fonts,
 };
@@ -109,8 +109,8 @@ fn one_polygon(contours: &[Vec<Point>], text: &Text) -> Vec<(i32, i32)> {
 
 fn placed((x, y): Point, text: &Text) -> Point {
     match text.direction {
-        Direction::Level => (text.start.0 + x, text.start.1 + y),
-        Direction::Upwards => (text.start.0 + y, text.start.1 - x),
+        TextDirection::Level => (text.start.0 + x, text.start.1 + y),
+        TextDirection::Upwards => (text.start.0 + y, text.start.1 - x),
     }
 }
 

@@ -1,8 +1,8 @@
 //! Symbols of mechanics: supports, joints, sliders and loads, of the same size in every picture.
 
-mod spot;
+mod symbol_frame;
 
-use spot::Spot;
+use symbol_frame::SymbolFrame;
 
 use super::{
     canvas::{Area, Canvas, Point},
@@ -10,7 +10,7 @@ use super::{
     curve,
     frame::Frame,
     link::{LINK, Link},
-    plane::{Limits, View},
+    plane::{AxisLimits, View},
 };
 
 use crate::elementary::hypot;
@@ -116,7 +116,7 @@ impl PlacedSymbol {
     pub(super) fn view(
         symbols: &[Self],
         points: impl Iterator<Item = Point> + Clone,
-        limits: &Limits,
+        limits: &AxisLimits,
     ) -> View {
         use Symbol::{
             Carriage, Clamp, Guided, HeldAngle, Hinge, Moment, Motor, Roller, Slider, TorsionSpring,
@@ -154,7 +154,7 @@ impl PlacedSymbol {
         let (x, y) = self.direction;
         let length = hypot(x, y);
         let ahead = if length > 0.0 { (x / length, -y / length) } else { (1.0, 0.0) };
-        Spot { canvas, plot, at, ahead }.draw(self.symbol);
+        SymbolFrame { canvas, plot, at, ahead }.draw(self.symbol);
     }
 }
 

@@ -54,13 +54,13 @@ impl From<i64> for Cell {
 
 /// A table that is shown as text with [`Display`](fmt::Display): rows under a header.
 #[derive(Clone, Debug, Default)]
-pub struct Table {
+pub struct TextTable {
     title: String,
     header: Vec<String>,
     rows: Vec<Vec<Cell>>,
 }
 
-impl Table {
+impl TextTable {
     /// A table with the given heads of columns and no rows.
     pub fn new(header: &[&str]) -> Self {
         Self { header: header.iter().map(|head| (*head).to_string()).collect(), ..Self::default() }
@@ -95,7 +95,7 @@ impl Table {
     }
 }
 
-impl fmt::Display for Table {
+impl fmt::Display for TextTable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let widths: Vec<usize> = (0..self.columns()).map(|column| self.width(column)).collect();
         if !self.title.is_empty() {
@@ -155,7 +155,7 @@ mod tests {
 
     #[test]
     fn text_left_numbers_right() {
-        let mut table = Table::new(&["method", "dt [s]", "drift"]).title("Energy drift");
+        let mut table = TextTable::new(&["method", "dt [s]", "drift"]).title("Energy drift");
         table.row::<Cell>(["midpoint".into(), 0.05.into(), 3e-3.into()]);
         table.row::<Cell>(["energy_momentum".into(), 0.1.into(), 1e-15.into()]);
         let expected = "Energy drift\n\
@@ -168,7 +168,7 @@ mod tests {
 
     #[test]
     fn wide_characters_stand_in_two_columns() {
-        let mut table = Table::new(&["梁", "EI"]);
+        let mut table = TextTable::new(&["梁", "EI"]);
         table.row::<Cell>(["長い梁".into(), 1.0.into()]).row::<Cell>(["arm".into(), 10.0.into()]);
         let expected = "梁      EI\n──────  ──\n長い梁   1\narm     10\n";
         assert_eq!(table.to_string(), expected);
@@ -176,7 +176,7 @@ mod tests {
 
     #[test]
     fn cells_of_any_length_are_set() {
-        let mut table = Table::new(&["a", "b"]);
+        let mut table = TextTable::new(&["a", "b"]);
         table.row(["x".repeat(70_000).as_str(), "y"]).row(["z", "w"]);
         let text = table.to_string();
         assert!(text.lines().all(|line| line.chars().count() <= 70_003), "{}", text.len());
@@ -185,11 +185,11 @@ mod tests {
 
     #[test]
     fn uneven_rows_and_line_breaks_stay_in_the_table() {
-        let mut table = Table::new(&["a"]);
+        let mut table = TextTable::new(&["a"]);
         table.row(["x\ny", "beyond"]).row::<Cell>([]);
         let text = table.to_string();
         assert_eq!(text, "a\n───  ──────\nx y  beyond\n\n");
         assert!(text.lines().all(|line| line.trim_end() == line));
-        assert_eq!(Table::new(&[]).to_string(), "\n\n");
+        assert_eq!(TextTable::new(&[]).to_string(), "\n\n");
     }
 }

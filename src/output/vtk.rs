@@ -49,7 +49,7 @@ pub enum VtkValues {
 }
 
 /// A piece of a body: the number of the body, and the numbers of the points of the piece.
-struct Piece {
+struct VtkPiece {
     body: usize,
     points: std::ops::Range<usize>,
 }
@@ -102,21 +102,21 @@ impl VtkGrid {
         });
         push_whole(&mut text, "connectivity", pieces.iter().flat_map(|piece| piece.points.clone()));
         push_whole(&mut text, "offsets", ends);
-        let kind = |piece: &Piece| if piece.points.len() == 1 { VERTEX } else { LINE };
+        let kind = |piece: &VtkPiece| if piece.points.len() == 1 { VERTEX } else { LINE };
         push(&mut text, "UInt8", "types", 1, pieces.iter().map(|piece| [kind(piece)]));
         text += "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
         Ok(text)
     }
 
     /// What bodies are made of, in their order: from each point to the next one, or the only point.
-    fn pieces(&self) -> Vec<Piece> {
+    fn pieces(&self) -> Vec<VtkPiece> {
         let mut first = 0;
         let of_body = |(body, cell): (usize, &VtkCell)| {
             let (start, end) = (first, first + cell.points.len());
             first = end;
             let last = if end - start > 1 { end - 1 } else { end };
             let width = if end - start > 1 { 2 } else { 1 };
-            (start..last).map(move |at| Piece { body, points: at..at + width })
+            (start..last).map(move |at| VtkPiece { body, points: at..at + width })
         };
         self.cells.iter().enumerate().flat_map(of_body).collect()
     }

@@ -3,7 +3,7 @@
 use std::io::{self, BufRead, Read};
 
 use super::editor::completeness::{Completeness, completeness_of_script, is_command};
-use super::shell::{Outcome, Shell};
+use super::shell::{CommandOutcome, Shell};
 use crate::script::diagnose::Diagnostic;
 use crate::script::source::program::LARGEST_SCRIPT;
 
@@ -39,7 +39,7 @@ fn lines_of(mut reader: impl BufRead) -> impl Iterator<Item = io::Result<String>
 }
 
 /// Reads inputs of a session from `lines` until they end, one fails, or the user leaves.
-pub fn run(shell: &mut Shell, lines: impl BufRead) -> Outcome {
+pub fn run(shell: &mut Shell, lines: impl BufRead) -> CommandOutcome {
     let mut input = String::new();
     let mut lines = lines_of(lines).peekable();
     while let Some(line) = lines.next() {
@@ -65,13 +65,13 @@ pub fn run(shell: &mut Shell, lines: impl BufRead) -> Outcome {
                     || !matches!(lines.peek(), Some(Ok(next)) if continues(next)));
         if is_complete {
             match shell.submit(&std::mem::take(&mut input)) {
-                Outcome::Good => (),
+                CommandOutcome::Good => (),
                 other => return other,
             }
         }
     }
     match input.trim() {
-        "" => Outcome::Good,
+        "" => CommandOutcome::Good,
         // It is not complete, and the session says why.
         _ => shell.submit(&input),
     }

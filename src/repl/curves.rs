@@ -5,14 +5,14 @@ use rhai::{Array, Dynamic};
 use super::editor::completeness::is_command;
 use crate::geometry::Vec2;
 use crate::output::{Point, significant};
-use crate::script::source::scanner::{Kind, scan};
+use crate::script::source::scanner::{TokenKind, scan};
 
 /// Digits of the numbers in a summary.
 const DIGITS: usize = 6;
 
 /// What a curve at the prompt is drawn over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Over {
+pub enum CurveAbscissa {
     /// The curve is drawn over time.
     Time,
     /// The curve is drawn over the places in an array, from 0.
@@ -21,7 +21,7 @@ pub enum Over {
     Numbers,
 }
 
-impl Over {
+impl CurveAbscissa {
     /// The label of the axis that the curve is drawn over.
     pub fn label(self) -> &'static str {
         match self {
@@ -43,16 +43,16 @@ impl Over {
 
 /// A curve that the prompt draws, with its name.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Curve {
+pub struct PlotCurve {
     /// The name of the curve in the legend.
     pub name: String,
     /// What the curve is drawn over.
-    pub over: Over,
+    pub over: CurveAbscissa,
     /// The points of the curve.
     pub points: Vec<Point>,
 }
 
-impl Curve {
+impl PlotCurve {
     /// Whether there is something to draw.
     pub fn has_points(&self) -> bool {
         self.points.iter().any(|(x, y)| x.is_finite() && y.is_finite())
@@ -61,9 +61,9 @@ impl Curve {
 
 /// What a value of a script is for somebody who wants to draw it.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Shape {
+pub enum PlotShape {
     /// The value is all points of a curve, with what they are over.
-    Whole(Over, Vec<Point>),
+    Whole(CurveAbscissa, Vec<Point>),
     /// The value is a number: one point of a curve.
     Number(f64),
     /// The value is a vector: one point of each of two curves.
@@ -73,47 +73,53 @@ pub enum Shape {
 }
 
 /// What can be drawn of a value of the type `of`: an array of numbers, two arrays of as many numbers, points, a number, a vector.
-pub fn shape(value: &Dynamic, of: &str) -> Shape {
+pub fn shape(value: &Dynamic, of: &str) -> PlotShape {
     if let Some(number) = number(value) {
-        return Shape::Number(number);
+        return PlotShape::Number(number);
     }
     if let Some(vector) = value.read_lock::<Vec2>() {
-        return Shape::Vector(*vector);
+        return PlotShape::Vector(*vector);
     }
     match value.read_lock::<Array>() {
         Some(array) => shape_of_array(&array),
-        None => Shape::None(format!("it is {of}")),
+        None => PlotShape::None(format!("it is {of}")),
     }
 }
 
-fn shape_of_array(array: &Array) -> Shape {
+fn shape_of_array(array: &Array) -> PlotShape {
     if array.is_empty() {
-        return Shape::None("it is an empty array".into());
+        return PlotShape::None("it is an empty array".into());
     }
     if let Some(values) = numbers(array) {
         let points = values.into_iter().enumerate().map(|(index, value)| (index as f64, value));
-        return Shape::Whole(Over::Index, points.collect());
+        return PlotShape::Whole(CurveAbscissa::Index, points.collect());
     }
     let inner = |value: &Dynamic| value.read_lock::<Array>().and_then(|array| numbers(&array));
     let rows: Option<Vec<Vec<f64>>> = array.iter().map(inner).collect();
     match rows.as_deref() {
         Some([x, y]) if x.len() == y.len() => {
-            return Shape::Whole(Over::Numbers, x.iter().copied().zip(y.iter().copied()).collect());
+            return PlotShape::Whole(
+                CurveAbscissa::Numbers,
+                x.iter().copied().zip(y.iter().copied()).collect(),
+            );
         }
         Some([x, y]) => {
             let told = format!("its two arrays have {} and {} numbers", x.len(), y.len());
-            return Shape::None(told);
+            return PlotShape::None(told);
         }
         Some(rows) if rows.iter().all(|row| row.len() == 2) => {
-            return Shape::Whole(Over::Numbers, rows.iter().map(|row| (row[0], row[1])).collect());
+            return PlotShape::Whole(
+                CurveAbscissa::Numbers,
+                rows.iter().map(|row| (row[0], row[1])).collect(),
+            );
         }
         _ => (),
     }
     let vectors: Option<Vec<Point>> =
         array.iter().map(|value| value.read_lock::<Vec2>().map(|at| (at.x, at.y))).collect();
     match vectors {
-        Some(points) => Shape::Whole(Over::Numbers, points),
-        None => Shape::None("it is an array, and not of numbers alone".into()),
+        Some(points) => PlotShape::Whole(CurveAbscissa::Numbers, points),
+        None => PlotShape::None("it is an array, and not of numbers alone".into()),
     }
 }
 
@@ -130,17 +136,19 @@ fn numbers(array: &Array) -> Option<Vec<f64>> {
 /// The parts of a command's operand that are separated by commas outside of brackets and texts.
 pub fn parts(operand: &str) -> Vec<&str> {
     let mut parts = Vec::new();
-    let (mut depth, mut begin, mut is_between_bars, mut before) = (0_usize, 0, false, Kind::Symbol);
+    let (mut depth, mut begin, mut is_between_bars, mut before) =
+        (0_usize, 0, false, TokenKind::Symbol);
     for token in scan(operand) {
         match (token.kind, token.of(operand)) {
-            (Kind::Open(_), _) => depth += 1,
-            (Kind::Close(_), _) => depth = depth.saturating_sub(1),
+            (TokenKind::Open(_), _) => depth += 1,
+            (TokenKind::Close(_), _) => depth = depth.saturating_sub(1),
             // The parameters of a function; after a value a bar is an operator.
-            (Kind::Symbol, "|") => {
-                let is_operator = matches!(before, Kind::Word | Kind::Number | Kind::Close(_));
+            (TokenKind::Symbol, "|") => {
+                let is_operator =
+                    matches!(before, TokenKind::Word | TokenKind::Number | TokenKind::Close(_));
                 is_between_bars = !is_between_bars && !is_operator;
             }
-            (Kind::Symbol, ",") if depth == 0 && !is_between_bars => {
+            (TokenKind::Symbol, ",") if depth == 0 && !is_between_bars => {
                 parts.push(operand[begin..token.start].trim());
                 begin = token.end;
             }
@@ -156,19 +164,19 @@ pub fn parts(operand: &str) -> Vec<&str> {
 }
 
 /// What a chart of a curve would show, in a line.
-pub fn summary(curve: &Curve) -> String {
+pub fn summary(curve: &PlotCurve) -> String {
     let values = curve.points.iter().map(|(_, value)| *value);
     let shown = |value: Option<f64>| value.map_or_else(String::new, |x| significant(x, DIGITS));
     let [first, last] = [values.clone().next(), values.clone().next_back()].map(shown);
     let [least, most] = [values.clone().reduce(f64::min), values.reduce(f64::max)].map(shown);
     let count = curve.points.len();
     let (begin, end, what) = match curve.over {
-        Over::Time => ("at the start", "now", "state"),
-        Over::Index | Over::Numbers => ("at the first", "at the last", "point"),
+        CurveAbscissa::Time => ("at the start", "now", "state"),
+        CurveAbscissa::Index | CurveAbscissa::Numbers => ("at the first", "at the last", "point"),
     };
     let plural = if count == 1 { "" } else { "s" };
     let end = match curve.over {
-        Over::Time => format!("{end} {last}"),
+        CurveAbscissa::Time => format!("{end} {last}"),
         _ => format!("{last} {end}"),
     };
     format!(
@@ -188,16 +196,25 @@ mod tests {
     #[test]
     fn values_have_shapes() {
         let of = |value: Dynamic| shape(&value, "a text");
-        assert_eq!(of(2.into()), Shape::Number(2.0));
-        assert_eq!(of(array(&[3.0, 5.0])), Shape::Whole(Over::Index, vec![(0.0, 3.0), (1.0, 5.0)]));
+        assert_eq!(of(2.into()), PlotShape::Number(2.0));
+        assert_eq!(
+            of(array(&[3.0, 5.0])),
+            PlotShape::Whole(CurveAbscissa::Index, vec![(0.0, 3.0), (1.0, 5.0)])
+        );
         let pair = Dynamic::from_array(vec![array(&[1.0, 2.0, 3.0]), array(&[4.0, 5.0, 6.0])]);
         let points = vec![(1.0, 4.0), (2.0, 5.0), (3.0, 6.0)];
-        assert_eq!(of(pair), Shape::Whole(Over::Numbers, points.clone()));
+        assert_eq!(of(pair), PlotShape::Whole(CurveAbscissa::Numbers, points.clone()));
         let listed: Vec<Dynamic> = points.iter().map(|(x, y)| array(&[*x, *y])).collect();
-        assert_eq!(of(Dynamic::from_array(listed)), Shape::Whole(Over::Numbers, points.clone()));
+        assert_eq!(
+            of(Dynamic::from_array(listed)),
+            PlotShape::Whole(CurveAbscissa::Numbers, points.clone())
+        );
         let vectors = points.iter().map(|(x, y)| Dynamic::from(Vec2::new(*x, *y))).collect();
-        assert_eq!(of(Dynamic::from_array(vectors)), Shape::Whole(Over::Numbers, points));
-        assert_eq!(of(Dynamic::from(Vec2::new(1.0, 2.0))), Shape::Vector(Vec2::new(1.0, 2.0)));
+        assert_eq!(
+            of(Dynamic::from_array(vectors)),
+            PlotShape::Whole(CurveAbscissa::Numbers, points)
+        );
+        assert_eq!(of(Dynamic::from(Vec2::new(1.0, 2.0))), PlotShape::Vector(Vec2::new(1.0, 2.0)));
         let uneven = Dynamic::from_array(vec![array(&[1.0]), array(&[1.0, 2.0])]);
         for (value, why) in [
             (uneven, "1 and 2 numbers"),
@@ -206,7 +223,7 @@ mod tests {
             ("x".into(), "it is a text"),
             (true.into(), "it is a text"),
         ] {
-            assert!(matches!(&of(value), Shape::None(told) if told.contains(why)), "{why}");
+            assert!(matches!(&of(value), PlotShape::None(told) if told.contains(why)), "{why}");
         }
     }
 
@@ -221,10 +238,10 @@ mod tests {
     #[test]
     fn a_curve_has_a_summary() {
         let points = vec![(0.0, 2.0), (0.1, -1.0), (0.2, 1.5)];
-        let curve = |over| Curve { name: "f".into(), over, points: points.clone() };
+        let curve = |over| PlotCurve { name: "f".into(), over, points: points.clone() };
         let told = "f: 2 at the start, least -1, most 2, now 1.5 (3 states)";
-        assert_eq!(summary(&curve(Over::Time)), told);
+        assert_eq!(summary(&curve(CurveAbscissa::Time)), told);
         let told = "f: 2 at the first, least -1, most 2, 1.5 at the last (3 points)";
-        assert_eq!(summary(&curve(Over::Index)), told);
+        assert_eq!(summary(&curve(CurveAbscissa::Index)), told);
     }
 }

@@ -11,7 +11,7 @@ const DEEPEST: usize = 8;
 
 /// What of a session can be reached by name and is not taken back when variables are, as it was at one time.
 pub struct Footprint {
-    simulations: Vec<(SimulationHandle, Place)>,
+    simulations: Vec<(SimulationHandle, SimulationPosition)>,
     scenes: Vec<(SceneHandle, String)>,
     /// Variables that functions share, with their values in words.
     shared: Vec<(Dynamic, String)>,
@@ -19,7 +19,7 @@ pub struct Footprint {
 }
 
 /// Where a simulation is, how many functions wait for a time, and its memory for snapshots.
-type Place = (usize, u64, usize, usize);
+type SimulationPosition = (usize, u64, usize, usize);
 
 impl Footprint {
     /// The footprint of a session as it is now.
@@ -74,7 +74,7 @@ impl Footprint {
     }
 }
 
-fn place(handle: &SimulationHandle) -> Place {
+fn place(handle: &SimulationHandle) -> SimulationPosition {
     let simulation = handle.simulation();
     let (steps, time) = (simulation.counts().steps, simulation.time().to_bits());
     (steps, time, handle.events_waiting(), simulation.snapshot_limit())

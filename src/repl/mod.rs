@@ -7,7 +7,7 @@ pub mod commands;
 mod curves;
 pub mod editor;
 mod effects;
-mod following;
+mod history_expression;
 pub mod pager;
 pub mod prompt;
 pub mod record;

@@ -11,7 +11,7 @@ pub use pages::walk;
 
 /// What became of showing a text in pages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shown {
+pub enum PagerOutcome {
     /// The text was seen, as far as the person wanted.
     Seen,
     /// The text was stopped by Ctrl-C.
@@ -26,7 +26,7 @@ pub trait Pager {
     fn resize(&mut self, columns: usize, lines: usize);
 
     /// Shows a text in pages, if it is long. `was_interrupted` tells of each Ctrl-C once.
-    fn show(&mut self, text: &str, was_interrupted: &dyn Fn() -> bool) -> Shown;
+    fn show(&mut self, text: &str, was_interrupted: &dyn Fn() -> bool) -> PagerOutcome;
 }
 
 /// A pager that shows pages at a terminal.
@@ -58,21 +58,23 @@ impl Pager for TerminalPager {
         self.size = (columns, lines);
     }
 
-    fn show(&mut self, text: &str, was_interrupted: &dyn Fn() -> bool) -> Shown {
+    fn show(&mut self, text: &str, was_interrupted: &dyn Fn() -> bool) -> PagerOutcome {
         // Keys that were typed ahead are for the prompt.
         if !self.is_long(text) || keyboard::keys_wait() {
-            return Shown::NotByThis;
+            return PagerOutcome::NotByThis;
         }
         if let Some(name) = &self.program {
             match program::show(name, text, was_interrupted) {
-                Ok(()) => return Shown::Seen,
+                Ok(()) => return PagerOutcome::Seen,
                 Err(error) => eprintln!("note: cannot start the pager '{name}': {error}"),
             }
         }
-        let Some(mut keys) = keyboard::Terminal::open() else { return Shown::NotByThis };
+        let Some(mut keys) = keyboard::KeyboardTerminal::open() else {
+            return PagerOutcome::NotByThis;
+        };
         let walked = walk(text, self.size.1, &mut keys, was_interrupted, &mut stdout());
         // A terminal that is gone is told by the next prompt.
-        walked.unwrap_or(Shown::Seen)
+        walked.unwrap_or(PagerOutcome::Seen)
     }
 }
 

@@ -3,8 +3,8 @@
 use std::io;
 
 use super::editor::typed_ahead::TypedAhead;
-use super::editor::{Editor, Typed};
-use super::shell::{Outcome, Shell};
+use super::editor::{Editor, EditorInput};
+use super::shell::{CommandOutcome, Shell};
 
 /// Lets a person type inputs at the prompt until he leaves.
 ///
@@ -21,12 +21,12 @@ pub fn run(shell: &mut Shell, editor: &mut Editor) -> io::Result<()> {
         }
         let prompt = format!("withy:{}> ", shell.session().next_line());
         match editor.read(&prompt, shell.surroundings())? {
-            Typed::Line(input) => match shell.submit(&input) {
-                Outcome::Quit | Outcome::PipeClosed => return Ok(()),
-                Outcome::Good | Outcome::Failed | Outcome::Interrupted => (),
+            EditorInput::Line(input) => match shell.submit(&input) {
+                CommandOutcome::Quit | CommandOutcome::PipeClosed => return Ok(()),
+                CommandOutcome::Good | CommandOutcome::Failed | CommandOutcome::Interrupted => (),
             },
-            Typed::Interrupted => (),
-            Typed::End => return Ok(()),
+            EditorInput::Interrupted => (),
+            EditorInput::End => return Ok(()),
         }
     }
 }

@@ -8,16 +8,16 @@ use rhai::{Engine, Scope};
 use super::session::ANSWER;
 use super::statements;
 use crate::script::handles::simulation::SimulationHandle;
+use crate::script::messages::numbers::format_number;
 use crate::script::source::definitions::{Definition, definitions};
 use crate::script::source::text::Source;
-use crate::script::words::numbers::format_number;
 
 /// The first line of every saved session.
 const HEADER: &str = "//! A session of withy: what worked of it.";
 
 /// Something that a script must do to come to the same end.
 #[derive(Clone, Debug, PartialEq)]
-enum Entry {
+enum RecordedInput {
     /// Statements that worked.
     Statements(Source),
     /// Statements of which the last is an expression, whose value was kept as `ans`.
@@ -39,24 +39,24 @@ pub struct Whereabouts {
 
 /// What worked in a session, in its order.
 #[derive(Clone, Debug, Default)]
-pub struct Record {
-    entries: Vec<Entry>,
+pub struct SessionRecord {
+    entries: Vec<RecordedInput>,
 }
 
-impl Record {
+impl SessionRecord {
     /// Adds statements without a value to the record.
     pub fn worked(&mut self, text: &str) {
-        self.entries.push(Entry::Statements(text.trim().into()));
+        self.entries.push(RecordedInput::Statements(text.trim().into()));
     }
 
     /// Adds an input with a value to the record.
     pub fn answered(&mut self, text: &str) {
-        self.entries.push(Entry::Expression(text.trim().into()));
+        self.entries.push(RecordedInput::Expression(text.trim().into()));
     }
 
     /// Adds an input that returns to the record.
     pub fn returned(&mut self, text: &str) {
-        self.entries.push(Entry::Returning(text.trim().into()));
+        self.entries.push(RecordedInput::Returning(text.trim().into()));
     }
 
     /// Adds what a failed statement has done to simulations to the record, given where they were before; gives whether there is anything.
@@ -68,7 +68,8 @@ impl Record {
                 let method = if time > was.time { "run_to" } else { "rewind" };
                 // An event on the way may throw again.
                 let call = format!("{}.{method}({});", was.name, format_number(time));
-                self.entries.push(Entry::Moved(format!("try {{ {call} }} catch {{ }}").into()));
+                self.entries
+                    .push(RecordedInput::Moved(format!("try {{ {call} }} catch {{ }}").into()));
             }
         }
         self.entries.len() > known
@@ -78,28 +79,32 @@ impl Record {
     pub fn script(&self, engine: &Engine) -> String {
         let asked: Vec<bool> =
             self.sources().map(|source| source.is_some_and(mentions_answer)).collect();
-        let defined: Vec<Vec<Written>> =
+        let defined: Vec<Vec<FunctionText>> =
             self.sources().map(|source| source.map(written).unwrap_or_default()).collect();
         let mut script = format!("{HEADER}\n\n");
         for (index, entry) in self.entries.iter().enumerate() {
             // A value is asked for until the next one takes its place.
             let later = || self.entries[index + 1..].iter().zip(&asked[index + 1..]);
-            let next = later().position(|(entry, _)| matches!(entry, Entry::Expression(_)));
+            let next = later().position(|(entry, _)| matches!(entry, RecordedInput::Expression(_)));
             let is_asked = || {
                 let reach = next.map_or(usize::MAX, |next| next + 1);
                 later().take(reach).any(|(_, asked)| *asked)
             };
             let line = match entry {
-                Entry::Statements(statements) => terminated(statements),
-                Entry::Expression(statements) if is_asked() => answering(engine, statements),
-                Entry::Expression(statements) => terminated(statements),
-                Entry::Returning(statements) => {
+                RecordedInput::Statements(statements) => terminated(statements),
+                RecordedInput::Expression(statements) if is_asked() => {
+                    answering(engine, statements)
+                }
+                RecordedInput::Expression(statements) => terminated(statements),
+                RecordedInput::Returning(statements) => {
                     let lines = statements.lines().map(|line| format!("\n// {line}"));
                     format!("// Not done again, because it returns:{}", lines.collect::<String>())
                 }
-                Entry::Moved(line) => format!("// A statement was stopped here.\n{}", &**line),
+                RecordedInput::Moved(line) => {
+                    format!("// A statement was stopped here.\n{}", &**line)
+                }
             };
-            let replaced = |definition: &Written| {
+            let replaced = |definition: &FunctionText| {
                 defined[index + 1..].iter().flatten().any(|later| later.name == definition.name)
             };
             // Writing to a text cannot fail.
@@ -124,7 +129,7 @@ impl Record {
 
     /// The text of the function that was defined last under a name.
     pub fn definition(&self, name: &str) -> Option<String> {
-        self.entries.iter().rev().filter_map(Entry::source).find_map(|source| {
+        self.entries.iter().rev().filter_map(RecordedInput::source).find_map(|source| {
             let found = written(source).into_iter().rev();
             found.filter(|one| one.name.0 == name).map(|one| source[one.bytes].to_owned()).next()
         })
@@ -132,16 +137,16 @@ impl Record {
 
     /// The texts of all entries, where they can define functions and ask for values.
     fn sources(&self) -> impl Iterator<Item = Option<&Source>> {
-        self.entries.iter().map(Entry::source)
+        self.entries.iter().map(RecordedInput::source)
     }
 
     /// Whether an input of the record returned, and so is not done again.
     pub fn has_returned(&self) -> bool {
-        self.entries.iter().any(|entry| matches!(entry, Entry::Returning(_)))
+        self.entries.iter().any(|entry| matches!(entry, RecordedInput::Returning(_)))
     }
 }
 
-impl Entry {
+impl RecordedInput {
     fn source(&self) -> Option<&Source> {
         match self {
             Self::Statements(text) | Self::Expression(text) => Some(text),
@@ -198,20 +203,20 @@ pub fn functions_of(source: &Source) -> impl Iterator<Item = &str> {
 }
 
 /// A function definition as it is written in a text.
-struct Written {
+struct FunctionText {
     /// With its number of parameters, and the type in front of a method's name.
     name: (String, usize),
     /// From `private`, or the comments that document it, to its closing brace.
     bytes: Range<usize>,
 }
 
-fn written(source: &Source) -> Vec<Written> {
+fn written(source: &Source) -> Vec<FunctionText> {
     let tokens = source.tokens();
     let written = |definition: Definition| {
         let from = documented_from(source, source.offset_of(&tokens[definition.first]));
         let end = source.offset_of(tokens.get(definition.end.checked_sub(1)?)?) + 1;
         let name = (definition.full_name(), definition.parameters().count());
-        Some(Written { name, bytes: from..end })
+        Some(FunctionText { name, bytes: from..end })
     };
     definitions(tokens).filter_map(written).collect()
 }
@@ -228,7 +233,7 @@ fn documented_from(text: &str, end: usize) -> usize {
 }
 
 /// A text without some of its functions.
-fn without(source: &Source, is_replaced: impl Fn(&Written) -> bool) -> String {
+fn without(source: &Source, is_replaced: impl Fn(&FunctionText) -> bool) -> String {
     let mut text = source.to_string();
     for definition in written(source).into_iter().rev().filter(is_replaced) {
         let note = format!("/* {} is defined anew below */", definition.name.0);
@@ -243,17 +248,17 @@ mod tests {
     use crate::script::engine::build;
     use crate::script::packages::language;
     use crate::script::state::context::Context;
-    use crate::script::state::settings::{Mode, Settings};
+    use crate::script::state::settings::{RunMode, RunSettings};
 
-    fn script(record: &Record) -> String {
-        let context = Context::new(Settings::silent(Mode::Run));
+    fn script(record: &SessionRecord) -> String {
+        let context = Context::new(RunSettings::silent(RunMode::Run));
         let engine = build(&language(), &context).expect("an engine");
         record.script(&engine).lines().skip(2).collect::<Vec<_>>().join("\n")
     }
 
     #[test]
     fn inputs_become_statements() {
-        let mut record = Record::default();
+        let mut record = SessionRecord::default();
         record.worked("let a = 1;");
         record.worked("let b = 2");
         record.answered("a + b // three");
@@ -267,7 +272,7 @@ mod tests {
 
     #[test]
     fn a_value_gets_its_name_where_it_is_asked_for_later() {
-        let mut record = Record::default();
+        let mut record = SessionRecord::default();
         record.answered("1 + 1");
         record.answered("let c = 3; f(c, #{ a: 1 })");
         record.worked("let b = ans;");
@@ -280,7 +285,7 @@ mod tests {
 
     #[test]
     fn only_the_last_definition_of_a_function_stands() {
-        let mut record = Record::default();
+        let mut record = SessionRecord::default();
         record.worked("fn f(x) { if x { 1 } else { 2 } } let a = 1;");
         record.worked("fn f(x, y) { 0 }");
         record.worked("fn f(z) { 3 }");
@@ -293,7 +298,7 @@ mod tests {
 
     #[test]
     fn methods_of_types_documentation_and_private_functions_are_told_apart() {
-        let mut record = Record::default();
+        let mut record = SessionRecord::default();
         record.worked("fn number.twice() { this * 2 } fn number.thrice() { this * 3 }");
         record.worked("/// Ten.\n/// Really.\nprivate fn ten() { 10 }");
         record.worked("fn ten() { 11 }");
@@ -305,7 +310,7 @@ mod tests {
 
     #[test]
     fn answers_stand_behind_functions_and_blocks() {
-        let mut record = Record::default();
+        let mut record = SessionRecord::default();
         record.answered("fn q() { 3 } q()");
         record.answered("let i = 0; while i < ans { i += 1 } i");
         record.answered("ans + 1");
@@ -316,7 +321,7 @@ mod tests {
 
     #[test]
     fn an_input_that_returns_is_left_out() {
-        let mut record = Record::default();
+        let mut record = SessionRecord::default();
         record.returned("if true {\n  return 5; }");
         record.worked("let a = 1;");
         let expected =

@@ -114,12 +114,12 @@ mod tests {
     use super::*;
 
     /// A clock on which runs take times that are known beforehand, over and over.
-    struct Known {
+    struct ReplayClock {
         now: Cell<Duration>,
         runs: RefCell<VecDeque<u64>>,
     }
 
-    impl Clock for Known {
+    impl Clock for ReplayClock {
         fn now(&self) -> Duration {
             self.now.get()
         }
@@ -128,7 +128,7 @@ mod tests {
     /// The figures of runs that take so many microseconds in turn.
     fn figures(micros: &[u64]) -> Figures {
         let runs = RefCell::new(micros.iter().copied().collect());
-        let clock = Rc::new(Known { now: Cell::default(), runs });
+        let clock = Rc::new(ReplayClock { now: Cell::default(), runs });
         let mut sampling = Sampling::new(clock.clone());
         while sampling.begin() {
             let mut runs = clock.runs.borrow_mut();

@@ -1,6 +1,6 @@
 //! A session of the language without a terminal: inputs are evaluated one after another and see what the earlier ones left.
 
-mod peek;
+mod preview;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -8,21 +8,21 @@ use std::sync::atomic::Ordering;
 
 use rhai::{AST, Caches, Dynamic, Engine, GlobalRuntimeState, ImmutableString, Scope, Stmt};
 
-use super::record::{Record, Whereabouts, functions_of, whereabouts};
+use super::record::{SessionRecord, Whereabouts, functions_of, whereabouts};
 use super::transcript::{PROMPT, Transcript};
 use super::{scope, statements};
+use crate::script::bindings::catalog::Catalog;
 use crate::script::diagnose::Diagnostic;
 use crate::script::dialect::reading::read;
-use crate::script::engine::host::{Halt, Host};
-use crate::script::engine::parse::{Piece, parse_piece};
-use crate::script::rows::catalog::Catalog;
+use crate::script::engine::parse::{SourcePiece, parse_piece};
+use crate::script::engine::script_engine::{Halt, ScriptEngine};
 use crate::script::source::program::Program;
 use crate::script::source::text::Source;
 use crate::script::state::context::Context;
-use crate::script::state::settings::Settings;
+use crate::script::state::settings::RunSettings;
 use crate::script::state::watchdog::Watchdog;
 
-pub use peek::Rounds;
+pub use preview::Rounds;
 
 /// The name of the variable with the value of the last expression.
 pub const ANSWER: &str = "ans";
@@ -45,7 +45,7 @@ pub enum Reply {
 
 /// What a statement that fails is taken back to.
 #[derive(Clone)]
-struct Checkpoint {
+struct StatementCheckpoint {
     scope: Scope<'static>,
     global: GlobalRuntimeState,
     constants: BTreeMap<ImmutableString, Dynamic>,
@@ -54,14 +54,14 @@ struct Checkpoint {
 
 /// A session: its variables, functions, constants and imports, and the engine that knows the language.
 pub struct Session {
-    host: Host,
+    host: ScriptEngine,
     folder: PathBuf,
     scope: Scope<'static>,
     global: GlobalRuntimeState,
     /// The functions and closures of all inputs.
     library: AST,
     transcript: Transcript,
-    record: Record,
+    record: SessionRecord,
 }
 
 impl Session {
@@ -69,16 +69,16 @@ impl Session {
     ///
     /// # Errors
     /// Only by a mistake of this program.
-    pub fn new(catalog: Catalog, settings: Settings) -> Result<Self, Diagnostic> {
+    pub fn new(catalog: Catalog, settings: RunSettings) -> Result<Self, Diagnostic> {
         let folder = settings.folder.clone();
-        let host = Host::open(catalog, settings)?;
+        let host = ScriptEngine::open(catalog, settings)?;
         Ok(Self {
             scope: Scope::new(),
             global: host.engine().new_global_runtime_state(),
             host,
             library: AST::empty(),
             transcript: Transcript::new(folder.clone()),
-            record: Record::default(),
+            record: SessionRecord::default(),
             folder,
         })
     }
@@ -89,7 +89,7 @@ impl Session {
         self.global = self.host.engine().new_global_runtime_state();
         self.library = AST::empty();
         self.transcript = Transcript::new(self.folder.clone());
-        self.record = Record::default();
+        self.record = SessionRecord::default();
         self.context().forget_simulations();
     }
 
@@ -173,9 +173,9 @@ impl Session {
         whereabouts(&self.scope, latest.and_then(|latest| latest.try_cast()))
     }
 
-    fn checkpoint(&self) -> Checkpoint {
+    fn checkpoint(&self) -> StatementCheckpoint {
         let constants = self.global.constants.as_ref();
-        Checkpoint {
+        StatementCheckpoint {
             scope: self.scope.clone(),
             global: self.global.clone(),
             constants: constants.map(|constants| constants.borrow().clone()).unwrap_or_default(),
@@ -183,7 +183,7 @@ impl Session {
         }
     }
 
-    fn restore(&mut self, checkpoint: Checkpoint) {
+    fn restore(&mut self, checkpoint: StatementCheckpoint) {
         self.scope = checkpoint.scope;
         self.global = checkpoint.global;
         // Shared with functions that scenes and simulations have stored.
@@ -197,7 +197,7 @@ impl Session {
         let Self { host, transcript, scope, .. } = self;
         let reply = |halt| reply_to(halt, transcript);
         let guard = host.watch().map_err(reply)?;
-        let piece = Piece { name: PROMPT, text, before, scope };
+        let piece = SourcePiece { name: PROMPT, text, before, scope };
         let parse = |engine: &Engine| parse_piece(engine, &piece, || transcript.variables());
         let ast = host.run(&guard, || transcript.whole(), parse).map_err(reply)?;
         self.library = self.library.merge(&ast.clone_functions_only());
@@ -290,7 +290,7 @@ impl Session {
     }
 
     /// What worked in the session so far.
-    pub fn record(&self) -> &Record {
+    pub fn record(&self) -> &SessionRecord {
         &self.record
     }
 

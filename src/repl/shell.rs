@@ -1,7 +1,7 @@
 //! What a line at the prompt does: an input of the language, or a command. Replies go to where the session prints.
 
 mod refusing;
-mod watching;
+mod watched_expressions;
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -10,20 +10,20 @@ use std::sync::atomic::Ordering;
 
 use super::clock::{Clock, Stopwatch};
 use super::commands;
-use super::editor::surroundings::Operand;
-use super::pager::{Pager, Shown};
+use super::editor::surroundings::CommandOperand;
+use super::pager::{Pager, PagerOutcome};
 use super::session::{ANSWER, Reply, Session};
-use crate::folders::read_file;
-use crate::output::{Colours, Style, significant};
+use crate::output::{Colours, TerminalStyle, significant};
+use crate::sandbox_fs::read_file;
+use crate::script::bindings::kind::Scripted;
 use crate::script::diagnose::{Diagnostic, Location};
 use crate::script::handles::simulation::SimulationHandle;
-use crate::script::looks::present::present;
-use crate::script::rows::kind::Scripted;
+use crate::script::presentation::present::present;
 use crate::script::source::program::{LARGEST_SCRIPT, Program};
 
 /// What became of a line that was typed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Outcome {
+pub enum CommandOutcome {
     /// The line worked.
     Good,
     /// The line was wrong; the user was told.
@@ -38,9 +38,9 @@ pub enum Outcome {
 
 /// Who sees the replies of the shell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Screen {
+pub enum ReplyTarget {
     /// A person at a terminal sees the replies, in this style.
-    Terminal(Style),
+    Terminal(TerminalStyle),
     /// Another program, or a file, gets the replies.
     Pipe,
 }
@@ -51,7 +51,7 @@ const WIDTH: usize = 100;
 /// A session with commands and watched expressions.
 pub struct Shell {
     session: Session,
-    screen: Screen,
+    screen: ReplyTarget,
     watched: Vec<String>,
     /// How many of the files that were written the user knows of.
     told_files: usize,
@@ -65,7 +65,7 @@ pub struct Shell {
 
 impl Shell {
     /// A shell around a session, for somebody who sees its replies on `screen`.
-    pub fn new(session: Session, screen: Screen) -> Self {
+    pub fn new(session: Session, screen: ReplyTarget) -> Self {
         Self {
             session,
             screen,
@@ -104,14 +104,14 @@ impl Shell {
     }
 
     /// Who sees the replies of the shell.
-    pub fn screen(&self) -> Screen {
+    pub fn screen(&self) -> ReplyTarget {
         self.screen
     }
 
     /// Takes the size of the terminal as it is now: people change it.
     pub fn resize(&mut self, columns: usize, lines: usize) {
-        if let Screen::Terminal(style) = self.screen {
-            self.screen = Screen::Terminal(style.on_terminal(columns, lines));
+        if let ReplyTarget::Terminal(style) = self.screen {
+            self.screen = ReplyTarget::Terminal(style.on_terminal(columns, lines));
         }
         if let Some(pager) = &mut self.pager {
             pager.resize(columns, lines);
@@ -119,7 +119,7 @@ impl Shell {
     }
 
     /// Does what a complete input says: a command, a question, or statements.
-    pub fn submit(&mut self, input: &str) -> Outcome {
+    pub fn submit(&mut self, input: &str) -> CommandOutcome {
         self.session.forget_interrupt();
         let text = input.trim();
         if text.starts_with(':') {
@@ -142,17 +142,17 @@ impl Shell {
         let reply = self.session.eval(input);
         let outcome = self.tell(reply);
         let has_moved = self.latest().map(|latest| latest.time()) != before;
-        match outcome == Outcome::Good && has_moved {
+        match outcome == CommandOutcome::Good && has_moved {
             true => self.show_watched(),
             false => outcome,
         }
     }
 
-    fn command(&mut self, text: &str) -> Outcome {
+    fn command(&mut self, text: &str) -> CommandOutcome {
         let (name, operand) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
         let operand = operand.trim();
         match commands::find(name) {
-            Ok(command) if command.operand == Operand::Nothing && !operand.is_empty() => {
+            Ok(command) if command.operand == CommandOperand::Nothing && !operand.is_empty() => {
                 let told = format!("'{}' takes nothing, got '{operand}'", command.name);
                 let hint = format!("write {0}; :help {0} says what it does", command.name);
                 self.refuse(&Diagnostic::general(told).with_hint(hint))
@@ -163,7 +163,7 @@ impl Shell {
     }
 
     /// Evaluates a program as if it had been typed, and shows what became of it.
-    pub fn run_program(&mut self, program: Program) -> Outcome {
+    pub fn run_program(&mut self, program: Program) -> CommandOutcome {
         let reply = self.session.eval_program(program);
         match reply {
             // A file is not asked for its last value.
@@ -173,13 +173,13 @@ impl Shell {
     }
 
     /// Shows what became of an input.
-    pub fn tell(&mut self, reply: Reply) -> Outcome {
+    pub fn tell(&mut self, reply: Reply) -> CommandOutcome {
         let outcome = match reply {
-            Reply::Done => Outcome::Good,
+            Reply::Done => CommandOutcome::Good,
             Reply::Value(value) => {
                 let shown = present(self.session.catalog(), &value, self.width());
                 self.print(&shown);
-                Outcome::Good
+                CommandOutcome::Good
             }
             Reply::Failed(diagnostic) => self.refuse(&diagnostic),
             Reply::Interrupted => {
@@ -187,9 +187,9 @@ impl Shell {
                     Some(latest) => format!("interrupted: {}", latest.show()),
                     None => "interrupted".into(),
                 });
-                Outcome::Interrupted
+                CommandOutcome::Interrupted
             }
-            Reply::PipeClosed => Outcome::PipeClosed,
+            Reply::PipeClosed => CommandOutcome::PipeClosed,
         };
         self.tell_files();
         outcome
@@ -228,18 +228,18 @@ impl Shell {
     }
 
     /// Prints a reply that may be long: in pages, where there is a pager.
-    pub fn print_in_pages(&mut self, text: &str) -> Outcome {
+    pub fn print_in_pages(&mut self, text: &str) -> CommandOutcome {
         let interrupt = self.session.context().interrupt_flag();
         let shown = match &mut self.pager {
             Some(pager) => pager.show(text, &|| interrupt.swap(false, Ordering::Relaxed)),
-            None => Shown::NotByThis,
+            None => PagerOutcome::NotByThis,
         };
         match shown {
-            Shown::Seen => Outcome::Good,
-            Shown::Interrupted => Outcome::Interrupted,
-            Shown::NotByThis => {
+            PagerOutcome::Seen => CommandOutcome::Good,
+            PagerOutcome::Interrupted => CommandOutcome::Interrupted,
+            PagerOutcome::NotByThis => {
                 self.print(text);
-                Outcome::Good
+                CommandOutcome::Good
             }
         }
     }
@@ -250,29 +250,29 @@ impl Shell {
     }
 
     /// Tells the user what is wrong.
-    pub fn refuse(&self, diagnostic: &Diagnostic) -> Outcome {
+    pub fn refuse(&self, diagnostic: &Diagnostic) -> CommandOutcome {
         let width = match self.screen {
-            Screen::Terminal(style) => style.width,
-            Screen::Pipe => usize::MAX,
+            ReplyTarget::Terminal(style) => style.width,
+            ReplyTarget::Pipe => usize::MAX,
         };
         let told = diagnostic.render_within(self.colours(), width);
         self.session.context().tell(told.trim_end());
-        Outcome::Failed
+        CommandOutcome::Failed
     }
 
     /// Whether the replies of the shell have colours.
     pub fn colours(&self) -> Colours {
         match self.screen {
-            Screen::Terminal(style) => style.colours,
-            Screen::Pipe => Colours::None,
+            ReplyTarget::Terminal(style) => style.colours,
+            ReplyTarget::Pipe => Colours::None,
         }
     }
 
     /// The number of characters in a line of the screen.
     pub fn width(&self) -> usize {
         match self.screen {
-            Screen::Terminal(style) => style.width,
-            Screen::Pipe => WIDTH,
+            ReplyTarget::Terminal(style) => style.width,
+            ReplyTarget::Pipe => WIDTH,
         }
     }
 }
@@ -339,7 +339,7 @@ impl Shell {
     }
 
     /// Calls a method of the last simulation as if it had been typed.
-    pub fn call_latest(&mut self, call: &str) -> Outcome {
+    pub fn call_latest(&mut self, call: &str) -> CommandOutcome {
         match self.input_for_latest(call) {
             Ok(input) => {
                 let reply = without_place_in(&input, self.session.eval(&input));
@@ -351,18 +351,18 @@ impl Shell {
 
     /// Calls a method of the last simulation as a part of a command, and shows the watched expressions. The record of the session
     /// gets the call, or how far it came.
-    pub fn call_latest_watched(&mut self, call: &str) -> Outcome {
+    pub fn call_latest_watched(&mut self, call: &str) -> CommandOutcome {
         let input = match self.input_for_latest(call) {
             Ok(input) => input,
             Err(refusal) => return self.refuse(&refusal),
         };
         let before = self.session.whereabouts();
         let outcome = match self.session.peek(&input) {
-            Reply::Value(_) => Outcome::Good,
+            Reply::Value(_) => CommandOutcome::Good,
             reply => self.tell(without_place_in(&input, reply)),
         };
         match outcome {
-            Outcome::Good => {
+            CommandOutcome::Good => {
                 self.session.note_worked(&input);
                 self.show_watched()
             }
@@ -374,7 +374,7 @@ impl Shell {
     }
 
     /// Shows what a method of the last simulation gives back.
-    pub fn show_of_latest(&mut self, call: &str) -> Outcome {
+    pub fn show_of_latest(&mut self, call: &str) -> CommandOutcome {
         match self.name_of_latest() {
             Ok(name) => {
                 let reply = self.session.peek(&format!("{name}.{call}"));

@@ -2,8 +2,8 @@
 
 use rhai::{AST, ASTFlags, ASTNode, Engine, Scope, Stmt, Token};
 
+use crate::script::bindings::sources::Sources;
 use crate::script::dialect::reading::read;
-use crate::script::rows::sources::Sources;
 use crate::script::source::text::Source;
 
 /// How many statements a text has, functions apart; none if it is not correct.
@@ -55,10 +55,10 @@ mod tests {
     use crate::script::engine::build;
     use crate::script::packages::language;
     use crate::script::state::context::Context;
-    use crate::script::state::settings::{Mode, Settings};
+    use crate::script::state::settings::{RunMode, RunSettings};
 
     fn engine() -> Engine {
-        let context = Context::new(Settings::silent(Mode::Run));
+        let context = Context::new(RunSettings::silent(RunMode::Run));
         build(&language(), &context).expect("an engine")
     }
 
@@ -82,7 +82,7 @@ mod tests {
 
     #[test]
     fn a_text_that_was_interrupted_is_cut_like_others() {
-        let context = Context::new(Settings::silent(Mode::Run));
+        let context = Context::new(RunSettings::silent(RunMode::Run));
         let engine = build(&language(), &context).expect("an engine");
         context.interrupt_flag().store(true, std::sync::atomic::Ordering::Relaxed);
         let text = format!("let a = [{}]; loop {{ a }}", "1, ".repeat(100));

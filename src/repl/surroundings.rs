@@ -3,38 +3,40 @@
 use rhai::{Dynamic, Map};
 
 use super::commands::COMMANDS;
-use super::editor::surroundings::{CommandWord, Function, Module, Surroundings, Variable};
+use super::editor::surroundings::{
+    CommandWord, CompletionContext, ImportedModule, ScriptFunction, Variable,
+};
 use super::shell::Shell;
 use crate::script::library::{ModuleFunction, page_of};
 
 impl Shell {
     /// The names that an input of the session can use now.
-    pub fn surroundings(&self) -> Surroundings {
+    pub fn surroundings(&self) -> CompletionContext {
         let session = self.session();
         let variable = |(name, _, value): (&str, bool, &Dynamic)| Variable {
             name: name.to_owned(),
             of: session.engine().map_type_name(value.type_name()).to_owned(),
             keys: keys_of(value),
         };
-        let function = |function: rhai::ScriptFnMetadata| Function {
+        let function = |function: rhai::ScriptFnMetadata| ScriptFunction {
             name: function.name.to_owned(),
             parameters: function.params.iter().map(|name| (*name).to_owned()).collect(),
             summary: "a function of this session".into(),
-            ..Function::default()
+            ..ScriptFunction::default()
         };
-        let definition = |function: &rhai::Shared<rhai::ScriptFuncDef>| Function {
+        let definition = |function: &rhai::Shared<rhai::ScriptFuncDef>| ScriptFunction {
             name: function.name.to_string(),
             parameters: function.params.iter().map(ToString::to_string).collect(),
             summary: "a function of an imported file".into(),
-            ..Function::default()
+            ..ScriptFunction::default()
         };
-        let of_library = |function: &ModuleFunction| Function {
+        let of_library = |function: &ModuleFunction| ScriptFunction {
             name: function.name().to_owned(),
             parameters: function.parameters.clone(),
             summary: function.summary().replace('`', ""),
             keys: function.keys(),
         };
-        let module = |(alias, module): (&str, &rhai::Module)| Module {
+        let module = |(alias, module): (&str, &rhai::Module)| ImportedModule {
             alias: alias.to_owned(),
             functions: match module.id().and_then(page_of) {
                 Some(page) => page.functions.iter().map(of_library).collect(),
@@ -44,7 +46,7 @@ impl Shell {
                     .collect(),
             },
         };
-        Surroundings {
+        CompletionContext {
             catalog: session.catalog().clone(),
             variables: session.variables().iter_raw().map(variable).collect(),
             functions: session.functions().map(function).collect(),

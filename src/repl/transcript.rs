@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use crate::script::diagnose::{Diagnostic, Location};
-use crate::script::source::outline::Outline;
+use crate::script::source::outline::ScriptOutline;
 use crate::script::source::program::Program;
 
 /// The name of what is typed at the prompt, in messages.
@@ -14,7 +14,7 @@ pub const PROMPT: &str = "prompt";
 const MOST_LINES: usize = 60_000;
 
 /// One input: what was typed at once, or a file that was read in.
-struct Piece {
+struct TranscriptInput {
     program: Program,
     /// How many lines stand before it.
     before: usize,
@@ -23,7 +23,7 @@ struct Piece {
 
 /// The transcript of a session: all its inputs. The engine sees each of them at its own lines of one long text.
 pub struct Transcript {
-    pieces: Vec<Piece>,
+    pieces: Vec<TranscriptInput>,
     lines: usize,
     folder: std::path::PathBuf,
 }
@@ -48,7 +48,7 @@ impl Transcript {
         }
         let before = self.lines;
         self.lines += lines;
-        self.pieces.push(Piece { program, before, is_valid: true });
+        self.pieces.push(TranscriptInput { program, before, is_valid: true });
         before
     }
 
@@ -92,16 +92,16 @@ impl Transcript {
     /// The variables that inputs declare outside functions, with their lines in [`Transcript::whole`].
     pub fn variables(&self) -> Vec<(String, usize)> {
         let shown = self.shown();
-        let of_piece = |piece: &Piece| {
+        let of_piece = |piece: &TranscriptInput| {
             let before = piece.before;
-            let own = Outline::of(&piece.program.text).top_level.into_iter();
+            let own = ScriptOutline::of(&piece.program.text).top_level.into_iter();
             own.map(move |(name, line)| (name, line + before))
         };
         shown.flat_map(of_piece).collect()
     }
 
     /// The inputs that count: those that did not work do not, but for the last one.
-    fn shown(&self) -> impl Iterator<Item = &Piece> {
+    fn shown(&self) -> impl Iterator<Item = &TranscriptInput> {
         let last = self.pieces.len().saturating_sub(1);
         let pieces = self.pieces.iter().enumerate();
         pieces
@@ -134,7 +134,7 @@ impl Transcript {
     }
 
     /// The file that a line is from, if it was not typed.
-    fn file_of(&self, line: usize) -> Option<&Piece> {
+    fn file_of(&self, line: usize) -> Option<&TranscriptInput> {
         let piece = self.pieces.iter().rev().find(|piece| piece.before < line)?;
         (piece.program.name != PROMPT).then_some(piece)
     }

@@ -5,7 +5,7 @@ const FEWEST: usize = 30;
 
 /// What a parameter explains of the variance of a result, as parts of the whole.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Share {
+pub struct VarianceShare {
     /// By itself: the variance of the mean of the result over all other parameters (index of first order, main effect).
     pub first: f64,
     /// Together with all others: what is left of the variance when all others are known (total index); none where the points do not tell.
@@ -25,7 +25,7 @@ fn variance(values: &[f64]) -> f64 {
 
 /// The shares of the parameters of a full grid, whose rows have the numbers of their values with the last parameter going fastest. Every value of a parameter
 /// counts as equally likely; the shares are exact for that. None where the result does not vary.
-pub fn shares_of_grid(lengths: &[usize], results: &[f64]) -> Option<Vec<Share>> {
+pub fn shares_of_grid(lengths: &[usize], results: &[f64]) -> Option<Vec<VarianceShare>> {
     let whole = variance(results);
     (whole > 0.0).then(|| {
         let of = |own: usize| {
@@ -39,7 +39,7 @@ pub fn shares_of_grid(lengths: &[usize], results: &[f64]) -> Option<Vec<Share>> 
                 let line: Vec<f64> = (0..length).map(|value| at(a, value, b)).collect();
                 variance(&line)
             });
-            Share { first: variance(&means) / whole, total: Some(mean(left) / whole) }
+            VarianceShare { first: variance(&means) / whole, total: Some(mean(left) / whole) }
         };
         (0..lengths.len()).map(of).collect()
     })
@@ -47,7 +47,7 @@ pub fn shares_of_grid(lengths: &[usize], results: &[f64]) -> Option<Vec<Share>> 
 
 /// The shares of the parameters at the points of [`saltelli`](super::saltelli), by the estimators of M. J. W. Jansen, Computer Physics Communications 117 (1999)
 /// 35-43, over the blocks all of whose results are finite. None where the result does not vary, or fewer than 30 blocks are whole.
-pub fn shares_of_saltelli(parameters: usize, results: &[f64]) -> Option<Vec<Share>> {
+pub fn shares_of_saltelli(parameters: usize, results: &[f64]) -> Option<Vec<VarianceShare>> {
     let is_whole = |block: &&[f64]| block.iter().all(|result| result.is_finite());
     let blocks: Vec<&[f64]> = results.chunks_exact(parameters + 2).filter(is_whole).collect();
     let both: Vec<f64> = blocks.iter().flat_map(|block| [block[0], block[1]]).collect();
@@ -56,7 +56,7 @@ pub fn shares_of_saltelli(parameters: usize, results: &[f64]) -> Option<Vec<Shar
     let of = |own: usize| {
         let with_own = mean(blocks.iter().map(|block| half_square(block[1], block[2 + own])));
         let without = mean(blocks.iter().map(|block| half_square(block[0], block[2 + own])));
-        Share { first: 1.0 - with_own / whole, total: Some(without / whole) }
+        VarianceShare { first: 1.0 - with_own / whole, total: Some(without / whole) }
     };
     (whole > 0.0 && blocks.len() >= FEWEST).then(|| (0..parameters).map(of).collect())
 }
@@ -64,7 +64,7 @@ pub fn shares_of_saltelli(parameters: usize, results: &[f64]) -> Option<Vec<Shar
 /// The share of the first order of a parameter at any independent points: the variance of the means over groups of points that follow one another in the
 /// parameter, as many groups as the cube root of the number of points, less what the scatter within groups adds to it. Rows with a result that is not
 /// finite are left out. None where there are too few points (30), or the result does not vary.
-pub fn shares_by_rank(values: &[f64], results: &[f64]) -> Option<Share> {
+pub fn shares_by_rank(values: &[f64], results: &[f64]) -> Option<VarianceShare> {
     let pairs = values.iter().copied().zip(results.iter().copied());
     let mut pairs: Vec<(f64, f64)> = pairs.filter(|(_, result)| result.is_finite()).collect();
     pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -84,7 +84,10 @@ pub fn shares_by_rank(values: &[f64], results: &[f64]) -> Option<Share> {
         within += variance(group) * count / (count - 1.0).max(1.0);
     }
     let count = results.len() as f64;
-    Some(Share { first: ((between / count - within / count) / whole).max(0.0), total: None })
+    Some(VarianceShare {
+        first: ((between / count - within / count) / whole).max(0.0),
+        total: None,
+    })
 }
 
 #[cfg(test)]

@@ -7,16 +7,16 @@
 //! Its wings use one another one way only: [`words`], [`source`], [`state`], [`rows`], [`dialect`], [`library`], [`diagnose`],
 //! [`engine`], [`pages`], [`looks`], [`handles`], [`studies`], [`packages`].
 
+pub mod bindings;
 pub mod diagnose;
 pub mod dialect;
 pub mod engine;
 pub mod handles;
+pub mod help;
 pub mod library;
-pub mod looks;
+pub mod messages;
 pub mod packages;
-pub mod pages;
-pub mod rows;
+pub mod presentation;
 pub mod source;
 pub mod state;
 pub mod studies;
-pub mod words;

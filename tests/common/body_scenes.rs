@@ -7,9 +7,9 @@ use super::scenes::{add_beam, end_of, line, spaghetti_section, spring, start_of}
 use withy::beams::{Mesh, Section, Station};
 use withy::geometry::Vec2;
 use withy::joints::{EndAction, JointKind, Partner, Slider, SlidingRule, StartVelocities};
-use withy::loads::{Frame, LoadKind, Schedule};
-use withy::model::{
-    Anchor, PointMass, RestoringLaw, RigidBodyDefinition, Scene, SpringKind, StartMotion,
+use withy::loads::{LoadFrame, LoadKind, Schedule};
+use withy::system::{
+    Anchor, PointMass, RigidBodyDefinition, Scene, SpringKind, SpringLaw, StartMotion,
 };
 
 /// A rigid body with some points, called a, b, c, …, at rest.
@@ -66,9 +66,9 @@ pub fn double_pendulum() -> Scene {
     scene.gravity = at(0.0, -9.81);
     let hold = Schedule::hold_for(1.3).unwrap();
     let station = point(other, 2);
-    let dead = LoadKind::Force { station, force: at(2.0, 1.0), frame: Frame::Dead };
+    let dead = LoadKind::Force { station, force: at(2.0, 1.0), frame: LoadFrame::Dead };
     scene.add_load(dead, hold.clone());
-    let follower = LoadKind::Force { station, force: at(0.0, -3.0), frame: Frame::Follower };
+    let follower = LoadKind::Force { station, force: at(0.0, -3.0), frame: LoadFrame::Follower };
     scene.add_load(follower, hold.clone());
     scene.add_load(LoadKind::Moment { station: point(one, 2), moment: 0.7 }, hold);
     scene
@@ -89,10 +89,10 @@ pub fn dumbbell(mesh: &Mesh) -> Scene {
     let mass = PointMass { station: point(hung, 2), mass: 0.3, rotary_inertia: 0.05 };
     scene.add_mass(mass).unwrap();
     let ends = [point(hung, 2), point(fixed, 2)].map(Anchor::Station);
-    let stretch = RestoringLaw::Linear { stiffness: 4.0, natural: 3.0 };
+    let stretch = SpringLaw::Linear { stiffness: 4.0, natural: 3.0 };
     spring(&mut scene, SpringKind::Way(ends.to_vec()), stretch, 0.0);
     let turn = [Anchor::Station(start), Anchor::Station(point(hung, 0))];
-    let twist = RestoringLaw::Linear { stiffness: 2.0, natural: 0.3 };
+    let twist = SpringLaw::Linear { stiffness: 2.0, natural: 0.3 };
     spring(&mut scene, SpringKind::Torsion(turn), twist, 0.0);
     let motion = StartMotion { velocity: at(0.5, 1.0), spin: 0.9, about: Some(at(1.0, 0.0)) };
     scene.beams[beam].motion = motion;

@@ -7,13 +7,13 @@ use withy::integrators::{
 };
 use withy::joints::CONTACT_UNKNOWNS;
 use withy::linalg::{BandedMatrix, Border, BorderShape, BorderedMatrix};
-use withy::model::Model;
 use withy::newton::Tolerance;
+use withy::system::System;
 
 /// The model, with the last equation of its slider replaced by `Δξ = way`. For laws whose last equation has no derivative by
 /// movements: the relaxed one.
 pub struct FixedWay<'a> {
-    model: &'a mut Model,
+    model: &'a mut System,
     way: f64,
     /// Of the last solution: where the next search begins.
     mean_rates: Vec<f64>,
@@ -24,7 +24,7 @@ pub struct FixedWay<'a> {
 }
 
 impl<'a> FixedWay<'a> {
-    pub fn new(model: &'a mut Model) -> Self {
+    pub fn new(model: &'a mut System) -> Self {
         let mean_rates = model.expected_rates().to_vec();
         let shape = model.constraint_shape();
         assert_eq!(shape.width, CONTACT_UNKNOWNS, "one slider");

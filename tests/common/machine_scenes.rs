@@ -5,9 +5,8 @@ use super::scenes::{add_beam, end_of, line, rod, spring, start_of};
 use withy::beams::Mesh;
 use withy::joints::Component;
 use withy::loads::{LoadKind, PrescribedMotion, Schedule};
-use withy::model::{
-    Anchor, Drag, Dragged, Drive, DriveKind, Origin, RestoringLaw, Scene, SpeedLaw, Spring,
-    SpringKind,
+use withy::system::{
+    Anchor, Drag, Dragged, Drive, DriveKind, Origin, Scene, SpeedLaw, Spring, SpringKind, SpringLaw,
 };
 
 /// Two beams in bushings, springs without length at ease with dampers: the first is held by one at the ground, the second by one at the end of the first, and by
@@ -20,7 +19,7 @@ pub fn bushed(mesh: &Mesh) -> Scene {
     let (foot, top) = (start_of(&mut scene, one), end_of(&mut scene, one));
     let (next, tip) = (start_of(&mut scene, other), end_of(&mut scene, other));
     let bushing = |from: Anchor, to: Anchor| SpringKind::Way(vec![from, to]);
-    let law = |stiffness: f64| RestoringLaw::Linear { stiffness, natural: 0.0 };
+    let law = |stiffness: f64| SpringLaw::Linear { stiffness, natural: 0.0 };
     let ground = Anchor::Ground(at(0.3, -0.2));
     spring(&mut scene, bushing(ground, Anchor::Station(foot)), law(50.0), 0.8);
     spring(&mut scene, bushing(Anchor::Station(top), Anchor::Station(next)), law(30.0), 1.2);

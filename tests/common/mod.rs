@@ -22,18 +22,18 @@ pub mod wild_scenes;
 use withy::beams::{Mesh, Quadrature};
 use withy::geometry::Vec2;
 use withy::integrators::Method;
-use withy::model::{Element, Scene};
 use withy::newton::Tolerance;
 use withy::simulation::{
-    History, Monitor, Settings, Simulation, SimulationError, StepSize, Unwatched,
+    History, Monitor, NoMonitor, Simulation, SimulationError, SimulationSettings, StepSize,
 };
+use withy::system::{Element, Scene};
 
 pub fn at(x: f64, y: f64) -> Vec2 {
     Vec2::new(x, y)
 }
 
-pub fn settings(method: Method, dt: impl Into<StepSize>) -> Settings {
-    Settings { method, dt: dt.into(), tolerance: Tolerance::default() }
+pub fn settings(method: Method, dt: impl Into<StepSize>) -> SimulationSettings {
+    SimulationSettings { method, dt: dt.into(), tolerance: Tolerance::default() }
 }
 
 pub fn simulate(scene: Scene, method: Method, dt: impl Into<StepSize>, end: f64) -> Simulation {
@@ -67,7 +67,7 @@ pub fn is_damped(scene: &Scene) -> bool {
 /// Takes a step of fixed size, which controllers steer if there are some.
 pub fn step(simulation: &mut Simulation) -> Result<(), SimulationError> {
     steered_scenes::steer(simulation);
-    simulation.step(&mut Unwatched)
+    simulation.step(&mut NoMonitor)
 }
 
 /// Stops a run after every step until a time.

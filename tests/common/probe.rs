@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 use withy::geometry::{Vec2, cross, perpendicular};
 use withy::integrators::{Forces, Inertia, Interval, Mechanism, Solution, Stage};
 use withy::linalg::BandedMatrix;
-use withy::model::Model;
+use withy::system::System;
 
 pub const STEP: Interval = Interval::between(0.3, 0.35);
 
@@ -16,12 +16,12 @@ pub enum Unknown {
     Rotation,
 }
 
-fn positions(model: &Model) -> Vec<Vec2> {
+fn positions(model: &System) -> Vec<Vec2> {
     model.control_points().flatten().copied().collect()
 }
 
 /// Advances by increments of a stage, the rates as they are.
-pub fn advance(model: &mut Model, stage: Stage, increments: &[f64]) {
+pub fn advance(model: &mut System, stage: Stage, increments: &[f64]) {
     model.begin_step(STEP, &Stage::ALL).unwrap();
     let mut residual = vec![0.0; model.degrees_of_freedom()];
     model.add_forces(stage, increments, 1.0, &mut residual);
@@ -37,7 +37,7 @@ pub fn advance(model: &mut Model, stage: Stage, increments: &[f64]) {
 }
 
 /// Moves every unknown by itself and watches what happens.
-pub fn unknowns(model: &mut Model) -> Vec<Unknown> {
+pub fn unknowns(model: &mut System) -> Vec<Unknown> {
     let (state, before) = (model.state(), positions(model));
     let mut increments = vec![0.0; model.unknowns()];
     (0..increments.len())
@@ -58,7 +58,7 @@ pub fn unknowns(model: &mut Model) -> Vec<Unknown> {
 }
 
 /// Increments of a rotation about a point and a shift, as a stage understands them.
-pub fn rigid(model: &mut Model, stage: Stage, angle: f64, about: Vec2, shift: Vec2) -> Vec<f64> {
+pub fn rigid(model: &mut System, stage: Stage, angle: f64, about: Vec2, shift: Vec2) -> Vec<f64> {
     let omega = match stage {
         Stage::Midpoint | Stage::DampedMidpoint(_) => 2.0 * (0.5 * angle).tan(),
         Stage::Start | Stage::End => angle,
@@ -76,7 +76,7 @@ pub fn rigid(model: &mut Model, stage: Stage, angle: f64, about: Vec2, shift: Ve
 }
 
 /// Forces of a stage with section forces that belong to the increments.
-pub fn condensed(model: &mut Model, stage: Stage, increments: &[f64]) -> Vec<f64> {
+pub fn condensed(model: &mut System, stage: Stage, increments: &[f64]) -> Vec<f64> {
     let mut forces = vec![0.0; model.degrees_of_freedom()];
     let mut tangent = BandedMatrix::zeros(model.unknowns(), model.half_bandwidth());
     model.add_linearised_forces(stage, increments, 1.0, &mut forces, &mut tangent);
@@ -84,19 +84,19 @@ pub fn condensed(model: &mut Model, stage: Stage, increments: &[f64]) -> Vec<f64
 }
 
 /// Lets the section forces agree with the increments.
-pub fn settle(model: &mut Model, stage: Stage, increments: &[f64]) {
+pub fn settle(model: &mut System, stage: Stage, increments: &[f64]) {
     condensed(model, stage, increments);
     model.correct_section_forces(&vec![0.0; increments.len()]);
 }
 
-pub fn tangent(model: &mut Model, stage: Stage, increments: &[f64]) -> DMatrix<f64> {
+pub fn tangent(model: &mut System, stage: Stage, increments: &[f64]) -> DMatrix<f64> {
     let mut forces = vec![0.0; model.degrees_of_freedom()];
     let mut tangent = BandedMatrix::zeros(model.unknowns(), model.half_bandwidth());
     model.add_linearised_forces(stage, increments, 1.0, &mut forces, &mut tangent);
     dense(&tangent)
 }
 
-pub fn inertia(model: &Model) -> DMatrix<f64> {
+pub fn inertia(model: &System) -> DMatrix<f64> {
     let mut matrix = BandedMatrix::zeros(model.unknowns(), model.half_bandwidth());
     model.add_inertia_tangent(1.0, &mut matrix);
     dense(&matrix)
@@ -120,7 +120,7 @@ pub fn differences(point: &[f64], h: f64, f: &mut dyn FnMut(&[f64]) -> Vec<f64>)
 }
 
 /// The moment about the origin of forces on the unknowns.
-pub fn torque(model: &mut Model, forces: &[f64]) -> f64 {
+pub fn torque(model: &mut System, forces: &[f64]) -> f64 {
     let arm = |(unknown, force): (Unknown, &f64)| match unknown {
         Unknown::X(point) => cross(point, Vec2::new(*force, 0.0)),
         Unknown::Y(point) => cross(point, Vec2::new(0.0, *force)),

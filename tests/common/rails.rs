@@ -6,7 +6,7 @@ use super::sliding::{paper_section, particle, slider};
 use withy::beams::{Mesh, Section};
 use withy::geometry::Vec2;
 use withy::joints::{EndAction, JointKind, Partner, Slider, SlidingRule};
-use withy::model::{Scene, StationVelocity};
+use withy::system::{Scene, StationVelocity};
 
 /// A beam from the origin along a direction, of length 1, with a section stiff enough to be a rail.
 pub fn rail(mesh: &Mesh, direction: Vec2) -> Scene {

@@ -5,14 +5,14 @@ use super::body_scenes::{add_body, hinge, point};
 use super::scenes::{add_beam, drive, end_of, line, rod, spring, start_of};
 use withy::beams::Mesh;
 use withy::joints::{
-    Component, EndAction, Hold, JointKind, Partner, Release, Slider, SlidingRule, StartVelocities,
-    Trigger,
+    Component, EndAction, JointKind, Partner, Releasable, Release, Slider, SlidingRule,
+    StartVelocities, Trigger,
 };
 use withy::loads::{PrescribedMotion, Schedule};
-use withy::model::{Anchor, ParticleDefinition, RestoringLaw, Scene, SpringKind};
+use withy::system::{Anchor, ParticleDefinition, Scene, SpringKind, SpringLaw};
 
 /// Lets something go at a time.
-pub fn release(scene: &mut Scene, hold: Hold, time: f64) {
+pub fn release(scene: &mut Scene, hold: Releasable, time: f64) {
     scene.add_release(Release { hold, trigger: Trigger::Time(time) }).unwrap();
 }
 
@@ -32,10 +32,16 @@ pub fn chain(mesh: &Mesh) -> Scene {
     let turn = Schedule::Sine { amplitude: 0.3, rate: 4.0, phase: 0.0 };
     drive(&mut scene, foot, &[(Component::Rotation, PrescribedMotion::Place(turn))]);
     let ends = vec![Anchor::Ground(at(2.5, 1.0)), Anchor::Station(bead)];
-    let law = RestoringLaw::Linear { stiffness: 60.0, natural: 0.4 };
+    let law = SpringLaw::Linear { stiffness: 60.0, natural: 0.4 };
     spring(&mut scene, SpringKind::Way(ends), law, 0.8);
     scene.gravity = at(0.0, -3.0);
-    let holds = [Hold::Drive(0), Hold::Joint(1), Hold::Spring(0), Hold::Joint(2), Hold::Joint(0)];
+    let holds = [
+        Releasable::Drive(0),
+        Releasable::Joint(1),
+        Releasable::Spring(0),
+        Releasable::Joint(2),
+        Releasable::Joint(0),
+    ];
     for (hold, time) in holds.into_iter().zip([0.1, 0.17, 0.25, 0.33, 0.4]) {
         release(&mut scene, hold, time);
     }
@@ -53,8 +59,8 @@ pub fn bracket(mesh: &Mesh) -> Scene {
     hinge(&mut scene, point(bracket, 1), None);
     scene.join(JointKind::Rigid, start, Partner::Station(point(bracket, 2))).unwrap();
     scene.gravity = at(0.0, -9.81);
-    release(&mut scene, Hold::Joint(0), 0.2);
-    release(&mut scene, Hold::Joint(1), 0.31);
+    release(&mut scene, Releasable::Joint(0), 0.2);
+    release(&mut scene, Releasable::Joint(1), 0.31);
     scene
 }
 
@@ -79,8 +85,8 @@ pub fn bead(mesh: &Mesh) -> Scene {
     };
     scene.add_slider(slider).unwrap();
     scene.gravity = at(1.0, -9.81);
-    release(&mut scene, Hold::Joint(0), 0.15);
-    release(&mut scene, Hold::Slider(0), 0.32);
+    release(&mut scene, Releasable::Joint(0), 0.15);
+    release(&mut scene, Releasable::Slider(0), 0.32);
     scene
 }
 

@@ -6,9 +6,9 @@ use super::release_scenes::release;
 use super::scenes::{add_beam, end_of, line, rod, spring, start_of};
 use withy::beams::{Mesh, Station};
 use withy::geometry::Vec2;
-use withy::joints::{Hold, JointKind, Partner};
-use withy::loads::{Frame, LoadKind, Schedule};
-use withy::model::{Anchor, ParticleDefinition, RestoringLaw, Scene, SpringKind, StationVelocity};
+use withy::joints::{JointKind, Partner, Releasable};
+use withy::loads::{LoadFrame, LoadKind, Schedule};
+use withy::system::{Anchor, ParticleDefinition, Scene, SpringKind, SpringLaw, StationVelocity};
 
 /// A unit vector at an angle to the first axis.
 pub fn unit(angle: f64) -> Vec2 {
@@ -41,11 +41,14 @@ pub fn on_rollers(mesh: &Mesh) -> Scene {
     });
     let middle = scene.station(beam, 1.2).unwrap();
     let way = SpringKind::Way(vec![Anchor::Station(middle), Anchor::Station(bead)]);
-    spring(&mut scene, way, RestoringLaw::Linear { stiffness: 20.0, natural: 1.5 }, 0.4);
-    let force =
-        LoadKind::Force { station: point(body, 2), force: at(2.0, 1.0), frame: Frame::Follower };
+    spring(&mut scene, way, SpringLaw::Linear { stiffness: 20.0, natural: 1.5 }, 0.4);
+    let force = LoadKind::Force {
+        station: point(body, 2),
+        force: at(2.0, 1.0),
+        frame: LoadFrame::Follower,
+    };
     scene.add_load(force, Schedule::hold_for(1.3).unwrap());
     scene.gravity = at(0.0, -3.0);
-    release(&mut scene, Hold::Joint(1), 3.03);
+    release(&mut scene, Releasable::Joint(1), 3.03);
     scene
 }

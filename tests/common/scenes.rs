@@ -6,11 +6,11 @@ use super::at;
 use withy::beams::{Mesh, Relaxation, Section, SectionVariation, Station};
 use withy::geometry::{Curve, Vec2};
 use withy::joints::{Component, Components, JointKind, Partner};
-use withy::loads::{Frame, LoadKind, PrescribedMotion, Schedule};
-use withy::model::{
+use withy::loads::{LoadFrame, LoadKind, PrescribedMotion, Schedule};
+use withy::system::{
     Anchor, BeamDefinition, DampingLaw, Drag, Dragged, Drive, DriveKind, Origin,
-    ParticleDefinition, PointMass, RestoringLaw, RigidBodyDefinition, Scene, SpeedLaw, Spring,
-    SpringKind, StartMotion,
+    ParticleDefinition, PointMass, RigidBodyDefinition, Scene, SpeedLaw, Spring, SpringKind,
+    SpringLaw, StartMotion,
 };
 
 /// The section of the flying spaghetti with `EA = GA` and `EI` as given.
@@ -61,7 +61,7 @@ pub fn end_of(scene: &mut Scene, beam: usize) -> Station {
     scene.station(beam, length).unwrap()
 }
 
-fn force(scene: &mut Scene, station: Station, force: Vec2, frame: Frame, schedule: Schedule) {
+fn force(scene: &mut Scene, station: Station, force: Vec2, frame: LoadFrame, schedule: Schedule) {
     scene.add_load(LoadKind::Force { station, force, frame }, schedule);
 }
 
@@ -79,7 +79,7 @@ pub fn thrown(mesh: &Mesh, section: Section, schedule: Schedule, shift: Vec2) ->
     let axis = line(at(0.0, 8.0) + shift, at(6.0, 0.0) + shift);
     let beam = add_beam(&mut scene, axis, mesh, section);
     let station = end_of(&mut scene, beam);
-    force(&mut scene, station, at(8.0, 0.0), Frame::Dead, schedule.clone());
+    force(&mut scene, station, at(8.0, 0.0), LoadFrame::Dead, schedule.clone());
     scene.add_load(LoadKind::Moment { station, moment: -80.0 }, schedule);
     scene
 }
@@ -130,8 +130,8 @@ pub fn blown_cantilever(mesh: &Mesh) -> Scene {
     let start = start_of(&mut scene, beam);
     scene.join(JointKind::Rigid, start, Partner::Ground).unwrap();
     let station = scene.station(beam, 1.5).unwrap();
-    force(&mut scene, station, at(-4.0, 3.0), Frame::Follower, hold(3.0));
-    let lines = [(at(1.0, -2.0), Frame::Follower), (at(0.5, -1.0), Frame::Dead)];
+    force(&mut scene, station, at(-4.0, 3.0), LoadFrame::Follower, hold(3.0));
+    let lines = [(at(1.0, -2.0), LoadFrame::Follower), (at(0.5, -1.0), LoadFrame::Dead)];
     for (force, frame) in lines {
         let schedule = Schedule::Sine { amplitude: 1.0, rate: 1.7, phase: 0.4 };
         scene.add_load(LoadKind::Line { beam, force, frame }, schedule);
@@ -197,7 +197,7 @@ pub fn flying_tree(mesh: &Mesh) -> Scene {
     scene.join(JointKind::Rigid, foot, Partner::Station(middle)).unwrap();
     let stalk = start_of(&mut scene, leaf);
     scene.join(JointKind::Hinge, stalk, Partner::Station(end)).unwrap();
-    let line = LoadKind::Line { beam: branch, force: at(1.0, 0.7), frame: Frame::Dead };
+    let line = LoadKind::Line { beam: branch, force: at(1.0, 0.7), frame: LoadFrame::Dead };
     scene.add_load(line, hold(1.5));
     scene
 }
@@ -210,7 +210,7 @@ pub fn hoop(mesh: &Mesh) -> Scene {
     let (start, end) = (start_of(&mut scene, beam), end_of(&mut scene, beam));
     scene.join(JointKind::Rigid, start, Partner::Station(end)).unwrap();
     let station = scene.station(beam, 2.0).unwrap();
-    force(&mut scene, station, at(2.0, 5.0), Frame::Follower, hold(1.3));
+    force(&mut scene, station, at(2.0, 5.0), LoadFrame::Follower, hold(1.3));
     scene
 }
 
@@ -220,20 +220,20 @@ pub fn towed(mesh: &Mesh) -> Scene {
     let axis = Curve::through(&[at(0.0, 0.0), at(1.0, 0.4), at(2.0, 0.2), at(3.0, 1.0)]).unwrap();
     let beam = add_beam(&mut scene, axis, mesh, rod());
     let station = scene.station(beam, 1.0).unwrap();
-    force(&mut scene, station, at(0.0, 3.0), Frame::Dead, always());
+    force(&mut scene, station, at(0.0, 3.0), LoadFrame::Dead, always());
     scene
 }
 
 /// A spring, with a damper beside it.
-pub fn spring(scene: &mut Scene, kind: SpringKind, law: RestoringLaw, damping: f64) {
+pub fn spring(scene: &mut Scene, kind: SpringKind, law: SpringLaw, damping: f64) {
     let (name, law) = (scene.free_name("spring"), Some(law));
     scene
         .add_spring(Spring { name, kind, law, origin: Origin::Zero, damping: damping.into() })
         .unwrap();
 }
 
-fn linear(stiffness: f64, natural: f64) -> RestoringLaw {
-    RestoringLaw::Linear { stiffness, natural }
+fn linear(stiffness: f64, natural: f64) -> SpringLaw {
+    SpringLaw::Linear { stiffness, natural }
 }
 
 /// Two beams that fly apart, held together by a spring inside of both, a torsion spring and a tendon over four places, all at ease.
@@ -254,7 +254,7 @@ pub fn sprung(mesh: &Mesh) -> Scene {
     spring(&mut scene, between, linear(40.0, length), 0.0);
     let (over, length) = way(&scene, &places);
     let table = vec![(0.5 * length, 0.0), (length, 0.0), (1.2 * length, 3.0), (1.5 * length, 20.0)];
-    spring(&mut scene, over, RestoringLaw::Table { points: table }, 0.0);
+    spring(&mut scene, over, SpringLaw::Table { points: table }, 0.0);
     let ends = [end_of(&mut scene, one), start_of(&mut scene, other)].map(Anchor::Station);
     let angle = 2.0_f64.atan2(1.0) - 1.6_f64.atan2(-1.7);
     spring(&mut scene, SpringKind::Torsion(ends), linear(6.0, angle), 0.0);
@@ -281,7 +281,7 @@ pub fn mounted(mesh: &Mesh) -> Scene {
     scene
         .add_spring(Spring { name, kind, law: None, origin: Origin::Zero, damping: 1.5.into() })
         .unwrap();
-    force(&mut scene, end, at(1.0, 2.0), Frame::Dead, hold(1.1));
+    force(&mut scene, end, at(1.0, 2.0), LoadFrame::Dead, hold(1.1));
     scene.gravity = at(0.0, -2.0);
     scene
 }
@@ -315,7 +315,7 @@ pub fn driven(mesh: &Mesh) -> Scene {
         (Component::Rotation, PrescribedMotion::Rate(sine(0.4, 0.9))),
     ];
     drive(&mut scene, foot, &motions);
-    let push = LoadKind::Force { station: tip, force: at(2.0, 0.0), frame: Frame::Dead };
+    let push = LoadKind::Force { station: tip, force: at(2.0, 0.0), frame: LoadFrame::Dead };
     scene.add_named_load("push".to_owned(), push, hold(2.0)).unwrap();
     scene.gravity = at(0.0, -2.0);
     scene
@@ -334,7 +334,7 @@ pub fn damped(mesh: &Mesh) -> Scene {
     scene.add_damping(bent, Relaxation { axial: 0.01, shear: 0.02, bending: 0.1 }).unwrap();
     scene.add_damping(tail, Relaxation { axial: 0.0, shear: 0.0, bending: 0.05 }).unwrap();
     let inner = scene.station(bent, 1.0).unwrap();
-    force(&mut scene, inner, at(0.0, 3.0), Frame::Dead, hold(0.9));
+    force(&mut scene, inner, at(0.0, 3.0), LoadFrame::Dead, hold(0.9));
     scene
 }
 
@@ -364,7 +364,7 @@ pub fn dragged(mesh: &Mesh) -> Scene {
 
 /// A law of damping as a table of rates and forces.
 pub fn absorber(points: &[(f64, f64)]) -> DampingLaw {
-    DampingLaw::Curve(RestoringLaw::Table { points: points.to_vec() })
+    DampingLaw::Curve(SpringLaw::Table { points: points.to_vec() })
 }
 
 /// A flying beam that a damper of rising force holds back to the ground, and another beam, which a saturated torsion damper and a spring with a damper of one direction
@@ -398,7 +398,7 @@ pub fn absorbed(mesh: &Mesh) -> Scene {
     ]);
     let hardening = |e: f64| Ok::<f64, ()>(8.0 * e + 3.0 * e * e * e);
     let fluid = |rate: f64| Ok::<f64, ()>(0.3 * rate * rate.abs());
-    let law = RestoringLaw::sampled((-1.5, 1.5), hardening).unwrap();
+    let law = SpringLaw::sampled((-1.5, 1.5), hardening).unwrap();
     add(over, Some(law), DampingLaw::sampled((-2.0, 2.0), fluid).unwrap());
     scene
 }
@@ -441,7 +441,7 @@ pub fn tapered(mesh: &Mesh) -> Scene {
     scene.add_damping(beam, Relaxation { axial: 0.01, shear: 0.0, bending: 0.03 }).unwrap();
     let (start, end) = (start_of(&mut scene, beam), end_of(&mut scene, beam));
     scene.join(JointKind::Hinge, start, Partner::Ground).unwrap();
-    force(&mut scene, end, at(1.0, 2.0), Frame::Dead, hold(1.1));
+    force(&mut scene, end, at(1.0, 2.0), LoadFrame::Dead, hold(1.1));
     scene.gravity = at(0.0, -2.0);
     scene
 }

@@ -5,8 +5,8 @@ use super::scenes::{add_beam, end_of, line};
 use withy::beams::{Mesh, Section, Station};
 use withy::geometry::{Vec2, perpendicular};
 use withy::joints::{EndAction, JointKind, Partner, Slider, SlidingRule, StartVelocities};
-use withy::loads::{Frame, LoadKind, Schedule};
-use withy::model::{ParticleDefinition, PointMass, Scene, StartMotion, StationVelocity};
+use withy::loads::{LoadFrame, LoadKind, Schedule};
+use withy::system::{ParticleDefinition, PointMass, Scene, StartMotion, StationVelocity};
 
 /// How point A of the free sliding mass is held.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -85,7 +85,8 @@ pub fn smoothly_pushed_mass(meshes: [&Mesh; 2], support: Support, rule: SlidingR
     let mut scene = two_beams(meshes, 1e2, support, rule);
     let station = end_of(&mut scene, 1);
     let duration = 0.1;
-    let force = LoadKind::Force { station, force: at(-10.0, -10.0) / duration, frame: Frame::Dead };
+    let force =
+        LoadKind::Force { station, force: at(-10.0, -10.0) / duration, frame: LoadFrame::Dead };
     scene.add_load(force, Schedule::smooth_pulse(duration).unwrap());
     scene
 }

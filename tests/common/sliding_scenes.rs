@@ -9,9 +9,11 @@ use super::sliding::{
 };
 use withy::beams::{Mesh, Station};
 use withy::geometry::{Curve, Vec2, perpendicular};
-use withy::joints::{Course, EndAction, JointKind, Partner, Slider, SlidingRule, StartVelocities};
-use withy::loads::{Frame, LoadKind, Schedule};
-use withy::model::{PointMass, Scene, StartMotion, StationVelocity};
+use withy::joints::{
+    EndAction, JointKind, Partner, Slider, SlidingRule, StartVelocities, TrackEnd,
+};
+use withy::loads::{LoadFrame, LoadKind, Schedule};
+use withy::system::{PointMass, Scene, StartMotion, StationVelocity};
 
 /// Adds a slider with a name of its own that bounces at the ends, its start velocities projected.
 fn slide(scene: &mut Scene, slave: Station, master: usize, along: f64, rule: SlidingRule) {
@@ -92,7 +94,7 @@ pub fn loaded_slave(mesh: &Mesh, rule: SlidingRule) -> Scene {
     let station = scene.station(arm, 0.0).unwrap();
     scene.add_mass(PointMass { station, mass: 0.3, rotary_inertia: 0.02 }).unwrap();
     let pulse = Schedule::smooth_pulse(0.3).unwrap();
-    let force = LoadKind::Force { station, force: at(-4.0, -3.0), frame: Frame::Dead };
+    let force = LoadKind::Force { station, force: at(-4.0, -3.0), frame: LoadFrame::Dead };
     scene.add_load(force, pulse.clone());
     scene.add_load(LoadKind::Moment { station, moment: 0.5 }, pulse);
     let tip = end_of(&mut scene, arm);
@@ -196,7 +198,7 @@ pub fn triangle(mesh: &Mesh, rule: SlidingRule) -> Scene {
     ] {
         scene.join(kind, one, Partner::Station(other)).unwrap();
     }
-    let track = scene.add_track("track".to_owned(), &[0, 1, 2], Course::Closed).unwrap();
+    let track = scene.add_track("track".to_owned(), &[0, 1, 2], TrackEnd::Closed).unwrap();
     for (master, along, mass, speed) in [(0, 0.8, 0.2, 2.5), (1, 0.4, 0.1, -1.0)] {
         bead(&mut scene, master, along, mass, speed, rule);
         scene.sliders.last_mut().unwrap().track = Some(track);

@@ -8,9 +8,9 @@ use super::body_scenes::{add_body, hinge, point};
 use super::scenes::{add_beam, end_of, line, rod, start_of};
 use withy::beams::Mesh;
 use withy::joints::{Component, JointKind, Partner};
-use withy::loads::{Frame, LoadKind, PrescribedMotion, Schedule};
-use withy::model::{Drive, DriveKind, Scene};
+use withy::loads::{LoadFrame, LoadKind, PrescribedMotion, Schedule};
 use withy::simulation::Simulation;
+use withy::system::{Drive, DriveKind, Scene};
 
 /// What a controller says before it is asked.
 const START: f64 = 0.4;
@@ -63,7 +63,7 @@ pub fn arm(mesh: &Mesh) -> Scene {
     let torque = LoadKind::Moment { station: shoulder, moment: 5.0 };
     scene.add_named_load("torque".to_owned(), torque, controller()).unwrap();
     drive(&mut scene, DriveKind::Motor, Component::Rotation, wrist);
-    let force = LoadKind::Force { station: tip, force: at(0.5, 2.0), frame: Frame::Follower };
+    let force = LoadKind::Force { station: tip, force: at(0.5, 2.0), frame: LoadFrame::Follower };
     scene.add_load(force, controller());
     scene.gravity = at(0.0, -2.0);
     scene

@@ -5,9 +5,9 @@ use super::sliding::{particle, slider};
 use withy::beams::{Section, Station};
 use withy::geometry::Vec2;
 use withy::joints::{
-    Course, EndAction, Joint, JointKind, Partner, Slider, SlidingRule, StartVelocities,
+    EndAction, Joint, JointKind, Partner, Slider, SlidingRule, StartVelocities, TrackEnd,
 };
-use withy::model::{Scene, StationVelocity};
+use withy::system::{Scene, StationVelocity};
 
 /// A section of mass 1, as stiff in tension as in shear.
 pub fn section(stiffness: f64, bending: f64) -> Section {
@@ -31,8 +31,8 @@ pub fn hold(scene: &mut Scene, kind: JointKind, stations: &[Station]) {
 }
 
 /// Makes a track of beams, each of which is joined to the next at the same place, whichever of its ends is there.
-pub fn track(scene: &mut Scene, beams: &[usize], course: Course) -> usize {
-    let closing = (course == Course::Closed).then(|| [beams[beams.len() - 1], beams[0]]);
+pub fn track(scene: &mut Scene, beams: &[usize], course: TrackEnd) -> usize {
+    let closing = (course == TrackEnd::Closed).then(|| [beams[beams.len() - 1], beams[0]]);
     let pairs: Vec<[usize; 2]> =
         beams.windows(2).map(|pair| [pair[0], pair[1]]).chain(closing).collect();
     for [one, other] in pairs {

@@ -9,7 +9,7 @@ use withy::beams::{Mesh, Section, Station};
 use withy::geometry::{Curve, Vec2, perpendicular};
 use withy::integrators::Method;
 use withy::joints::{EndAction, JointKind, Partner, Slider, SlidingRule, StartVelocities};
-use withy::model::{Scene, StartMotion, StationVelocity};
+use withy::system::{Scene, StartMotion, StationVelocity};
 
 /// What is wild about a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

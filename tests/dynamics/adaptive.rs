@@ -11,10 +11,10 @@ use withy::geometry::Vec2;
 use withy::integrators::{EnergyClaim, INTEGRATORS, IntegratorEntry, Method};
 use withy::joints::SlidingRule;
 use withy::loads::{LoadKind, Schedule};
-use withy::model::Scene;
 use withy::simulation::{
-    Invariant, Simulation, SimulationError, StepControl, StepSize, Unwatched, WorkCounts,
+    Invariant, NoMonitor, Simulation, SimulationError, StepControl, StepSize, WorkCounts,
 };
+use withy::system::Scene;
 
 fn smooth(spans: usize) -> Mesh {
     Mesh::bspline(spans, 3, 2).unwrap()
@@ -235,7 +235,7 @@ fn back_rewind_fork_save_and_load_go_on_bit_for_bit() {
             let mut prints = vec![fingerprint(&straight)];
             for _ in 0..30 {
                 let rows = straight.history().samples().len();
-                straight.step(&mut Unwatched).unwrap();
+                straight.step(&mut NoMonitor).unwrap();
                 prints.resize(straight.history().samples().len() - 1, String::new());
                 assert!(prints.len() >= rows);
                 prints.push(fingerprint(&straight));
@@ -251,7 +251,7 @@ fn back_rewind_fork_save_and_load_go_on_bit_for_bit() {
                 let mut fork = again.fork().unwrap();
                 for simulation in [&mut again, &mut loaded, &mut fork] {
                     while simulation.history().samples().len() < prints.len() {
-                        simulation.step(&mut Unwatched).unwrap();
+                        simulation.step(&mut NoMonitor).unwrap();
                     }
                     assert!(fingerprint(simulation) == prints[prints.len() - 1], "{label}: {back}");
                 }
@@ -343,7 +343,7 @@ fn at_rest_steps_grow_no_further_than_the_largest() {
         let control = StepControl { first: Some(0.1), largest, ..StepControl::to(1e-3) };
         let settings = settings(Method::EnergyMomentum, control);
         let mut rest = Simulation::start(scene.clone(), settings).unwrap();
-        let ran = (0..2000).try_for_each(|_| rest.step(&mut Unwatched));
+        let ran = (0..2000).try_for_each(|_| rest.step(&mut NoMonitor));
         println!("{largest:?}: t = {:e}, {ran:?}", rest.time());
         let longest = largest.unwrap_or(1e5);
         assert!(rest.time().is_finite() && rest.dt() <= longest);

@@ -9,8 +9,8 @@ use withy::beams::Mesh;
 use withy::integrators::{INTEGRATORS, Method};
 use withy::joints::SlidingRule;
 use withy::loads::{LoadKind, Operation, Schedule};
-use withy::model::Scene;
-use withy::simulation::{ArchiveError, Monitor, Recording, Simulation, Unwatched};
+use withy::simulation::{ArchiveError, Monitor, NoMonitor, Recording, Simulation};
+use withy::system::Scene;
 
 /// The bytes of a file, that of the time spent apart.
 fn content(simulation: &Simulation) -> Vec<u8> {
@@ -85,9 +85,9 @@ fn rich() -> Simulation {
     );
     scene.add_load(LoadKind::Moment { station, moment: 0.1 }, sum.unwrap());
     let curve = scenes::towed(&mesh).beams.swap_remove(0);
-    scene.add_beam(withy::model::BeamDefinition { name: "curve".into(), ..curve }).unwrap();
+    scene.add_beam(withy::system::BeamDefinition { name: "curve".into(), ..curve }).unwrap();
     let arc = scenes::curved_pendulum(&Mesh::lagrange(2, 2).unwrap()).beams.swap_remove(0);
-    scene.add_beam(withy::model::BeamDefinition { name: "arc".into(), ..arc }).unwrap();
+    scene.add_beam(withy::system::BeamDefinition { name: "arc".into(), ..arc }).unwrap();
     let mut simulation = Simulation::start(scene, settings(Method::EnergyMomentum, 0.02)).unwrap();
     run(&mut simulation, 0.1).unwrap();
     simulation
@@ -102,7 +102,7 @@ fn a_load_with_a_function_is_named_and_refused() {
     let simulation = Simulation::start(scene, settings(Method::EnergyMomentum, 0.1)).unwrap();
     let refusal = simulation.to_bytes("towed").unwrap_err();
     assert!(refusal.to_string().contains("moment at the end of beam 'beam1'"), "{refusal}");
-    let advice = withy::script::words::advice::on(&refusal);
+    let advice = withy::script::messages::advice::on(&refusal);
     assert!(advice.as_ref().is_some_and(|told| told.contains("smooth_pulse")), "{advice:?}");
 }
 
@@ -189,7 +189,7 @@ fn random_content_with_a_right_checksum_is_refused() {
 fn a_run_that_was_loaded_has_its_own_way_back() {
     let (_, mut loaded) = Simulation::from_bytes(&spaghetti().to_bytes("back").unwrap()).unwrap();
     loaded.keep_snapshots(1 << 20);
-    loaded.step(&mut Unwatched).unwrap();
+    loaded.step(&mut NoMonitor).unwrap();
     loaded.back(1).unwrap();
     assert_eq!(loaded.time(), 0.5);
     assert!(loaded.back(1).is_err());

@@ -11,9 +11,9 @@ use withy::geometry::{Vec2, perpendicular};
 use withy::integrators::{EnergyClaim, INTEGRATORS, Mechanism, Method};
 use withy::joints::Component;
 use withy::loads::{PrescribedMotion, Schedule};
-use withy::model::{Anchor, Element, Origin, RestoringLaw, Scene, Spring, SpringKind, StartMotion};
 use withy::simulation::{Invariant, Simulation};
 use withy::statics::{Equilibrium, Loading};
+use withy::system::{Anchor, Element, Origin, Scene, Spring, SpringKind, SpringLaw, StartMotion};
 
 const GRAVITY: f64 = 9.81;
 
@@ -150,7 +150,7 @@ fn a_body_on_a_torsion_spring_beside_its_centre_swings_as_a_cosine() {
             let body = add_body(&mut scene, at(arm, 0.0), 0.0, (mass, inertia), &[at(-arm, 0.0)]);
             hinge(&mut scene, point(body, 1), None);
             let ends = [Anchor::Station(point(body, 1)), Anchor::Ground(at(0.0, 0.0))];
-            let law = Some(RestoringLaw::Linear { stiffness, natural: 0.3 });
+            let law = Some(SpringLaw::Linear { stiffness, natural: 0.3 });
             let (name, kind) = ("hairspring".to_owned(), SpringKind::Torsion(ends));
             let spring = Spring { name, kind, law, origin: Origin::Zero, damping: 0.0.into() };
             scene.add_spring(spring).unwrap();
@@ -248,7 +248,7 @@ fn driven_wheel() -> Scene {
     let motion = PrescribedMotion::Place(Schedule::Function { function, breaks: vec![] });
     drive(&mut scene, point(wheel, 0), &[(Component::Rotation, motion)]);
     let ends = [point(wheel, 1), point(hung, 1)].map(Anchor::Station);
-    let law = Some(RestoringLaw::Linear { stiffness: 2.0, natural: 0.0 });
+    let law = Some(SpringLaw::Linear { stiffness: 2.0, natural: 0.0 });
     let (name, kind) = ("spring".to_owned(), SpringKind::Torsion(ends));
     let spring = Spring { name, kind, law, origin: Origin::Zero, damping: 0.0.into() };
     scene.add_spring(spring).unwrap();

@@ -6,9 +6,9 @@ use std::rc::Rc;
 use crate::common::{at, body_scenes, scenes, simulate};
 use withy::beams::{Mesh, Section};
 use withy::integrators::{Integrator, Interval, Method, StepError};
-use withy::loads::{Frame, LoadKind, Schedule};
-use withy::model::{Measures, Model, Scene};
+use withy::loads::{LoadFrame, LoadKind, Schedule};
 use withy::newton::Tolerance;
+use withy::system::{Measures, Scene, System};
 use withy::vibration::Modes;
 
 fn mesh() -> Mesh {
@@ -16,8 +16,8 @@ fn mesh() -> Mesh {
 }
 
 /// A scene with its integrator, after some steps of 0.05.
-fn under_way(scene: &Scene, method: Method, steps: u32) -> (Model, Box<dyn Integrator>) {
-    let mut model = Model::assemble(scene).unwrap();
+fn under_way(scene: &Scene, method: Method, steps: u32) -> (System, Box<dyn Integrator>) {
+    let mut model = System::assemble(scene).unwrap();
     let mut integrator = method.build(&mut model, Tolerance::default());
     for n in 0..steps {
         let interval = Interval::between(f64::from(n) * 0.05, f64::from(n + 1) * 0.05);
@@ -129,7 +129,7 @@ fn cantilever(load: Option<Schedule>) -> Scene {
     let mut scene = scenes::cantilever(&mesh(), section);
     if let Some(schedule) = load {
         let (station, force) = (scenes::end_of(&mut scene, 0), at(0.0, 0.01));
-        scene.add_load(LoadKind::Force { station, force, frame: Frame::Dead }, schedule);
+        scene.add_load(LoadKind::Force { station, force, frame: LoadFrame::Dead }, schedule);
     }
     scene
 }
@@ -138,7 +138,7 @@ fn cantilever(load: Option<Schedule>) -> Scene {
 fn slow_loads_do_not_shake_up_a_cantilever_much_faster_than_a_step() {
     // What the lowest vibration turns by in a step is 2π or 4π and by 0.3 more or less, as much as the load: the parts of this
     // method, then those of Suzuki (1990), under which the energy grows 25-fold.
-    let model = Model::assemble(&cantilever(None)).unwrap();
+    let model = System::assemble(&cantilever(None)).unwrap();
     let modes = Modes::of(&model, 1, &mut || true).unwrap();
     let lowest = modes.all()[0].angular_frequency();
     for frequency in [6.739, 7.668, 28.46, 34.99, 8.506, 10.674] {

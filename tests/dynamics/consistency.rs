@@ -6,17 +6,17 @@ use crate::common::{Random, at, meshes, scenes};
 use nalgebra::{DMatrix, DVector};
 use withy::geometry::Vec2;
 use withy::integrators::{Forces, Inertia, Mechanism, Solution, Stage};
-use withy::loads::{Frame, LoadKind};
-use withy::model::{Element, Model, Scene};
+use withy::loads::{LoadFrame, LoadKind};
+use withy::system::{Element, Scene, System};
 
 const STAGES: [Stage; 3] = [Stage::Midpoint, Stage::DampedMidpoint(0.6), Stage::End];
 
 /// Every scene on every mesh, each at a random state of its own with random increments to go on by.
-fn for_all(mut check: impl FnMut(&str, &Scene, &mut Model, &[f64])) {
+fn for_all(mut check: impl FnMut(&str, &Scene, &mut System, &[f64])) {
     let mut random = Random(20);
     for (name, mesh) in meshes(4) {
         for scene in scenes::all(&mesh) {
-            let mut model = Model::assemble(&scene).unwrap();
+            let mut model = System::assemble(&scene).unwrap();
             let first = random.vector(model.unknowns(), 0.2);
             advance(&mut model, Stage::Midpoint, &first);
             let increments = random.vector(model.unknowns(), 0.2);
@@ -87,7 +87,7 @@ fn corrected_section_forces_miss_the_strain_by_the_square_of_the_correction() {
 }
 
 /// The work of the forces of a stage, and those forces.
-fn work(model: &mut Model, stage: Stage, increments: &[f64]) -> (f64, Vec<f64>) {
+fn work(model: &mut System, stage: Stage, increments: &[f64]) -> (f64, Vec<f64>) {
     settle(model, stage, increments);
     let mut forces = vec![0.0; model.degrees_of_freedom()];
     model.add_forces(stage, increments, 1.0, &mut forces);
@@ -116,11 +116,11 @@ fn a_damped_stretch_of_a_rod_loses_the_energy_of_the_formula() {
     let (axial, length, chi) = (1e4, 10.0, 0.3);
     let mesh = withy::beams::Mesh::lagrange(3, 1).unwrap();
     let scene = scenes::free_beam(&mesh, scenes::spaghetti_section(axial, 100.0));
-    let mut model = Model::assemble(&scene).unwrap();
+    let mut model = System::assemble(&scene).unwrap();
     let ends: Vec<Vec2> = model.control_points().flatten().copied().collect();
     let (first, last) = (ends[0], ends[ends.len() - 1]);
     assert!(((last - first).norm() - length).abs() < 1e-12);
-    let stretch = |model: &mut Model, strain: f64| -> Vec<f64> {
+    let stretch = |model: &mut System, strain: f64| -> Vec<f64> {
         let moved = |unknown: &probe::Unknown| match unknown {
             probe::Unknown::X(at) => strain * (at - first).x,
             probe::Unknown::Y(at) => strain * (at - first).y,
@@ -154,7 +154,7 @@ fn midpoint_forces_do_exactly_the_work_by_which_the_energy_changes() {
         };
         model.advance(&solution);
         let after = model.measure();
-        let potential = |m: &withy::model::Measures| {
+        let potential = |m: &withy::system::Measures| {
             m.energy.strain + m.energy.potential + m.energy.stored - m.work + m.dissipated
         };
         let error = (potential(&after) - potential(&before) - work).abs() / after.energy.strain;
@@ -170,8 +170,8 @@ fn has_followers(scene: &Scene) -> bool {
     scene.loads().any(|load| {
         matches!(
             load.kind,
-            LoadKind::Force { frame: Frame::Follower, .. }
-                | LoadKind::Line { frame: Frame::Follower, .. }
+            LoadKind::Force { frame: LoadFrame::Follower, .. }
+                | LoadKind::Line { frame: LoadFrame::Follower, .. }
         )
     })
 }
@@ -212,7 +212,7 @@ fn a_rigid_motion_strains_nothing_and_meets_no_force() {
         for mut scene in scenes::all(&mesh).into_iter().filter(is_free) {
             scene.elements.retain(|element| !matches!(element, Element::Load(_)));
             for stage in STAGES {
-                let mut model = Model::assemble(&scene).unwrap();
+                let mut model = System::assemble(&scene).unwrap();
                 let u = probe::rigid(&mut model, stage, 2.1, at(3.0, -1.0), at(5.0, 4.0));
                 model.begin_step(STEP, &Stage::ALL).unwrap();
                 let forces = condensed(&mut model, stage, &u);
@@ -248,14 +248,14 @@ fn internal_forces_have_no_resultant_and_no_moment() {
     for (name, mesh) in meshes(4) {
         for mut scene in scenes::all(&mesh).into_iter().filter(is_free) {
             scene.elements.retain(|element| !matches!(element, Element::Load(_)));
-            let mut model = Model::assemble(&scene).unwrap();
+            let mut model = System::assemble(&scene).unwrap();
             let mut random = Random(3);
             let u = random.vector(model.unknowns(), 0.2);
             advance(&mut model, Stage::Midpoint, &u);
             model.begin_step(STEP, &Stage::ALL).unwrap();
             let forces = condensed(&mut model, Stage::End, &vec![0.0; u.len()]);
             let largest = forces.iter().fold(0.0, |most: f64, force| most.max(force.abs()));
-            let sum = |wanted: fn(&probe::Unknown) -> bool, model: &mut Model| -> f64 {
+            let sum = |wanted: fn(&probe::Unknown) -> bool, model: &mut System| -> f64 {
                 let meanings = probe::unknowns(model);
                 meanings.iter().zip(&forces).filter(|(u, _)| wanted(u)).map(|(_, f)| f).sum()
             };

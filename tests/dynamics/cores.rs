@@ -7,23 +7,23 @@ use withy::beams::Mesh;
 use withy::geometry::Vec2;
 use withy::integrators::Method;
 use withy::joints::{JointKind, Partner, SlidingRule};
-use withy::loads::{Frame, LoadKind, Schedule};
-use withy::model::{Model, ModelState, Scene};
-use withy::simulation::{Simulation, Unwatched};
+use withy::loads::{LoadFrame, LoadKind, Schedule};
+use withy::simulation::{NoMonitor, Simulation};
+use withy::system::{Scene, System, SystemState};
 
 /// Takes two steps with up to so many threads; the state at their end, and the iterations.
-fn state(scene: &Scene, method: Method, threads: usize) -> (ModelState, usize) {
+fn state(scene: &Scene, method: Method, threads: usize) -> (SystemState, usize) {
     let mut simulation = Simulation::start(scene.clone(), settings(method, 0.01)).unwrap();
     simulation.use_threads(threads);
     for _ in 0..2 {
-        simulation.step(&mut Unwatched).unwrap();
+        simulation.step(&mut NoMonitor).unwrap();
     }
     (simulation.model().state(), simulation.counts().newton_iterations)
 }
 
 /// How many threads work on a scene at most.
 fn threads(scene: &Scene, allowed: usize) -> usize {
-    Model::assemble(scene).unwrap().divide(allowed)
+    System::assemble(scene).unwrap().divide(allowed)
 }
 
 #[test]
@@ -66,7 +66,7 @@ fn hundred(step: Vec2) -> Scene {
         }
     }
     let station = scenes::end_of(&mut scene, 99);
-    let force = LoadKind::Force { station, force: Vec2::new(0.0, 2.0), frame: Frame::Dead };
+    let force = LoadKind::Force { station, force: Vec2::new(0.0, 2.0), frame: LoadFrame::Dead };
     scene.add_load(force, Schedule::constant(1.0).unwrap());
     scene
 }

@@ -8,9 +8,9 @@ use withy::beams::{Mesh, Relaxation, Section};
 use withy::geometry::Vec2;
 use withy::integrators::{EnergyClaim, INTEGRATORS, Method};
 use withy::joints::{JointKind, Partner};
-use withy::loads::{Frame, LoadKind, Schedule};
-use withy::model::{Model, Scene, StartMotion};
+use withy::loads::{LoadFrame, LoadKind, Schedule};
 use withy::simulation::{Invariant, Simulation};
+use withy::system::{Scene, StartMotion, System};
 use withy::vibration::Modes;
 
 const BENDING: f64 = 2.0;
@@ -39,7 +39,7 @@ fn slender(time: f64) -> Scene {
 
 fn push(scene: &mut Scene, along: f64, down: f64, until: f64) {
     let station = scene.station(0, along).unwrap();
-    let force = LoadKind::Force { station, force: at(0.0, -down), frame: Frame::Dead };
+    let force = LoadKind::Force { station, force: at(0.0, -down), frame: LoadFrame::Dead };
     scene.add_load(force, Schedule::hold_for(until).unwrap());
 }
 
@@ -88,7 +88,7 @@ fn a_cantilever_loses_in_each_swing_what_its_relaxation_time_says() {
     let start = scene.station(0, 0.0).unwrap();
     scene.join(JointKind::Rigid, start, Partner::Ground).unwrap();
     push(&mut scene, LENGTH, 1e-4, 1.3 * period);
-    let modes = Modes::of(&Model::assemble(&scene).unwrap(), 2, &mut || true).unwrap();
+    let modes = Modes::of(&System::assemble(&scene).unwrap(), 2, &mut || true).unwrap();
     let told: Vec<f64> = modes.damping_ratios().collect();
     assert!((told[0] / ratio - 1.0).abs() < 1e-4, "{told:?}");
     // The material damps what is six times as fast six times as much.
@@ -124,7 +124,7 @@ fn tumbling(relaxation: Relaxation) -> Scene {
     scene.beams[beam].motion = StartMotion { velocity: at(1.0, 0.5), spin: 1.5, about: None };
     scene.add_damping(beam, relaxation).unwrap();
     let station = scenes::end_of(&mut scene, beam);
-    let force = LoadKind::Force { station, force: at(0.0, 12.0), frame: Frame::Dead };
+    let force = LoadKind::Force { station, force: at(0.0, 12.0), frame: LoadFrame::Dead };
     scene.add_load(force, Schedule::smooth_pulse(2.0).unwrap());
     scene
 }
@@ -193,7 +193,7 @@ fn a_beam_at_rest_knows_nothing_of_damping() {
         let start = scene.station(0, 0.0).unwrap();
         scene.join(JointKind::Rigid, start, Partner::Ground).unwrap();
         let station = scene.station(0, LENGTH).unwrap();
-        let force = LoadKind::Force { station, force: at(0.3, -1.0), frame: Frame::Dead };
+        let force = LoadKind::Force { station, force: at(0.3, -1.0), frame: LoadFrame::Dead };
         scene.add_load(force, Schedule::constant(1.0).unwrap());
         scene
     };

@@ -5,11 +5,11 @@ use crate::common::scenes::absorber;
 use crate::common::{at, orders, sci, simulate};
 use withy::beams::Station;
 use withy::integrators::{EnergyClaim, INTEGRATORS, Method};
-use withy::model::{
-    Anchor, DampingLaw, ModelError, Origin, ParticleDefinition, RestoringLaw, Scene, Spring,
-    SpringKind, StationVelocity,
-};
 use withy::simulation::{Invariant, Simulation};
+use withy::system::{
+    Anchor, DampingLaw, Origin, ParticleDefinition, Scene, Spring, SpringKind, SpringLaw,
+    StationVelocity, SystemError,
+};
 
 const MASS: f64 = 2.0;
 const DRAG: f64 = 0.8;
@@ -106,7 +106,7 @@ fn dry_friction_stops_a_mass_after_as_many_half_swings_as_it_should() {
             for dt in [0.02, 0.0173] {
                 let mut scene = damped(absorber(&corners), 0.0);
                 let bead = Anchor::Station(Station::on_particle(0));
-                let law = RestoringLaw::Linear { stiffness: stiffness * MASS, natural: 2.0 };
+                let law = SpringLaw::Linear { stiffness: stiffness * MASS, natural: 2.0 };
                 let kind = SpringKind::Way(vec![Anchor::Ground(at(3.0, 1.0)), bead]);
                 let mut spring = scene.springs().next().unwrap().clone();
                 spring.damping =
@@ -138,12 +138,12 @@ fn a_law_that_feeds_is_refused() {
     spring.damping = absorber(&[(-1.0, 1.0), (0.0, 0.0), (1.0, 1.0)]);
     let refused = scene.add_spring(spring.clone());
     let told = "at the rate -1 its damping gives the force 1,";
-    let is_told = |error: &ModelError| error.to_string().contains(told);
+    let is_told = |error: &SystemError| error.to_string().contains(told);
     assert!(refused.as_ref().is_err_and(is_told), "{refused:?}");
     // Nobody gave this rate: the law goes on straight beyond what was given.
     spring.damping = absorber(&[(-1.0, -1.0), (0.0, 0.0), (1.0, 1.0), (2.0, 0.5)]);
     let refused = scene.add_spring(spring.clone()).unwrap_err().to_string();
     assert!(refused.contains("beyond the rate 2,") && refused.contains("from 3 on"), "{refused}");
     spring.damping = DampingLaw::Linear(-1.0);
-    assert!(matches!(scene.add_spring(spring), Err(ModelError::Value { .. })));
+    assert!(matches!(scene.add_spring(spring), Err(SystemError::Value { .. })));
 }

@@ -5,10 +5,10 @@ use crate::common::{at, orders, scenes, simulate};
 use withy::beams::{Mesh, Section, Station};
 use withy::geometry::{Curve, Vec2};
 use withy::integrators::{EnergyClaim, INTEGRATORS, Method};
-use withy::model::{
+use withy::simulation::{Invariant, Simulation};
+use withy::system::{
     Drag, Dragged, ParticleDefinition, Scene, SpeedLaw, StartMotion, StationVelocity,
 };
-use withy::simulation::{Invariant, Simulation};
 
 const GRAVITY: f64 = 9.81;
 

@@ -11,12 +11,12 @@ use withy::beams::{Mesh, Section, Station};
 use withy::integrators::{EnergyClaim, INTEGRATORS, Method};
 use withy::joints::{Component, Components, JointKind, Partner};
 use withy::loads::{LoadKind, PrescribedMotion, Schedule};
-use withy::model::{
-    Anchor, ModelError, Origin, ParticleDefinition, RestoringLaw, Scene, Spring, SpringKind,
-    StartMotion,
-};
-use withy::simulation::{Invariant, Simulation, Unwatched};
+use withy::simulation::{Invariant, NoMonitor, Simulation};
 use withy::statics::{Equilibrium, Loading};
+use withy::system::{
+    Anchor, Origin, ParticleDefinition, Scene, Spring, SpringKind, SpringLaw, StartMotion,
+    SystemError,
+};
 
 fn function(of: impl Fn(f64) -> f64 + 'static) -> Schedule {
     Schedule::Function { function: Rc::new(move |t| Ok(of(t))), breaks: Vec::new() }
@@ -206,17 +206,18 @@ fn a_scene_is_refused_in_which_a_movement_is_given_or_held_twice() {
     let refused = |scene: &mut Scene, component: Component| {
         let mut motions = [None, None, None];
         motions[component as usize] = Some(given());
-        let kind = withy::model::DriveKind::Motor;
-        let drive = withy::model::Drive { name: "other".to_owned(), kind, station: start, motions };
+        let kind = withy::system::DriveKind::Motor;
+        let drive =
+            withy::system::Drive { name: "other".to_owned(), kind, station: start, motions };
         scene.add_drive(drive).unwrap_err()
     };
     let told = refused(&mut scene, Component::X);
-    assert!(matches!(&told, ModelError::AlreadyDriven { how: "held", .. }), "{told}");
+    assert!(matches!(&told, SystemError::AlreadyDriven { how: "held", .. }), "{told}");
     let told = refused(&mut scene, Component::Rotation);
-    assert!(matches!(&told, ModelError::AlreadyDriven { how: "given", .. }), "{told}");
+    assert!(matches!(&told, SystemError::AlreadyDriven { how: "given", .. }), "{told}");
     let hold = JointKind::Support(Components::Rotation);
     let told = scene.join(hold, start, Partner::Ground).unwrap_err();
-    assert!(matches!(&told, ModelError::HeldAndDriven { .. }), "{told}");
+    assert!(matches!(&told, SystemError::HeldAndDriven { .. }), "{told}");
     assert_eq!((scene.drives.len(), scene.joints.len()), (1, 1));
 }
 
@@ -226,7 +227,8 @@ fn work_is_kept_by_name_and_adds_up() {
     let motion = PrescribedMotion::Place(function(|t| 0.3 * t * t));
     let mut scene = turned(&mesh, section(1e4), 1.0, motion, 0.0);
     let station = Station::on_beam(0, 1.0);
-    let wind = LoadKind::Force { station, force: at(0.0, 2.0), frame: withy::loads::Frame::Dead };
+    let wind =
+        LoadKind::Force { station, force: at(0.0, 2.0), frame: withy::loads::LoadFrame::Dead };
     scene.add_named_load("wind".to_owned(), wind, Schedule::hold_for(1.0).unwrap()).unwrap();
     let simulation = simulate(scene, Method::FourthOrder, 0.05, 3.0);
     let history = simulation.history();
@@ -251,7 +253,7 @@ fn the_torque_of_a_motor_is_exact_however_far_it_turns_in_a_step() {
             &[(Component::Rotation, PrescribedMotion::Place(function(angle)))],
         );
         let kind = SpringKind::Torsion([Anchor::Ground(at(0.0, 0.0)), Anchor::Station(rotor)]);
-        let law = Some(RestoringLaw::Linear { stiffness, natural: 0.0 });
+        let law = Some(SpringLaw::Linear { stiffness, natural: 0.0 });
         let (name, origin, damping_law) = ("brake".to_owned(), Origin::Zero, damping.into());
         scene.add_spring(Spring { name, kind, law, origin, damping: damping_law }).unwrap();
         let simulation = simulate(scene, Method::EnergyMomentum, dt, 1.0);
@@ -330,7 +332,7 @@ fn what_is_tied_to_a_controlled_drive_has_its_speed_in_every_step() {
     for step in 1..=300_u32 {
         let speed = (0.1 * f64::from(step)).sin();
         said.set(speed);
-        simulation.run_to(0.01 * f64::from(step), &mut Unwatched).unwrap();
+        simulation.run_to(0.01 * f64::from(step), &mut NoMonitor).unwrap();
         let history = simulation.history();
         let kinetic = *history.column("kinetic").unwrap().last().unwrap();
         let expected = 1.25 * speed * speed;

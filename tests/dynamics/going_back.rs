@@ -11,8 +11,10 @@ use withy::beams::Mesh;
 use withy::integrators::{INTEGRATORS, Method};
 use withy::joints::{EndAction, SlidingRule};
 use withy::loads::{LoadKind, Schedule};
-use withy::model::{Scene, StartMotion};
-use withy::simulation::{Monitor, Recording, Settings, Simulation, SimulationError, WorkCounts};
+use withy::simulation::{
+    Monitor, Recording, Simulation, SimulationError, SimulationSettings, WorkCounts,
+};
+use withy::system::{Scene, StartMotion};
 
 const PLENTY: usize = 1 << 28;
 
@@ -34,7 +36,7 @@ fn steps_of(simulation: &Simulation) -> usize {
     simulation.counts().steps
 }
 
-fn start(scene: &Scene, settings: Settings) -> Simulation {
+fn start(scene: &Scene, settings: SimulationSettings) -> Simulation {
     reset(scene);
     let mut simulation = Simulation::start(scene.clone(), settings).unwrap();
     simulation.cut_at(3.3 * simulation.dt());
@@ -60,7 +62,7 @@ fn straight(mut simulation: Simulation, steps: usize) -> (HashMap<usize, String>
 fn assert_walk_is_straight(
     label: &str,
     scene: &Scene,
-    settings: Settings,
+    settings: SimulationSettings,
     steps: usize,
     seed: u64,
 ) {
@@ -263,7 +265,7 @@ fn a_limit_bounds_the_memory_and_forgets_the_oldest_but_the_start() {
         matches!(refusal, SimulationError::Forgotten { steps, .. } if steps == kept - 2),
         "{refusal:?}"
     );
-    let advice = withy::script::words::advice::on(&refusal).unwrap();
+    let advice = withy::script::messages::advice::on(&refusal).unwrap();
     let told = format!("{refusal}; {advice}");
     for part in
         ["limit of 0.1 MB", &format!("last {} steps", kept - 2), "sim.rewind(0)", "snapshots: 64"]

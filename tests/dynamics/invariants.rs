@@ -9,11 +9,11 @@ use withy::geometry::Vec2;
 use withy::integrators::{EnergyClaim, INTEGRATORS, Interval, Method};
 use withy::joints::JointKind;
 use withy::loads::{LoadKind, PrescribedMotion, Schedule};
-use withy::model::{
-    DampingLaw, Dragged, DriveKind, Element, Model, Origin, RestoringLaw, Scene, Spring, SpringKind,
-};
 use withy::newton::Tolerance;
 use withy::simulation::{History, Invariant, Simulation, SimulationError};
+use withy::system::{
+    DampingLaw, Dragged, DriveKind, Element, Origin, Scene, Spring, SpringKind, SpringLaw, System,
+};
 
 fn smooth(spans: usize) -> Mesh {
     Mesh::bspline(spans, 3, 2).unwrap()
@@ -132,7 +132,7 @@ fn is_finite(history: &History) -> bool {
 }
 
 /// Runs a scene that must fail after `good` steps; what went before must be kept and finite.
-fn assert_fails_cleanly(scene: withy::model::Scene, dt: f64, good: usize) -> SimulationError {
+fn assert_fails_cleanly(scene: withy::system::Scene, dt: f64, good: usize) -> SimulationError {
     let mut simulation = Simulation::start(scene, settings(Method::EnergyMomentum, dt)).unwrap();
     let error = run(&mut simulation, 10.0 * dt).expect_err("an absurd load cannot be balanced");
     assert!(simulation.history().samples().len() > good, "{error}");
@@ -189,9 +189,9 @@ fn half_a_turn_in_a_step_is_tried_again_in_smaller_steps() {
 fn a_restored_state_goes_on_bit_for_bit_as_it_did() {
     for entry in INTEGRATORS {
         for scene in scenes::all(&smooth(6)).into_iter().chain(body_scenes::all(&smooth(6))) {
-            let mut model = Model::assemble(&scene).unwrap();
+            let mut model = System::assemble(&scene).unwrap();
             let mut integrator = entry.method.build(&mut model, Tolerance::default());
-            let mut advance = |model: &mut Model, steps: std::ops::Range<u32>| {
+            let mut advance = |model: &mut System, steps: std::ops::Range<u32>| {
                 for n in steps {
                     let (start, end) = (f64::from(n) * 0.05, f64::from(n + 1) * 0.05);
                     integrator.step(model, Interval::between(start, end)).unwrap();
@@ -216,14 +216,14 @@ fn common_scenes_have_every_element_of_a_machine() {
     let all: Vec<Scene> = scenes::all(&mesh).into_iter().chain(body_scenes::all(&mesh)).collect();
     let springs = || all.iter().flat_map(Scene::springs);
     let (laws, damping) = (|| springs().map(|one| &one.law), || springs().map(|one| &one.damping));
-    let curve = |law: &DampingLaw, is_of: fn(&RestoringLaw) -> bool| match law {
+    let curve = |law: &DampingLaw, is_of: fn(&SpringLaw) -> bool| match law {
         DampingLaw::Curve(curve) => is_of(curve),
         DampingLaw::Linear(_) => false,
     };
-    let is_table = |law: &RestoringLaw| matches!(law, RestoringLaw::Table { .. });
-    let is_sampled = |law: &RestoringLaw| matches!(law, RestoringLaw::Sampled { .. });
+    let is_table = |law: &SpringLaw| matches!(law, SpringLaw::Table { .. });
+    let is_sampled = |law: &SpringLaw| matches!(law, SpringLaw::Sampled { .. });
     let central = |one: &Spring| {
-        let at_ease = matches!(one.law, Some(RestoringLaw::Linear { natural: 0.0, .. }));
+        let at_ease = matches!(one.law, Some(SpringLaw::Linear { natural: 0.0, .. }));
         at_ease && one.damping.acts() && one.origin == Origin::Zero
     };
     let joints = || all.iter().flat_map(|scene| &scene.joints).map(|joint| joint.kind);
@@ -232,7 +232,7 @@ fn common_scenes_have_every_element_of_a_machine() {
     let drags = || all.iter().flat_map(Scene::drags);
     let elements = || all.iter().flat_map(|scene| &scene.elements);
     let found = [
-        ("a linear spring", laws().flatten().any(|law| matches!(law, RestoringLaw::Linear { .. }))),
+        ("a linear spring", laws().flatten().any(|law| matches!(law, SpringLaw::Linear { .. }))),
         ("a table", laws().flatten().any(is_table)),
         ("a function", laws().flatten().any(is_sampled)),
         ("a damper alone", laws().any(Option::is_none)),

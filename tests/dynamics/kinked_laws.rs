@@ -5,38 +5,38 @@
 use crate::common::{at, scenes, simulate};
 use withy::beams::Mesh;
 use withy::integrators::{EnergyClaim, INTEGRATORS, Method};
-use withy::model::{
-    Anchor, Origin, ParticleDefinition, RestoringLaw, Scene, Spring, SpringKind, StartMotion,
-};
 use withy::simulation::{Invariant, Simulation};
+use withy::system::{
+    Anchor, Origin, ParticleDefinition, Scene, Spring, SpringKind, SpringLaw, StartMotion,
+};
 
 /// The stiffness of the beams beside which springs stand: `EA` per length 1.
 const OF_BEAM: f64 = 1e4;
 
-fn add(scene: &mut Scene, anchors: Vec<Anchor>, law: RestoringLaw) {
+fn add(scene: &mut Scene, anchors: Vec<Anchor>, law: SpringLaw) {
     let (name, kind) = (scene.free_name("spring"), SpringKind::Way(anchors));
     let (law, origin) = (Some(law), Origin::Zero);
     scene.add_spring(Spring { name, kind, law, origin, damping: 0.0.into() }).unwrap();
 }
 
 /// A rope pulls where it is longer than its length, and a buffer pushes where it is shorter.
-fn rope(stiffness: f64, length: f64) -> RestoringLaw {
+fn rope(stiffness: f64, length: f64) -> SpringLaw {
     let points = vec![(length - 1.0, 0.0), (length, 0.0), (length + 1.0, stiffness)];
-    RestoringLaw::Table { points }
+    SpringLaw::Table { points }
 }
 
-fn buffer(stiffness: f64, length: f64) -> RestoringLaw {
+fn buffer(stiffness: f64, length: f64) -> SpringLaw {
     let points = vec![(length - 1.0, -stiffness), (length, 0.0), (length + 1.0, 0.0)];
-    RestoringLaw::Table { points }
+    SpringLaw::Table { points }
 }
 
 /// A hardening spring, asked as a script asks its function.
-fn hardening(stiffness: f64, length: f64) -> RestoringLaw {
+fn hardening(stiffness: f64, length: f64) -> SpringLaw {
     let force = |e: f64| Ok::<f64, ()>(stiffness * (e + 4.0 * e * e * e));
-    RestoringLaw::sampled((-0.51, 0.62), force).unwrap().shifted(length)
+    SpringLaw::sampled((-0.51, 0.62), force).unwrap().shifted(length)
 }
 
-type Law = fn(f64, f64) -> RestoringLaw;
+type Law = fn(f64, f64) -> SpringLaw;
 
 /// A beam that flies and turns, with a law between its ends, `beyond` its length as it begins, and one between places inside.
 fn braced(law: Law, stiffness: f64, beyond: f64) -> Scene {

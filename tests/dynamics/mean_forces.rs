@@ -12,9 +12,9 @@ use withy::beams::{Mesh, Station};
 use withy::geometry::{Vec2, cross};
 use withy::integrators::{INTEGRATORS, Method};
 use withy::joints::{Component, Components, JointKind, Partner, SlidingRule};
-use withy::loads::{Frame, LoadKind, PrescribedMotion, Schedule};
-use withy::model::Scene;
-use withy::simulation::{Simulation, SimulationError, Unwatched};
+use withy::loads::{LoadFrame, LoadKind, PrescribedMotion, Schedule};
+use withy::simulation::{NoMonitor, Simulation, SimulationError};
+use withy::system::Scene;
 
 const PUSH: Vec2 = Vec2::new(3.0, -5.0);
 
@@ -85,7 +85,7 @@ fn pushed() -> Vec<(Scene, Station)> {
         driven(),
     ];
     for (scene, tip) in &mut scenes {
-        let load = LoadKind::Force { station: *tip, force: PUSH, frame: Frame::Dead };
+        let load = LoadKind::Force { station: *tip, force: PUSH, frame: LoadFrame::Dead };
         scene.add_load(load, Schedule::constant(1.0).unwrap());
     }
     scenes
@@ -109,7 +109,7 @@ fn mean_reactions_and_loads_change_the_momenta() {
                 let before: Vec<Vec2> =
                     places.iter().map(|place| simulation.model().position(place)).collect();
                 let begun = simulation.history().samples().last().unwrap().measures;
-                simulation.step(&mut Unwatched).unwrap();
+                simulation.step(&mut NoMonitor).unwrap();
                 let ended = simulation.history().samples().last().unwrap().measures;
                 let dt = ended.time - begun.time;
                 let model = simulation.model();
@@ -198,7 +198,7 @@ fn means_between_rigid_bodies_are_of_second_order_to_the_forces_at_the_ends() {
             let mut before = joint.read(simulation.instant().unwrap().given()).0;
             let mut worst = 0.0_f64;
             while simulation.time() < 0.5 - 0.1 * dt {
-                simulation.step(&mut Unwatched).unwrap();
+                simulation.step(&mut NoMonitor).unwrap();
                 let after = joint.read(simulation.instant().unwrap().given()).0;
                 let mean = joint.read(&simulation.model().given_in_step().unwrap()).0;
                 worst = worst.max((mean - (before + after) * 0.5).norm());

@@ -8,8 +8,8 @@ use withy::beams::{Mesh, Section};
 use withy::geometry::{Basis, KnotVector};
 use withy::integrators::Method;
 use withy::joints::SlidingRule;
-use withy::model::Model;
 use withy::simulation::Simulation;
+use withy::system::System;
 use withy::vibration::Modes;
 
 /// How long spans are.
@@ -54,7 +54,7 @@ fn frequencies(mesh: &Mesh, count: usize) -> Vec<f64> {
         mass_per_length: 1.0,
         rotary_inertia: 1e-2,
     };
-    let model = Model::assemble(&free_beam(mesh, section)).unwrap();
+    let model = System::assemble(&free_beam(mesh, section)).unwrap();
     let modes = Modes::of(&model, count, &mut || true).unwrap();
     modes.all().iter().map(|mode| mode.angular_frequency()).collect()
 }

@@ -7,12 +7,12 @@ use crate::common::{at, run, settings, simulate};
 use withy::beams::{Mesh, Section, Station};
 use withy::integrators::Method;
 use withy::joints::{EndAction, JointKind, Partner, Slider, SlidingRule, StartVelocities};
-use withy::model::{BeamDefinition, ParticleDefinition, Scene, StartMotion, StationVelocity};
-use withy::script::engine::runner::{self, Ending, Outcome};
+use withy::script::engine::runner::{self, Ending, RunOutcome};
 use withy::script::packages::language;
 use withy::script::source::program::Program;
-use withy::script::state::settings::{Mode, Settings};
-use withy::simulation::{Note, Simulation, Unwatched};
+use withy::script::state::settings::{RunMode, RunSettings};
+use withy::simulation::{NoMonitor, Simulation, Warning};
+use withy::system::{BeamDefinition, ParticleDefinition, Scene, StartMotion, StationVelocity};
 
 const METHODS: [Method; 3] = [Method::EnergyMomentum, Method::Trapezoidal, Method::FourthOrder];
 
@@ -53,9 +53,9 @@ fn ruler() -> (Scene, f64) {
     (scene, std::f64::consts::TAU / angular)
 }
 
-fn motion(notes: &[Note]) -> Option<(f64, f64, Option<f64>)> {
+fn motion(notes: &[Warning]) -> Option<(f64, f64, Option<f64>)> {
     notes.iter().find_map(|note| match note {
-        Note::Motion { dt, share, lowest, .. } => Some((*dt, *share, *lowest)),
+        Warning::Motion { dt, share, lowest, .. } => Some((*dt, *share, *lowest)),
         _ => None,
     })
 }
@@ -130,7 +130,7 @@ fn sections_that_turn_far_in_a_step_are_told() {
     };
     assert_eq!(spinning(0.5), []);
     let notes = spinning(1.0);
-    let [Note::Rotation { angle, .. }] = notes.as_slice() else { panic!("{notes:?}") };
+    let [Warning::Rotation { angle, .. }] = notes.as_slice() else { panic!("{notes:?}") };
     // tan(φ/2) = ω h/2
     assert!((angle - 2.0 * 0.5_f64.atan()).abs() < 1e-3, "{angle}");
 }
@@ -174,7 +174,7 @@ fn bounces_are_silent_where_they_are_right_and_told_where_they_are_not() {
     {
         let bar = simulate(ring(stiffness, 1.0, 1.0), Method::EnergyMomentum, dt, 0.6);
         let rebound = -bar.model().velocity(&slave(&bar)).x;
-        let told = bar.notes().iter().any(|note| matches!(note, Note::Bounce { .. }));
+        let told = bar.notes().iter().any(|note| matches!(note, Warning::Bounce { .. }));
         println!("EA = {stiffness:e}, dt = {dt}: rebound {rebound:.4}, told: {told}");
         let is_right = (rebound / 0.6990 - 1.0).abs() < 0.05;
         assert_eq!(told, !is_right, "EA = {stiffness:e}, dt = {dt}: {rebound}");
@@ -188,7 +188,7 @@ fn bounces_are_silent_where_they_are_right_and_told_where_they_are_not() {
     assert_eq!(held.notes(), []);
 }
 
-fn slave(simulation: &Simulation) -> withy::beams::Place {
+fn slave(simulation: &Simulation) -> withy::beams::BodyPoint {
     let scene = simulation.scene();
     let slave = scene.sliders[0].slave;
     scene.place(&slave, simulation.model().meshes()).unwrap()
@@ -199,7 +199,7 @@ fn a_slider_that_passes_more_than_a_span_in_a_step_is_told() {
     let passing = |speed: f64| simulate(ring(1e4, 1.0, -speed), Method::EnergyMomentum, 0.01, 0.02);
     let notes = passing(25.0).notes();
     let way = notes.iter().find_map(|note| match note {
-        Note::Way { spans, slider, .. } => Some((*spans, slider.clone())),
+        Warning::Way { spans, slider, .. } => Some((*spans, slider.clone())),
         _ => None,
     });
     let (spans, slider) = way.unwrap();
@@ -224,13 +224,13 @@ fn solved_to(tolerance: f64) -> Simulation {
     let loose = &mut settings.tolerance;
     [loose.force, loose.strain, loose.polish] = [tolerance; 3];
     let mut simulation = Simulation::start(scene, settings).unwrap();
-    simulation.run_to(2.0, &mut Unwatched).unwrap();
+    simulation.run_to(2.0, &mut NoMonitor).unwrap();
     simulation
 }
 
 #[test]
 fn an_energy_that_is_not_kept_as_promised_is_told() {
-    let told = |notes: Vec<Note>| notes.iter().any(|note| matches!(note, Note::Drift { .. }));
+    let told = |notes: Vec<Warning>| notes.iter().any(|note| matches!(note, Warning::Drift { .. }));
     assert!(told(solved_to(1e-3).notes()));
     assert!(!told(solved_to(1e-11).notes()));
 }
@@ -263,16 +263,16 @@ fn notes_are_those_of_the_steps_behind_the_present() {
     assert_eq!(loaded.notes(), coarse.notes());
     coarse.back(coarse.counts().steps).unwrap();
     assert_eq!(coarse.notes(), []);
-    coarse.step(&mut Unwatched).unwrap();
+    coarse.step(&mut NoMonitor).unwrap();
     assert_eq!(coarse.notes(), []);
 }
 
-fn outcome(script: &str) -> (Outcome, String) {
+fn outcome(script: &str) -> (RunOutcome, String) {
     let (told, out) = (Notepad::default(), tempfile::tempdir().unwrap());
-    let settings = Settings {
+    let settings = RunSettings {
         told: Box::new(told.clone()),
         out: out.path().to_owned(),
-        ..Settings::silent(Mode::Run)
+        ..RunSettings::silent(RunMode::Run)
     };
     let outcome = runner::run(&Program::named("test", script), &language(), settings);
     assert!(matches!(outcome.ending, Ending::Finished), "{:?}", outcome.ending);

@@ -9,12 +9,12 @@ use crate::common::scenes::{add_beam, drive, line, rod, start_of};
 use crate::common::{at, meshes, orders, run, sci, settings, simulate};
 use withy::beams::Mesh;
 use withy::integrators::{EnergyClaim, INTEGRATORS, Mechanism, Method};
-use withy::joints::{Component, Hold, JointKind, Partner, Release, Trigger};
-use withy::loads::{Frame, LoadKind, Operation, PrescribedMotion, Schedule};
-use withy::model::{
-    Anchor, Model, ModelError, Origin, ParticleDefinition, RestoringLaw, Scene, Spring, SpringKind,
+use withy::joints::{Component, JointKind, Partner, Releasable, Release, Trigger};
+use withy::loads::{LoadFrame, LoadKind, Operation, PrescribedMotion, Schedule};
+use withy::simulation::{ArchiveError, Invariant, NoMonitor, Simulation, StepControl, StepSize};
+use withy::system::{
+    Anchor, Origin, ParticleDefinition, Scene, Spring, SpringKind, SpringLaw, System, SystemError,
 };
-use withy::simulation::{ArchiveError, Invariant, Simulation, StepControl, StepSize, Unwatched};
 
 fn mesh() -> Mesh {
     Mesh::bspline(4, 3, 2).unwrap()
@@ -54,23 +54,23 @@ fn what_methods_keep_they_keep_over_releases() {
 #[test]
 fn nothing_jumps_where_something_lets_go() {
     let scene = chain(&mesh());
-    let releases: Vec<(f64, Hold)> =
+    let releases: Vec<(f64, Releasable)> =
         scene.release_times().zip(scene.releases.iter().map(|release| release.hold)).collect();
     let mut simulation =
         Simulation::start(scene.clone(), settings(Method::EnergyMomentum, 0.02)).unwrap();
-    let mut gone: Vec<Hold> = Vec::new();
+    let mut gone: Vec<Releasable> = Vec::new();
     for (time, hold) in releases {
         run(&mut simulation, time).unwrap();
         assert_eq!(simulation.let_go().len(), gone.len());
-        let mut model = Model::assemble(&scene).unwrap();
+        let mut model = System::assemble(&scene).unwrap();
         model.stand_released(&scene, &gone).unwrap();
         model.restore(&simulation.model().state());
-        let points = |model: &Model| model.control_points().flatten().copied().collect::<Vec<_>>();
+        let points = |model: &System| model.control_points().flatten().copied().collect::<Vec<_>>();
         let (before, there, unknowns) = (model.measure(), points(&model), model.unknowns());
         model.let_go(&scene, &gone, hold).unwrap();
         let after = model.measure();
         assert_eq!(points(&model), there);
-        assert_eq!(model.unknowns() == unknowns, hold == Hold::Spring(0));
+        assert_eq!(model.unknowns() == unknowns, hold == Releasable::Spring(0));
         assert_eq!(after.momentum, before.momentum);
         assert_eq!(after.angular_momentum, before.angular_momentum);
         let [energy, had] = [after.energy, before.energy];
@@ -98,8 +98,8 @@ fn sling() -> Scene {
     let turn = Schedule::combined(Operation::Sum, one.unwrap(), wave.unwrap()).unwrap();
     let turn = PrescribedMotion::Place(turn);
     drive(&mut scene, point(arm, 0), &[(Component::Rotation, turn)]);
-    release(&mut scene, Hold::Joint(1), 0.6);
-    release(&mut scene, Hold::Drive(0), 0.8);
+    release(&mut scene, Releasable::Joint(1), 0.6);
+    release(&mut scene, Releasable::Drive(0), 0.8);
     scene
 }
 
@@ -145,11 +145,11 @@ fn a_rod_that_is_let_go_falls_as_one_that_was_free_from_the_start() {
             let station = held.station(beam, end).unwrap();
             held.join(JointKind::Rigid, station, Partner::Ground).unwrap();
         }
-        release(&mut held, Hold::Joint(0), 0.2);
-        release(&mut held, Hold::Joint(1), 0.2);
+        release(&mut held, Releasable::Joint(0), 0.2);
+        release(&mut held, Releasable::Joint(1), 0.2);
         let push = |scene: &mut Scene, from: f64| {
             let station = scene.station(beam, 0.5).unwrap();
-            let kind = LoadKind::Force { station, force: at(0.3, -1.0), frame: Frame::Dead };
+            let kind = LoadKind::Force { station, force: at(0.3, -1.0), frame: LoadFrame::Dead };
             scene.add_load(kind, Schedule::ramp(from, from + 0.1).unwrap());
         };
         push(&mut held, 0.2);
@@ -173,12 +173,12 @@ fn a_spring_that_snaps_leaves_its_energy_to_the_ledger() {
             .add_spring(Spring {
                 name: "spring".to_owned(),
                 kind: SpringKind::Way(vec![Anchor::Ground(at(0.0, 0.0)), Anchor::Station(bead)]),
-                law: Some(RestoringLaw::Linear { stiffness: 8.0, natural: 1.0 }),
+                law: Some(SpringLaw::Linear { stiffness: 8.0, natural: 1.0 }),
                 origin: Origin::Zero,
                 damping: 0.0.into(),
             })
             .unwrap();
-        release(&mut scene, Hold::Spring(0), 0.3);
+        release(&mut scene, Releasable::Spring(0), 0.3);
         let simulation = simulate(scene, entry.method, 0.01, 1.0);
         let history = simulation.history();
         let (stored, dissipated) = (history.column("stored"), history.column("dissipated"));
@@ -228,14 +228,14 @@ fn a_copy_and_a_way_back_know_what_had_let_go() {
                 run(&mut fork, end).unwrap();
             }
             simulation.rewind(0.18).unwrap();
-            simulation.run_to(0.6, &mut Unwatched).unwrap();
+            simulation.run_to(0.6, &mut NoMonitor).unwrap();
             for again in [&simulation, &fork] {
                 assert_eq!(again.let_go(), gone);
                 assert!(again.model().state() == state, "{} {}", entry.name, again.scene().name);
             }
             let mut copy = simulation.copy_at_start().unwrap();
             let rows = simulation.history().samples().len();
-            assert!(copy.run_again(&simulation, rows - 1, &mut Unwatched).unwrap());
+            assert!(copy.run_again(&simulation, rows - 1, &mut NoMonitor).unwrap());
             let file = simulation.to_bytes("gone").unwrap();
             let (_, loaded) = Simulation::from_bytes(&file).unwrap();
             assert_eq!((loaded.let_go(), loaded.unknowns()), (&gone[..], unknowns));
@@ -250,7 +250,7 @@ fn somebody_outside_says_when() {
     let start = start_of(&mut scene, beam);
     scene.join(JointKind::Hinge, start, Partner::Ground).unwrap();
     scene.gravity = at(0.0, -9.81);
-    scene.add_release(Release { hold: Hold::Joint(0), trigger: Trigger::Outside }).unwrap();
+    scene.add_release(Release { hold: Releasable::Joint(0), trigger: Trigger::Outside }).unwrap();
     let mut simulation = Simulation::start(scene, settings(Method::EnergyMomentum, 0.02)).unwrap();
     run(&mut simulation, 0.2).unwrap();
     assert!(simulation.waits_for_release(0) && simulation.let_go().is_empty());
@@ -271,16 +271,16 @@ fn what_cannot_let_go_is_refused() {
     let refused = |scene: &mut Scene, hold, time| {
         scene.add_release(Release { hold, trigger: Trigger::Time(time) }).unwrap_err()
     };
-    let told = refused(&mut scene, Hold::Joint(0), 0.7);
+    let told = refused(&mut scene, Releasable::Joint(0), 0.7);
     assert_eq!(
         told.to_string(),
         "'hinge1' lets go already; it can do so once: remove one of the two releases"
     );
-    let missing = refused(&mut scene, Hold::Slider(0), 0.7);
-    assert!(matches!(missing, ModelError::Missing { kind: "slider", count: 0, .. }), "{missing}");
+    let missing = refused(&mut scene, Releasable::Slider(0), 0.7);
+    assert!(matches!(missing, SystemError::Missing { kind: "slider", count: 0, .. }), "{missing}");
     scene.releases.clear();
     for time in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        let told = refused(&mut scene, Hold::Drive(0), time);
-        assert!(matches!(told, ModelError::Value { name: "at", .. }), "{told}");
+        let told = refused(&mut scene, Releasable::Drive(0), time);
+        assert!(matches!(told, SystemError::Value { name: "at", .. }), "{told}");
     }
 }

@@ -9,11 +9,11 @@ use withy::beams::{Mesh, Station};
 use withy::geometry::{Vec2, cross};
 use withy::integrators::{EnergyClaim, INTEGRATORS, Mechanism, Method, Stage};
 use withy::joints::{EndAction, JointKind, Partner, SlidingRule};
-use withy::model::{
-    Anchor, Model, ModelError, Origin, PointMass, RestoringLaw, Scene, Spring, SpringKind,
-    StartMotion, StationVelocity,
-};
 use withy::simulation::{Invariant, Simulation};
+use withy::system::{
+    Anchor, Origin, PointMass, Scene, Spring, SpringKind, SpringLaw, StartMotion, StationVelocity,
+    System, SystemError,
+};
 
 fn smooth(spans: usize) -> Mesh {
     Mesh::bspline(spans, 3, 2).unwrap()
@@ -26,7 +26,7 @@ fn the_tangent_is_the_derivative_of_forces_and_places() {
         // A law with corners has no derivative there.
         let is_smooth = |scene: &Scene| scene.springs().all(|at| at.damping.corners().is_empty());
         for scene in body_scenes::all(&mesh).into_iter().filter(is_smooth) {
-            let mut model = Model::assemble(&scene).unwrap();
+            let mut model = System::assemble(&scene).unwrap();
             let increments = random.vector(model.unknowns(), 0.2);
             for stage in [Stage::Midpoint, Stage::DampedMidpoint(0.6), Stage::End] {
                 model.begin_step(STEP, &Stage::ALL).unwrap();
@@ -87,7 +87,7 @@ fn a_carriage_keeps_all_while_its_wheels_slide_and_bounce() {
 #[test]
 fn joints_give_to_a_body_what_its_accelerations_need() {
     let mut scene = body_scenes::dumbbell(&smooth(6));
-    scene.elements.retain(|element| matches!(element, withy::model::Element::PointMass(_)));
+    scene.elements.retain(|element| matches!(element, withy::system::Element::PointMass(_)));
     let fixed = 1;
     let mut simulation = simulate(scene, Method::EnergyMomentum, 0.01, 0.5);
     let scene = simulation.scene().clone();
@@ -148,15 +148,15 @@ fn what_holds_a_body_twice_is_refused_by_its_name() {
         add_body(&mut scene, at(0.0, 0.0), 0.4, (1.0, 0.1), &[at(-0.5, 0.0), at(0.5, 0.2)]);
         scene.gravity = at(0.0, -1.0);
         points.iter().for_each(|station| hinge(&mut scene, *station, None));
-        Model::assemble(&scene).map(|_| ())
+        System::assemble(&scene).map(|_| ())
     };
     assert!(held(&[point(0, 1)]).is_ok());
     for points in [[point(0, 1), point(0, 2)], [point(0, 0), point(0, 2)]] {
         let error = held(&points).unwrap_err();
-        assert_eq!(error, ModelError::HeldTwice { body: "body1".to_owned() }, "{error}");
+        assert_eq!(error, SystemError::HeldTwice { body: "body1".to_owned() }, "{error}");
     }
     // A hundred bodies in a row are not.
-    assert!(Model::assemble(&body_scenes::chain(100)).is_ok());
+    assert!(System::assemble(&body_scenes::chain(100)).is_ok());
     // Five parallel bars are, though none of them is.
     let mut scene = Scene::new("parallel bars");
     let across = add_body(
@@ -171,30 +171,30 @@ fn what_holds_a_body_twice_is_refused_by_its_name() {
         hinge(&mut scene, point(bar, 1), None);
         hinge(&mut scene, point(bar, 2), Some(point(across, number)));
     }
-    assert!(matches!(Model::assemble(&scene), Err(ModelError::HeldTwice { .. })));
+    assert!(matches!(System::assemble(&scene), Err(SystemError::HeldTwice { .. })));
 }
 
 #[test]
 fn numbers_and_names_that_make_no_body_are_refused() {
-    let definition = |name: &str, points: &[(&str, Vec2)]| withy::model::RigidBodyDefinition {
+    let definition = |name: &str, points: &[(&str, Vec2)]| withy::system::RigidBodyDefinition {
         name: name.to_owned(),
         position: Vec2::zeros(),
         angle: 0.0,
         points: points.iter().map(|(name, at)| ((*name).to_owned(), *at)).collect(),
         outline: Vec::new(),
-        motion: withy::model::StartMotion::default(),
+        motion: withy::system::StartMotion::default(),
     };
     let mut scene = Scene::new("wrong");
     for (mass, inertia) in
         [(0.0, 0.0), (-1.0, 1.0), (1.0, -1.0), (f64::NAN, 1.0), (1.0, f64::INFINITY)]
     {
         let error = scene.add_rigid_body(definition("hub", &[]), mass, inertia).unwrap_err();
-        assert!(matches!(error, ModelError::Value { .. }), "{error}");
+        assert!(matches!(error, SystemError::Value { .. }), "{error}");
         assert!(scene.rigid_bodies.is_empty() && scene.elements.is_empty());
     }
     let twice = definition("hub", &[("a", Vec2::x()), ("a", Vec2::y())]);
     let error = scene.add_rigid_body(twice, 1.0, 1.0).unwrap_err();
-    assert!(matches!(error, ModelError::DuplicateName { kind: "point", .. }), "{error}");
+    assert!(matches!(error, SystemError::DuplicateName { kind: "point", .. }), "{error}");
     let elsewhere = definition("hub", &[("centre", Vec2::x())]);
     let error = scene.add_rigid_body(elsewhere, 1.0, 1.0).unwrap_err();
     assert!(error.to_string().contains("the centre of mass of a body is called so"), "{error}");
@@ -205,23 +205,23 @@ fn numbers_and_names_that_make_no_body_are_refused() {
     let error = scene.point_of_body(hub, "b").unwrap_err();
     assert_eq!(error.to_string(), "body 'hub' has no point 'b'; it has 'a'");
     let again = scene.add_rigid_body(definition("hub", &[]), 1.0, 1.0).unwrap_err();
-    assert!(matches!(again, ModelError::DuplicateName { .. }), "{again}");
+    assert!(matches!(again, SystemError::DuplicateName { .. }), "{again}");
     // Inertia without a mass may stand on a body, nothing may not.
     let station = point(hub, 1);
     scene.add_mass(PointMass { station, mass: 0.0, rotary_inertia: 0.1 }).unwrap();
     assert!(scene.add_mass(PointMass { station, mass: 0.0, rotary_inertia: 0.0 }).is_err());
     scene.velocities.push(StationVelocity { station, velocity: Vec2::x(), spin: None });
-    assert!(matches!(Model::assemble(&scene), Err(ModelError::PointAlone { .. })));
+    assert!(matches!(System::assemble(&scene), Err(SystemError::PointAlone { .. })));
 }
 
 #[test]
 fn start_velocities_must_fit_the_joints() {
     let mut scene = body_scenes::pendulum(0.2, 0.8, 1.0);
     scene.rigid_bodies[0].motion.spin = 2.0;
-    let error = Model::assemble(&scene).err().unwrap();
-    assert!(matches!(error, ModelError::StartVelocity { .. }), "{error}");
+    let error = System::assemble(&scene).err().unwrap();
+    assert!(matches!(error, SystemError::StartVelocity { .. }), "{error}");
     scene.rigid_bodies[0].motion.about = Some(Vec2::zeros());
-    let mut model = Model::assemble(&scene).unwrap();
+    let mut model = System::assemble(&scene).unwrap();
     let energy = model.measure().energy.kinetic;
     assert!((energy - 0.5 * (0.2 + 0.64) * 4.0).abs() < 1e-14, "{energy}");
 }
@@ -236,7 +236,7 @@ fn a_pendulum_upside_down_grows_from_the_start_and_looking_at_that_changes_nothi
     let spring = Spring {
         name: "soft".to_owned(),
         kind: SpringKind::Torsion([Anchor::Ground(at(0.0, 0.0)), Anchor::Station(station)]),
-        law: Some(RestoringLaw::Linear { stiffness, natural: 0.0 }),
+        law: Some(SpringLaw::Linear { stiffness, natural: 0.0 }),
         origin: Origin::AsBuilt,
         damping: 0.0.into(),
     };
@@ -266,7 +266,7 @@ fn a_slider_on_a_point_may_leave_its_beam() {
     let simulation = simulate(scene, Method::EnergyMomentum, 0.02, 6.0);
     let [one, other] = [0, 1].map(|slider| simulation.model().slider_state(slider));
     assert!(
-        one != withy::model::SliderState::Sliding || other != withy::model::SliderState::Sliding
+        one != withy::system::SliderState::Sliding || other != withy::system::SliderState::Sliding
     );
     assert!(simulation.history().drift(Invariant::Energy) < 1e-11);
 }
@@ -288,8 +288,8 @@ fn a_body_in_motion_takes_the_end_of_a_beam_at_rest_along() {
         scene.velocities.push(velocity);
         scene
     };
-    let error = Model::assemble(&struck(at(-3.0, 1.0))).err().unwrap();
-    assert!(matches!(error, ModelError::StartVelocity { .. }), "{error}");
+    let error = System::assemble(&struck(at(-3.0, 1.0))).err().unwrap();
+    assert!(matches!(error, SystemError::StartVelocity { .. }), "{error}");
     let simulation = simulate(struck(at(-3.5, 1.0)), Method::EnergyMomentum, 0.005, 0.5);
     let begun = simulation.history().samples()[0].measures;
     // The body, and the node of the beam, which counts little.

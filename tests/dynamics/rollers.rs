@@ -9,14 +9,14 @@ use withy::beams::{Mesh, Station};
 use withy::geometry::{Vec2, cross, perpendicular};
 use withy::integrators::{INTEGRATORS, Method};
 use withy::joints::{
-    Component, Components, Hold, JointKind, Partner, Release, SlidingRule, Trigger,
+    Component, Components, JointKind, Partner, Releasable, Release, SlidingRule, Trigger,
 };
-use withy::loads::{Frame, LoadKind, PrescribedMotion, Schedule};
-use withy::model::{
-    Drive, DriveKind, Model, ModelError, ParticleDefinition, Scene, StationVelocity,
-};
+use withy::loads::{LoadFrame, LoadKind, PrescribedMotion, Schedule};
 use withy::simulation::{Invariant, Simulation};
 use withy::statics::{Equilibrium, Loading};
+use withy::system::{
+    Drive, DriveKind, ParticleDefinition, Scene, StationVelocity, System, SystemError,
+};
 use withy::vibration::Modes;
 
 const ANGLES: [f64; 4] = [0.7, -0.3, 1.2, 2.5];
@@ -46,7 +46,7 @@ fn bridge(angle: f64) -> Scene {
     scene.join(kind, end, Partner::Ground).unwrap();
     let station = scene.station(beam, 0.8).unwrap();
     let force =
-        LoadKind::Force { station, force: turned(angle, at(1.0, -4.0)), frame: Frame::Dead };
+        LoadKind::Force { station, force: turned(angle, at(1.0, -4.0)), frame: LoadFrame::Dead };
     scene.add_load(force, Schedule::constant(1.0).unwrap());
     scene.gravity = turned(angle, at(0.5, -3.0));
     scene
@@ -56,7 +56,7 @@ fn tip(scene: &Scene) -> Station {
     Station::on_beam(0, scene.beams[0].axis.length())
 }
 
-fn places(model: &Model) -> Vec<Vec2> {
+fn places(model: &System) -> Vec<Vec2> {
     model.control_points().flatten().copied().collect()
 }
 
@@ -130,7 +130,7 @@ fn a_beam_on_an_inclined_roller_along_itself_has_the_modes_of_a_simply_supported
     let (start, end) = (start_of(&mut scene, beam), end_of(&mut scene, beam));
     scene.join(JointKind::Hinge, start, Partner::Ground).unwrap();
     roller(&mut scene, end, 0.6);
-    let model = Model::assemble(&scene).unwrap();
+    let model = System::assemble(&scene).unwrap();
     let modes = Modes::of(&model, 3, &mut || true).unwrap();
     for (number, mode) in (1..).zip(modes.all()) {
         let wave = f64::from(number) * std::f64::consts::PI / length;
@@ -176,7 +176,7 @@ fn a_cart_runs_down_a_slope_and_presses_on_it_by_its_weight_across() {
 #[test]
 fn a_roller_that_lets_go_leaves_a_body_to_fly() {
     let mut scene = cart(0.6);
-    scene.add_release(Release { hold: Hold::Joint(0), trigger: Trigger::Time(1.0) }).unwrap();
+    scene.add_release(Release { hold: Releasable::Joint(0), trigger: Trigger::Time(1.0) }).unwrap();
     let simulation = simulate(scene, Method::EnergyMomentum, 0.1, 2.0);
     let down = unit(0.6) * (-9.81 * 0.6_f64.sin());
     let expected = at(1.0, 2.0) + down * 1.5 + at(0.0, -9.81) * 0.5;
@@ -204,7 +204,7 @@ fn blows_are_given_to_the_ground_by_an_inclined_roller() {
 
 #[test]
 fn what_is_held_twice_is_refused() {
-    let supported = |kinds: &[JointKind]| -> Result<(), ModelError> {
+    let supported = |kinds: &[JointKind]| -> Result<(), SystemError> {
         let mut scene = Scene::new("bridge");
         let beam = add_beam(&mut scene, line(Vec2::zeros(), at(2.0, 0.0)), &smooth(4), rod());
         let end = end_of(&mut scene, beam);
@@ -221,7 +221,7 @@ fn what_is_held_twice_is_refused() {
         vec![x, along(0.3), y],
     ] {
         let refused = supported(&kinds);
-        assert!(matches!(refused, Err(ModelError::AlreadyTied { .. })), "{kinds:?}: {refused:?}");
+        assert!(matches!(refused, Err(SystemError::AlreadyTied { .. })), "{kinds:?}: {refused:?}");
     }
     supported(&[along(0.3), along(0.4)]).unwrap();
     supported(&[along(0.3), JointKind::Support(Components::Rotation)]).unwrap();
@@ -232,7 +232,7 @@ fn what_is_held_twice_is_refused() {
     for (number, angle) in [(1, 0.2), (2, 0.2 + 1.5), (3, 0.2)] {
         roller(&mut scene, point(body, number), angle);
     }
-    assert!(Model::assemble(&scene).is_ok());
+    assert!(System::assemble(&scene).is_ok());
     let mut scene = Scene::new("wheel");
     let body = add_body(&mut scene, at(0.0, 0.0), 0.2, (1.0, 0.2), &points);
     for number in 1..=3 {
@@ -240,8 +240,8 @@ fn what_is_held_twice_is_refused() {
         let along = perpendicular(arm);
         scene.join(JointKind::InclinedRoller(along), point(body, number), Partner::Ground).unwrap();
     }
-    let refused = Model::assemble(&scene).map(|_| ());
-    assert!(matches!(refused, Err(ModelError::AlreadyTied { .. })), "{refused:?}");
+    let refused = System::assemble(&scene).map(|_| ());
+    assert!(matches!(refused, Err(SystemError::AlreadyTied { .. })), "{refused:?}");
 }
 
 #[test]
@@ -249,13 +249,13 @@ fn velocities_and_motions_across_a_roller_are_refused() {
     let mut scene = cart(0.5);
     let station = Station::on_particle(0);
     scene.velocities.push(StationVelocity { station, velocity: at(1.0, 0.0), spin: None });
-    let refused = Model::assemble(&scene).map(|_| ());
-    assert!(matches!(refused, Err(ModelError::StartVelocity { .. })), "{refused:?}");
+    let refused = System::assemble(&scene).map(|_| ());
+    assert!(matches!(refused, Err(SystemError::StartVelocity { .. })), "{refused:?}");
     let mut scene = cart(0.5);
     let rest = PrescribedMotion::Place(Schedule::constant(0.0).unwrap());
     let mut motions = [None, None, None];
     motions[Component::X as usize] = Some(rest);
     let (name, kind) = ("push".to_owned(), DriveKind::Move);
     let refused = scene.add_drive(Drive { name, kind, station, motions });
-    assert!(matches!(refused, Err(ModelError::AlreadyDriven { .. })), "{refused:?}");
+    assert!(matches!(refused, Err(SystemError::AlreadyDriven { .. })), "{refused:?}");
 }

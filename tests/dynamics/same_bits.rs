@@ -14,15 +14,15 @@ use std::process::Command;
 use crate::common::fingerprint::fingerprint;
 use crate::common::sliding::{Support, free_sliding_mass, kicked_sliding_particle};
 use crate::common::{at, meshes, rails, run, scenes, settings, sliding_scenes};
-use withy::beams::{Mesh, Section, Shape, Solid};
+use withy::beams::{Mesh, Section, SectionShape, Solid};
 use withy::elementary;
 use withy::geometry::{Curve, Vec2};
 use withy::integrators::Method;
 use withy::joints::{EndAction, JointKind, Partner, SlidingRule};
-use withy::loads::{Frame, LoadKind, Schedule};
-use withy::model::{Model, Scene, StartMotion};
+use withy::loads::{LoadFrame, LoadKind, Schedule};
 use withy::simulation::{Simulation, StepControl, StepSize};
 use withy::statics::{ArcLength, Control, Equilibrium, Loading};
+use withy::system::{Scene, StartMotion, System};
 use withy::vibration::Modes;
 
 /// What keeps the GNU C library from using these instructions in its functions; names differ from version to version.
@@ -55,7 +55,7 @@ fn smooth(spans: usize) -> Mesh {
 
 /// A steel tube that spins, pushed by a schedule of sines and a table.
 fn spinning_tube() -> Scene {
-    let shape = Shape::Tube { outer: 0.06, inner: 0.051 };
+    let shape = SectionShape::Tube { outer: 0.06, inner: 0.051 };
     let solid = Solid { young: 2.1e11, poisson: 0.29, density: 7850.0, shape };
     let mut scene = scenes::free_beam(&smooth(5), Section::from_solid(solid).unwrap());
     let velocity = at(0.3, -0.1);
@@ -63,7 +63,7 @@ fn spinning_tube() -> Scene {
     let station = scene.station(0, 7.0).unwrap();
     let sine = Schedule::sine(0.8, 3.0, 0.4).unwrap();
     let table = Schedule::table(vec![(0.0, 0.0), (0.2, 1.0), (0.6, -0.5)]).unwrap();
-    let force = LoadKind::Force { station, force: at(200.0, 900.0), frame: Frame::Follower };
+    let force = LoadKind::Force { station, force: at(200.0, 900.0), frame: LoadFrame::Follower };
     scene.add_load(force, sine);
     scene.add_load(LoadKind::Moment { station, moment: 400.0 }, table);
     scene
@@ -78,7 +78,7 @@ fn with_ends(mut scene: Scene, ends: EndAction) -> Scene {
 fn loaded(mesh: &Mesh, force: Vec2) -> Scene {
     let mut scene = scenes::cantilever(mesh, scenes::spaghetti_section(1e4, 100.0));
     let station = scenes::end_of(&mut scene, 0);
-    let load = LoadKind::Force { station, force, frame: Frame::Dead };
+    let load = LoadKind::Force { station, force, frame: LoadFrame::Dead };
     scene.add_load(load, Schedule::constant(1.0).unwrap());
     scene
 }
@@ -99,14 +99,14 @@ fn deep_arch() -> u64 {
         [0.0, 0.5 * length, length].map(|at| scene.station(beam, at).unwrap());
     scene.join(JointKind::Rigid, start, Partner::Ground).unwrap();
     scene.join(JointKind::Hinge, end, Partner::Ground).unwrap();
-    let load = LoadKind::Force { station: crown, force: at(0.0, -1000.0), frame: Frame::Dead };
+    let load = LoadKind::Force { station: crown, force: at(0.0, -1000.0), frame: LoadFrame::Dead };
     scene.add_load(load, Schedule::constant(1.0).unwrap());
     let control = Control::ArcLength(ArcLength { longest: 0.05, points: 30 });
     at_rest(scene, Loading { steps: 20, control, ..Loading::default() })
 }
 
 fn modes(scene: &Scene, count: usize) -> u64 {
-    let model = Model::assemble(scene).unwrap();
+    let model = System::assemble(scene).unwrap();
     let modes = Modes::of(&model, count, &mut || true).unwrap();
     let shapes: Vec<_> = (0..count).map(|mode| modes.displaced(mode, 0.1)).collect();
     hash(&(modes.all(), shapes))

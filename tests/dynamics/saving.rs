@@ -4,26 +4,29 @@
 use std::path::Path;
 
 use crate::common::notepad::Notepad;
-use withy::script::engine::runner::{Ending, Outcome, run};
+use withy::script::engine::runner::{Ending, RunOutcome, run};
 use withy::script::packages::language;
 use withy::script::source::program::Program;
-use withy::script::state::settings::{Mode, Settings};
+use withy::script::state::settings::{RunMode, RunSettings};
 
-fn run_in(out: &Path, mode: Mode, script: &str) -> (Outcome, String) {
+fn run_in(out: &Path, mode: RunMode, script: &str) -> (RunOutcome, String) {
     let told = Notepad::default();
-    let settings =
-        Settings { out: out.to_owned(), told: Box::new(told.clone()), ..Settings::silent(mode) };
+    let settings = RunSettings {
+        out: out.to_owned(),
+        told: Box::new(told.clone()),
+        ..RunSettings::silent(mode)
+    };
     let outcome = run(&Program::named("script", script), &language(), settings);
     (outcome, told.take())
 }
 
 #[track_caller]
-fn assert_good(outcome: &Outcome) {
+fn assert_good(outcome: &RunOutcome) {
     assert!(matches!(outcome.ending, Ending::Finished), "{:?}", outcome.ending);
     assert_eq!(outcome.checks.failed(), []);
 }
 
-fn message(outcome: &Outcome) -> String {
+fn message(outcome: &RunOutcome) -> String {
     match &outcome.ending {
         Ending::Failed(diagnostic) => diagnostic.to_string(),
         other => panic!("{other:?}"),
@@ -61,13 +64,13 @@ sim.save("half.withy");
 #[test]
 fn a_simulation_survives_a_restart() {
     let home = tempfile::tempdir().unwrap();
-    let (outcome, told) = run_in(home.path(), Mode::Run, FIRST);
+    let (outcome, told) = run_in(home.path(), RunMode::Run, FIRST);
     assert_good(&outcome);
     assert!(told.contains("without the functions that wait for a time (1)"), "{told}");
     assert_eq!(outcome.files, [home.path().join("half.withy")]);
     let file = std::fs::read(home.path().join("half.withy")).unwrap();
     for _ in 0..2 {
-        let (outcome, told) = run_in(home.path(), Mode::Run, SECOND);
+        let (outcome, told) = run_in(home.path(), RunMode::Run, SECOND);
         assert_good(&outcome);
         assert_eq!(told, "");
     }
@@ -83,29 +86,29 @@ fn a_check_loads_what_an_earlier_run_or_the_script_itself_saves_and_writes_nothi
     let both = format!(
         "{FIRST}\nlet again = load_simulation(\"half.withy\");\nagain.step(3);\nagain.back(7);\nlet other = again.fork();\nother.rewind(0);\nprint(again.scene.beam_named(\"rod\").length);"
     );
-    assert_good(&run_in(&out, Mode::DryBuild, &both).0);
+    assert_good(&run_in(&out, RunMode::DryBuild, &both).0);
     assert!(!out.exists());
-    let refused = message(&run_in(&out, Mode::DryBuild, SECOND).0);
+    let refused = message(&run_in(&out, RunMode::DryBuild, SECOND).0);
     assert!(
         refused.contains("no file \"half.withy\"")
             && refused.contains("run the script that writes it first"),
         "{refused}"
     );
-    assert_good(&run_in(&out, Mode::Run, FIRST).0);
+    assert_good(&run_in(&out, RunMode::Run, FIRST).0);
     let before = std::fs::read(out.join("half.withy")).unwrap();
-    assert_good(&run_in(&out, Mode::DryBuild, "let sim = load_simulation(\"half.withy\");\nsim.run_to(2);\nsim.back(500);\nsim.rewind(0.1);\nsim.save(\"half.withy\");").0);
+    assert_good(&run_in(&out, RunMode::DryBuild, "let sim = load_simulation(\"half.withy\");\nsim.run_to(2);\nsim.back(500);\nsim.rewind(0.1);\nsim.save(\"half.withy\");").0);
     assert_eq!(std::fs::read(out.join("half.withy")).unwrap(), before);
 }
 
 #[test]
 fn files_that_are_not_whole_or_not_ours_are_refused_with_a_reason() {
     let home = tempfile::tempdir().unwrap();
-    assert_good(&run_in(home.path(), Mode::Run, FIRST).0);
+    assert_good(&run_in(home.path(), RunMode::Run, FIRST).0);
     let path = home.path().join("half.withy");
     let file = std::fs::read(&path).unwrap();
     let refusal = |content: &[u8]| {
         std::fs::write(&path, content).unwrap();
-        message(&run_in(home.path(), Mode::Run, "load_simulation(\"half.withy\");").0)
+        message(&run_in(home.path(), RunMode::Run, "load_simulation(\"half.withy\");").0)
     };
     let mut newer = file.clone();
     newer[8] += 1;
@@ -129,12 +132,12 @@ fn files_that_are_not_whole_or_not_ours_are_refused_with_a_reason() {
 fn a_script_that_never_goes_back_keeps_no_states_and_one_that_does_keeps_them() {
     let home = tempfile::tempdir().unwrap();
     let fall = "let scene = new_scene(\"fall\");\nscene.particle([0, 0], 1);\nlet sim = scene.start(#{ dt: 0.1 });\nsim.step(3);\n";
-    assert_good(&run_in(home.path(), Mode::Run, &format!("{fall}sim.back(2);")).0);
-    assert_good(&run_in(home.path(), Mode::Run, &format!("{fall}sim.rewind(0.1);")).0);
+    assert_good(&run_in(home.path(), RunMode::Run, &format!("{fall}sim.back(2);")).0);
+    assert_good(&run_in(home.path(), RunMode::Run, &format!("{fall}sim.rewind(0.1);")).0);
     let kept = |script: &str| {
         // A call by a pointer hides the name from whoever reads the tokens.
         let outcome =
-            run_in(home.path(), Mode::Run, &format!("{script}Fn(\"ba\" + \"ck\").call(sim);")).0;
+            run_in(home.path(), RunMode::Run, &format!("{script}Fn(\"ba\" + \"ck\").call(sim);")).0;
         matches!(outcome.ending, Ending::Finished)
     };
     assert!(!kept(fall));

@@ -8,11 +8,12 @@ use withy::beams::{Mesh, SectionVariation};
 use withy::integrators::Method;
 use withy::joints::SlidingRule;
 use withy::loads::{LoadKind, PrescribedMotion, Schedule};
-use withy::model::{
-    Anchor, Element, Origin, ParticleDefinition, RestoringLaw, Scene, Spring, SpringKind,
-};
 use withy::simulation::{
-    DerivativeError, Side, Simulation, SimulationError, StepControl, StepSize, Unwatched, Variation,
+    DerivativeError, NoMonitor, PerturbedSide, Simulation, SimulationError, StepControl, StepSize,
+    Variation,
+};
+use withy::system::{
+    Anchor, Element, Origin, ParticleDefinition, Scene, Spring, SpringKind, SpringLaw,
 };
 
 const METHODS: [Method; 2] = [Method::EnergyMomentum, Method::FourthOrder];
@@ -26,7 +27,7 @@ fn oscillator(stiffness: f64, mass: f64, stretch: f64) -> Scene {
     let mut scene = Scene::new("oscillator");
     let particle = ParticleDefinition { name: "bead".to_owned(), position: at(2.0 + stretch, 0.0) };
     let bead = scene.add_particle(particle, mass).unwrap();
-    let law = Some(RestoringLaw::Linear { stiffness, natural: 2.0 });
+    let law = Some(SpringLaw::Linear { stiffness, natural: 2.0 });
     let kind = SpringKind::Way(vec![Anchor::Ground(at(0.0, 0.0)), Anchor::Station(bead)]);
     let name = "spring".to_owned();
     let spring = Spring { name, kind, law, origin: Origin::Zero, damping: 0.0.into() };
@@ -98,8 +99,8 @@ fn scaled(scene: &Scene, what: usize, by: f64) -> Scene {
                         _ => (),
                     },
                     Element::Spring(spring) => match &mut spring.law {
-                        Some(RestoringLaw::Linear { stiffness, .. }) => *stiffness *= factor,
-                        Some(RestoringLaw::Table { points }) => {
+                        Some(SpringLaw::Linear { stiffness, .. }) => *stiffness *= factor,
+                        Some(SpringLaw::Table { points }) => {
                             points.iter_mut().for_each(|(_, force)| *force *= factor);
                         }
                         _ => (),
@@ -148,7 +149,7 @@ fn derivatives_of_all_scenes_are_those_of_exact_runs() {
             let plain = simulate(scene.clone(), method, DT, END);
             assert_eq!(plain.model().state(), simulation.model().state(), "{}", scene.name);
             assert_eq!(plain.counts().factorisations, simulation.counts().factorisations);
-            if let Err(reason) = simulation.beside(0, Side::Plus) {
+            if let Err(reason) = simulation.beside(0, PerturbedSide::Plus) {
                 assert!(
                     matches!(reason, DerivativeError::Event { .. }),
                     "{}: {reason}",
@@ -167,7 +168,7 @@ fn derivatives_of_all_scenes_are_those_of_exact_runs() {
                 let h = 5e-5;
                 let expected: Vec<f64> =
                     at(h).into_iter().zip(at(2.0 * h)).map(|(a, b)| (4.0 * a - b) / 3.0).collect();
-                let [plus, minus] = [Side::Plus, Side::Minus]
+                let [plus, minus] = [PerturbedSide::Plus, PerturbedSide::Minus]
                     .map(|side| places(simulation.beside(what, side).unwrap()));
                 let found = plus.iter().zip(&minus).map(|(a, b)| (a - b) / 2e-5);
                 let largest = expected.iter().fold(1e-3_f64, |most, x| most.max(x.abs()));
@@ -237,7 +238,7 @@ fn what_cannot_be_right_is_refused_with_a_reason() {
     assert!(back.derivative(0, bead).is_ok() && back.derivative(1, bead).is_err());
     back.back(2).unwrap();
     assert!(matches!(back.derivative(0, bead), Err(DerivativeError::Way { .. })));
-    back.step(&mut Unwatched).unwrap();
+    back.step(&mut NoMonitor).unwrap();
 }
 
 #[test]
@@ -247,7 +248,7 @@ fn histories_beside_a_run_have_its_rows() {
     let mut simulation =
         Simulation::start_with_derivatives(scene, settings(METHODS[0], 0.1), of).unwrap();
     run(&mut simulation, 1.05).unwrap();
-    let beside = simulation.beside(0, Side::Minus).unwrap();
+    let beside = simulation.beside(0, PerturbedSide::Minus).unwrap();
     let times = |of: &Simulation| -> Vec<f64> {
         of.history().samples().iter().map(|row| row.measures.time).collect()
     };

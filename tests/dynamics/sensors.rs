@@ -9,8 +9,8 @@ use withy::beams::{Mesh, Section, Station};
 use withy::geometry::Vec2;
 use withy::integrators::{INTEGRATORS, Method};
 use withy::joints::{JointKind, Partner, SlidingRule};
-use withy::model::{ModelError, Scene};
-use withy::simulation::{Simulation, Unwatched};
+use withy::simulation::{NoMonitor, Simulation};
+use withy::system::{Scene, SystemError};
 
 fn smooth(spans: usize) -> Mesh {
     Mesh::bspline(spans, 3, 2).unwrap()
@@ -225,7 +225,7 @@ fn a_bead_accelerates_as_its_contact_force_says() {
         let mut positions = Vec::new();
         let mut forces = Vec::new();
         while simulation.time() < 0.3 - 0.1 * dt {
-            simulation.step(&mut Unwatched).unwrap();
+            simulation.step(&mut NoMonitor).unwrap();
             positions.push(simulation.model().position(&place));
             let now = simulation.instant().unwrap();
             let acceleration = simulation.model().acceleration(&now, &place);
@@ -282,13 +282,13 @@ fn a_quantity_that_there_is_not_is_refused_with_what_there_is() {
         ("hinge2.fx", "begin with the name of a beam"),
     ] {
         let error = scene.record(name).unwrap_err();
-        assert!(matches!(error, ModelError::NoSensor { .. }), "{error}");
+        assert!(matches!(error, SystemError::NoSensor { .. }), "{error}");
         assert!(error.to_string().contains(told), "{error}");
     }
     for name in ["", " ", "a,b", "two\nlines"] {
-        assert!(matches!(scene.record(name), Err(ModelError::SensorName { .. })), "{name}");
-        assert!(matches!(scene.record_outside(name), Err(ModelError::SensorName { .. })));
+        assert!(matches!(scene.record(name), Err(SystemError::SensorName { .. })), "{name}");
+        assert!(matches!(scene.record_outside(name), Err(SystemError::SensorName { .. })));
     }
     scene.record("beam1.end.x").unwrap();
-    assert!(matches!(scene.record("beam1.end.x"), Err(ModelError::DuplicateSensor { .. })));
+    assert!(matches!(scene.record("beam1.end.x"), Err(SystemError::DuplicateSensor { .. })));
 }

@@ -8,12 +8,12 @@ use std::f64::consts::FRAC_PI_2;
 use withy::geometry::Vec2;
 use withy::integrators::{EnergyClaim, INTEGRATORS, Method};
 use withy::joints::Component;
-use withy::loads::{Frame, LoadKind, PrescribedMotion, Schedule};
-use withy::model::{
-    Anchor, DampingLaw, Origin, ParticleDefinition, RestoringLaw, Scene, Spring, SpringKind,
+use withy::loads::{LoadFrame, LoadKind, PrescribedMotion, Schedule};
+use withy::simulation::{Invariant, Simulation};
+use withy::system::{
+    Anchor, DampingLaw, Origin, ParticleDefinition, Scene, Spring, SpringKind, SpringLaw,
     StationVelocity,
 };
-use withy::simulation::{Invariant, Simulation};
 
 const STIFFNESS: f64 = 9.0;
 const DAMPING: f64 = 0.5;
@@ -21,13 +21,13 @@ const SPEED: f64 = 0.3;
 /// Along which everything moves: no axis.
 const DIRECTION: Vec2 = Vec2::new(0.6, 0.8);
 
-fn spring(kind: SpringKind, law: Option<RestoringLaw>, damping: f64) -> Spring {
+fn spring(kind: SpringKind, law: Option<SpringLaw>, damping: f64) -> Spring {
     let damping = DampingLaw::Linear(damping);
     Spring { name: "spring".to_owned(), kind, law, origin: Origin::Zero, damping }
 }
 
 /// A particle of mass 1, one away from where a damper is anchored, which passes through there.
-fn passing(law: Option<RestoringLaw>, damping: f64, velocity: Vec2) -> Scene {
+fn passing(law: Option<SpringLaw>, damping: f64, velocity: Vec2) -> Scene {
     let mut scene = Scene::new("passing");
     let (name, anchor) = ("bead".to_owned(), at(2.0, -1.0));
     let position = anchor + DIRECTION;
@@ -36,7 +36,7 @@ fn passing(law: Option<RestoringLaw>, damping: f64, velocity: Vec2) -> Scene {
     let kind = SpringKind::Way(vec![Anchor::Ground(anchor), Anchor::Station(station)]);
     if law.is_none() {
         let force = DIRECTION * -3.0;
-        let kind = LoadKind::Force { station, force, frame: Frame::Dead };
+        let kind = LoadKind::Force { station, force, frame: LoadFrame::Dead };
         scene.add_load(kind, Schedule::constant(1.0).unwrap());
     }
     scene.add_spring(spring(kind, law, damping)).unwrap();
@@ -52,7 +52,7 @@ fn place(simulation: &Simulation) -> f64 {
 #[test]
 fn a_damper_that_passes_through_its_anchor_is_met_with_the_order_of_the_method() {
     let end = 4.0;
-    let central = RestoringLaw::Linear { stiffness: STIFFNESS, natural: 0.0 };
+    let central = SpringLaw::Linear { stiffness: STIFFNESS, natural: 0.0 };
     let half = 0.5 * DAMPING;
     let omega = (STIFFNESS - half * half).sqrt();
     let (sin, cos) = (omega * end).sin_cos();
@@ -60,7 +60,7 @@ fn a_damper_that_passes_through_its_anchor_is_met_with_the_order_of_the_method()
     let limit = -3.0 / DAMPING;
     let drawn = 1.0 + limit * end + (SPEED - limit) / DAMPING * (1.0 - (-DAMPING * end).exp());
     let line = vec![(-2.0, -2.0 * STIFFNESS), (2.0, 2.0 * STIFFNESS)];
-    let table = RestoringLaw::Table { points: line };
+    let table = SpringLaw::Table { points: line };
     for (law, expected) in [(Some(central), swings), (Some(table), swings), (None, drawn)] {
         for entry in INTEGRATORS {
             let error = |dt: f64| {
@@ -85,7 +85,7 @@ fn a_damper_that_passes_through_its_anchor_is_met_with_the_order_of_the_method()
 fn a_damper_that_nearly_passes_through_its_anchor_keeps_the_ledger() {
     let mut random = Random(17);
     for (damping, velocity) in [(0.5, 3.0), (20.0, 40.0), (1e6, 1.0), (1e12, 1.0)] {
-        for law in [None, Some(RestoringLaw::Linear { stiffness: STIFFNESS, natural: 0.0 })] {
+        for law in [None, Some(SpringLaw::Linear { stiffness: STIFFNESS, natural: 0.0 })] {
             for _ in 0..6 {
                 let aside = at(-DIRECTION.y, DIRECTION.x) * (0.02 * random.next());
                 let velocity = (aside - DIRECTION) * velocity;
@@ -114,11 +114,11 @@ fn driven_by_little(stiffness: f64, amplitude: f64) -> Scene {
         PrescribedMotion::Place(schedule)
     };
     drive(&mut scene, station, &[(Component::X, motion()), (Component::Rotation, motion())]);
-    let law = RestoringLaw::Linear { stiffness, natural: 6.0 };
+    let law = SpringLaw::Linear { stiffness, natural: 6.0 };
     let ends = |ground: Vec2| [Anchor::Ground(ground), Anchor::Station(station)];
     let way = SpringKind::Way(ends(at(1.0, 2.0)).to_vec());
     scene.add_spring(spring(way, Some(law), 0.0)).unwrap();
-    let law = RestoringLaw::Linear { stiffness, natural: FRAC_PI_2 };
+    let law = SpringLaw::Linear { stiffness, natural: FRAC_PI_2 };
     let torsion = SpringKind::Torsion(ends(at(0.0, 0.0)));
     let torsion = Spring { name: "torsion".to_owned(), ..spring(torsion, Some(law), 0.0) };
     scene.add_spring(torsion).unwrap();

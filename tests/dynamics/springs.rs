@@ -7,19 +7,19 @@ use crate::common::{at, orders, scenes, simulate};
 use withy::beams::{Mesh, Section};
 use withy::integrators::{EnergyClaim, INTEGRATORS, Method};
 use withy::joints::{JointKind, Partner};
-use withy::model::{
-    Anchor, Origin, ParticleDefinition, RestoringLaw, Scene, Spring, SpringKind, StartMotion,
+use withy::simulation::{Invariant, Simulation};
+use withy::system::{
+    Anchor, Origin, ParticleDefinition, Scene, Spring, SpringKind, SpringLaw, StartMotion,
     StationVelocity,
 };
-use withy::simulation::{Invariant, Simulation};
 
 const NATURAL: f64 = 1.0;
 
-fn linear(stiffness: f64, natural: f64) -> Option<RestoringLaw> {
-    Some(RestoringLaw::Linear { stiffness, natural })
+fn linear(stiffness: f64, natural: f64) -> Option<SpringLaw> {
+    Some(SpringLaw::Linear { stiffness, natural })
 }
 
-fn add(scene: &mut Scene, anchors: Vec<Anchor>, law: Option<RestoringLaw>, damping: f64) {
+fn add(scene: &mut Scene, anchors: Vec<Anchor>, law: Option<SpringLaw>, damping: f64) {
     let (name, kind) = (scene.free_name("spring"), SpringKind::Way(anchors));
     scene
         .add_spring(Spring { name, kind, law, origin: Origin::Zero, damping: damping.into() })
@@ -67,7 +67,7 @@ fn a_damped_oscillator_is_met_with_the_order_of_the_method() {
 }
 
 /// A particle at (1, 0) on a damper to the origin, with or without a spring beside it.
-fn turning(velocity: (f64, f64), law: Option<RestoringLaw>) -> Scene {
+fn turning(velocity: (f64, f64), law: Option<SpringLaw>) -> Scene {
     let mut scene = Scene::new("turning");
     let bead = ParticleDefinition { name: "bead".to_owned(), position: at(1.0, 0.0) };
     let bead = scene.add_particle(bead, 1.0).unwrap();
@@ -321,10 +321,10 @@ fn energy_decaying_steps_take_energy_from_stiff_springs_and_no_other_does() {
 fn a_hardening_spring_given_by_a_function_swings_as_the_integral_says() {
     // m ẍ = -(k x + b x³) from rest at a: T = 4 ∫ dx/√(2/m (U(a) - U(x))), by x = a sin φ.
     let (k, b, a, mass) = (18.0, 40.0, 0.6, 2.0);
-    let law = RestoringLaw::sampled((-0.8, 0.8), |e: f64| Ok::<f64, ()>(k * e + b * e * e * e));
+    let law = SpringLaw::sampled((-0.8, 0.8), |e: f64| Ok::<f64, ()>(k * e + b * e * e * e));
     let law = law.unwrap().shifted(NATURAL);
     let mut scene = oscillator(1.0, 0.0, a);
-    scene.elements.retain(|element| !matches!(element, withy::model::Element::Spring(_)));
+    scene.elements.retain(|element| !matches!(element, withy::system::Element::Spring(_)));
     let bead = Anchor::Station(withy::beams::Station::on_particle(0));
     add(&mut scene, vec![Anchor::Ground(at(5.0, 3.0)), bead], Some(law), 0.0);
     let slices = 400;

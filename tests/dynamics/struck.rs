@@ -8,11 +8,11 @@ use withy::beams::Station;
 use withy::geometry::Vec2;
 use withy::integrators::{INTEGRATORS, Method};
 use withy::joints::{Components, JointKind, Partner};
-use withy::model::{
-    Anchor, Origin, ParticleDefinition, RestoringLaw, RigidBodyDefinition, Scene, Spring,
-    SpringKind, StartMotion,
+use withy::simulation::{Invariant, Simulation, StepControl, Warning};
+use withy::system::{
+    Anchor, Origin, ParticleDefinition, RigidBodyDefinition, Scene, Spring, SpringKind, SpringLaw,
+    StartMotion,
 };
-use withy::simulation::{Invariant, Note, Simulation, StepControl};
 
 const MASS: f64 = 2.0;
 const GRAVITY: f64 = 9.81;
@@ -22,7 +22,7 @@ fn particle(scene: &mut Scene, position: Vec2, mass: f64) -> Station {
     scene.add_particle(ParticleDefinition { name, position }, mass).unwrap()
 }
 
-fn spring(scene: &mut Scene, [from, to]: [Anchor; 2], law: RestoringLaw) {
+fn spring(scene: &mut Scene, [from, to]: [Anchor; 2], law: SpringLaw) {
     let (name, kind) = (scene.free_name("spring"), SpringKind::Way(vec![from, to]));
     let (law, origin) = (Some(law), Origin::Zero);
     scene.add_spring(Spring { name, kind, law, origin, damping: 0.0.into() }).unwrap();
@@ -35,7 +35,7 @@ fn drop(stiffness: f64, height: f64) -> Scene {
     scene.join(JointKind::Support(Components::X), mass, Partner::Ground).unwrap();
     let points = vec![(0.0, -stiffness), (1.0, 0.0), (2.0, 0.0)];
     let anchors = [Anchor::Ground(at(0.0, 0.0)), Anchor::Station(mass)];
-    spring(&mut scene, anchors, RestoringLaw::Table { points });
+    spring(&mut scene, anchors, SpringLaw::Table { points });
     scene.gravity = at(0.0, -GRAVITY);
     scene
 }
@@ -103,7 +103,7 @@ fn every_method_meets_a_stiff_bumper_in_time() {
                 entry.name, counts.steps, counts.rejected
             );
             // A method that takes forces at the ends of steps needs to see the blow: where it does not, that is told.
-            let is_told = run.notes().iter().any(|note| matches!(note, Note::Contact { .. }));
+            let is_told = run.notes().iter().any(|note| matches!(note, Warning::Contact { .. }));
             assert!(error < 6e-3 || is_told, "{}: {error:e}", entry.name);
             assert!(error < 2e-4 || entry.method != Method::EnergyMomentum, "{error:e}");
         }
@@ -118,7 +118,7 @@ fn a_rope_that_is_jerked_taut_throws_back() {
         scene.particles[0].position = at(0.0, -0.5);
         let points = vec![(0.0, 0.0), (1.0, 0.0), (2.0, stiffness)];
         let anchors = [Anchor::Ground(at(0.0, 0.0)), Anchor::Station(Station::on_particle(0))];
-        spring(&mut scene, anchors, RestoringLaw::Table { points });
+        spring(&mut scene, anchors, SpringLaw::Table { points });
         let run = simulate(scene, Method::EnergyMomentum, adaptive(1e-4), 2.0);
         let exact = height_of_drop(stiffness, 0.5, 2.0) - 2.0;
         println!("{stiffness:e}: {} {exact}, {} steps", y(&run), run.counts().steps);
@@ -131,7 +131,7 @@ fn oscillator(place: Vec2) -> Scene {
     let mut scene = Scene::new("oscillator");
     let mass = particle(&mut scene, place + at(1.2, 0.0), 1.0);
     scene.join(JointKind::Support(Components::Y), mass, Partner::Ground).unwrap();
-    let law = RestoringLaw::Linear { stiffness: 25.0, natural: 1.0 };
+    let law = SpringLaw::Linear { stiffness: 25.0, natural: 1.0 };
     spring(&mut scene, [Anchor::Ground(place), Anchor::Station(mass)], law);
     scene
 }
@@ -162,7 +162,7 @@ fn a_lone_particle_has_no_place_that_counts() {
     let steps = |place: f64| {
         let mut scene = Scene::new("throw");
         let mass = particle(&mut scene, at(place, place), 1.0);
-        scene.velocities.push(withy::model::StationVelocity {
+        scene.velocities.push(withy::system::StationVelocity {
             station: mass,
             velocity: at(3.0, 4.0),
             spin: None,
@@ -178,7 +178,7 @@ fn sizes_that_are_rounding_and_ways_that_are_none_ask_for_no_small_steps() {
     // A mass on a spring that is drawn where it is anchored, but for the last digit.
     let mut scene = Scene::new("rounded");
     let mass = particle(&mut scene, at(0.1 + 0.2, 0.0), 1.0);
-    let law = RestoringLaw::Linear { stiffness: 25.0, natural: 0.0 };
+    let law = SpringLaw::Linear { stiffness: 25.0, natural: 0.0 };
     spring(&mut scene, [Anchor::Ground(at(0.3, 0.0)), Anchor::Station(mass)], law);
     assert_eq!(scene.extent(), 0.0);
     scene.gravity = at(0.0, -1.0);
@@ -188,7 +188,7 @@ fn sizes_that_are_rounding_and_ways_that_are_none_ask_for_no_small_steps() {
     let mut scene = Scene::new("let go");
     let mass = particle(&mut scene, at(0.0, 0.0), 1.0);
     let velocity = at(1e-9, 0.0);
-    scene.velocities.push(withy::model::StationVelocity { station: mass, velocity, spin: None });
+    scene.velocities.push(withy::system::StationVelocity { station: mass, velocity, spin: None });
     scene.gravity = at(0.0, -GRAVITY);
     let steps = simulate(scene, Method::EnergyMomentum, adaptive(1e-3), 1.0).counts().steps;
     assert!(steps < 100, "{steps}");
@@ -201,7 +201,7 @@ fn what_a_damper_gives_back_is_told_of_the_method_that_leads_back_in_time() {
         let mass = particle(&mut scene, at(0.0, 0.0), 1.0);
         scene.join(JointKind::Support(Components::Y), mass, Partner::Ground).unwrap();
         let velocity = at(1.0, 0.0);
-        scene.velocities.push(withy::model::StationVelocity {
+        scene.velocities.push(withy::system::StationVelocity {
             station: mass,
             velocity,
             spin: None,
@@ -211,7 +211,7 @@ fn what_a_damper_gives_back_is_told_of_the_method_that_leads_back_in_time() {
         let damper = Spring { name, kind, law: None, origin, damping: 10.0.into() };
         scene.add_spring(damper).unwrap();
         let run = simulate(scene, method, dt, 20.0 * dt);
-        run.notes().iter().any(|note| matches!(note, Note::Fed { .. }))
+        run.notes().iter().any(|note| matches!(note, Warning::Fed { .. }))
     };
     // The pole of its part that leads back lies at λΔt = 3.557.
     assert!(slowed(Method::FourthOrder, 0.3557));
@@ -261,8 +261,8 @@ fn told(
     end: f64,
 ) -> Vec<String> {
     let mut run = Simulation::start(scene, settings(method, dt)).unwrap();
-    run.run_to(end, &mut withy::simulation::Unwatched).unwrap();
-    run.notes().iter().map(Note::to_string).collect()
+    run.run_to(end, &mut withy::simulation::NoMonitor).unwrap();
+    run.notes().iter().map(Warning::to_string).collect()
 }
 
 #[test]
@@ -286,9 +286,9 @@ fn a_method_that_damps_is_proposed_where_it_is_not_in_use_and_would() {
         spring(&mut scene, anchors, law);
         scene
     };
-    let line = RestoringLaw::Linear { stiffness: 1e6, natural: 1.0 };
-    let table = RestoringLaw::Table { points: vec![(0.0, -1e6), (1.0, 0.0), (2.0, 1e6)] };
-    let proposed = |law: &RestoringLaw, method| {
+    let line = SpringLaw::Linear { stiffness: 1e6, natural: 1.0 };
+    let table = SpringLaw::Table { points: vec![(0.0, -1e6), (1.0, 0.0), (2.0, 1e6)] };
+    let proposed = |law: &SpringLaw, method| {
         let told = told(stiff(law.clone()), method, 0.1, 2.0);
         assert!(told[0].contains("steps are too long for the motion"), "{told:?}");
         told[0].contains("energy_decaying")

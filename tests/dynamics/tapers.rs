@@ -4,8 +4,8 @@
 use crate::common::{at, meshes, scenes, simulate};
 use withy::beams::{Mesh, Section, SectionVariation};
 use withy::integrators::Method;
-use withy::model::{Model, Scene, StartMotion};
 use withy::simulation::{Invariant, Simulation};
+use withy::system::{Scene, StartMotion, System};
 
 fn section(factor: f64) -> Section {
     let rod = scenes::rod();
@@ -52,7 +52,7 @@ fn momenta_at_the_start_are_integrals_of_the_taper() {
     // ρA = ρ (2 - s), ρI = ρ_I (2 - s)² linear between places: s from 0 to 1 in one piece is linear in numbers.
     let variation = SectionVariation::Numbers(vec![(0.0, section(2.0)), (1.0, section(1.0))]);
     let mesh = Mesh::bspline(6, 3, 2).unwrap();
-    let mut model = Model::assemble(&thrown(&mesh, variation.clone())).unwrap();
+    let mut model = System::assemble(&thrown(&mesh, variation.clone())).unwrap();
     let (length, rod) = (10.0_f64.sqrt(), scenes::rod());
     let mass = 1.5 * length * rod.mass_per_length;
     assert!((model.total_mass() / mass - 1.0).abs() < 1e-13);

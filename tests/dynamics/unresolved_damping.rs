@@ -6,8 +6,8 @@ use withy::beams::{Mesh, Relaxation, Section};
 use withy::geometry::Vec2;
 use withy::integrators::{INTEGRATORS, Method};
 use withy::joints::{JointKind, Partner};
-use withy::model::{Scene, StartMotion, StationVelocity};
-use withy::simulation::{Note, Simulation};
+use withy::simulation::{Simulation, Warning};
+use withy::system::{Scene, StartMotion, StationVelocity};
 
 const GRAVITY: f64 = 9.81;
 const MASS: f64 = 2.0;
@@ -102,9 +102,11 @@ fn a_beam_is_told_whose_own_motion_is_not_followed_whatever_moves_beside_it() {
     let told =
         |beside: bool, dt: f64| simulate(struck(beside), Method::EnergyMomentum, dt, 0.3).notes();
     let alone = told(false, 0.01);
-    let [Note::Motion { share: of_all, .. }] = alone.as_slice() else { panic!("{alone:?}") };
+    let [Warning::Motion { share: of_all, .. }] = alone.as_slice() else { panic!("{alone:?}") };
     let beside = told(true, 0.01);
-    let [Note::Beam { beam, share, dt, period }] = beside.as_slice() else { panic!("{beside:?}") };
+    let [Warning::Beam { beam, share, dt, period }] = beside.as_slice() else {
+        panic!("{beside:?}")
+    };
     println!("{}", beside[0]);
     assert_eq!(beam, "beam1");
     // It is the same motion, measured in the same way.

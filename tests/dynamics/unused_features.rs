@@ -6,9 +6,9 @@ use withy::analysis::FEATURES;
 use withy::beams::Mesh;
 use withy::geometry::Vec2;
 use withy::integrators::{Constraints, INTEGRATORS, Method};
-use withy::loads::{Frame, LoadKind, Schedule};
-use withy::model::{Scene, StartMotion};
-use withy::simulation::{Recording, Simulation, Unwatched};
+use withy::loads::{LoadFrame, LoadKind, Schedule};
+use withy::simulation::{NoMonitor, Recording, Simulation};
+use withy::system::{Scene, StartMotion};
 
 const DT: f64 = 0.05;
 const END: f64 = 1.0;
@@ -78,7 +78,7 @@ fn what_is_declared_but_is_nothing_leaves_every_bit_as_it_is() {
             "{}",
             entry.name
         );
-        let force = LoadKind::Force { station, force: Vec2::new(1.0, 0.0), frame: Frame::Dead };
+        let force = LoadKind::Force { station, force: Vec2::new(1.0, 0.0), frame: LoadFrame::Dead };
         scene.add_load(force, Schedule::constant(0.0).unwrap());
         let unloaded = simulate(scene, entry.method, DT, END);
         assert_eq!(shape(&unloaded), shape(&plain), "{}", entry.name);
@@ -91,10 +91,10 @@ fn recording_and_snapshots_change_no_bit_of_the_motion() {
         let plain = simulate(spinning(), entry.method, DT, END);
         let mut quiet = Simulation::start(spinning(), settings(entry.method, DT)).unwrap();
         quiet.record(Recording::Nothing);
-        quiet.run_to(END, &mut Unwatched).unwrap();
+        quiet.run_to(END, &mut NoMonitor).unwrap();
         let mut kept = Simulation::start(spinning(), settings(entry.method, DT)).unwrap();
         kept.keep_snapshots(10_000_000);
-        kept.run_to(END, &mut Unwatched).unwrap();
+        kept.run_to(END, &mut NoMonitor).unwrap();
         assert_eq!((state(&quiet), state(&kept)), (state(&plain), state(&plain)), "{}", entry.name);
         assert_eq!(quiet.history().samples().len(), 2);
         assert_eq!(quiet.history().samples().last(), plain.history().samples().last());

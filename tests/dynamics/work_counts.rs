@@ -6,8 +6,8 @@ use crate::common::{scenes, simulate, sliding_scenes};
 use withy::beams::Mesh;
 use withy::integrators::Method;
 use withy::joints::SlidingRule;
-use withy::model::Scene;
 use withy::simulation::WorkCounts;
+use withy::system::Scene;
 
 const EXPECTED: &str = "\
 spaghetti, C2             unknowns  51 band 11 steps  75 iterations 150 most 2 corrections  228 factorised 150 retries 0

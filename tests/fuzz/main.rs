@@ -19,21 +19,21 @@ use common::corpus::Corpus;
 use common::notepad::Notepad;
 use withy::repl::editor::completeness::completeness;
 use withy::repl::editor::completion::complete;
-use withy::repl::editor::highlight::{Vocabulary, highlight};
+use withy::repl::editor::highlight::{SessionNames, highlight};
 use withy::repl::editor::hints::hint;
-use withy::repl::editor::surroundings::Surroundings;
+use withy::repl::editor::surroundings::CompletionContext;
 use withy::repl::session::Session;
-use withy::repl::shell::{Screen, Shell};
+use withy::repl::shell::{ReplyTarget, Shell};
+use withy::script::bindings::catalog::Catalog;
 use withy::script::diagnose::Blame;
-use withy::script::engine::host::{Halt, Host};
 use withy::script::engine::parse::parse;
+use withy::script::engine::script_engine::{Halt, ScriptEngine};
 use withy::script::engine::stack::on_large_stack;
+use withy::script::messages::stop::{MEGABYTE, Stop};
 use withy::script::packages::language;
-use withy::script::rows::catalog::Catalog;
 use withy::script::source::program::Program;
 use withy::script::state::limits::Limits;
-use withy::script::state::settings::{Mode, Settings};
-use withy::script::words::stop::{MEGABYTE, Stop};
+use withy::script::state::settings::{RunMode, RunSettings};
 
 const SEEDS: u64 = 100_000;
 /// So many are run while somebody waits.
@@ -143,13 +143,13 @@ fn run_batch(
     report: &Mutex<Report>,
 ) {
     let catalog = language();
-    let settings = Settings {
+    let settings = RunSettings {
         out: folder.join("out"),
         folder: folder.to_owned(),
         limits: LIMITS,
-        ..Settings::silent(Mode::Run)
+        ..RunSettings::silent(RunMode::Run)
     };
-    let host = Host::open(catalog.clone(), settings).unwrap();
+    let host = ScriptEngine::open(catalog.clone(), settings).unwrap();
     let mut prompt = Prompt::new(&catalog, folder);
     for seed in seeds {
         let text = corpus.input(seed);
@@ -182,7 +182,7 @@ struct Prompt {
     shell: Shell,
     told: Notepad,
     /// Of the session as it was before it was last reset.
-    vocabulary: Vocabulary,
+    vocabulary: SessionNames,
 }
 
 /// What is written before some of the inputs; `:save` and `:load` would leave the folder.
@@ -192,17 +192,17 @@ const COMMANDS: [&str; 10] =
 impl Prompt {
     fn new(catalog: &Catalog, folder: &Path) -> Self {
         let told = Notepad::default();
-        let settings = Settings {
+        let settings = RunSettings {
             out: folder.join("out"),
             folder: folder.to_owned(),
             limits: LIMITS,
             snapshots: MEGABYTE as usize,
             told: Box::new(told.clone()),
-            ..Settings::silent(Mode::Run)
+            ..RunSettings::silent(RunMode::Run)
         };
         let session = Session::new(catalog.clone(), settings).unwrap();
-        let vocabulary = Vocabulary::of(Surroundings::of_language(catalog.clone()));
-        Self { shell: Shell::new(session, Screen::Pipe), told, vocabulary }
+        let vocabulary = SessionNames::of(CompletionContext::of_language(catalog.clone()));
+        Self { shell: Shell::new(session, ReplyTarget::Pipe), told, vocabulary }
     }
 
     fn judge(&mut self, seed: u64, text: &str) -> Result<(), String> {
@@ -220,7 +220,7 @@ impl Prompt {
                 return Err(format!("at the prompt: {told}"));
             }
             if seed.is_multiple_of(64) {
-                self.vocabulary = Vocabulary::of(self.shell.surroundings());
+                self.vocabulary = SessionNames::of(self.shell.surroundings());
                 self.shell.reset();
             }
         }
@@ -240,7 +240,7 @@ enum Ran {
     ToAnEnd,
 }
 
-fn judge(program: &Program, host: &Host) -> Result<Ran, String> {
+fn judge(program: &Program, host: &ScriptEngine) -> Result<Ran, String> {
     let mut is_parsed = false;
     let ran = host.watch().and_then(|guard| {
         let ran = host.run(

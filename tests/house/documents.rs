@@ -10,7 +10,7 @@ use crate::common::notepad::Notepad;
 use withy::script::engine::runner::{Ending, run};
 use withy::script::packages::language;
 use withy::script::source::program::Program;
-use withy::script::state::settings::{Mode, Settings};
+use withy::script::state::settings::{RunMode, RunSettings};
 
 /// A fenced block, and the line of its document that it begins at.
 struct Block {
@@ -50,10 +50,10 @@ fn every_block_of_rhai_in_the_documents_runs() {
             let name = format!("{}:{}", document.display(), block.line);
             let out = tempfile::tempdir().unwrap();
             let told = Notepad::default();
-            let settings = Settings {
+            let settings = RunSettings {
                 out: out.path().to_owned(),
                 told: Box::new(told.clone()),
-                ..Settings::silent(Mode::Run)
+                ..RunSettings::silent(RunMode::Run)
             };
             let outcome = run(&Program::named(&name, &block.text), &language(), settings);
             assert!(matches!(outcome.ending, Ending::Finished), "{name}: {:?}", outcome.ending);
@@ -168,7 +168,7 @@ fn said_by_a_session(folder: &Path, piped: &str) -> String {
 
 #[test]
 fn the_language_reference_is_up_to_date() {
-    expect_written("docs/language.md", &withy::script::pages::reference::reference(&language()));
+    expect_written("docs/language.md", &withy::script::help::reference::reference(&language()));
 }
 
 #[test]

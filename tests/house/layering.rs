@@ -256,7 +256,7 @@ fn exports(text: &str) -> Vec<(String, String)> {
 #[test]
 fn rooms_of_the_model_use_one_another_one_way() {
     let files = sources();
-    let (_, handed_on) = files.iter().find(|(path, _)| path.ends_with("model/mod.rs")).unwrap();
+    let (_, handed_on) = files.iter().find(|(path, _)| path.ends_with("system/mod.rs")).unwrap();
     let exports = exports(handed_on);
     assert!(exports.contains(&("Blow".to_owned(), "sliders".to_owned())), "{exports:?}");
     let found = strangers(&files, &exports);
@@ -265,14 +265,14 @@ fn rooms_of_the_model_use_one_another_one_way() {
         let later = |name: &&str| ROOMS[at + 1..].iter().any(|(other, _)| other == name);
         assert!(allowed.iter().all(later), "{room} may use one that may use it");
     }
-    let bodies = crates()[0].join("model/bodies/body.rs");
+    let bodies = crates()[0].join("system/bodies/body.rs");
     let text =
         "// crate::model::scene\nuse crate::model::{\n    Model, words::finite};\n".to_owned();
     assert_eq!(strangers(&[(bodies.clone(), text)], &exports).len(), 2);
     let text =
         "use super::body::Body;\nuse super::super::{\n    Model, words::finite};\n".to_owned();
     assert_eq!(strangers(&[(bodies, text)], &exports).len(), 2);
-    let beside = crates()[0].join("model/mechanism.rs");
+    let beside = crates()[0].join("system/mechanism.rs");
     let text = "use super::motion::Motion;\nuse super::scene::Scene;\n".to_owned();
     let found = strangers(&[(beside, text)], &exports);
     assert!(found.len() == 1 && found[0].ends_with("rs:2: mechanism uses scene"), "{found:?}");
@@ -280,7 +280,7 @@ fn rooms_of_the_model_use_one_another_one_way() {
 
 #[test]
 fn a_model_and_a_simulation_are_at_most_ten_private_parts() {
-    for (file, name) in [("model/mechanism.rs", "Model"), ("simulation/run.rs", "Simulation")] {
+    for (file, name) in [("system/mechanism.rs", "Model"), ("simulation/run.rs", "Simulation")] {
         let path = crates()[0].join(file);
         let text = fs::read_to_string(path).unwrap();
         let (_, fields) = text.split_once(&format!("pub struct {name} {{\n")).unwrap();

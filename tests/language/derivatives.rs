@@ -4,12 +4,13 @@ use crate::common::notepad::Notepad;
 use withy::script::engine::runner::{Ending, run};
 use withy::script::packages::language;
 use withy::script::source::program::Program;
-use withy::script::state::settings::{Mode, Settings};
+use withy::script::state::settings::{RunMode, RunSettings};
 
 /// Runs a script that must run; what it told.
 fn told(text: &str) -> String {
     let told = Notepad::default();
-    let settings = Settings { told: Box::new(told.clone()), ..Settings::silent(Mode::Run) };
+    let settings =
+        RunSettings { told: Box::new(told.clone()), ..RunSettings::silent(RunMode::Run) };
     let outcome = run(&Program::named("derivatives", text), &language(), settings);
     assert!(matches!(outcome.ending, Ending::Finished), "{:?}", outcome.ending);
     assert_eq!(outcome.checks.failed(), []);

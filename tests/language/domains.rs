@@ -6,20 +6,20 @@ use std::rc::Rc;
 use std::sync::atomic::Ordering;
 
 use rhai::Dynamic;
-use withy::script::diagnose::Diagnostic;
-use withy::script::engine::runner::{Ending, Outcome, run};
-use withy::script::packages::language;
-use withy::script::rows::call::Call;
-use withy::script::rows::kind::{Kind, Range, Scripted, Type};
-use withy::script::rows::parameter::{
+use withy::script::bindings::call::Call;
+use withy::script::bindings::kind::{Kind, NumberRange, Scripted, Type};
+use withy::script::bindings::parameter::{
     Parameter, Presence, callback, choice, either, number, options, point, text, whole,
 };
-use withy::script::rows::table::{Row, Table, function, method, property};
+use withy::script::bindings::table::{BindingTable, FunctionBinding, function, method, property};
+use withy::script::diagnose::Diagnostic;
+use withy::script::engine::runner::{Ending, RunOutcome, run};
+use withy::script::messages::error::ScriptError;
+use withy::script::messages::numbers::as_number;
+use withy::script::messages::reports::Reporter;
+use withy::script::packages::language;
 use withy::script::source::program::Program;
-use withy::script::state::settings::{Mode, Settings};
-use withy::script::words::error::ScriptError;
-use withy::script::words::numbers::as_number;
-use withy::script::words::reports::Reporter;
+use withy::script::state::settings::{RunMode, RunSettings};
 
 /// A mass on a spring, as a shared handle.
 #[derive(Clone)]
@@ -41,7 +41,7 @@ impl Scripted for Spring {
 
 const SPRING: Type = Type::of::<Spring>();
 
-static TABLE: Table = Table {
+static TABLE: BindingTable = BindingTable {
     name: "springs",
     doc: "",
     types: &[SPRING],
@@ -58,7 +58,7 @@ static TABLE: Table = Table {
         property(SPRING, "stiffness", |call| Ok(spring_of(call)?.0.borrow().stiffness.into())),
         function(
             "mesh",
-            &[either("spans", &[Kind::Whole(Range::Positive), Kind::Options(MESH)])],
+            &[either("spans", &[Kind::Whole(NumberRange::Positive), Kind::Options(MESH)])],
             mesh,
         ),
         function("broken", &[], |_| panic!("out of order")),
@@ -134,9 +134,10 @@ fn work(call: &mut Call) -> Result<Dynamic, ScriptError> {
     }
 }
 
-fn outcome(script: &str) -> Outcome {
+fn outcome(script: &str) -> RunOutcome {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let settings = Settings { out: folder.path().join("out"), ..Settings::silent(Mode::Run) };
+    let settings =
+        RunSettings { out: folder.path().join("out"), ..RunSettings::silent(RunMode::Run) };
     run(&Program::named("test", script), &language().and(&TABLE), settings)
 }
 
@@ -290,7 +291,8 @@ fn files_stay_in_the_output_folder() {
 
 #[test]
 fn signatures_show_what_may_be_left_out() {
-    let signature = |name: &str| TABLE.rows.iter().find(|row| row.name == name).map(Row::signature);
+    let signature =
+        |name: &str| TABLE.rows.iter().find(|row| row.name == name).map(FunctionBinding::signature);
     assert_eq!(signature("pull").as_deref(), Some("spring.pull(force, [times])"));
     assert_eq!(signature("spring").as_deref(), Some("spring(options)"));
     assert_eq!(signature("length").as_deref(), Some("spring.length"));

@@ -11,20 +11,21 @@ use std::time::Duration;
 use crate::common::notepad::Notepad;
 use withy::exercises::catalogue::{EXERCISES, find};
 use withy::exercises::exercise::Exercise;
-use withy::exercises::judging::{Verdict, judge};
+use withy::exercises::judging::{AttemptVerdict, judge};
 use withy::script::engine::runner::run;
 use withy::script::packages::language;
 use withy::script::source::program::Program;
 use withy::script::state::limits::Limits;
-use withy::script::state::settings::{Mode, Settings};
+use withy::script::state::settings::{RunMode, RunSettings};
 
 fn root() -> PathBuf {
     env!("CARGO_MANIFEST_DIR").into()
 }
 
-fn try_within(exercise: &Exercise, text: &str, limits: Limits) -> Verdict {
+fn try_within(exercise: &Exercise, text: &str, limits: Limits) -> AttemptVerdict {
     let out = tempfile::tempdir().unwrap();
-    let settings = Settings { out: out.path().into(), limits, ..Settings::silent(Mode::Run) };
+    let settings =
+        RunSettings { out: out.path().into(), limits, ..RunSettings::silent(RunMode::Run) };
     let attempt = Program { name: exercise.file(), text: text.into(), folder: out.path().into() };
     judge(exercise, &attempt, settings)
 }
@@ -32,10 +33,10 @@ fn try_within(exercise: &Exercise, text: &str, limits: Limits) -> Verdict {
 /// What an attempt is told; nothing when it passes.
 fn told(exercise: &Exercise, text: &str) -> String {
     match try_within(exercise, text, Limits::default()) {
-        Verdict::Passed => String::new(),
-        Verdict::Off(found) => found.join("\n"),
-        Verdict::Broken(why) | Verdict::Stopped(why) => why.to_string(),
-        Verdict::Interrupted => panic!("{}: nobody interrupted it", exercise.id()),
+        AttemptVerdict::Passed => String::new(),
+        AttemptVerdict::Off(found) => found.join("\n"),
+        AttemptVerdict::Broken(why) | AttemptVerdict::Stopped(why) => why.to_string(),
+        AttemptVerdict::Interrupted => panic!("{}: nobody interrupted it", exercise.id()),
     }
 }
 
@@ -62,10 +63,10 @@ fn every_solution_passes_and_its_steps_resolve_what_happens() {
     for exercise in EXERCISES {
         assert_eq!(told(exercise, exercise.solution), "", "{}", exercise.id());
         let (notes, out) = (Notepad::default(), tempfile::tempdir().unwrap());
-        let settings = Settings {
+        let settings = RunSettings {
             out: out.path().into(),
             told: Box::new(notes.clone()),
-            ..Settings::silent(Mode::Run)
+            ..RunSettings::silent(RunMode::Run)
         };
         let program = Program::named("solution", exercise.solution);
         run(&program, &language(), settings);
@@ -400,7 +401,7 @@ fn an_attempt_without_an_end_is_stopped() {
     let limits = Limits { time: Some(Duration::from_millis(200)), ..Limits::default() };
     let exercise = find("knot_vector").unwrap();
     let endless = "let k = knots(4); while true { k = k; }";
-    let Verdict::Stopped(why) = try_within(exercise, endless, limits) else {
+    let AttemptVerdict::Stopped(why) = try_within(exercise, endless, limits) else {
         panic!("it should be stopped")
     };
     assert!(why.to_string().contains("is there a loop without an end?"), "{why}");

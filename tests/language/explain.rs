@@ -8,10 +8,12 @@ use withy::beams::{Mesh, Section, Station};
 use withy::geometry::{Curve, Vec2};
 use withy::integrators::{Constraints, INTEGRATORS, Mechanism};
 use withy::joints::{EndAction, JointKind, Partner, Slider, SlidingRule, StartVelocities};
-use withy::loads::{Frame, LoadKind, Schedule};
-use withy::model::{BeamDefinition, Model, Part, ParticleDefinition, Scene, StartMotion, Usage};
+use withy::loads::{LoadFrame, LoadKind, Schedule};
 use withy::newton::Tolerance;
-use withy::simulation::{Settings, Simulation, Unwatched};
+use withy::simulation::{NoMonitor, Simulation, SimulationSettings};
+use withy::system::{
+    BeamDefinition, ParticleDefinition, Scene, StartMotion, System, SystemFeature, Usage,
+};
 
 fn add_beam(scene: &mut Scene, name: &str, from: Vec2, to: Vec2) -> usize {
     let section = Section {
@@ -60,19 +62,19 @@ fn with_bead() -> Scene {
     scene
 }
 
-fn usage(parts: &[Part], name: &str) -> Usage {
+fn usage(parts: &[SystemFeature], name: &str) -> Usage {
     let found = parts.iter().find(|part| part.name == name);
     found.unwrap_or_else(|| panic!("no '{name}' in {parts:?}")).usage.clone()
 }
 
-fn used(parts: &[Part], name: &str) -> String {
+fn used(parts: &[SystemFeature], name: &str) -> String {
     match usage(parts, name) {
         Usage::Used(how) => how,
         Usage::LeftOut(saved) => panic!("'{name}' is left out: {saved}"),
     }
 }
 
-fn is_left_out(parts: &[Part], name: &str) -> bool {
+fn is_left_out(parts: &[SystemFeature], name: &str) -> bool {
     matches!(usage(parts, name), Usage::LeftOut(_))
 }
 
@@ -92,7 +94,7 @@ fn a_free_beam_leaves_everything_else_out() {
     ] {
         assert!(is_left_out(&parts, name), "{name}: {parts:?}");
     }
-    let mut model = Model::assemble(&scene).unwrap();
+    let mut model = System::assemble(&scene).unwrap();
     assert_eq!(model.constraint_shape().width, 0);
     assert_eq!(model.degrees_of_freedom(), model.unknowns());
     assert_eq!(model.measure().energy.potential, 0.0);
@@ -109,7 +111,7 @@ fn a_free_beam_leaves_everything_else_out() {
 #[test]
 fn a_slider_has_a_border_and_a_support_has_reactions() {
     let scene = with_bead();
-    let (parts, mut model) = (scene.explain().unwrap(), Model::assemble(&scene).unwrap());
+    let (parts, mut model) = (scene.explain().unwrap(), System::assemble(&scene).unwrap());
     assert_eq!(model.constraint_shape().width, 5);
     assert!(used(&parts, "sliders").contains("1 conserving: a border of 5 columns"));
     assert!(used(&parts, "unknowns").contains("5 of contacts, in the border"));
@@ -127,13 +129,13 @@ fn a_slider_has_a_border_and_a_support_has_reactions() {
 #[test]
 fn tied_movements_are_one_unknown() {
     let (mut scene, end) = rod();
-    let free = Model::assemble(&scene).unwrap().unknowns();
+    let free = System::assemble(&scene).unwrap().unknowns();
     let arm = add_beam(&mut scene, "arm", Vec2::new(2.0, 0.0), Vec2::new(2.0, 1.0));
     let start = scene.station(arm, 0.0).unwrap();
     scene.join(JointKind::Hinge, end, Partner::Station(start)).unwrap();
     let parts = scene.explain().unwrap();
     assert!(used(&parts, "joints").contains("1 hinge: tied movements are one, 2 unknowns less"));
-    assert_eq!(Model::assemble(&scene).unwrap().unknowns(), 2 * free - 2);
+    assert_eq!(System::assemble(&scene).unwrap().unknowns(), 2 * free - 2);
     assert!(is_left_out(&parts, "supports"));
 }
 
@@ -149,19 +151,20 @@ fn functions_of_scripts_are_called_as_often_as_is_said() {
         });
         let schedule = Schedule::Function { function, breaks: vec![0.25] };
         let force = Vec2::new(1.0, 0.0);
-        scene.add_load(LoadKind::Force { station, force, frame: Frame::Follower }, schedule);
+        scene.add_load(LoadKind::Force { station, force, frame: LoadFrame::Follower }, schedule);
         let said = used(&scene.explain().unwrap(), "force at the end of beam 'rod'");
-        let settings = Settings { method, dt: 0.1.into(), tolerance: Tolerance::default() };
+        let settings =
+            SimulationSettings { method, dt: 0.1.into(), tolerance: Tolerance::default() };
         let mut simulation = Simulation::start(scene, settings).unwrap();
         assert_eq!(calls.get(), 0, "starting and explaining call nothing");
-        simulation.step(&mut Unwatched).unwrap();
+        simulation.step(&mut NoMonitor).unwrap();
         assert_eq!(simulation.counts().retries, 0);
         let told = format!("{} calls a step with {}", calls.get(), method.entry().name);
         assert!(said.contains(&told), "{said} / {told}");
         assert!(said.contains("follower of 1 section") && said.contains("steps end at t = 0.25"));
         let parts = simulation.explain();
         assert!(used(&parts, "steps").contains("cut ahead at t = 0.25"), "{parts:?}");
-        simulation.run_to(0.3, &mut Unwatched).unwrap();
+        simulation.run_to(0.3, &mut NoMonitor).unwrap();
         assert_eq!(simulation.counts().steps, 4);
         assert!(is_left_out(&simulation.explain(), "start velocities"), "though it moves now");
         assert!(used(&simulation.explain(), "steps").contains("no cuts ahead"));
@@ -174,7 +177,7 @@ fn many_beams_and_loads_are_told_of_together() {
     for index in 0..20 {
         let y = f64::from(index);
         let beam = add_beam(&mut scene, &format!("b{index}"), Vec2::new(0.0, y), Vec2::new(1.0, y));
-        let (force, frame) = (Vec2::new(1.0, 0.0), Frame::Dead);
+        let (force, frame) = (Vec2::new(1.0, 0.0), LoadFrame::Dead);
         scene.add_load(LoadKind::Line { beam, force, frame }, Schedule::Constant(1.0));
     }
     let parts = scene.explain().unwrap();

@@ -8,12 +8,12 @@ use std::path::Path;
 use tempfile::TempDir;
 
 use crate::common::notepad::Notepad;
-use withy::beams::{Place, Station};
+use withy::beams::{BodyPoint, Station};
 use withy::script::engine::runner::{Ending, run};
 use withy::script::packages::language;
 use withy::script::source::program::Program;
-use withy::script::state::settings::{Mode, Settings};
-use withy::simulation::{Simulation, Unwatched};
+use withy::script::state::settings::{RunMode, RunSettings};
+use withy::simulation::{NoMonitor, Simulation};
 
 /// A clamped beam that falls, a joint inside it, and a stone.
 const SCENE: &str = "
@@ -30,10 +30,10 @@ scene.gravity([0, -9.81]);
 /// Runs a script in a folder of its own; what it told.
 fn ran(text: &str) -> (TempDir, String) {
     let (folder, told) = (tempfile::tempdir().unwrap(), Notepad::default());
-    let settings = Settings {
+    let settings = RunSettings {
         out: folder.path().to_owned(),
         told: Box::new(told.clone()),
-        ..Settings::silent(Mode::Run)
+        ..RunSettings::silent(RunMode::Run)
     };
     let outcome = run(&Program::named("export", &format!("{SCENE}{text}")), &language(), settings);
     assert!(matches!(outcome.ending, Ending::Finished), "{:?}", outcome.ending);
@@ -142,7 +142,7 @@ fn frames_have_what_the_solver_has_to_the_last_bit() {
     // The same scene from its start again, without the functions that write.
     let mut again = Simulation::start(original.scene().clone(), *original.settings()).unwrap();
     for (time, path) in frames {
-        again.run_to(time, &mut Unwatched).unwrap();
+        again.run_to(time, &mut NoMonitor).unwrap();
         let grid = Grid::read(&path);
         // Lines between points, one body after another, then a dot.
         let (dot, lines) = grid.types.split_last().unwrap();
@@ -160,7 +160,7 @@ fn frames_have_what_the_solver_has_to_the_last_bit() {
             assert_eq!(grid.vector("Points", last(cell)), [position.x, position.y, 0.0]);
             assert_eq!(grid.vector("velocity", last(cell)), [velocity.x, velocity.y, 0.0]);
         }
-        let stone = Place::of_particle(2);
+        let stone = BodyPoint::of_particle(2);
         let (position, velocity) = (again.model().position(&stone), again.model().velocity(&stone));
         assert_eq!(grid.vector("Points", last(2)), [position.x, position.y, 0.0]);
         assert_eq!(grid.vector("velocity", last(2)), [velocity.x, velocity.y, 0.0]);

@@ -6,7 +6,7 @@ use std::fs;
 use withy::script::engine::runner::{Ending, run};
 use withy::script::packages::language;
 use withy::script::source::program::Program;
-use withy::script::state::settings::{Mode, Settings};
+use withy::script::state::settings::{RunMode, RunSettings};
 
 /// How many knots a picture with such options marks on a beam that has run to t = 1.
 fn knots(options: &str) -> usize {
@@ -19,7 +19,7 @@ let sim = scene.start(#{{ dt: 0.1 }});
 sim.run_to(1);
 plot_motion(sim, \"spin.svg\", #{{ {options} }});"
     );
-    let settings = Settings { out: out.path().to_owned(), ..Settings::silent(Mode::Run) };
+    let settings = RunSettings { out: out.path().to_owned(), ..RunSettings::silent(RunMode::Run) };
     let outcome = run(&Program::named("picture", &script), &language(), settings);
     assert!(matches!(outcome.ending, Ending::Finished), "{:?}", outcome.ending);
     fs::read_to_string(out.path().join("spin.svg")).unwrap().matches("<circle").count()

@@ -10,7 +10,7 @@ use crate::common::notepad::Notepad;
 use withy::script::engine::runner::{Ending, run};
 use withy::script::packages::language;
 use withy::script::source::program::Program;
-use withy::script::state::settings::{Mode, Settings};
+use withy::script::state::settings::{RunMode, RunSettings};
 
 /// A mistake, and what must be said about it.
 #[derive(Default)]
@@ -41,7 +41,8 @@ fn rows(text: &str) -> Vec<Row> {
 /// What is said about a script that must be wrong.
 fn said(typed: &str) -> Result<(String, String), String> {
     let printed = Notepad::default();
-    let settings = Settings { printed: Box::new(printed.clone()), ..Settings::silent(Mode::Run) };
+    let settings =
+        RunSettings { printed: Box::new(printed.clone()), ..RunSettings::silent(RunMode::Run) };
     match run(&Program::named("typed", typed), &language(), settings).ending {
         Ending::Failed(told) => Ok((told.message, told.hint.unwrap_or_default())),
         other => Err(format!("{other:?}")),

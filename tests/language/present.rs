@@ -4,15 +4,15 @@
 use proptest::prelude::*;
 use rhai::{Dynamic, Engine};
 use withy::script::engine;
-use withy::script::looks::present::present;
 use withy::script::packages::language;
+use withy::script::presentation::present::present;
 use withy::script::state::context::Context;
-use withy::script::state::settings::{Mode, Settings};
+use withy::script::state::settings::{RunMode, RunSettings};
 
 const WIDTH: usize = 80;
 
 fn engine() -> Engine {
-    engine::build(&language(), &Context::new(Settings::silent(Mode::Run))).unwrap()
+    engine::build(&language(), &Context::new(RunSettings::silent(RunMode::Run))).unwrap()
 }
 
 fn shown_at(width: usize, script: &str) -> String {

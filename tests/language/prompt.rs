@@ -8,13 +8,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use crate::common::notepad::Notepad;
-use withy::output::{Colours, Glyphs, Style};
+use withy::output::{Colours, Glyphs, TerminalStyle};
 use withy::repl::clock::Clock;
-use withy::repl::pager::{Pager, Shown};
+use withy::repl::pager::{Pager, PagerOutcome};
 use withy::repl::session::Session;
-use withy::repl::shell::{Outcome, Screen, Shell};
+use withy::repl::shell::{CommandOutcome, ReplyTarget, Shell};
 use withy::script::packages::language;
-use withy::script::state::settings::{Mode, Settings};
+use withy::script::state::settings::{RunMode, RunSettings};
 
 /// A shell, and what it has printed and told.
 struct Prompt {
@@ -32,17 +32,17 @@ let sim = scene.start(#{ dt: 0.1 });";
 const MEGABYTE: usize = 1_000_000;
 
 impl Prompt {
-    fn with(snapshots: usize, screen: Screen) -> Self {
+    fn with(snapshots: usize, screen: ReplyTarget) -> Self {
         let (printed, told) = (Notepad::default(), Notepad::default());
         let interrupt = Arc::new(AtomicBool::new(false));
         let folder = tempfile::tempdir().unwrap();
-        let settings = Settings {
+        let settings = RunSettings {
             printed: Box::new(printed.clone()),
             told: Box::new(told.clone()),
             interrupt: interrupt.clone(),
             out: folder.keep(),
             snapshots,
-            ..Settings::silent(Mode::Run)
+            ..RunSettings::silent(RunMode::Run)
         };
         let session = Session::new(language(), settings).unwrap();
         let clock = Ticks { now: Cell::new(Duration::ZERO) };
@@ -51,7 +51,7 @@ impl Prompt {
     }
 
     fn new() -> Self {
-        Self::with(MEGABYTE, Screen::Pipe)
+        Self::with(MEGABYTE, ReplyTarget::Pipe)
     }
 
     fn spinning() -> Self {
@@ -64,7 +64,7 @@ impl Prompt {
     fn ask_both(&mut self, input: &str) -> (String, String) {
         let outcome = self.shell.submit(input);
         let (printed, told) = (self.printed.take(), self.told.take());
-        assert_eq!(outcome, Outcome::Good, "{input}: {printed}{told}");
+        assert_eq!(outcome, CommandOutcome::Good, "{input}: {printed}{told}");
         (printed, told)
     }
 
@@ -75,7 +75,7 @@ impl Prompt {
     /// What is told for an input that does not work.
     fn refusal(&mut self, input: &str) -> String {
         let outcome = self.shell.submit(input);
-        assert_eq!(outcome, Outcome::Failed, "{input}: {}", self.printed.take());
+        assert_eq!(outcome, CommandOutcome::Failed, "{input}: {}", self.printed.take());
         self.printed.take();
         self.told.take()
     }
@@ -186,8 +186,9 @@ fn arrays_are_drawn_as_they_are_without_any_simulation() {
 
 #[test]
 fn a_terminal_gets_a_chart_and_the_words() {
-    let style = Style { glyphs: Glyphs::Ascii, colours: Colours::None, width: 60, height: 12 };
-    let mut prompt = Prompt::with(MEGABYTE, Screen::Terminal(style));
+    let style =
+        TerminalStyle { glyphs: Glyphs::Ascii, colours: Colours::None, width: 60, height: 12 };
+    let mut prompt = Prompt::with(MEGABYTE, ReplyTarget::Terminal(style));
     prompt.ask(SPINNING);
     prompt.ask(":step 5");
     let (chart, told) = prompt.ask_both(":plot 10 * sim.t, energy");
@@ -235,8 +236,9 @@ fn a_column_is_preferred_to_a_variable_of_its_name_and_that_is_told() {
 
 #[test]
 fn what_a_command_has_written_is_not_quoted_and_one_state_is_no_curve() {
-    let style = Style { glyphs: Glyphs::Ascii, colours: Colours::None, width: 50, height: 14 };
-    let mut prompt = Prompt::with(MEGABYTE, Screen::Terminal(style));
+    let style =
+        TerminalStyle { glyphs: Glyphs::Ascii, colours: Colours::None, width: 50, height: 14 };
+    let mut prompt = Prompt::with(MEGABYTE, ReplyTarget::Terminal(style));
     prompt.ask(SPINNING);
     for curves in [":plot energy", ":plot sim.position(rod.end).x"] {
         let (reply, told) = prompt.ask_both(curves);
@@ -251,7 +253,7 @@ fn what_a_command_has_written_is_not_quoted_and_one_state_is_no_curve() {
         (":back 1e7", "cannot go back 10000000 steps"),
         (":plot 0.0/0.0", "nowhere a finite number"),
     ] {
-        assert_eq!(prompt.shell.submit(input), Outcome::Failed);
+        assert_eq!(prompt.shell.submit(input), CommandOutcome::Failed);
         let said = format!("{}{}", prompt.told.take(), prompt.printed.take());
         assert!(said.contains(expected) && !said.contains("prompt:"), "{input}: {said}");
     }
@@ -266,7 +268,7 @@ fn what_a_command_has_written_is_not_quoted_and_one_state_is_no_curve() {
 
 #[test]
 fn where_states_are_forgotten_the_run_is_made_again_and_compared() {
-    let mut prompt = Prompt::with(0, Screen::Pipe);
+    let mut prompt = Prompt::with(0, ReplyTarget::Pipe);
     prompt.ask(SPINNING);
     prompt.ask(":step 10");
     prompt.ask("sim.run_to(1.55);");
@@ -279,7 +281,7 @@ fn where_states_are_forgotten_the_run_is_made_again_and_compared() {
     assert_eq!(kept.ask(":plot sim.position(rod.end).x"), reply, "both ways see the same states");
 
     // A function of a load that is another one now: not the same run, and that is told.
-    let mut changed = Prompt::with(0, Screen::Pipe);
+    let mut changed = Prompt::with(0, ReplyTarget::Pipe);
     changed.ask(SPINNING);
     changed.ask("let f = 1; scene.force(rod.end, [1, 0], schedule(|t| f)); let sim = scene.start(#{ dt: 0.1 });");
     changed.ask(":step 4");
@@ -291,7 +293,7 @@ fn where_states_are_forgotten_the_run_is_made_again_and_compared() {
 
 #[test]
 fn functions_that_wait_for_a_time_are_called_by_the_simulation_alone() {
-    let mut prompt = Prompt::with(0, Screen::Pipe);
+    let mut prompt = Prompt::with(0, ReplyTarget::Pipe);
     prompt.ask(SPINNING);
     prompt.ask(
         "sim.at(0.25, |s| print(`event at ${s.t}`)); sim.at(0.6, |s| print(`late at ${s.t}`));",
@@ -305,7 +307,7 @@ fn functions_that_wait_for_a_time_are_called_by_the_simulation_alone() {
 
 #[test]
 fn many_states_are_thinned_out_and_that_is_told() {
-    let mut prompt = Prompt::with(100 * MEGABYTE, Screen::Pipe);
+    let mut prompt = Prompt::with(100 * MEGABYTE, ReplyTarget::Pipe);
     prompt.ask(SPINNING);
     prompt.ask("sim.step(2500);");
     let (reply, told) = prompt.ask_both(":plot sim.steps");
@@ -325,7 +327,7 @@ fn an_interrupt_while_drawing_gives_the_simulation_back() {
     });
     let outcome = prompt.shell.submit(":plot { let i = 0; while true { i += 1 } sim.t }");
     setter.join().unwrap();
-    assert_eq!(outcome, Outcome::Interrupted);
+    assert_eq!(outcome, CommandOutcome::Interrupted);
     assert_eq!(prompt.ask("sim.steps"), "5\n");
 }
 
@@ -482,11 +484,12 @@ fn functions_of_imported_files_are_explained() {
         "/// A third.\nfn third(x) { x / 3 }\nprivate fn own() { 1 }",
     )
     .unwrap();
-    let settings = Settings { folder: folder.path().into(), ..Settings::silent(Mode::Run) };
+    let settings =
+        RunSettings { folder: folder.path().into(), ..RunSettings::silent(RunMode::Run) };
     let printed = Notepad::default();
-    let settings = Settings { printed: Box::new(printed.clone()), ..settings };
+    let settings = RunSettings { printed: Box::new(printed.clone()), ..settings };
     let session = Session::new(language(), settings).unwrap();
-    let mut shell = Shell::new(session, Screen::Pipe);
+    let mut shell = Shell::new(session, ReplyTarget::Pipe);
     shell.submit("import \"parts\" as parts;");
     shell.submit("parts?");
     let reply = printed.take();
@@ -506,9 +509,9 @@ struct Reader(Rc<RefCell<Vec<String>>>);
 impl Pager for Reader {
     fn resize(&mut self, _: usize, _: usize) {}
 
-    fn show(&mut self, text: &str, _: &dyn Fn() -> bool) -> Shown {
+    fn show(&mut self, text: &str, _: &dyn Fn() -> bool) -> PagerOutcome {
         self.0.borrow_mut().push(text.to_owned());
-        if text.lines().count() > 40 { Shown::Interrupted } else { Shown::NotByThis }
+        if text.lines().count() > 40 { PagerOutcome::Interrupted } else { PagerOutcome::NotByThis }
     }
 }
 
@@ -517,7 +520,7 @@ fn help_goes_through_the_pager_and_short_help_is_printed() {
     let mut prompt = Prompt::new();
     let reader = Reader::default();
     prompt.shell.page_with(Box::new(reader.clone()));
-    assert_eq!(prompt.shell.submit(":help topics"), Outcome::Interrupted);
+    assert_eq!(prompt.shell.submit(":help topics"), CommandOutcome::Interrupted);
     assert_eq!(prompt.printed.take(), "");
     assert!(prompt.ask("?sqrt").contains("sqrt("));
     assert_eq!(reader.0.borrow().len(), 2);

@@ -6,7 +6,7 @@ use std::fs;
 use withy::script::engine::runner::{Ending, run};
 use withy::script::packages::language;
 use withy::script::source::program::Program;
-use withy::script::state::settings::{Mode, Settings};
+use withy::script::state::settings::{RunMode, RunSettings};
 
 const ROD: &str = "let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 0.1 });
 let scene = new_scene(\"rod\");
@@ -18,7 +18,7 @@ scene.force(rod.end, [0, -3], hold_for(0.5));
 /// The picture that a script draws as `it.svg`.
 fn picture(script: &str) -> String {
     let out = tempfile::tempdir().unwrap();
-    let settings = Settings { out: out.path().to_owned(), ..Settings::silent(Mode::Run) };
+    let settings = RunSettings { out: out.path().to_owned(), ..RunSettings::silent(RunMode::Run) };
     let outcome = run(&Program::named("picture", &format!("{ROD}{script}")), &language(), settings);
     assert!(matches!(outcome.ending, Ending::Finished), "{:?}", outcome.ending);
     fs::read_to_string(out.path().join("it.svg")).unwrap()
@@ -32,7 +32,7 @@ fn words(svg: &str) -> Vec<&str> {
 
 /// Why a script is refused.
 fn refusal(script: &str) -> String {
-    let settings = Settings::silent(Mode::Run);
+    let settings = RunSettings::silent(RunMode::Run);
     let outcome = run(&Program::named("picture", &format!("{ROD}{script}")), &language(), settings);
     format!("{:?}", outcome.ending)
 }

@@ -6,19 +6,19 @@ use std::path::PathBuf;
 use withy::repl::session::{Reply, Session};
 use withy::script::packages::language;
 use withy::script::source::program::Program;
-use withy::script::state::settings::{Mode, Settings};
+use withy::script::state::settings::{RunMode, RunSettings};
 
 fn session() -> Session {
     in_folder(".".into())
 }
 
 fn in_folder(folder: PathBuf) -> Session {
-    let settings = Settings { folder, ..Settings::silent(Mode::Run) };
+    let settings = RunSettings { folder, ..RunSettings::silent(RunMode::Run) };
     Session::new(language(), settings).unwrap()
 }
 
 fn session_with_snapshots() -> Session {
-    let settings = Settings { snapshots: 1_000_000, ..Settings::silent(Mode::Run) };
+    let settings = RunSettings { snapshots: 1_000_000, ..RunSettings::silent(RunMode::Run) };
     Session::new(language(), settings).unwrap()
 }
 

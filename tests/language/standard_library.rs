@@ -9,15 +9,15 @@ use std::process::Command;
 use crate::common::notepad::Notepad;
 use withy::repl::editor::completion::complete;
 use withy::repl::session::{Reply, Session};
-use withy::repl::shell::{Screen, Shell};
-use withy::script::engine::runner::{Ending, Outcome, run};
+use withy::repl::shell::{ReplyTarget, Shell};
+use withy::script::engine::runner::{Ending, RunOutcome, run};
 use withy::script::library::MODULES;
 use withy::script::packages::language;
 use withy::script::source::program::Program;
-use withy::script::state::settings::{Mode, Settings};
+use withy::script::state::settings::{RunMode, RunSettings};
 
 /// Runs a script beside files, and gives what it told at once.
-fn run_beside(files: &[(&str, &str)], script: &str) -> (Outcome, String) {
+fn run_beside(files: &[(&str, &str)], script: &str) -> (RunOutcome, String) {
     let home = tempfile::tempdir().unwrap();
     for (name, text) in files {
         let path = home.path().join(name);
@@ -25,12 +25,13 @@ fn run_beside(files: &[(&str, &str)], script: &str) -> (Outcome, String) {
         fs::write(path, text).unwrap();
     }
     let told = Notepad::default();
-    let settings = Settings { told: Box::new(told.clone()), ..Settings::silent(Mode::Run) };
+    let settings =
+        RunSettings { told: Box::new(told.clone()), ..RunSettings::silent(RunMode::Run) };
     let program = Program { folder: home.path().into(), ..Program::named("main.rhai", script) };
     (run(&program, &language(), settings), told.take())
 }
 
-fn failure(outcome: &Outcome) -> String {
+fn failure(outcome: &RunOutcome) -> String {
     match &outcome.ending {
         Ending::Failed(diagnostic) => diagnostic.to_string(),
         ending => panic!("{ending:?}"),
@@ -153,7 +154,8 @@ fn an_error_in_a_closure_of_the_user_stays_at_its_place() {
 #[test]
 fn the_prompt_imports_the_library() {
     let told = Notepad::default();
-    let settings = Settings { told: Box::new(told.clone()), ..Settings::silent(Mode::Run) };
+    let settings =
+        RunSettings { told: Box::new(told.clone()), ..RunSettings::silent(RunMode::Run) };
     let mut session = Session::new(language(), settings).unwrap();
     for input in
         ["import \"std/checks\" as checks;", "let a = 2;", "checks::assert_close(\"a\", a, 1, 0.1)"]
@@ -184,8 +186,8 @@ fn help_explains_modules_and_their_functions() {
 
 #[test]
 fn what_was_imported_is_completed_at_the_prompt() {
-    let session = Session::new(language(), Settings::silent(Mode::Run)).unwrap();
-    let mut shell = Shell::new(session, Screen::Pipe);
+    let session = Session::new(language(), RunSettings::silent(RunMode::Run)).unwrap();
+    let mut shell = Shell::new(session, ReplyTarget::Pipe);
     shell.submit("import \"std/sections\" as parts;");
     let (_, found) = complete("parts::rect", 11, &shell.surroundings());
     let written: Vec<_> = found.iter().map(|candidate| candidate.display.as_str()).collect();

@@ -7,10 +7,10 @@
 use std::fs;
 
 use crate::common::notepad::Notepad;
-use withy::script::engine::runner::{Ending, Outcome, run};
+use withy::script::engine::runner::{Ending, RunOutcome, run};
 use withy::script::packages::language;
 use withy::script::source::program::Program;
-use withy::script::state::settings::{Mode, Settings};
+use withy::script::state::settings::{RunMode, RunSettings};
 
 /// What a section of a file expects.
 #[derive(Default)]
@@ -87,7 +87,8 @@ fn expectation(text: &str) -> Expectation {
 fn judge(section: &Section) -> Result<(), String> {
     let expected = expectation(&section.text);
     let printed = Notepad::default();
-    let settings = Settings { printed: Box::new(printed.clone()), ..Settings::silent(Mode::Run) };
+    let settings =
+        RunSettings { printed: Box::new(printed.clone()), ..RunSettings::silent(RunMode::Run) };
     let outcome = run(&Program::named("suite", &section.text), &language(), settings);
     let lines: Vec<_> = printed.take().lines().map(str::to_owned).collect();
     judge_ending(&expected, &outcome)?;
@@ -100,7 +101,7 @@ fn judge(section: &Section) -> Result<(), String> {
     }
 }
 
-fn judge_ending(expected: &Expectation, outcome: &Outcome) -> Result<(), String> {
+fn judge_ending(expected: &Expectation, outcome: &RunOutcome) -> Result<(), String> {
     match (&expected.error, &outcome.ending) {
         (None, Ending::Finished) => Ok(()),
         (None, Ending::Failed(diagnostic)) => Err(format!("must run\n{diagnostic}")),

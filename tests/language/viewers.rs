@@ -11,7 +11,7 @@ use crate::common::notepad::Notepad;
 use withy::script::engine::runner::{Ending, run};
 use withy::script::packages::language;
 use withy::script::source::program::Program;
-use withy::script::state::settings::{Mode, Settings};
+use withy::script::state::settings::{RunMode, RunSettings};
 
 /// Two beams and a particle under their weight, a load that follows, one that does not, and something that slides.
 const SCENE: &str = "
@@ -37,10 +37,10 @@ fn written(script: &str, file: &str) -> (String, Vec<u8>) {
 fn written_in(scene: &str, script: &str, file: &str) -> (String, Vec<u8>) {
     let out = tempfile::tempdir().unwrap();
     let printed = Notepad::default();
-    let settings = Settings {
+    let settings = RunSettings {
         out: out.path().to_owned(),
         printed: Box::new(printed.clone()),
-        ..Settings::silent(Mode::Run)
+        ..RunSettings::silent(RunMode::Run)
     };
     let program = Program::named("viewer", &format!("{scene}{script}"));
     let outcome = run(&program, &language(), settings);
@@ -51,7 +51,7 @@ fn written_in(scene: &str, script: &str, file: &str) -> (String, Vec<u8>) {
 /// The message of a script that fails.
 fn refused(script: &str) -> String {
     let program = Program::named("viewer", &format!("{SCENE}sim.run_to(0.1);\n{script}"));
-    match run(&program, &language(), Settings::silent(Mode::Run)).ending {
+    match run(&program, &language(), RunSettings::silent(RunMode::Run)).ending {
         Ending::Failed(diagnostic) => diagnostic.render(withy::script::diagnose::Colours::None),
         other => panic!("{other:?}"),
     }

@@ -7,8 +7,8 @@ use std::cell::Cell;
 use crate::common::{body_scenes, meshes, run, scenes, settings, sliding_scenes};
 use withy::integrators::{INTEGRATORS, Method};
 use withy::joints::SLIDING_RULES;
-use withy::model::Scene;
-use withy::simulation::{Recording, Simulation, StepControl, Unwatched};
+use withy::simulation::{NoMonitor, Recording, Simulation, StepControl};
+use withy::system::Scene;
 
 thread_local! {
     static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
@@ -140,7 +140,7 @@ fn steps_that_are_not_recorded_take_no_allocations_at_all() {
         simulation.record(Recording::Nothing);
         let taken = allocations_of(|| {
             for _ in 0..100 {
-                simulation.step(&mut Unwatched).unwrap();
+                simulation.step(&mut NoMonitor).unwrap();
             }
         });
         // The row of the present is overwritten in its place.

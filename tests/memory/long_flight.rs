@@ -7,8 +7,8 @@ use crate::common::{run, scenes, settings};
 use withy::beams::Mesh;
 use withy::integrators::Method;
 use withy::loads::{LoadKind, Schedule};
-use withy::model::Scene;
 use withy::simulation::{Invariant, Recording, Simulation};
+use withy::system::Scene;
 
 const DT: f64 = 0.05;
 const STEPS: usize = 1_000_000;

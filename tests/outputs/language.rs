@@ -10,7 +10,7 @@ use withy::exercises::catalogue::EXERCISES;
 use withy::script::engine::runner::{Ending, run};
 use withy::script::packages::{TABLES, language};
 use withy::script::source::program::Program;
-use withy::script::state::settings::{Mode, Settings};
+use withy::script::state::settings::{RunMode, RunSettings};
 
 pub fn record(book: &mut Book) {
     suite(book);
@@ -23,11 +23,11 @@ pub fn record(book: &mut Book) {
 fn keep_run(book: &mut Book, name: &str, text: &str) {
     let out = tempfile::tempdir().unwrap();
     let (printed, told) = (Notepad::default(), Notepad::default());
-    let settings = Settings {
+    let settings = RunSettings {
         out: out.path().join("out"),
         printed: Box::new(printed.clone()),
         told: Box::new(told.clone()),
-        ..Settings::silent(Mode::Run)
+        ..RunSettings::silent(RunMode::Run)
     };
     let outcome = run(&Program::named("script", text), &language(), settings);
     let ending = match outcome.ending {

@@ -1,11 +1,11 @@
 //! Help, reference, definition files, and the pages of the library.
 
 use crate::book::Book;
+use withy::script::help::definitions::definitions;
+use withy::script::help::lookup::{self, WIDTH};
+use withy::script::help::reference::reference;
 use withy::script::library;
 use withy::script::packages::language;
-use withy::script::pages::definitions::definitions;
-use withy::script::pages::help::{self, WIDTH};
-use withy::script::pages::reference::reference;
 
 /// Names that mean nothing, and what is said about them.
 const UNKNOWN: &[&str] = &["", "bspilne", "sim.rnu_to", "spring.pull", "%", "gravity.x"];
@@ -17,12 +17,12 @@ pub fn record(book: &mut Book) {
     for file in definitions(&catalog) {
         book.keep(format!("pages/definitions/{}", file.name), file.text);
     }
-    for name in help::names(&catalog) {
-        let page = help::page(&catalog, name).unwrap();
+    for name in lookup::names(&catalog) {
+        let page = lookup::page(&catalog, name).unwrap();
         book.keep(format!("pages/help/{name}"), page.plain(WIDTH) + &*page.ansi(60));
     }
     for name in UNKNOWN {
-        let said = match help::page(&catalog, name) {
+        let said = match lookup::page(&catalog, name) {
             Ok(page) => page.plain(WIDTH),
             Err(unknown) => format!("{unknown}\n{}", unknown.hint()),
         };

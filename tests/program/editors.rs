@@ -5,11 +5,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use withy::script::looks::highlight::{
+use withy::script::help::grammar::grammar;
+use withy::script::packages::language;
+use withy::script::presentation::highlight::{
     COMMENT, CONSTANT, FUNCTION, KEYWORD, NUMBER, TEXT, Vocabulary, highlight,
 };
-use withy::script::packages::language;
-use withy::script::pages::grammar::grammar;
 
 const GRAMMAR: &str = "docs/editors/vscode/withy.tmLanguage.json";
 

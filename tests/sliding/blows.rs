@@ -7,8 +7,8 @@ use crate::common::{at, run, settings};
 use withy::beams::{Mesh, Section};
 use withy::integrators::Method;
 use withy::joints::{EndAction, JointKind, Partner};
-use withy::model::Scene;
 use withy::simulation::{ArrivalKind, Invariant, Simulation};
+use withy::system::Scene;
 
 /// How a bar is held at the end that is not struck.
 #[derive(Clone, Copy, PartialEq)]

@@ -5,14 +5,14 @@ use crate::common::probe::{self, STEP, differences};
 use crate::common::{Random, meshes, sliding_scenes};
 use nalgebra::{DMatrix, DVector};
 use withy::beams::{Mesh, missed_kink};
-use withy::geometry::{Curve, Passage, PiecewisePolynomial, Vec2, cross, interpolate};
+use withy::geometry::{ContactPath, Curve, PiecewisePolynomial, Vec2, cross, interpolate};
 use withy::integrators::{Constraints, Mechanism, Stage};
 use withy::joints::{
-    Conserving, Contact, ContactUnknowns, Exact, Frozen, Held, Kink, KinkMotion, KinkState, Kinked,
-    Relaxed, Released, SLIDING_RULES, SlidingLaw, Unit,
+    Conserving, Contact, ContactUnknowns, Exact, Frozen, HeldSlider, Kink, KinkMotion, KinkState,
+    Kinked, Relaxed, Released, SLIDING_RULES, SlidingLaw, Unit,
 };
 use withy::linalg::BorderedMatrix;
-use withy::model::{MasterEnd, MasterLimit, Model};
+use withy::system::{MasterEnd, MasterLimit, System};
 
 const LAWS: [(&str, &dyn SlidingLaw); 7] = [
     ("frozen", &Frozen),
@@ -20,7 +20,7 @@ const LAWS: [(&str, &dyn SlidingLaw); 7] = [
     ("conserving", &Conserving),
     ("exact", &Exact),
     ("relaxed", &Relaxed),
-    ("held", &Held),
+    ("held", &HeldSlider),
     ("released", &Released),
 ];
 
@@ -52,12 +52,12 @@ fn arc_of(mesh: &Mesh, length: f64) -> PiecewisePolynomial {
 
 impl State {
     /// `f` of the contact, with everything that may vary taken from a row of numbers: slave, master, `λ`, `η`, `Δξ`.
-    fn with<T>(&self, numbers: &[f64], f: impl FnOnce(&Contact<'_>, &Passage) -> T) -> T {
+    fn with<T>(&self, numbers: &[f64], f: impl FnOnce(&Contact<'_>, &ContactPath) -> T) -> T {
         let vector = |at: usize| Vec2::new(numbers[at], numbers[at + 1]);
         let last = numbers.len() - 5;
         let moved: Vec<Vec2> = (2..last).step_by(2).map(vector).collect();
         let unknowns = ContactUnknowns::of(std::array::from_fn(|k| numbers[last + k]));
-        let mut passage = Passage::new(self.mesh.basis().clone());
+        let mut passage = ContactPath::new(self.mesh.basis().clone());
         passage.go(self.from, self.from + unknowns.way);
         let window = passage.first()..passage.first() + passage.end().len();
         let (before, moved) = (&self.before[window.clone()], &moved[window]);
@@ -179,7 +179,7 @@ fn the_derivatives_by_the_way_hold_where_it_passes_zero() {
 }
 
 /// Force, moment and work of what a contact does to slave and master in their mean places, without the gap.
-fn balance(state: &State, contact: &Contact<'_>, passage: &Passage) -> (Vec2, f64, f64) {
+fn balance(state: &State, contact: &Contact<'_>, passage: &ContactPath) -> (Vec2, f64, f64) {
     let force = contact.unknowns.force;
     let mean_slave = state.slave_moved * 0.5;
     let mut sum = (-force, -cross(mean_slave, force), -force.dot(&state.slave_moved));
@@ -323,7 +323,7 @@ fn the_border_of_every_scene_is_the_derivative_of_its_forces_and_equations() {
     for entry in SLIDING_RULES {
         for (mesh_name, mesh) in meshes(4) {
             for scene in sliding_scenes::all(&mesh, entry.rule) {
-                let mut model = Model::assemble(&scene).unwrap();
+                let mut model = System::assemble(&scene).unwrap();
                 let first = random.vector(model.unknowns(), 0.05);
                 probe::settle(&mut model, Stage::Midpoint, &first);
                 advance_sliders(&mut model, &first, &mut random);
@@ -344,7 +344,7 @@ fn the_border_of_every_scene_is_the_derivative_of_its_forces_and_equations() {
 }
 
 /// Advances with random contact forces and ways.
-fn advance_sliders(model: &mut Model, increments: &[f64], random: &mut Random) {
+fn advance_sliders(model: &mut System, increments: &[f64], random: &mut Random) {
     model.begin_step(STEP, &Stage::ALL).unwrap();
     let contacts = random.vector(model.constraint_shape().width, 0.1);
     let residual = vec![0.0; model.degrees_of_freedom()];
@@ -358,7 +358,7 @@ fn advance_sliders(model: &mut Model, increments: &[f64], random: &mut Random) {
     });
 }
 
-fn assert_border(label: &str, model: &mut Model, random: &mut Random) {
+fn assert_border(label: &str, model: &mut System, random: &mut Random) {
     let (movements, shape) = (model.unknowns(), model.constraint_shape());
     let mut unknowns = random.vector(movements + shape.width, 0.05);
     // Ways long enough for differences of the relaxed rule, forces of some size.

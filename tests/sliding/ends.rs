@@ -7,9 +7,9 @@ use crate::common::{at, run, sci, settings};
 use withy::beams::Mesh;
 use withy::integrators::Method;
 use withy::joints::{EndAction, JointKind, Partner, SlidingRule};
-use withy::loads::{Frame, LoadKind, Schedule};
-use withy::model::{MasterEnd, Scene, SliderState};
-use withy::simulation::{Arrival, ArrivalKind, Invariant, Simulation, SimulationError, Unwatched};
+use withy::loads::{LoadFrame, LoadKind, Schedule};
+use withy::simulation::{Arrival, ArrivalKind, Invariant, NoMonitor, Simulation, SimulationError};
+use withy::system::{MasterEnd, Scene, SliderState};
 
 const ROUNDING: f64 = 1e-12;
 const ACTIONS: [EndAction; 3] = [EndAction::Stop, EndAction::Bounce, EndAction::Release];
@@ -84,7 +84,7 @@ fn a_bead_on_a_beam_at_rest_arrives_at_the_exact_time() {
                     assert_eq!(simulation.time(), arrival.time);
                     assert!(position(&simulation).abs() < 1e-14, "{}", position(&simulation));
                     assert!(simulation.ending().unwrap().contains("the start of its beam"));
-                    let again = simulation.step(&mut Unwatched).unwrap_err();
+                    let again = simulation.step(&mut NoMonitor).unwrap_err();
                     assert!(matches!(again, SimulationError::Ended { .. }), "{again}");
                 }
                 EndAction::Bounce => {
@@ -176,7 +176,7 @@ fn resting(mut scene: Scene, lift: f64) -> Scene {
     bead(&mut scene, 1.0, 2.0, at(0.0, 0.0), EndAction::Bounce);
     scene.gravity = at(0.0, -9.81);
     let station = scene.sliders[0].slave;
-    let force = LoadKind::Force { station, force: at(0.0, lift), frame: Frame::Dead };
+    let force = LoadKind::Force { station, force: at(0.0, lift), frame: LoadFrame::Dead };
     scene.add_load(force, Schedule::pulse(0.5, 10.0).unwrap());
     scene
 }

@@ -6,7 +6,7 @@ use crate::common::{run, sci, settings};
 use withy::geometry::Vec2;
 use withy::integrators::{INTEGRATORS, IntegratorEntry};
 use withy::joints::{SLIDING_RULES, SlidingRule};
-use withy::simulation::{Simulation, Unwatched};
+use withy::simulation::{NoMonitor, Simulation};
 
 /// A time at which the force is smooth.
 const TIME: f64 = 0.2;
@@ -21,7 +21,7 @@ fn told(reference: &str, rule: SlidingRule, entry: &IntegratorEntry, steps: usiz
     run(&mut whole, TIME).unwrap();
     let mut half = start(TIME / (steps as f64 + 0.5));
     for _ in 0..=steps {
-        half.step(&mut Unwatched).unwrap();
+        half.step(&mut NoMonitor).unwrap();
     }
     [whole.instant().unwrap().contact(0), half.model().contact_force(0)]
 }

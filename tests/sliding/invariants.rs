@@ -10,9 +10,9 @@ use crate::common::{
 use withy::beams::Mesh;
 use withy::integrators::{EnergyClaim, INTEGRATORS, Interval, Method, StepError};
 use withy::joints::{RuleClaims, SLIDING_RULES, SlidingRule};
-use withy::model::{Arriving, MasterEnd, MasterLimit, Model, Scene};
 use withy::newton::Tolerance;
 use withy::simulation::{Invariant, Simulation};
+use withy::system::{Arriving, MasterEnd, MasterLimit, Scene, System};
 
 const ROUNDING: f64 = 1e-12;
 
@@ -160,7 +160,7 @@ fn the_trapezoidal_rule_keeps_the_gap_and_the_momentum_under_every_rule_that_clo
 }
 
 /// What is done to a slider between steps.
-type Deed = fn(&mut Model, usize);
+type Deed = fn(&mut System, usize);
 
 const DEEDS: [(&str, Deed); 4] = [
     ("nothing", |_, _| ()),
@@ -181,9 +181,9 @@ fn a_restored_state_goes_on_bit_for_bit_whatever_sliders_did() {
         for scene in sliding_scenes::all(&Mesh::bspline(4, 3, 2).unwrap(), entry.rule) {
             for (deed, act) in DEEDS {
                 let label = format!("{method:?}, {}, {}, {deed}", entry.name, scene.name);
-                let mut model = Model::assemble(&scene).unwrap();
+                let mut model = System::assemble(&scene).unwrap();
                 let mut integrator = method.build(&mut model, Tolerance::default());
-                let mut advance = |model: &mut Model, steps: std::ops::Range<u32>| {
+                let mut advance = |model: &mut System, steps: std::ops::Range<u32>| {
                     for n in steps {
                         let (start, end) = (f64::from(n) * 0.001, f64::from(n + 1) * 0.001);
                         let interval = Interval::between(start, end);

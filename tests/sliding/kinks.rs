@@ -8,7 +8,7 @@ use crate::common::{at, orders, run, sci, settings, simulate, sliding_scenes};
 use withy::beams::Station;
 use withy::integrators::Method;
 use withy::joints::{EndAction, SlidingRule};
-use withy::simulation::{Invariant, Note, Simulation};
+use withy::simulation::{Invariant, Simulation, Warning};
 
 /// Root mean squares, over the times of a reference, of the errors of place, contact point, end of the beam and contact force.
 fn errors(reference: &str, spans: usize, rule: SlidingRule, end: f64) -> [f64; 4] {
@@ -122,7 +122,7 @@ fn a_slider_as_fast_as_shear_waves_goes_on_with_the_kink_that_it_has_and_is_told
         for method in [Method::EnergyMomentum, Method::FourthOrder] {
             let simulation = simulate(scene.clone(), method, 0.002, 0.4);
             let fast = simulation.notes().into_iter().find_map(|note| match note {
-                Note::Fast { speed, limit, .. } => Some((speed, limit)),
+                Warning::Fast { speed, limit, .. } => Some((speed, limit)),
                 _ => None,
             });
             println!("{speed}, {method:?}: {fast:?}");

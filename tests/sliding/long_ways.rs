@@ -9,8 +9,8 @@ use withy::beams::{Mesh, Section};
 use withy::geometry::Vec2;
 use withy::integrators::Method;
 use withy::joints::{EndAction, SlidingRule};
-use withy::model::{Anchor, RestoringLaw, Scene, SpringKind};
 use withy::simulation::{Invariant, Simulation};
+use withy::system::{Anchor, Scene, SpringKind, SpringLaw};
 
 fn drifts(simulation: &Simulation) -> [f64; 4] {
     Invariant::ALL.map(|(_, invariant)| simulation.history().drift(invariant))
@@ -70,7 +70,7 @@ fn shuttle(spans: usize, stiffness: f64) -> Scene {
     let slave = scene.sliders[0].slave;
     for end in [start_of(&mut scene, 0), end_of(&mut scene, 0)] {
         let anchors = vec![Anchor::Station(end), Anchor::Station(slave)];
-        let law = RestoringLaw::Linear { stiffness: 12.0, natural: 0.9 };
+        let law = SpringLaw::Linear { stiffness: 12.0, natural: 0.9 };
         spring(&mut scene, SpringKind::Way(anchors), law, 0.0);
     }
     scene.sliders[0].rule = SlidingRule::Kinked;

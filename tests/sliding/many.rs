@@ -3,17 +3,17 @@
 
 use crate::common::{Random, meshes, simulate, sliding_scenes};
 use withy::integrators::{Constraints, Forces, Inertia, Interval, Mechanism, Method, Stage};
-use withy::joints::{Hold, Release, SLIDING_RULES, Trigger};
+use withy::joints::{Releasable, Release, SLIDING_RULES, Trigger};
 use withy::linalg::BorderedMatrix;
-use withy::model::{MasterEnd, MasterLimit, Model, Scene};
 use withy::newton::Tolerance;
 use withy::simulation::Invariant;
+use withy::system::{MasterEnd, MasterLimit, Scene, System};
 
 const DT: f64 = 0.01;
 
 /// A model that has moved for some steps.
-fn moved(scene: &Scene) -> Model {
-    let mut model = Model::assemble(scene).unwrap();
+fn moved(scene: &Scene) -> System {
+    let mut model = System::assemble(scene).unwrap();
     let mut integrator = Method::EnergyMomentum.build(&mut model, Tolerance::default());
     for step in 0..5 {
         let interval = Interval::between(step as f64 * DT, (step + 1) as f64 * DT);
@@ -23,7 +23,7 @@ fn moved(scene: &Scene) -> Model {
 }
 
 /// What a matrix with the tangent of the next step in it makes of a right-hand side.
-fn solution(model: &mut Model, mut tangent: BorderedMatrix, right: &[f64]) -> Vec<f64> {
+fn solution(model: &mut System, mut tangent: BorderedMatrix, right: &[f64]) -> Vec<f64> {
     let (movements, width) = (model.unknowns(), model.constraint_shape().width);
     let interval = Interval::between(model.time(), model.time() + DT);
     model.begin_step(interval, &[Stage::Midpoint]).unwrap();
@@ -80,14 +80,14 @@ fn the_solution_is_that_of_a_border() {
 fn few_sliders_have_a_border() {
     let mesh = withy::beams::Mesh::bspline(4, 3, 2).unwrap();
     let scene = sliding_scenes::abacus(&mesh, withy::joints::SlidingRule::Kinked);
-    assert!(Model::assemble(&scene).unwrap().constraint_blocks().is_none());
+    assert!(System::assemble(&scene).unwrap().constraint_blocks().is_none());
 }
 
 #[test]
 fn all_is_kept_with_beads_eyelets_and_rings_by_the_dozen() {
     // An eyelet of the last one comes off the ground and is a bead from then on.
     let mut loose = sliding_scenes::eyelets(20, 6);
-    let (hold, trigger) = (Hold::Joint(2), Trigger::Time(0.05));
+    let (hold, trigger) = (Releasable::Joint(2), Trigger::Time(0.05));
     loose.add_release(Release { hold, trigger }).unwrap();
     let scenes = [
         sliding_scenes::necklace(20, 60),

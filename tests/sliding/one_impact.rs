@@ -8,9 +8,9 @@ use crate::common::{at, run, sci, settings, simulate};
 use withy::beams::Mesh;
 use withy::geometry::Vec2;
 use withy::integrators::Method;
-use withy::joints::{Course, EndAction};
-use withy::model::Scene;
+use withy::joints::{EndAction, TrackEnd};
 use withy::simulation::{ArrivalKind, Invariant, Simulation};
+use withy::system::Scene;
 
 const INVARIANTS: [Invariant; 3] =
     [Invariant::Energy, Invariant::AngularMomentum, Invariant::Momentum];
@@ -29,7 +29,7 @@ fn tray(order: [usize; 4], stiffness: f64, restitution: f64) -> Scene {
         let axis = line(corners[leg], corners[leg + 1]);
         add_beam(&mut scene, axis, &mesh, section(stiffness, stiffness))
     });
-    let track = track(&mut scene, &beams, Course::Open);
+    let track = track(&mut scene, &beams, TrackEnd::Open);
     let length = scene.track_length(track);
     let up = 0.5_f64.sqrt();
     let (slow, fast) = (TO_ENDS.1 * up, TO_CORNERS.1);

@@ -6,15 +6,15 @@ use crate::common::points;
 use crate::common::sliding::{PAPER_STEP, Support, free_sliding_mass, paper_meshes};
 use withy::integrators::{Interval, Method};
 use withy::joints::SlidingRule;
-use withy::model::Model;
 use withy::newton::Tolerance;
+use withy::system::System;
 
 fn interval(step: u32) -> Interval {
     Interval::between(f64::from(step) * PAPER_STEP, f64::from(step + 1) * PAPER_STEP)
 }
 
 /// How often the sliding equation changes its sign along all ways from 1e-7 to 0.3, in both directions.
-fn solutions(model: &mut Model, interval: Interval) -> usize {
+fn solutions(model: &mut System, interval: Interval) -> usize {
     let mut found = 0;
     for direction in [-1.0, 1.0] {
         let mut fixed = FixedWay::new(model);
@@ -37,7 +37,7 @@ fn where_the_relaxed_rule_stops_its_step_has_no_solution() {
             // The quadrature of the paper.
             let [ab, cm] = meshes.map(|mesh| points(mesh, 3));
             let scene = free_sliding_mass([&ab, &cm], 1e2, support, SlidingRule::Relaxed);
-            let mut model = Model::assemble(&scene).unwrap();
+            let mut model = System::assemble(&scene).unwrap();
             let mut integrator = Method::EnergyMomentum.build(&mut model, Tolerance::default());
             let (mut step, mut before) = (0, model.state());
             let error = loop {

@@ -6,10 +6,10 @@ use crate::common::{at, run, settings, sliding_scenes};
 use withy::beams::Mesh;
 use withy::geometry::Vec2;
 use withy::integrators::Method;
-use withy::joints::{EndAction, Hold, Release, SlidingRule, Trigger};
-use withy::loads::{Frame, LoadKind, Schedule};
-use withy::model::{Scene, SliderState};
+use withy::joints::{EndAction, Releasable, Release, SlidingRule, Trigger};
+use withy::loads::{LoadFrame, LoadKind, Schedule};
 use withy::simulation::{ArrivalKind, Invariant, Simulation};
+use withy::system::{Scene, SliderState};
 
 const METHODS: [Method; 2] = [Method::EnergyMomentum, Method::FourthOrder];
 
@@ -131,7 +131,7 @@ fn a_bouncing_bead_comes_to_rest_in_the_time_of_the_series() {
             scene.sliders[0].restitution = restitution;
             scene.gravity = at(0.0, -1.0);
             let station = scene.sliders[0].slave;
-            let lift = LoadKind::Force { station, force: at(0.0, 2.0), frame: Frame::Dead };
+            let lift = LoadKind::Force { station, force: at(0.0, 2.0), frame: LoadFrame::Dead };
             scene.add_load(lift, Schedule::pulse(12.0, 20.0).unwrap());
             let simulation = simulated(scene, method, 0.01, 13.0);
             let last = simulation.arrivals().last().unwrap();
@@ -168,11 +168,11 @@ fn whatever_happens_in_one_step_keeps_everything() {
             bead(&mut scene, 0.5, 0.2, at(1.37, 0.0), EndAction::Release);
             let turns = bead(&mut scene, 0.3, 0.2, at(0.4, 0.0), EndAction::Bounce);
             let station = scene.sliders[turns].slave;
-            let pull = LoadKind::Force { station, force: at(-0.2, 0.0), frame: Frame::Dead };
+            let pull = LoadKind::Force { station, force: at(-0.2, 0.0), frame: LoadFrame::Dead };
             scene.add_load(pull, Schedule::Constant(1.0));
-            let side = LoadKind::Force { station, force: at(0.0, -3.0), frame: Frame::Dead };
+            let side = LoadKind::Force { station, force: at(0.0, -3.0), frame: LoadFrame::Dead };
             scene.add_load(side, Schedule::pulse(0.36, 2.0).unwrap());
-            let (hold, trigger) = (Hold::Joint(0), Trigger::Time(0.37));
+            let (hold, trigger) = (Releasable::Joint(0), Trigger::Time(0.37));
             scene.add_release(Release { hold, trigger }).unwrap();
             let simulation = simulated(scene, method, dt, 0.9);
             assert_eq!(simulation.slider_state(1), SliderState::Released);

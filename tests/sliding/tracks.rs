@@ -9,10 +9,10 @@ use crate::common::{at, run, sci, settings, simulate, sliding_scenes};
 use withy::beams::Mesh;
 use withy::geometry::{Curve, Vec2};
 use withy::integrators::{EnergyClaim, INTEGRATORS, Method};
-use withy::joints::{Course, Hold, JointKind, Partner, Release, SlidingRule, Trigger};
-use withy::loads::{Frame, LoadKind, Schedule};
-use withy::model::{Scene, SliderState};
+use withy::joints::{JointKind, Partner, Releasable, Release, SlidingRule, TrackEnd, Trigger};
+use withy::loads::{LoadFrame, LoadKind, Schedule};
 use withy::simulation::{ArrivalKind, Invariant, Simulation};
+use withy::system::{Scene, SliderState};
 
 fn smooth(spans: usize) -> Mesh {
     Mesh::bspline(spans, 3, 2).unwrap()
@@ -41,7 +41,7 @@ fn a_bead_goes_round_a_rigid_ring_a_hundred_times_at_its_speed() {
     });
     let foot = ends(&mut scene, beams[0])[0];
     hold(&mut scene, JointKind::Rigid, &[foot]);
-    let track = track(&mut scene, &beams, Course::Closed);
+    let track = track(&mut scene, &beams, TrackEnd::Closed);
     let ring = bead(&mut scene, track, 0.0, 1.0, at(0.0, 1.0));
     let (dt, end) = (0.05, 200.0 * PI);
     let simulation = simulate(scene, Method::EnergyMomentum, dt, end);
@@ -77,7 +77,7 @@ fn crossing(spans: usize, seam: Option<f64>, turned: [bool; 2]) -> (Scene, usize
         hold(&mut scene, JointKind::Hinge, &[end]);
     }
     scene.gravity = at(0.0, -10.0);
-    let track = track(&mut scene, &beams, Course::Open);
+    let track = track(&mut scene, &beams, TrackEnd::Open);
     let bead = bead(&mut scene, track, 0.1, 5.0, at(1.0, 0.0));
     (scene, bead)
 }
@@ -146,7 +146,7 @@ fn ramp(stiffness: f64, held: bool) -> (Scene, usize) {
         hold(&mut scene, JointKind::Rigid, &[corner]);
     }
     scene.gravity = at(0.0, -10.0);
-    let track = track(&mut scene, &[slope, floor], Course::Open);
+    let track = track(&mut scene, &[slope, floor], TrackEnd::Open);
     let bead = bead(&mut scene, track, 0.0, 1.0, Vec2::zeros());
     (scene, bead)
 }
@@ -175,7 +175,7 @@ fn a_free_rigid_corner_turns_the_relative_velocity_in_the_kinetic_metric() {
     let (inner, outer) = (at(0.0, 0.0), at(1.2, 1.6));
     let one = add_beam(&mut scene, line(at(-1.0, 0.0), inner), &smooth(6), section(1e8, 1e8));
     let two = add_beam(&mut scene, line(inner, outer), &smooth(6), section(1e8, 1e8));
-    let track = track(&mut scene, &[one, two], Course::Open);
+    let track = track(&mut scene, &[one, two], TrackEnd::Open);
     let mass = 0.7;
     let slider = bead(&mut scene, track, 0.5, mass, at(1.0, 0.0));
     // It comes to the corner at 0.5.
@@ -232,7 +232,7 @@ fn many_beads_go_round_beams_with_meshes_of_all_kinds() {
         let axis = line(corners[leg], corners[(leg + 1) % 3]);
         add_beam(&mut scene, axis, &meshes[leg], section(1e3, 1e1))
     });
-    let track = track(&mut scene, &beams, Course::Closed);
+    let track = track(&mut scene, &beams, TrackEnd::Closed);
     for number in 0..6 {
         let speed = at((2.0 * f64::from(number)).sin(), (3.0 * f64::from(number)).cos()) * 2.0;
         bead(&mut scene, track, 0.4 + 0.9 * f64::from(number), 0.1, speed);
@@ -258,7 +258,7 @@ fn beads_that_meet_a_seam_together_pass_it_together() {
         let feet = [left, right].map(|beam| ends(&mut scene, beam)[0]);
         hold(&mut scene, JointKind::Hinge, &feet);
         scene.gravity = at(0.0, -10.0);
-        let track = track(&mut scene, &[left, right], Course::Open);
+        let track = track(&mut scene, &[left, right], TrackEnd::Open);
         let length = scene.track_length(track);
         let beads = order.map(|part| bead(&mut scene, track, part * length, 1.0, Vec2::zeros()));
         let simulation = simulate(scene, Method::EnergyMomentum, 0.01, 2.0);
@@ -283,7 +283,7 @@ fn everything_at_once(order: [usize; 3]) -> Scene {
     });
     let tail =
         add_beam(&mut scene, line(at(0.0, 0.0), at(-1.0, 0.0)), &smooth(4), section(1e4, 1e2));
-    let track = track(&mut scene, &beams, Course::Open);
+    let track = track(&mut scene, &beams, TrackEnd::Open);
     let joint = scene.joints.len();
     let (foot, start) = (ends(&mut scene, tail)[0], ends(&mut scene, beams[0])[0]);
     scene.join(JointKind::Hinge, foot, Partner::Station(start)).unwrap();
@@ -294,9 +294,11 @@ fn everything_at_once(order: [usize; 3]) -> Scene {
         scene.sliders[slider].name = format!("bead {number}");
     }
     let station = ends(&mut scene, beams[1])[0];
-    let force = LoadKind::Force { station, force: at(0.0, 3.0), frame: Frame::Dead };
+    let force = LoadKind::Force { station, force: at(0.0, 3.0), frame: LoadFrame::Dead };
     scene.add_load(force, Schedule::hold_for(0.5).unwrap());
-    scene.add_release(Release { hold: Hold::Joint(joint), trigger: Trigger::Time(0.5) }).unwrap();
+    scene
+        .add_release(Release { hold: Releasable::Joint(joint), trigger: Trigger::Time(0.5) })
+        .unwrap();
     scene
 }
 
@@ -336,7 +338,7 @@ fn a_bead_that_turns_round_at_a_seam_comes_back() {
         let both = ends(&mut scene, beam);
         hold(&mut scene, JointKind::Rigid, &both[usize::from(beam == high)..][..1]);
     }
-    let track = track(&mut scene, &[low, high], Course::Open);
+    let track = track(&mut scene, &[low, high], TrackEnd::Open);
     scene.gravity = at(0.0, -10.0);
     // It comes up to the seam, and no further.
     let speed = 10.0_f64.sqrt();
@@ -357,10 +359,10 @@ fn a_bead_in_a_valley_stays_there_and_leaves_with_what_it_had() {
     let feet = [left, right].map(|beam| ends(&mut scene, beam)[0]);
     hold(&mut scene, JointKind::Rigid, &feet);
     scene.gravity = at(0.0, -10.0);
-    let track = track(&mut scene, &[left, right], Course::Open);
+    let track = track(&mut scene, &[left, right], TrackEnd::Open);
     let slider = bead(&mut scene, track, 2.0_f64.sqrt(), 1.0, Vec2::zeros());
     let station = scene.sliders[slider].slave;
-    let force = LoadKind::Force { station, force: at(30.0, 0.0), frame: Frame::Dead };
+    let force = LoadKind::Force { station, force: at(30.0, 0.0), frame: LoadFrame::Dead };
     let pulls = Schedule::table(vec![(0.0, 0.0), (0.5, 0.0), (0.5, 1.0), (10.0, 1.0)]).unwrap();
     scene.add_load(force, pulls);
     let mut simulation = Simulation::start(scene, settings(Method::EnergyMomentum, 0.01)).unwrap();

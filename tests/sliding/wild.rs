@@ -5,7 +5,7 @@ use crate::common::wild_scenes::{Temper, scene};
 use crate::common::{run, settings};
 use withy::integrators::Method;
 use withy::joints::{SLIDING_RULES, SlidingRule};
-use withy::simulation::{Invariant, Settings, Simulation, StepControl, StepSize};
+use withy::simulation::{Invariant, Simulation, SimulationSettings, StepControl, StepSize};
 
 /// A step, and the time to which scenes run.
 const DT: f64 = 0.01;
@@ -96,8 +96,10 @@ fn steps_that_keep_a_tolerance_keep_kinks_where_there_is_no_other_step() {
     // Without that no step takes this scene beyond t = 0.285.
     let (mut scene, method) = scene(0);
     scene.sliders.iter_mut().for_each(|slider| slider.rule = SlidingRule::Kinked);
-    let settings =
-        Settings { dt: StepSize::Adaptive(StepControl::to(1e-3)), ..settings(method, DT) };
+    let settings = SimulationSettings {
+        dt: StepSize::Adaptive(StepControl::to(1e-3)),
+        ..settings(method, DT)
+    };
     let mut simulation = Simulation::start(scene, settings).unwrap();
     run(&mut simulation, END).unwrap();
     assert!(simulation.counts().retries > 0);

@@ -6,9 +6,9 @@ use crate::common::{at, scenes};
 use withy::beams::{Mesh, Section, Station};
 use withy::integrators::Mechanism;
 use withy::joints::{JointKind, Partner};
-use withy::loads::{Frame, LoadKind, Schedule};
-use withy::model::{Anchor, Model, Origin, RestoringLaw, Scene, Spring, SpringKind};
+use withy::loads::{LoadFrame, LoadKind, Schedule};
 use withy::statics::{ArcLength, Control, Equilibrium, Loading, StaticsError};
+use withy::system::{Anchor, Origin, Scene, Spring, SpringKind, SpringLaw, System};
 use withy::vibration::Modes;
 
 const GRAVITY: f64 = 9.81;
@@ -28,7 +28,7 @@ fn lamp(stiffness: f64) -> Scene {
     let body = add_body(&mut scene, at(0.8, 0.0), 0.0, (1.0, 0.2), &[at(-0.8, 0.0), at(0.5, 0.3)]);
     hinge(&mut scene, point(body, 1), None);
     let ends = [Anchor::Ground(at(0.0, 0.0)), Anchor::Station(point(body, 1))];
-    let law = Some(RestoringLaw::Linear { stiffness, natural: 0.0 });
+    let law = Some(SpringLaw::Linear { stiffness, natural: 0.0 });
     let (name, kind) = ("spring".to_owned(), SpringKind::Torsion(ends));
     scene
         .add_spring(Spring { name, kind, law, origin: Origin::Zero, damping: 0.0.into() })
@@ -37,7 +37,7 @@ fn lamp(stiffness: f64) -> Scene {
     scene
 }
 
-fn squares(model: &Model, count: usize) -> Vec<f64> {
+fn squares(model: &System, count: usize) -> Vec<f64> {
     let modes = Modes::of(model, count, &mut || true).unwrap();
     modes.all().iter().map(|mode| mode.square).collect()
 }
@@ -68,7 +68,7 @@ fn a_lamp_sinks_until_its_spring_holds_it_and_swings_about_there() {
             assert!((force - at(0.0, GRAVITY)).norm() < 1e-10 && moment == 0.0, "{force} {moment}");
         }
         // There is no second mode: a hinge leaves one movement.
-        let model = Model::assemble(&lamp(stiffness)).unwrap();
+        let model = System::assemble(&lamp(stiffness)).unwrap();
         assert!(Modes::of(&model, 2, &mut || true).is_err());
     }
 }
@@ -76,7 +76,7 @@ fn a_lamp_sinks_until_its_spring_holds_it_and_swings_about_there() {
 #[test]
 fn a_body_that_nothing_but_its_weight_holds_hangs_and_one_that_nothing_holds_falls() {
     let mut scene = lamp(1.0);
-    scene.elements.retain(|element| !matches!(element, withy::model::Element::Spring(_)));
+    scene.elements.retain(|element| !matches!(element, withy::system::Element::Spring(_)));
     let mut free = scene.clone();
     let rest = Equilibrium::find(scene, Loading::default(), &mut |_| true).unwrap();
     let turned = rest.model().angle(rest.scene(), &point(0, 0)).unwrap();
@@ -144,7 +144,7 @@ fn a_beam_with_a_rigid_tip_body_has_the_frequencies_of_its_characteristic_equati
         [(1.0, 0.05, 0.4), (3.0, 0.0, 0.5), (0.0, 0.2, 0.3), (2.0, 1.0, -0.3)]
     {
         let (scene, _) = with_tip_body(mass, inertia, offset);
-        let model = Model::assemble(&scene).unwrap();
+        let model = System::assemble(&scene).unwrap();
         let found: Vec<f64> = squares(&model, 3).iter().map(|square| square.sqrt()).collect();
         for omega in found {
             let f = |omega: f64| characteristic(mass, inertia, offset, omega);
@@ -163,7 +163,7 @@ fn a_force_on_a_point_beyond_the_tip_bends_the_beam_with_its_moment() {
     let station: Station = point(body, 0);
     let force = at(0.0, -1e-5);
     let always = Schedule::constant(1.0).unwrap();
-    scene.add_load(LoadKind::Force { station, force, frame: Frame::Dead }, always);
+    scene.add_load(LoadKind::Force { station, force, frame: LoadFrame::Dead }, always);
     let rest = Equilibrium::find(scene, Loading::default(), &mut |_| true).unwrap();
     let points = rest.model().control_points().nth(1).unwrap();
     let (length, stiffness, arm) = (2.0_f64, 5.0, 0.4);

@@ -6,17 +6,17 @@ use std::f64::consts::PI;
 use crate::common::{at, scenes};
 use withy::beams::{Mesh, Relaxation, Section, Station};
 use withy::joints::{Components, JointKind, Partner};
-use withy::model::{
-    Anchor, Model, Origin, ParticleDefinition, RestoringLaw, Scene, Spring, SpringKind,
+use withy::system::{
+    Anchor, Origin, ParticleDefinition, Scene, Spring, SpringKind, SpringLaw, System,
 };
 use withy::vibration::{DampedMode, Modes, VibrationError};
 
 fn damped(scene: &Scene, count: usize) -> Result<Vec<DampedMode>, VibrationError> {
-    DampedMode::of(&Model::assemble(scene).unwrap(), count, &mut || true)
+    DampedMode::of(&System::assemble(scene).unwrap(), count, &mut || true)
 }
 
 fn connect(scene: &mut Scene, anchors: [Anchor; 2], stiffness: f64, damping: f64) {
-    let law = (stiffness > 0.0).then_some(RestoringLaw::Linear { stiffness, natural: 0.0 });
+    let law = (stiffness > 0.0).then_some(SpringLaw::Linear { stiffness, natural: 0.0 });
     let (name, kind) = (scene.free_name("spring"), SpringKind::Way(anchors.to_vec()));
     let spring = Spring { name, kind, law, origin: Origin::AsBuilt, damping: damping.into() };
     scene.add_spring(spring).unwrap();
@@ -54,7 +54,7 @@ fn a_damper_at_one_of_two_masses_couples_their_modes() {
     }
     // To first order in the damping the modes would say otherwise.
     let scene = row(&[(2.0, 30.0, 1.5), (1.0, 20.0, 0.0)]);
-    let modes = Modes::of(&Model::assemble(&scene).unwrap(), 2, &mut || true).unwrap();
+    let modes = Modes::of(&System::assemble(&scene).unwrap(), 2, &mut || true).unwrap();
     let apart = (modes.decay_rates()[0] - expected[0].0).abs() / expected[0].0;
     assert!((1e-4..0.1).contains(&apart), "{apart}");
 }
@@ -110,7 +110,7 @@ fn a_strong_dashpot_is_a_support_that_creeps() {
     let mut propped = scenes::cantilever(&mesh, scenes::rod());
     let tip = scenes::end_of(&mut propped, 0);
     propped.join(JointKind::Support(Components::Y), tip, Partner::Ground).unwrap();
-    let modes = Modes::of(&Model::assemble(&propped).unwrap(), 5, &mut || true).unwrap();
+    let modes = Modes::of(&System::assemble(&propped).unwrap(), 5, &mut || true).unwrap();
     let mut yielding = Vec::new();
     for power in [3, 5, 7, 9, 12, 16, 20] {
         let damping = 10_f64.powi(power);
@@ -161,7 +161,7 @@ fn beams_of_a_damped_material_have_the_rates_of_each_mode_by_itself() {
         let mesh = Mesh::bspline(6, 3, 2).unwrap();
         let mut scene = scenes::cantilever(&mesh, scenes::rod());
         scene.add_damping(0, Relaxation { axial: tau, shear: tau, bending: tau }).unwrap();
-        let modes = Modes::of(&Model::assemble(&scene).unwrap(), 8, &mut || true).unwrap();
+        let modes = Modes::of(&System::assemble(&scene).unwrap(), 8, &mut || true).unwrap();
         let found = damped(&scene, 6).unwrap();
         let mut swinging = 0;
         for mode in modes.all() {
@@ -186,7 +186,7 @@ fn beams_of_a_damped_material_have_the_rates_of_each_mode_by_itself() {
 fn what_is_not_damped_is_what_it_is_without() {
     let mesh = Mesh::bspline(5, 3, 2).unwrap();
     let scene = scenes::cantilever(&mesh, scenes::rod());
-    let modes = Modes::of(&Model::assemble(&scene).unwrap(), 4, &mut || true).unwrap();
+    let modes = Modes::of(&System::assemble(&scene).unwrap(), 4, &mut || true).unwrap();
     for (found, mode) in damped(&scene, 4).unwrap().iter().zip(modes.all()) {
         assert!(found.decay_rate.abs() < 1e-9 * found.angular_frequency, "{found:?}");
         close(found.angular_frequency, mode.angular_frequency(), 1e-12);
@@ -202,7 +202,7 @@ fn strongly_damped_fine_meshes_have_the_slow_rates_of_their_modes() {
     for (spans, tau) in [(12, 1.0), (24, 100.0), (70, 1.0), (70, 1e4)] {
         let mesh = Mesh::bspline(spans, 3, 2).unwrap();
         let mut scene = scenes::cantilever(&mesh, scenes::rod());
-        let still = Model::assemble(&scene).unwrap();
+        let still = System::assemble(&scene).unwrap();
         let all = match Modes::of(&still, 1000, &mut || true) {
             Err(VibrationError::Count { available, .. }) => available,
             other => panic!("{other:?}"),

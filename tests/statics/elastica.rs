@@ -15,9 +15,9 @@ use crate::common::{at, probe::differences};
 use withy::beams::{Mesh, Section};
 use withy::geometry::Vec2;
 use withy::joints::{Component, Components, JointKind, Partner, Slider, SlidingRule};
-use withy::loads::{Frame, LoadKind, PrescribedMotion, Schedule};
-use withy::model::{Anchor, RestoringLaw, Scene, SpringKind};
+use withy::loads::{LoadFrame, LoadKind, PrescribedMotion, Schedule};
 use withy::statics::{Equilibrium, Loading, Stability};
+use withy::system::{Anchor, Scene, SpringKind, SpringLaw};
 
 /// `EI = 1`; strain and shear change what follows by a millionth.
 const STIFF: f64 = 1e7;
@@ -54,7 +54,7 @@ fn rests(scene: Scene, steps: usize) -> Equilibrium {
 }
 
 fn push(scene: &mut Scene, station: withy::beams::Station, force: Vec2) {
-    let kind = LoadKind::Force { station, force, frame: Frame::Dead };
+    let kind = LoadKind::Force { station, force, frame: LoadFrame::Dead };
     scene.add_load(kind, Schedule::constant(1.0).unwrap());
 }
 
@@ -277,7 +277,7 @@ fn a_blade_in_a_sleeve_on_a_spring_is_stable_unstable_and_stable_again() {
         scene.join(JointKind::Hinge, mouth, Partner::Ground).unwrap();
         scene.add_slider(slider(mouth, blade, behind, SlidingRule::Kinked)).unwrap();
         let anchors = vec![Anchor::Ground(at(-1.0 - behind, 0.0)), Anchor::Station(start)];
-        let law = RestoringLaw::Linear { stiffness: spring_stiffness, natural: 1.0 };
+        let law = SpringLaw::Linear { stiffness: spring_stiffness, natural: 1.0 };
         spring(&mut scene, SpringKind::Way(anchors), law, 0.0);
         push(&mut scene, tip, at(-load, 0.0));
         rests(scene, 1).stability(&mut || true)

@@ -9,10 +9,10 @@ use withy::beams::{Mesh, Section, Station};
 use withy::geometry::{Basis, Curve, KnotVector, Vec2};
 use withy::integrators::Method;
 use withy::joints::{JointKind, Partner};
-use withy::loads::{Frame, LoadKind, Schedule};
-use withy::model::Scene;
+use withy::loads::{LoadFrame, LoadKind, Schedule};
 use withy::simulation::Simulation;
 use withy::statics::{ArcLength, Control, Equilibrium, Loading, Stability, StaticsError};
+use withy::system::Scene;
 
 const LENGTH: f64 = 10.0;
 const BENDING: f64 = 100.0;
@@ -48,7 +48,7 @@ struct Tip {
 fn load_tip(mut scene: Scene, force: Vec2, moment: f64, steps: usize) -> Tip {
     let station = scenes::end_of(&mut scene, 0);
     let constant = Schedule::constant(1.0).unwrap();
-    scene.add_load(LoadKind::Force { station, force, frame: Frame::Dead }, constant.clone());
+    scene.add_load(LoadKind::Force { station, force, frame: LoadFrame::Dead }, constant.clone());
     scene.add_load(LoadKind::Moment { station, moment }, constant);
     let rest =
         Equilibrium::find(scene, Loading { steps, ..Loading::default() }, &mut |_| true).unwrap();
@@ -174,7 +174,7 @@ fn a_quarter_arc_unrolls_to_a_line() {
 }
 
 fn with_force(mut scene: Scene, station: Station, force: Vec2) -> Scene {
-    let load = LoadKind::Force { station, force, frame: Frame::Dead };
+    let load = LoadKind::Force { station, force, frame: LoadFrame::Dead };
     scene.add_load(load, Schedule::constant(1.0).unwrap());
     scene
 }
@@ -314,7 +314,7 @@ fn a_beam_that_is_all_but_inextensible_is_held_and_bends_as_it_should() {
 
 #[test]
 fn stability_is_that_of_eulers_column_or_not_known() {
-    let at_part = |part: f64, frame: Frame| {
+    let at_part = |part: f64, frame: LoadFrame| {
         let mut scene = clamped(straight(), &smooth(16), section(1e7, 1e7));
         let station = scenes::end_of(&mut scene, 0);
         let force = at(-part * PI.powi(2) * BENDING / (4.0 * LENGTH * LENGTH), 0.0);
@@ -322,9 +322,9 @@ fn stability_is_that_of_eulers_column_or_not_known() {
         scene.add_load(load, Schedule::constant(1.0).unwrap());
         find(scene, Loading::default()).unwrap().stability(&mut || true)
     };
-    assert_eq!(at_part(0.99, Frame::Dead), Stability::Stable);
-    assert_eq!(at_part(1.01, Frame::Dead), Stability::Unstable);
-    assert_eq!(at_part(0.5, Frame::Follower), Stability::Follower);
+    assert_eq!(at_part(0.99, LoadFrame::Dead), Stability::Stable);
+    assert_eq!(at_part(1.01, LoadFrame::Dead), Stability::Unstable);
+    assert_eq!(at_part(0.5, LoadFrame::Follower), Stability::Follower);
 }
 
 /// A column that is pushed a little to the side buckles to that side, however coarse the steps and small the push: beside the load of
@@ -444,7 +444,7 @@ fn what_is_not_held_or_not_loaded_or_slides_is_told() {
 fn a_simulation_that_starts_at_rest_stays_there_and_swings_when_let_go() {
     let mut scene = clamped(straight(), &smooth(8), section(1e4, 1e4));
     let station = scenes::end_of(&mut scene, 0);
-    let load = LoadKind::Force { station, force: at(0.0, 5.0), frame: Frame::Dead };
+    let load = LoadKind::Force { station, force: at(0.0, 5.0), frame: LoadFrame::Dead };
     scene.add_load(load, Schedule::hold_for(1.0).unwrap());
     let rest = find(scene, Loading { steps: 4, ..Loading::default() }).unwrap();
     let place = rest.scene().place(&station, rest.model().meshes()).unwrap();

@@ -7,14 +7,14 @@ use withy::beams::{Mesh, Section};
 use withy::geometry::Vec2;
 use withy::integrators::{Inertia, Mechanism, Method};
 use withy::joints::{JointKind, Partner};
-use withy::loads::{Frame, LoadKind, Schedule};
-use withy::model::{Model, Scene};
+use withy::loads::{LoadFrame, LoadKind, Schedule};
 use withy::simulation::Simulation;
 use withy::statics::{Equilibrium, Loading};
+use withy::system::{Scene, System};
 use withy::vibration::{Mode, Modes, VibrationError};
 
 fn frequencies(scene: &Scene) -> Vec<f64> {
-    let model = Model::assemble(scene).unwrap();
+    let model = System::assemble(scene).unwrap();
     let all = model.unknowns();
     let modes = Modes::of(&model, all, &mut || true).unwrap();
     modes.all().iter().map(Mode::angular_frequency).collect()
@@ -175,7 +175,7 @@ fn the_lowest_modes_of_a_large_scene_are_those_of_a_small_one() {
         let section = scenes::spaghetti_section(1e6, 100.0);
         let of = |spans: usize| {
             let scene = supported(support, &Mesh::bspline(spans, 3, 2).unwrap(), section);
-            let model = Model::assemble(&scene).unwrap();
+            let model = System::assemble(&scene).unwrap();
             (model.unknowns(), squares(&Modes::of(&model, 8, &mut || true).unwrap()))
         };
         let ((small, dense), (large, sparse)) = (of(76), of(80));
@@ -192,13 +192,13 @@ fn the_lowest_modes_of_a_large_scene_are_those_of_a_small_one() {
         &Mesh::bspline(400, 3, 2).unwrap(),
         scenes::spaghetti_section(1e6, 100.0),
     );
-    let modes = Modes::of(&Model::assemble(&scene).unwrap(), 4, &mut || true).unwrap();
+    let modes = Modes::of(&System::assemble(&scene).unwrap(), 4, &mut || true).unwrap();
     let coarse = supported(
         "cantilever",
         &Mesh::bspline(16, 5, 2).unwrap(),
         scenes::spaghetti_section(1e6, 100.0),
     );
-    let exact = Modes::of(&Model::assemble(&coarse).unwrap(), 4, &mut || true).unwrap();
+    let exact = Modes::of(&System::assemble(&coarse).unwrap(), 4, &mut || true).unwrap();
     let difference = largest_difference(&squares(&modes), &squares(&exact));
     assert!(difference < 2e-6, "{difference}");
 }
@@ -221,7 +221,7 @@ fn the_lowest_mode_of_a_thin_strip_is_not_taken_for_a_free_movement() {
     let beam = scenes::add_beam(&mut scene, axis, &Mesh::bspline(16, 3, 2).unwrap(), section);
     let start = scene.station(beam, 0.0).unwrap();
     scene.join(JointKind::Rigid, start, Partner::Ground).unwrap();
-    let modes = Modes::of(&Model::assemble(&scene).unwrap(), 2, &mut || true).unwrap();
+    let modes = Modes::of(&System::assemble(&scene).unwrap(), 2, &mut || true).unwrap();
     let wave = (section.bending_stiffness / section.mass_per_length).sqrt() / length.powi(2);
     for (mode, exact) in modes.all().iter().zip([3.516015, 22.03449]) {
         let error = mode.angular_frequency() / (exact * wave) - 1.0;
@@ -246,7 +246,7 @@ fn an_unstable_mode_among_many_soft_ones_is_found_or_the_search_refused() {
             scene.join(JointKind::Rigid, start, Partner::Ground).unwrap();
         }
         let station = scene.station(column, 1.0).unwrap();
-        let load = LoadKind::Force { station, force: at(-400.0, 0.0), frame: Frame::Dead };
+        let load = LoadKind::Force { station, force: at(-400.0, 0.0), frame: LoadFrame::Dead };
         scene.add_load(load, Schedule::constant(1.0).unwrap());
         let rest = Equilibrium::find(scene, Loading::default(), &mut |_| true).unwrap();
         (rest.model().unknowns(), rest.modes(6, &mut || true))
@@ -267,7 +267,7 @@ fn a_column_loses_its_stiffness_at_eulers_load() {
         let mut scene = supported("cantilever", &Mesh::bspline(16, 3, 2).unwrap(), section);
         let station = scenes::end_of(&mut scene, 0);
         let force = at(-part * euler, 0.0);
-        let load = LoadKind::Force { station, force, frame: Frame::Dead };
+        let load = LoadKind::Force { station, force, frame: LoadFrame::Dead };
         scene.add_load(load, Schedule::constant(1.0).unwrap());
         let rest = Equilibrium::find(scene, Loading::default(), &mut |_| true).unwrap();
         rest.modes(1, &mut || true).unwrap().all()[0].clone()
@@ -288,7 +288,7 @@ fn looking_for_modes_changes_nothing_of_a_simulation() {
         );
         let mut scene = scene;
         let station = scenes::end_of(&mut scene, 0);
-        let load = LoadKind::Force { station, force: at(0.0, 3.0), frame: Frame::Dead };
+        let load = LoadKind::Force { station, force: at(0.0, 3.0), frame: LoadFrame::Dead };
         scene.add_load(load, Schedule::hold_for(0.5).unwrap());
         let settings = crate::common::settings(Method::EnergyMomentum, 0.1);
         let mut simulation = Simulation::start(scene, settings).unwrap();
@@ -307,7 +307,7 @@ fn looking_for_modes_changes_nothing_of_a_simulation() {
 fn shapes_are_those_of_the_inertia_and_modes_that_cannot_be_are_told() {
     let scene =
         scenes::cantilever(&Mesh::bspline(8, 3, 2).unwrap(), scenes::spaghetti_section(1e4, 100.0));
-    let mut model = Model::assemble(&scene).unwrap();
+    let mut model = System::assemble(&scene).unwrap();
     let modes = Modes::of(&model, 5, &mut || true).unwrap();
     for (a, first) in modes.all().iter().enumerate() {
         let mut momenta = vec![0.0; model.degrees_of_freedom()];
@@ -324,9 +324,9 @@ fn shapes_are_those_of_the_inertia_and_modes_that_cannot_be_are_told() {
     }
     let mut turned = scene;
     let station = scenes::end_of(&mut turned, 0);
-    let load = LoadKind::Force { station, force: at(0.0, 3.0), frame: Frame::Follower };
+    let load = LoadKind::Force { station, force: at(0.0, 3.0), frame: LoadFrame::Follower };
     turned.add_load(load, Schedule::constant(1.0).unwrap());
-    let error = Modes::of(&Model::assemble(&turned).unwrap(), 1, &mut || true).unwrap_err();
+    let error = Modes::of(&System::assemble(&turned).unwrap(), 1, &mut || true).unwrap_err();
     assert!(matches!(error, VibrationError::Follower { .. }), "{error}");
 }
 
@@ -335,7 +335,7 @@ fn shapes_are_those_of_the_inertia_and_modes_that_cannot_be_are_told() {
 fn a_beam_without_rotary_inertia_has_a_mode_for_each_movement_with_inertia() {
     let section = Section { rotary_inertia: 0.0, ..scenes::spaghetti_section(1e6, 100.0) };
     let scene = supported("free-free", &Mesh::bspline(6, 3, 2).unwrap(), section);
-    let model = Model::assemble(&scene).unwrap();
+    let model = System::assemble(&scene).unwrap();
     let finite = model.unknowns() * 2 / 3;
     let all = Modes::of(&model, finite, &mut || true).unwrap();
     assert!(all.all().iter().all(|mode| mode.square.is_finite()));

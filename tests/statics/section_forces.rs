@@ -6,10 +6,10 @@ use withy::beams::{Mesh, Section, SectionForces};
 use withy::geometry::{Curve, Vec2, cross};
 use withy::integrators::Method;
 use withy::joints::{JointKind, Partner};
-use withy::loads::{Frame, LoadKind, Schedule};
-use withy::model::{Scene, StartMotion};
-use withy::simulation::{Simulation, Unwatched};
+use withy::loads::{LoadFrame, LoadKind, Schedule};
+use withy::simulation::{NoMonitor, Simulation};
 use withy::statics::{Equilibrium, Loading};
+use withy::system::{Scene, StartMotion};
 
 const LENGTH: f64 = 10.0;
 
@@ -35,7 +35,7 @@ fn loaded(mesh: &Mesh, direction: f64, force: Vec2) -> Equilibrium {
     let start = scene.station(beam, 0.0).unwrap();
     scene.join(JointKind::Rigid, start, Partner::Ground).unwrap();
     let station = scenes::end_of(&mut scene, beam);
-    let load = LoadKind::Force { station, force, frame: Frame::Dead };
+    let load = LoadKind::Force { station, force, frame: LoadFrame::Dead };
     scene.add_load(load, Schedule::constant(1.0).unwrap());
     let loading = Loading { steps: 40, ..Loading::default() };
     Equilibrium::find(scene, loading, &mut |_| true)
@@ -152,7 +152,7 @@ fn where_a_support_cuts_the_beam_both_sides_are_told() {
         let station = scene.station(beam, s).unwrap();
         scene.join(JointKind::Hinge, station, Partner::Ground).unwrap();
     }
-    let line = LoadKind::Line { beam, force: at(0.0, -1e-3), frame: Frame::Dead };
+    let line = LoadKind::Line { beam, force: at(0.0, -1e-3), frame: LoadFrame::Dead };
     scene.add_load(line, Schedule::constant(1.0).unwrap());
     let rest = Equilibrium::find(scene, Loading::default(), &mut |_| true).unwrap();
     let along = rest.section_forces_along(0).unwrap();
@@ -181,7 +181,7 @@ fn a_bar_that_turns_is_pulled_by_its_own_inertia() {
         // The stretch is put on suddenly: it rings until that is damped.
         let damped = Method::EnergyDecaying { chi: 1.0 };
         let mut simulation = Simulation::start(scene, settings(damped, 0.02)).unwrap();
-        simulation.run_to(4.0, &mut Unwatched).unwrap();
+        simulation.run_to(4.0, &mut NoMonitor).unwrap();
         let spin = simulation.history().samples().last().unwrap().measures.angular_momentum
             / (LENGTH.powi(3) / 3.0 + 0.1 * LENGTH);
         let largest = 0.5 * spin * spin * LENGTH * LENGTH;

@@ -14,10 +14,10 @@ use withy::geometry::Curve;
 use withy::integrators::{Constraints, Mechanism, Method};
 use withy::joints::{EndAction, JointKind, Partner, SLIDING_RULES, Slider, SlidingRule};
 use withy::linalg::BorderedMatrix;
-use withy::loads::{Frame, LoadKind, Schedule};
-use withy::model::{MasterEnd, MasterLimit, Model, Scene, SliderState};
+use withy::loads::{LoadFrame, LoadKind, Schedule};
 use withy::simulation::Simulation;
 use withy::statics::{ArcLength, Control, Equilibrium, Loading, Stability, StaticsError};
+use withy::system::{MasterEnd, MasterLimit, Scene, SliderState, System};
 
 const GRAVITY: f64 = 9.81;
 
@@ -69,7 +69,7 @@ fn the_tangent_of_contacts_at_rest_is_the_derivative_of_their_forces_and_equatio
     for rule in [SlidingRule::Conserving, SlidingRule::Kinked] {
         for (mesh_name, mesh) in meshes(4) {
             for scene in sliding_scenes::all(&mesh, rule) {
-                let mut model = Model::assemble(&scene).unwrap();
+                let mut model = System::assemble(&scene).unwrap();
                 let (movements, shape) = (model.unknowns(), model.constraint_shape());
                 for leans in [false, true] {
                     for slider in (0..scene.sliders.len()).filter(|_| leans) {
@@ -87,7 +87,7 @@ fn the_tangent_of_contacts_at_rest_is_the_derivative_of_their_forces_and_equatio
     }
 }
 
-fn assert_tangent(label: &str, model: &mut Model, unknowns: &[f64]) {
+fn assert_tangent(label: &str, model: &mut System, unknowns: &[f64]) {
     let (movements, shape) = (model.unknowns(), model.constraint_shape());
     let (size, all) = (movements + shape.width, model.degrees_of_freedom());
     let mut tangent = BorderedMatrix::zeros(movements, model.half_bandwidth(), shape);
@@ -122,7 +122,7 @@ fn a_bead_sinks_into_the_sag_of_its_wire_and_rests_there_in_a_simulation() {
         assert!((force - at(0.0, -2.0 * GRAVITY)).norm() < 1e-8, "{}: {force}", entry.name);
         assert_eq!(rest.stability(&mut || true), Stability::Stable);
         assert!(rest.path().points().iter().skip(2).all(|point| point.iterations <= 5));
-        let place = |model: &Model| *model.control_points().nth(1).unwrap().last().unwrap();
+        let place = |model: &System| *model.control_points().nth(1).unwrap().last().unwrap();
         let there = place(model);
         let mut simulation =
             Simulation::start_at_rest(&rest, settings(Method::EnergyMomentum, 0.01)).unwrap();
@@ -184,14 +184,14 @@ fn a_disturbed_rest_swings_with_the_frequencies_of_its_modes() {
         scene.beams[0].section = section(2e3).into();
         let blow = Schedule::hold_for(1e-3).unwrap();
         let station = scene.sliders[0].slave;
-        let kind = LoadKind::Force { station, force: at(0.0, -20.0), frame: Frame::Dead };
+        let kind = LoadKind::Force { station, force: at(0.0, -20.0), frame: LoadFrame::Dead };
         let still = rests(scene.clone(), 4).unwrap();
         let modes = still.modes(2, &mut || true).unwrap();
         let period = modes.all()[1].period();
         scene.add_load(kind, blow);
         let loading = Loading { steps: 4, time: 1.0, ..Loading::default() };
         let rest = Equilibrium::find(scene, loading, &mut |_| true).unwrap();
-        let place = |model: &Model| model.control_points().nth(1).unwrap()[0].y;
+        let place = |model: &System| model.control_points().nth(1).unwrap()[0].y;
         let there = place(rest.model());
         let mut simulation =
             Simulation::start_at_rest(&rest, settings(Method::FourthOrder, period / 100.0))
@@ -310,7 +310,7 @@ fn a_path_of_given_length_follows_a_slider_past_its_limit_load() {
         let half = 0.5 * scene.beams[arch].axis.length();
         let station = bead(&mut scene, arch, half, 1.0, rule);
         // A post holds the bead on a line, so that it goes down with the crown.
-        let kind = LoadKind::Force { station, force: at(0.0, -1500.0), frame: Frame::Dead };
+        let kind = LoadKind::Force { station, force: at(0.0, -1500.0), frame: LoadFrame::Dead };
         scene.add_load(kind, Schedule::constant(1.0).unwrap());
         Equilibrium::find(scene, Loading { steps: 40, control, ..Loading::default() }, &mut |_| {
             true

@@ -5,18 +5,18 @@ use crate::common::{at, scenes};
 use withy::beams::{Mesh, Section};
 use withy::integrators::Mechanism;
 use withy::joints::{JointKind, Partner};
-use withy::loads::{Frame, LoadKind, Schedule};
-use withy::model::{
-    Anchor, Model, Origin, ParticleDefinition, RestoringLaw, Scene, Spring, SpringKind,
-};
+use withy::loads::{LoadFrame, LoadKind, Schedule};
 use withy::statics::{Equilibrium, Loading};
+use withy::system::{
+    Anchor, Origin, ParticleDefinition, Scene, Spring, SpringKind, SpringLaw, System,
+};
 use withy::vibration::{Mode, Modes};
 
-fn linear(stiffness: f64, natural: f64) -> Option<RestoringLaw> {
-    Some(RestoringLaw::Linear { stiffness, natural })
+fn linear(stiffness: f64, natural: f64) -> Option<SpringLaw> {
+    Some(SpringLaw::Linear { stiffness, natural })
 }
 
-fn add(scene: &mut Scene, kind: SpringKind, law: Option<RestoringLaw>, damping: f64) {
+fn add(scene: &mut Scene, kind: SpringKind, law: Option<SpringLaw>, damping: f64) {
     let name = scene.free_name("spring");
     scene
         .add_spring(Spring { name, kind, law, origin: Origin::Zero, damping: damping.into() })
@@ -56,7 +56,7 @@ fn a_spring_below_the_tip_shares_its_load() {
         add(&mut scene, way, linear(stiffness, 1.0), 0.0);
         let always = Schedule::constant(1.0).unwrap();
         let down = 1e-4 * (3.0 * 5.0 / 8.0 + stiffness);
-        let force = LoadKind::Force { station: tip, force: at(0.0, -down), frame: Frame::Dead };
+        let force = LoadKind::Force { station: tip, force: at(0.0, -down), frame: LoadFrame::Dead };
         scene.add_load(force, always);
         let rest = rest(scene);
         let deflection = rest.model().control_points().next().unwrap().last().unwrap().y;
@@ -93,7 +93,7 @@ fn a_hanging_mass_rests_where_the_spring_holds_it_and_dampers_have_no_say() {
     assert_eq!(rest.model().springs().next().unwrap().dissipated, 0.0);
 }
 
-fn frequencies(model: &Model) -> Vec<f64> {
+fn frequencies(model: &System) -> Vec<f64> {
     let modes = Modes::of(model, model.unknowns(), &mut || true).unwrap();
     modes.all().iter().map(Mode::angular_frequency).collect()
 }
@@ -108,7 +108,7 @@ fn a_mass_between_springs_has_the_frequencies_of_their_stiffness_and_of_their_te
         let way = SpringKind::Way(vec![Anchor::Ground(at(x, 0.0)), bead]);
         add(&mut scene, way, linear(40.0, 0.5), 0.0);
     }
-    let found = frequencies(&Model::assemble(&scene).unwrap());
+    let found = frequencies(&System::assemble(&scene).unwrap());
     let expected = [(2.0 * 20.0 / 2.0_f64).sqrt(), (2.0 * 40.0 / 2.0_f64).sqrt()];
     for (found, expected) in found.iter().zip(expected) {
         assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected}");
@@ -134,7 +134,7 @@ fn the_lowest_frequency_of_a_beam_with_a_spring_at_its_tip_is_that_of_the_charac
             if equation(low) * equation(middle) > 0.0 { low = middle } else { high = middle }
         }
         let expected = low * low / 4.0 * 5.0_f64.sqrt();
-        let found = frequencies(&Model::assemble(&scene).unwrap())[0];
+        let found = frequencies(&System::assemble(&scene).unwrap())[0];
         assert!((found / expected - 1.0).abs() < 2e-6, "{stiffness}: {found} {expected}");
     }
 }

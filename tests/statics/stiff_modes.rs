@@ -9,9 +9,9 @@ use nalgebra::Matrix4;
 use withy::beams::{Mesh, Section};
 use withy::geometry::Vec2;
 use withy::joints::{JointKind, Partner};
-use withy::loads::{Frame, LoadKind, Schedule};
-use withy::model::{Model, Scene};
+use withy::loads::{LoadFrame, LoadKind, Schedule};
 use withy::statics::{Equilibrium, Loading};
+use withy::system::{Scene, System};
 use withy::vibration::{Mode, Modes, VibrationError};
 
 const LENGTH: f64 = 10.0;
@@ -168,7 +168,7 @@ fn section(ratio: f64, rotary: Option<f64>) -> Section {
 }
 
 fn modes(scene: &Scene, count: usize) -> Result<Modes, VibrationError> {
-    Modes::of(&Model::assemble(scene).unwrap(), count, &mut || true)
+    Modes::of(&System::assemble(scene).unwrap(), count, &mut || true)
 }
 
 /// Relative errors of the first six frequencies; the modes themselves.
@@ -292,7 +292,7 @@ fn all_of_many_equal_modes_are_found() {
         let start = scene.station(beam, 0.0).unwrap();
         scene.join(JointKind::Rigid, start, Partner::Ground).unwrap();
     }
-    assert!(Model::assemble(&scene).unwrap().unknown_kinds().len() > 240);
+    assert!(System::assemble(&scene).unwrap().unknown_kinds().len() > 240);
     let found = modes(&scene, 10).unwrap();
     let single = modes(&Support::Cantilever.scene(&mesh, section), 2).unwrap();
     for (number, mode) in found.all().iter().enumerate() {
@@ -335,7 +335,7 @@ fn a_stiff_column_loses_its_stiffness_at_eulers_load() {
                 Support::Cantilever.scene(&Mesh::bspline(spans, 3, 2).unwrap(), section);
             let station = scenes::end_of(&mut scene, 0);
             let load =
-                LoadKind::Force { station, force: at(-part * euler, 0.0), frame: Frame::Dead };
+                LoadKind::Force { station, force: at(-part * euler, 0.0), frame: LoadFrame::Dead };
             scene.add_load(load, Schedule::constant(1.0).unwrap());
             let rest = Equilibrium::find(scene, Loading::default(), &mut |_| true).unwrap();
             rest.modes(1, &mut || true).unwrap().all()[0].square
@@ -372,7 +372,7 @@ fn random_scenes(count: usize) {
         let mesh = Mesh::bspline(spans, degree, degree - 1).unwrap();
         let section = section(ratio, None);
         let scene = support.scene(&mesh, section);
-        let available = Model::assemble(&scene).unwrap().unknown_kinds().len();
+        let available = System::assemble(&scene).unwrap().unknown_kinds().len();
         let (zeros, asked) = (support.zeros(), (6 + support.zeros()).min(available));
         let name = format!("{number}: {support:?}, {}, EA L²/EI {ratio:.1e}", mesh.describe());
         let found = match modes(&scene, asked) {

@@ -2,11 +2,11 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::common::{at, scenes};
-use withy::beams::{Mesh, Section, SectionVariation, Shape, Solid};
+use withy::beams::{Mesh, Section, SectionShape, SectionVariation, Solid};
 use withy::joints::{JointKind, Partner};
-use withy::loads::{Frame, LoadKind, Schedule};
-use withy::model::{Model, Scene};
+use withy::loads::{LoadFrame, LoadKind, Schedule};
 use withy::statics::{Equilibrium, Loading};
+use withy::system::{Scene, System};
 use withy::vibration::{Mode, Modes};
 
 fn clamped(variation: SectionVariation, length: f64, spans: usize) -> Scene {
@@ -37,7 +37,7 @@ fn the_tip_of_a_tapered_cantilever_sinks_as_the_integral_says() {
     ]);
     let mut scene = clamped(variation, length, 24);
     let tip = scene.station(0, length).unwrap();
-    let down = LoadKind::Force { station: tip, force: at(0.0, -force), frame: Frame::Dead };
+    let down = LoadKind::Force { station: tip, force: at(0.0, -force), frame: LoadFrame::Dead };
     scene.add_load(down, Schedule::constant(1.0).unwrap());
     let rest = Equilibrium::find(scene, Loading::default(), &mut |_| true).unwrap();
     let sunk = -rest.model().control_points().next().unwrap().last().unwrap().y;
@@ -90,14 +90,14 @@ fn a_wedge_vibrates_as_kirchhoff_found() {
         young,
         poisson: 0.0,
         density,
-        shape: Shape::Rectangle { width: 0.02, height: height * part },
+        shape: SectionShape::Rectangle { width: 0.02, height: height * part },
     };
     let variation = SectionVariation::Dimensions(vec![(0.0, solid(1.0)), (1.0, solid(1e-3))]);
     let root = wedge_root();
     let factor = root * root / 4.0;
     assert!((factor - 5.315).abs() < 1e-3, "Kirchhoff's value: {factor}");
     let expected = factor * (young * height * height / (12.0 * density)).sqrt() / (length * length);
-    let model = Model::assemble(&clamped(variation, length, 40)).unwrap();
+    let model = System::assemble(&clamped(variation, length, 40)).unwrap();
     let modes = Modes::of(&model, 1, &mut || true).unwrap();
     let found = modes.all().first().map(Mode::angular_frequency).unwrap();
     assert!((found / expected - 1.0).abs() < 3e-3, "{found} {expected}");
@@ -111,7 +111,7 @@ fn a_tapered_bar_stretches_and_rings_as_its_area_says() {
         young: stiffness / std::f64::consts::PI,
         poisson: 0.0,
         density: mass / std::f64::consts::PI,
-        shape: Shape::Circle { radius },
+        shape: SectionShape::Circle { radius },
     };
     let variation = SectionVariation::Dimensions(vec![(0.0, solid(1.0)), (1.0, solid(0.5))]);
     // tan β = -β r/r' at the end: f' r = f r', with f = sin β s: β cos β · ½ = -½ sin β.
@@ -121,7 +121,7 @@ fn a_tapered_bar_stretches_and_rings_as_its_area_says() {
         if middle.tan() + middle < 0.0 { low = middle } else { high = middle }
     }
     let expected = 0.5 * (low + high) * (stiffness / mass).sqrt() / length;
-    let model = Model::assemble(&clamped(variation, length, 12)).unwrap();
+    let model = System::assemble(&clamped(variation, length, 12)).unwrap();
     let modes = Modes::of(&model, 12, &mut || true).unwrap();
     let nearest = modes
         .all()

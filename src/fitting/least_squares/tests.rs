@@ -4,15 +4,15 @@ use super::*;
 use crate::elementary::{cos, exp};
 use crate::fitting::Evaluation;
 
-fn range(start: f64, low: f64, high: f64) -> Range {
-    Range { start, low, high }
+fn range(start: f64, low: f64, high: f64) -> SearchRange {
+    SearchRange { start, low, high }
 }
 
-fn free(start: f64) -> Range {
+fn free(start: f64) -> SearchRange {
     range(start, f64::NEG_INFINITY, f64::INFINITY)
 }
 
-fn solved(ranges: Vec<Range>, function: impl Fn(&[f64]) -> Evaluation) -> Fitted {
+fn solved(ranges: Vec<SearchRange>, function: impl Fn(&[f64]) -> Evaluation) -> Fitted {
     let mut evaluate = |points: &[Vec<f64>]| -> Result<Vec<Evaluation>, Infallible> {
         Ok(points.iter().map(|x| function(x)).collect())
     };
@@ -25,7 +25,7 @@ fn solved(ranges: Vec<Range>, function: impl Fn(&[f64]) -> Evaluation) -> Fitted
 fn rosenbrock_s_valley_is_walked_to_its_end() {
     let found =
         solved(vec![free(-1.2), free(1.0)], |x| Ok(vec![10.0 * (x[1] - x[0] * x[0]), 1.0 - x[0]]));
-    assert_eq!(found.settling, Settling::Settled);
+    assert_eq!(found.settling, TerminationReason::Settled);
     assert!(found.parameters.iter().all(|x| (x - 1.0).abs() < 1e-6), "{found:?}");
 }
 
@@ -71,7 +71,7 @@ fn a_parameter_stays_at_its_bound_and_the_others_find_their_best() {
     });
     assert_eq!(found.parameters[0], 1.0);
     assert!((found.parameters[1] - 3.0 / 1.01).abs() < 1e-6, "{found:?}");
-    assert_eq!(found.settling, Settling::Settled);
+    assert_eq!(found.settling, TerminationReason::Settled);
 }
 
 #[test]

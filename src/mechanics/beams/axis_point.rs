@@ -2,7 +2,7 @@
 
 use super::BeamError;
 use super::dynamics::Movement;
-use super::lanes::{LANES, Lanes};
+use super::simd::{LANES, Lanes};
 use super::span_points::window;
 use crate::geometry::{Basis, Span, Vec2};
 
@@ -84,14 +84,14 @@ impl<const N: usize> Windows<'_, N> {
 }
 
 /// The axis that control points draw, of about a given length.
-pub(super) struct Axis<'a> {
+pub(super) struct BeamAxis<'a> {
     basis: &'a Basis,
     control_points: &'a [Vec2],
     /// Derivatives by the parameter below this are rounding, not a direction.
     standstill: f64,
 }
 
-impl<'a> Axis<'a> {
+impl<'a> BeamAxis<'a> {
     /// The axis of such a length [length] that control points draw on a basis.
     pub(super) fn new(basis: &'a Basis, control_points: &'a [Vec2], length: f64) -> Self {
         let (start, end) = basis.domain();

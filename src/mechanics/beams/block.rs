@@ -6,12 +6,12 @@ use pulp::Simd;
 pub(super) type BlockRow<const N: usize> = [[f64; 3]; N];
 
 /// The tangent of one span, `rows[a][i][b][j]` for control points `a`, `b` and components `i`, `j` of x, y, ω; summed up by vector instructions.
-pub(super) struct Block<S, const N: usize> {
+pub(super) struct SpanTangent<S, const N: usize> {
     simd: S,
     pub(super) rows: [[BlockRow<N>; 3]; N],
 }
 
-impl<S: Simd, const N: usize> Block<S, N> {
+impl<S: Simd, const N: usize> SpanTangent<S, N> {
     /// The tangent of a span with zeros only.
     #[inline(always)]
     pub(super) fn zeros(simd: S) -> Self {

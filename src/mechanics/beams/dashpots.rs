@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::dynamics::{ForceSummary, Movement};
 use super::force_dashpot::ForceDashpot;
 use super::moment_dashpot::MomentDashpot;
-use super::present_rates::{RatesSeen, RatesWatch};
+use super::present_rates::{RateMismatch, RateResolution};
 use super::sections::SectionsOnAxis;
 use super::{BeamError, Mesh, RotationIncrement, Section, SectionPlace, SectionVariation};
 use crate::geometry::{Vec2, larger};
@@ -94,7 +94,7 @@ struct SpanDashpots {
 pub struct Dashpots {
     order: usize,
     spans: Vec<SpanDashpots>,
-    watch: RatesWatch,
+    watch: RateResolution,
     /// The derivative of the forces of a span, row after row.
     block: Vec<f64>,
 }
@@ -140,7 +140,7 @@ impl Dashpots {
                 forces: quadrature.force_rule.iter().copied().map(point).map(force).collect(),
             });
         }
-        let watch = RatesWatch::default();
+        let watch = RateResolution::default();
         Ok(Self { order, spans, watch, block: vec![0.0; 9 * order * order] })
     }
 
@@ -168,7 +168,7 @@ impl Dashpots {
 
     /// Takes nothing that was seen of rates for true any more: they have jumped.
     pub fn forget_rates(&mut self) {
-        self.watch = RatesWatch::default();
+        self.watch = RateResolution::default();
     }
 
     /// Gives the forces of the dashpots, as they are, to control points; the largest of them, and how far they are from those of the rates.
@@ -236,7 +236,7 @@ impl Dashpots {
         rotations: RotationIncrement,
         duration: f64,
     ) -> f64 {
-        let (mut sum, mut all) = (0.0, [RatesSeen::default(); 3]);
+        let (mut sum, mut all) = (0.0, [RateMismatch::default(); 3]);
         let share = self.watch.share(duration);
         for SpanDashpots { first, forces, moments } in &mut self.spans {
             let moved = &moved[*first..*first + self.order];

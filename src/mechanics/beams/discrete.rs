@@ -2,19 +2,20 @@
 
 use std::ops::Range;
 
-use super::at_rest::SpanAtRest;
-use super::axis_point::Axis;
+use super::axis_point::BeamAxis;
 use super::dynamics::{BlockSink, BodyDynamics, Collocation, ForceSummary, Movement};
 use super::force_point::ForcePoint;
 use super::inertia::InertiaMatrix;
 use super::mesh::QuadratureSpan;
 use super::moment_point::MomentPoint;
-use super::parts::{MOST_PARTS, Parts};
 use super::sections::{MassIntegral, PerPoint, Sections, SectionsOnAxis, Uniform};
 use super::span_loops::{
-    Advance, Correction, Forces, ForcesFrom, Iterate, Linearisation, MismatchForces, SpanLoop,
+    Advance, ForceAssembly, ForceCorrection, ForcesFrom, Linearisation, MismatchForces, SpanInputs,
+    SpanLoop,
 };
+use super::span_partition::{MOST_PARTS, SpanPartition};
 use super::span_points::{SPANS_AT_ONCE, SpanGroup, SpanOfPoints};
+use super::span_stiffness::SpanStiffness;
 use super::{
     BeamError, Mesh, RotationIncrement, Section, SectionForces, SectionPlace, SectionVariation,
 };
@@ -28,7 +29,7 @@ struct DiscreteBeam<const N: usize, S: Sections = Uniform> {
     control_points: Vec<Vec2>,
     remainders: Vec<Vec2>,
     groups: Vec<SpanGroup<N, S>>,
-    parts: Parts,
+    parts: SpanPartition,
     inertia: InertiaMatrix<N, S::MassIntegral>,
 }
 
@@ -81,7 +82,7 @@ impl<const N: usize, S: Sections> DiscreteBeam<N, S> {
         length: f64,
         control_points: Vec<Vec2>,
     ) -> Result<Self, BeamError> {
-        let axis = Axis::new(mesh.basis(), &control_points, length);
+        let axis = BeamAxis::new(mesh.basis(), &control_points, length);
         let inertia_rule = mesh.inertia_rule()?;
         let on_axis = SectionsOnAxis::new(variation, mesh, &control_points)?;
         let mut gram = vec![[S::MassIntegral::default(); N]; control_points.len()];
@@ -114,7 +115,7 @@ impl<const N: usize, S: Sections> DiscreteBeam<N, S> {
         }
         let groups = spans.chunks(SPANS_AT_ONCE).map(SpanGroup::side_by_side).collect();
         let remainders = vec![Vec2::zeros(); control_points.len()];
-        let parts = Parts::default();
+        let parts = SpanPartition::default();
         let section = variation.mean();
         let inertia = InertiaMatrix::new(gram, section);
         Ok(Self { section, control_points, remainders, groups, parts, inertia })
@@ -147,7 +148,7 @@ impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
     }
 
     fn divide(&mut self, most: usize) -> Vec<usize> {
-        self.parts = Parts::worthwhile(&self.groups, most);
+        self.parts = SpanPartition::worthwhile(&self.groups, most);
         self.parts.first_points()
     }
 
@@ -165,14 +166,14 @@ impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
         forces: &mut [Movement],
     ) -> ForceSummary {
         let Self { section, groups, parts, .. } = self;
-        let iterate = Iterate { section, at, moved, weight };
+        let iterate = SpanInputs { section, at, moved, weight };
         let mut summaries = [ForceSummary::default(); MOST_PARTS];
         let summaries = &mut summaries[..parts.count()];
         parts.sum(groups, forces, summaries, |summary, groups, first, forces| {
             // In memory of this thread: summaries of parts lie beside each other, in lines that caches of several cores would fight for.
             let mut own = *summary;
             let forces = ForcesFrom { first, forces };
-            Forces { iterate, forces, summary: &mut own }.over(groups);
+            ForceAssembly { iterate, forces, summary: &mut own }.over(groups);
             *summary = own;
         });
         let mut summary = ForceSummary::default();
@@ -189,7 +190,7 @@ impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
         tangents: &mut [BlockSink<'_>],
     ) {
         let Self { section, groups, parts, .. } = self;
-        let iterate = Iterate { section, at, moved, weight };
+        let iterate = SpanInputs { section, at, moved, weight };
         parts.sum(groups, forces, tangents, |tangent, groups, first, forces| {
             Linearisation { iterate, forces: ForcesFrom { first, forces }, tangent }.over(groups);
         });
@@ -205,7 +206,7 @@ impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
 
     fn correct_section_forces(&mut self, correction: &[Movement]) {
         let Self { section, groups, parts, .. } = self;
-        let correction = Correction { section, movements: correction };
+        let correction = ForceCorrection { section, movements: correction };
         parts.each(groups, |groups| correction.over(groups));
     }
 
@@ -243,8 +244,8 @@ impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
         self.inertia.each_diagonal(factor, points, tangent);
     }
 
-    fn each_span_at_rest(&self, take: &mut dyn FnMut(&SpanAtRest)) {
-        let mut rows = SpanAtRest::default();
+    fn each_span_at_rest(&self, take: &mut dyn FnMut(&SpanStiffness)) {
+        let mut rows = SpanStiffness::default();
         for group in &self.groups {
             group.each_at_rest(&self.section, &mut rows, take);
         }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::at_rest::SpanAtRest;
+use super::span_stiffness::SpanStiffness;
 use super::{RotationIncrement, Section, SectionForces, SectionPlace};
 use crate::geometry::{Vec2, larger};
 
@@ -125,7 +125,7 @@ pub trait BodyDynamics: Send + Sync {
     );
 
     /// Gives, span by span, how this body resists small movements of its control points at the start of the step, as at rest there.
-    fn each_span_at_rest(&self, take: &mut dyn FnMut(&SpanAtRest));
+    fn each_span_at_rest(&self, take: &mut dyn FnMut(&SpanStiffness));
 
     /// The section of a beam, of one that tapers the mean, and the length of its axis as drawn [length]; none for a body without extent.
     fn extent(&self) -> Option<(Section, f64)>;

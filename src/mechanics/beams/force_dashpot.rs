@@ -7,7 +7,7 @@
 
 use super::dashpots::{Functions, RateCollocation, larger_missing};
 use super::dynamics::{ForceSummary, Movement};
-use super::present_rates::{RatesSeen, RatesTold};
+use super::present_rates::{DashpotRates, RateMismatch};
 use super::{Rotation, RotationIncrement};
 use crate::geometry::{Vec2, cross, larger, perpendicular};
 
@@ -32,12 +32,12 @@ pub(super) struct ForceDashpot {
     last_force: Vec2,
     /// The force that is asked for, less the force.
     mismatch: Vec2,
-    linearised_at: Configuration,
+    linearised_at: DashpotKinematics,
 }
 
 /// What movements lead to.
 #[derive(Debug, Clone, Copy)]
-struct Configuration {
+struct DashpotKinematics {
     end_rotation: Rotation,
     /// `Γ1 + e1`
     end_stretch: Vec2,
@@ -68,7 +68,7 @@ impl ForceDashpot {
             force: Vec2::zeros(),
             last_force: Vec2::zeros(),
             mismatch: Vec2::zeros(),
-            linearised_at: Configuration {
+            linearised_at: DashpotKinematics {
                 end_rotation: rotation,
                 end_stretch: Vec2::x(),
                 change: Vec2::zeros(),
@@ -95,19 +95,19 @@ impl ForceDashpot {
     }
 
     /// What is seen of the rates of stretching and shear in the step that was accepted last, which began at such a share between the middles of two.
-    pub(super) fn seen(&self, share: f64) -> [RatesSeen; 2] {
+    pub(super) fn seen(&self, share: f64) -> [RateMismatch; 2] {
         let of = |axis: usize| {
             let means = [self.rate_before[axis], self.last_rate[axis]];
             let damping = self.functions.weight * self.damping[axis];
-            RatesSeen::of(damping, self.start_rate[axis], means, share)
+            RateMismatch::of(damping, self.start_rate[axis], means, share)
         };
         [of(0), of(1)]
     }
 
-    fn configuration(&self, at: RateCollocation, moved: &[Movement]) -> Configuration {
+    fn configuration(&self, at: RateCollocation, moved: &[Movement]) -> DashpotKinematics {
         let (by, increment, _) = self.functions.interpolate(moved);
         let end_rotation = self.rotation.turned(at.rotations, increment);
-        Configuration {
+        DashpotKinematics {
             end_rotation,
             end_stretch: end_rotation.to_section(self.gradient + by),
             change: self.change(by, at.rotations, increment),
@@ -126,7 +126,7 @@ impl ForceDashpot {
     }
 
     /// The force that the rates of a configuration ask for.
-    fn wanted(&self, at: RateCollocation, now: &Configuration) -> Vec2 {
+    fn wanted(&self, at: RateCollocation, now: &DashpotKinematics) -> Vec2 {
         let carried = self.last_rate * at.by_last;
         now.resistance.component_mul(&now.change) - self.damping.component_mul(&carried)
     }
@@ -210,13 +210,13 @@ impl ForceDashpot {
     }
 
     pub(super) fn add_mismatch_forces(&self, first: usize, give: &mut dyn FnMut(usize, Movement)) {
-        let Configuration { rotation, gradient, .. } = self.linearised_at;
+        let DashpotKinematics { rotation, gradient, .. } = self.linearised_at;
         self.distribute((rotation, gradient), self.mismatch, first, give);
     }
 
     pub(super) fn correct(&mut self, correction: &[Movement]) {
         let (gradient, rotation, _) = self.functions.interpolate(correction);
-        let Configuration { end_rotation, end_stretch, inverse_q, resistance, .. } =
+        let DashpotKinematics { end_rotation, end_stretch, inverse_q, resistance, .. } =
             self.linearised_at;
         let turned = perpendicular(end_stretch) * (rotation * inverse_q);
         let change = end_rotation.to_section(gradient) - turned;
@@ -245,7 +245,7 @@ impl ForceDashpot {
     }
 
     /// The rates of strain at the start of the step, as they are told: those of the movements, or those of the last steps.
-    fn told(&self, told: RatesTold<'_>) -> Vec2 {
+    fn told(&self, told: DashpotRates<'_>) -> Vec2 {
         let (present, carried) = (self.rate(told.present), self.carried(told.late));
         let [axial, shear, _] = told.carried;
         Vec2::new(
@@ -255,14 +255,14 @@ impl ForceDashpot {
     }
 
     /// The force in space that rates ask for at the start of the step [force], and its `w x' × n` [force·length].
-    pub(super) fn transmitted(&self, rates: RatesTold<'_>) -> (Vec2, f64) {
+    pub(super) fn transmitted(&self, rates: DashpotRates<'_>) -> (Vec2, f64) {
         let force = self.rotation.to_space(self.damping.component_mul(&self.told(rates)));
         (force, self.functions.weight * cross(self.gradient, force))
     }
 
     pub(super) fn resist(
         &self,
-        rates: RatesTold<'_>,
+        rates: DashpotRates<'_>,
         first: usize,
         give: &mut dyn FnMut(usize, Movement),
     ) {

@@ -3,7 +3,7 @@
 use pulp::Simd;
 
 use super::dynamics::ForceSummary;
-use super::lanes::{Lanes, Number, Part, Vector};
+use super::simd::{LaneChunk, Lanes, Number, Vector};
 
 /// A [`ForceSummary`] of each lane.
 #[derive(Debug, Clone, Copy, Default)]
@@ -17,14 +17,14 @@ pub(super) struct ForceMaxima<T> {
 impl ForceMaxima<Lanes> {
     /// Takes the larger of both, entry by entry.
     #[inline(always)]
-    pub(super) fn join<V: Simd>(&mut self, part: Part<V>, met: ForceMaxima<Vector<V>>) {
+    pub(super) fn join<V: Simd>(&mut self, part: LaneChunk<V>, met: ForceMaxima<Vector<V>>) {
         self.rotation.put(part, self.rotation.get(part).larger(met.rotation));
         self.join_force(part, met.force);
         self.join_moment(part, met.strain_mismatch, met.moment);
     }
 
     #[inline(always)]
-    fn join_force<V: Simd>(&mut self, part: Part<V>, force: Vector<V>) {
+    fn join_force<V: Simd>(&mut self, part: LaneChunk<V>, force: Vector<V>) {
         self.force.put(part, self.force.get(part).larger(force));
     }
 
@@ -32,7 +32,7 @@ impl ForceMaxima<Lanes> {
     #[inline(always)]
     pub(super) fn join_moment<V: Simd>(
         &mut self,
-        part: Part<V>,
+        part: LaneChunk<V>,
         strain_mismatch: Vector<V>,
         moment: Vector<V>,
     ) {

@@ -2,8 +2,8 @@
 //!
 //! What happens to it in a step is in [`force_points`](super::force_points).
 
-use super::at_rest::SpanAtRest;
 use super::axis_point::AxisPoint;
+use super::span_stiffness::SpanStiffness;
 use super::{Rotation, Section};
 use crate::geometry::{Vec2, cross, larger, perpendicular};
 
@@ -45,7 +45,7 @@ impl<const N: usize> ForcePoint<N> {
     }
 
     /// Adds the rows of axial and shear strain at rest at this point, and those of the section force if there is one.
-    pub(super) fn write_at_rest(&self, section: &Section, span: &mut SpanAtRest) {
+    pub(super) fn write_at_rest(&self, section: &Section, span: &mut SpanStiffness) {
         let w = self.axis.weight;
         let row = |by_gradient: Vec2, by_rotation: f64| -> [[f64; 3]; N] {
             std::array::from_fn(|a| {

@@ -14,12 +14,12 @@
 use pulp::Simd;
 
 use super::axis_point::{AxisPoints, Windows};
-use super::block::{Block, BlockRow};
+use super::block::{BlockRow, SpanTangent};
 use super::dynamics::{Collocation, Movement};
 use super::force_maxima::ForceMaxima;
 use super::force_point::ForcePoint;
-use super::lanes::{LANES, Lanes, Number, Part, Vector};
 use super::pair::Pair;
+use super::simd::{LANES, LaneChunk, Lanes, Number, Vector};
 use super::{Rotation, RotationIncrement};
 
 /// The stiffness `C = diag(EA, GA)` of as many points as one instruction works on.
@@ -41,14 +41,14 @@ pub(super) struct ForcePoints<const N: usize> {
     last_force: Pair<Lanes>,
     /// `m = Γσ - C⁻¹ N`, where forces were taken last.
     mismatch: Pair<Lanes>,
-    linearised_at: Configuration<Lanes>,
+    linearised_at: StrainKinematics<Lanes>,
     /// `σ` there.
     linearised_stress: f64,
 }
 
 /// The configuration that increments lead to, as corrections of the section force need it.
 #[derive(Debug, Clone, Copy)]
-struct Configuration<T> {
+struct StrainKinematics<T> {
     end_rotation: Rotation<T>,
     end_strain: Pair<T>,
     collocated_rotation: Rotation<T>,
@@ -85,7 +85,7 @@ impl<const N: usize> ForcePoints<N> {
     /// Points by lanes, in spans that begin with such control points.
     pub(super) fn side_by_side(points: [&ForcePoint<N>; LANES], first: [usize; LANES]) -> Self {
         let (none, rotation) = (Pair::default(), Rotation::default());
-        let undeformed = Configuration {
+        let undeformed = StrainKinematics {
             end_rotation: rotation,
             end_strain: none,
             collocated_rotation: rotation,
@@ -134,7 +134,7 @@ impl<const N: usize> ForcePoints<N> {
     #[inline(always)]
     fn interpolate<V: Simd>(
         &self,
-        part: Part<V>,
+        part: LaneChunk<V>,
         moved: &Windows<'_, N>,
     ) -> (Pair<Vector<V>>, Vector<V>) {
         let zero = part.splat(0.0);
@@ -152,10 +152,10 @@ impl<const N: usize> ForcePoints<N> {
     #[inline(always)]
     fn configuration<V: Simd>(
         &self,
-        part: Part<V>,
+        part: LaneChunk<V>,
         at: Collocation,
         moved: &Windows<'_, N>,
-    ) -> (Configuration<Vector<V>>, Pair<Vector<V>>, Vector<V>) {
+    ) -> (StrainKinematics<Vector<V>>, Pair<Vector<V>>, Vector<V>) {
         let (change, increment) = self.interpolate(part, moved);
         let (gradient, rotation) = (self.gradient.get(part), self.rotation.get(part));
         let turn = at.rotations.turn(increment);
@@ -163,7 +163,7 @@ impl<const N: usize> ForcePoints<N> {
         let end_strain = strain_of(end_rotation, gradient + change);
         let (tau, sigma) = (part.splat(at.configuration), part.splat(at.stress));
         let strain = self.strain.get(part);
-        let configuration = Configuration {
+        let configuration = StrainKinematics {
             end_rotation,
             end_strain,
             collocated_rotation: rotation.mixed(end_rotation, tau),
@@ -177,7 +177,7 @@ impl<const N: usize> ForcePoints<N> {
     #[inline(always)]
     fn weigh<V: Simd>(
         &self,
-        part: Part<V>,
+        part: LaneChunk<V>,
         weight: f64,
         (gradient, force): (Pair<Vector<V>>, Pair<Vector<V>>),
         resultant: &mut Resultant,
@@ -209,7 +209,7 @@ impl<const N: usize> ForcePoints<N> {
     #[inline(always)]
     pub(super) fn take_forces<V: Simd>(
         &mut self,
-        part: Part<V>,
+        part: LaneChunk<V>,
         (stiffness, weight): (Stiffness<V>, f64),
         at: Collocation,
         moved: &Windows<'_, N>,
@@ -243,7 +243,7 @@ impl<const N: usize> ForcePoints<N> {
     #[inline(always)]
     pub(super) fn linearise<V: Simd>(
         &mut self,
-        part: Part<V>,
+        part: LaneChunk<V>,
         (stiffness, weight): (Stiffness<V>, f64),
         at: Collocation,
         moved: &Windows<'_, N>,
@@ -289,7 +289,7 @@ impl<const N: usize> ForcePoints<N> {
         &self,
         lane: usize,
         tangent: &ForceTangent<N>,
-        block: &mut Block<V, N>,
+        block: &mut SpanTangent<V, N>,
     ) {
         // The rows of one component are multiples of each other.
         let mut rows: [BlockRow<N>; 3] = [[[0.0; 3]; N]; 3];
@@ -317,11 +317,11 @@ impl<const N: usize> ForcePoints<N> {
     #[inline(always)]
     pub(super) fn take_mismatch_forces<V: Simd>(
         &self,
-        part: Part<V>,
+        part: LaneChunk<V>,
         (stiffness, weight): (Stiffness<V>, f64),
         resultant: &mut Resultant,
     ) {
-        let Configuration { collocated_rotation, collocated_gradient, .. } = self.linearised_at;
+        let StrainKinematics { collocated_rotation, collocated_gradient, .. } = self.linearised_at;
         let rotation = collocated_rotation.get(part);
         let force = force_in_space(rotation, stiffness, self.mismatch.get(part));
         self.weigh(part, weight, (collocated_gradient.get(part), force), resultant);
@@ -331,12 +331,12 @@ impl<const N: usize> ForcePoints<N> {
     #[inline(always)]
     pub(super) fn correct_section_forces<V: Simd>(
         &mut self,
-        part: Part<V>,
+        part: LaneChunk<V>,
         stiffness: Stiffness<V>,
         correction: &Windows<'_, N>,
     ) {
         let (gradient, rotation) = self.interpolate(part, correction);
-        let Configuration { end_rotation, end_strain, inverse_q, .. } = self.linearised_at;
+        let StrainKinematics { end_rotation, end_strain, inverse_q, .. } = self.linearised_at;
         let stretched = end_strain.get(part) + Pair::first_axis(rotation);
         let turned = stretched.perpendicular() * (rotation * inverse_q.get(part));
         let change = end_rotation.get(part).to_section(gradient) - turned;
@@ -347,7 +347,7 @@ impl<const N: usize> ForcePoints<N> {
     #[inline(always)]
     pub(super) fn advance<V: Simd>(
         &mut self,
-        part: Part<V>,
+        part: LaneChunk<V>,
         moved: &Windows<'_, N>,
         rotations: RotationIncrement,
     ) {
@@ -367,9 +367,9 @@ impl<const N: usize> ForcePoints<N> {
     }
 }
 
-impl Configuration<Lanes> {
+impl StrainKinematics<Lanes> {
     #[inline(always)]
-    fn put<V: Simd>(&mut self, part: Part<V>, now: Configuration<Vector<V>>) {
+    fn put<V: Simd>(&mut self, part: LaneChunk<V>, now: StrainKinematics<Vector<V>>) {
         self.end_rotation.put(part, now.end_rotation);
         self.end_strain.put(part, now.end_strain);
         self.collocated_rotation.put(part, now.collocated_rotation);

@@ -54,7 +54,7 @@ impl<const N: usize, I: MassIntegral> InertiaMatrix<N, I> {
         forces: &mut [Movement],
     ) {
         let (rates, forces) = (rates.as_flattened(), forces.as_flattened_mut());
-        Arch::new().dispatch(Product { matrix: self, points, factor, rates, forces });
+        Arch::new().dispatch(InertiaProduct { matrix: self, points, factor, rates, forces });
     }
 
     /// Gives the rows of some control points in `factor · M` to `take`, in pieces of diagonals: the first control point of the rows, by how many control
@@ -125,7 +125,7 @@ impl<const N: usize, I> WithSimd for Diagonals<'_, N, I> {
 }
 
 /// The work of [`add_product`](InertiaMatrix::add_product), on numbers of all components one after another.
-struct Product<'a, const N: usize, I> {
+struct InertiaProduct<'a, const N: usize, I> {
     matrix: &'a InertiaMatrix<N, I>,
     points: Range<usize>,
     factor: f64,
@@ -133,7 +133,7 @@ struct Product<'a, const N: usize, I> {
     forces: &'a mut [f64],
 }
 
-impl<const N: usize, I> WithSimd for Product<'_, N, I> {
+impl<const N: usize, I> WithSimd for InertiaProduct<'_, N, I> {
     type Output = ();
 
     /// Adds diagonal by diagonal, from the first column of a row to its last one.
@@ -239,7 +239,13 @@ mod tests {
             let cut = before.len();
             for (points, forces) in [(0..cut, before), (cut..count, behind)] {
                 let (rates, forces) = (rates.as_flattened(), forces.as_flattened_mut());
-                arch.dispatch(Product { matrix: &matrix, points, factor: 1.7, rates, forces });
+                arch.dispatch(InertiaProduct {
+                    matrix: &matrix,
+                    points,
+                    factor: 1.7,
+                    rates,
+                    forces,
+                });
             }
             assert_eq!(forces, expected, "{N} functions, {count} points, cut at {cut}");
         }

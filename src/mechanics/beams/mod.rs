@@ -2,7 +2,6 @@
 //!
 //! J. C. Simo & L. Vu-Quoc, ASME J. Appl. Mech. 53 (1986) 849–863; E. Reissner, ZAMP 23 (1972) 795–804.
 
-mod at_rest;
 mod axis_point;
 mod block;
 mod dashpots;
@@ -15,13 +14,11 @@ mod force_point;
 mod force_points;
 mod inertia;
 mod kink;
-mod lanes;
 mod mesh;
 mod moment_dashpot;
 mod moment_point;
 mod moment_points;
 mod pair;
-mod parts;
 mod present_rates;
 mod rigid_points;
 mod rotation;
@@ -29,12 +26,14 @@ mod section;
 mod section_forces;
 mod section_variation;
 mod sections;
+mod simd;
 mod span_loops;
+mod span_partition;
 mod span_points;
+mod span_stiffness;
 mod station;
-mod taper_seen;
+mod taper_quadrature;
 
-pub use at_rest::SpanAtRest;
 pub use dashpots::{Dashpots, RateCollocation, Relaxation};
 pub use discrete::discretise;
 pub use dynamics::{BlockSink, BodyDynamics, Collocation, ForceSummary, Movement};
@@ -43,8 +42,9 @@ pub use kink::{MissedKink, missed_kink};
 pub use mesh::{Mesh, PointCounts, Quadrature};
 pub use rigid_points::RigidPoints;
 pub use rotation::{Rotation, RotationIncrement};
-pub use section::{Section, Shape, Solid};
+pub use section::{Section, SectionShape, Solid};
 pub use section_forces::{SectionForces, SectionPlace, SectionPoints};
 pub use section_variation::SectionVariation;
-pub use station::{BodyIndex, Place, Station};
-pub use taper_seen::TaperSeen;
+pub use span_stiffness::SpanStiffness;
+pub use station::{BodyIndex, BodyPoint, Station};
+pub use taper_quadrature::TaperQuadrature;

@@ -7,7 +7,7 @@
 use super::RotationIncrement;
 use super::dashpots::{Functions, RateCollocation, strain_missing};
 use super::dynamics::{ForceSummary, Movement};
-use super::present_rates::{RatesSeen, RatesTold};
+use super::present_rates::{DashpotRates, RateMismatch};
 
 /// A dashpot for the rate of curvature.
 #[derive(Debug, Clone)]
@@ -26,12 +26,12 @@ pub(super) struct MomentDashpot {
     last_moment: f64,
     /// The moment that is asked for, less the moment.
     mismatch: f64,
-    linearised_at: Bend,
+    linearised_at: RotationKinematics,
 }
 
 /// What movements lead to.
 #[derive(Debug, Clone, Copy, Default)]
-struct Bend {
+struct RotationKinematics {
     /// `Δω'`
     slope: f64,
     /// `1/q`, and its derivative by `Δω`.
@@ -41,7 +41,7 @@ struct Bend {
     resistance: f64,
 }
 
-impl Bend {
+impl RotationKinematics {
     fn change(&self) -> f64 {
         self.slope * self.inverse_q
     }
@@ -59,7 +59,7 @@ impl MomentDashpot {
             moment: 0.0,
             last_moment: 0.0,
             mismatch: 0.0,
-            linearised_at: Bend::default(),
+            linearised_at: RotationKinematics::default(),
         }
     }
 
@@ -78,19 +78,24 @@ impl MomentDashpot {
     }
 
     /// What is seen of the rate in the step that was accepted last, which began at such a share between the middles of two.
-    pub(super) fn seen(&self, share: f64) -> RatesSeen {
+    pub(super) fn seen(&self, share: f64) -> RateMismatch {
         let damping = self.functions.weight * self.damping;
-        RatesSeen::of(damping, self.start_rate, [self.rate_before, self.last_rate], share)
+        RateMismatch::of(damping, self.start_rate, [self.rate_before, self.last_rate], share)
     }
 
-    fn bend(&self, at: RateCollocation, moved: &[Movement]) -> Bend {
+    fn bend(&self, at: RateCollocation, moved: &[Movement]) -> RotationKinematics {
         let (_, rotation, slope) = self.functions.interpolate(moved);
         let (inverse_q, inverse_q_slope) = at.rotations.rates(rotation);
-        Bend { slope, inverse_q, inverse_q_slope, resistance: self.damping * at.by_change }
+        RotationKinematics {
+            slope,
+            inverse_q,
+            inverse_q_slope,
+            resistance: self.damping * at.by_change,
+        }
     }
 
     /// The moment that the rate of a configuration asks for.
-    fn wanted(&self, at: RateCollocation, now: &Bend) -> f64 {
+    fn wanted(&self, at: RateCollocation, now: &RotationKinematics) -> f64 {
         now.resistance * now.change() - self.damping * at.by_last * self.last_rate
     }
 
@@ -156,7 +161,8 @@ impl MomentDashpot {
 
     pub(super) fn correct(&mut self, correction: &[Movement]) {
         let (_, rotation, slope) = self.functions.interpolate(correction);
-        let Bend { slope: turned, inverse_q, inverse_q_slope, resistance } = self.linearised_at;
+        let RotationKinematics { slope: turned, inverse_q, inverse_q_slope, resistance } =
+            self.linearised_at;
         let change = inverse_q * slope + turned * inverse_q_slope * rotation;
         self.moment += self.mismatch + resistance * change;
     }
@@ -175,7 +181,7 @@ impl MomentDashpot {
     }
 
     /// The moment that rates ask for at the start of the step [force·length].
-    pub(super) fn transmitted(&self, rates: RatesTold<'_>) -> f64 {
+    pub(super) fn transmitted(&self, rates: DashpotRates<'_>) -> f64 {
         let [_, _, is_carried] = rates.carried;
         self.damping
             * if is_carried {
@@ -187,7 +193,7 @@ impl MomentDashpot {
 
     pub(super) fn resist(
         &self,
-        rates: RatesTold<'_>,
+        rates: DashpotRates<'_>,
         first: usize,
         give: &mut dyn FnMut(usize, Movement),
     ) {

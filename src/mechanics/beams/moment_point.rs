@@ -3,8 +3,8 @@
 //! What happens to it in a step is in [`moment_points`](super::moment_points).
 
 use super::Section;
-use super::at_rest::SpanAtRest;
 use super::axis_point::AxisPoint;
+use super::span_stiffness::SpanStiffness;
 
 /// Curvatures that turn a section less, over the length they stand for, are the same but for rounding [rad].
 const SAME_TURN: f64 = 64.0 * f64::EPSILON;
@@ -29,7 +29,7 @@ impl<const N: usize> MomentPoint<N> {
     }
 
     /// Adds the row of the curvature at rest at this point.
-    pub(super) fn write_at_rest(&self, section: &Section, span: &mut SpanAtRest) {
+    pub(super) fn write_at_rest(&self, section: &Section, span: &mut SpanStiffness) {
         let row: [[f64; 3]; N] = std::array::from_fn(|a| [0.0, 0.0, self.axis.slope[a]]);
         span.add_strain(self.axis.weight * section.bending_stiffness, row);
     }

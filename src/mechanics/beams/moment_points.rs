@@ -11,11 +11,11 @@ use pulp::Simd;
 
 use super::RotationIncrement;
 use super::axis_point::{AxisPoints, Windows};
-use super::block::Block;
+use super::block::SpanTangent;
 use super::dynamics::{Collocation, Movement};
 use super::force_maxima::ForceMaxima;
-use super::lanes::{LANES, Lanes, Number, Part, Vector};
 use super::moment_point::MomentPoint;
+use super::simd::{LANES, LaneChunk, Lanes, Number, Vector};
 
 #[derive(Debug, Clone)]
 pub(super) struct MomentPoints<const N: usize> {
@@ -28,14 +28,14 @@ pub(super) struct MomentPoints<const N: usize> {
     last_moment: Lanes,
     /// `m = κσ - M/EI`, where forces were taken last.
     mismatch: Lanes,
-    linearised_at: Bend<Lanes>,
+    linearised_at: CurvatureKinematics<Lanes>,
     /// `σ` there.
     linearised_stress: f64,
 }
 
 /// What increments lead to.
 #[derive(Debug, Clone, Copy, Default)]
-struct Bend<T> {
+struct CurvatureKinematics<T> {
     /// `Δω'`
     slope: T,
     /// `1/q`, and its derivative by `Δω`.
@@ -43,7 +43,7 @@ struct Bend<T> {
     inverse_q_slope: T,
 }
 
-impl<T: Number> Bend<T> {
+impl<T: Number> CurvatureKinematics<T> {
     /// `δκ1 = δω'/q + Δω' δ(1/q)`, by `δω'` and `δω`.
     #[inline(always)]
     fn curvature_by(&self) -> (T, T) {
@@ -51,10 +51,10 @@ impl<T: Number> Bend<T> {
     }
 }
 
-impl Bend<Lanes> {
+impl CurvatureKinematics<Lanes> {
     #[inline(always)]
-    fn get<V: Simd>(&self, part: Part<V>) -> Bend<Vector<V>> {
-        Bend {
+    fn get<V: Simd>(&self, part: LaneChunk<V>) -> CurvatureKinematics<Vector<V>> {
+        CurvatureKinematics {
             slope: self.slope.get(part),
             inverse_q: self.inverse_q.get(part),
             inverse_q_slope: self.inverse_q_slope.get(part),
@@ -62,7 +62,7 @@ impl Bend<Lanes> {
     }
 
     #[inline(always)]
-    fn put<V: Simd>(&mut self, part: Part<V>, now: Bend<Vector<V>>) {
+    fn put<V: Simd>(&mut self, part: LaneChunk<V>, now: CurvatureKinematics<Vector<V>>) {
         self.slope.put(part, now.slope);
         self.inverse_q.put(part, now.inverse_q);
         self.inverse_q_slope.put(part, now.inverse_q_slope);
@@ -89,7 +89,7 @@ impl<const N: usize> MomentPoints<N> {
             moment: none,
             last_moment: none,
             mismatch: none,
-            linearised_at: Bend::default(),
+            linearised_at: CurvatureKinematics::default(),
             linearised_stress: 0.0,
         };
         points.iter().enumerate().for_each(|(lane, point)| side_by_side.set(lane, point));
@@ -119,7 +119,7 @@ impl<const N: usize> MomentPoints<N> {
     #[inline(always)]
     fn interpolate<V: Simd>(
         &self,
-        part: Part<V>,
+        part: LaneChunk<V>,
         moved: &Windows<'_, N>,
     ) -> (Vector<V>, Vector<V>) {
         let (mut slope, mut rotation) = (part.splat(0.0), part.splat(0.0));
@@ -135,14 +135,14 @@ impl<const N: usize> MomentPoints<N> {
     #[inline(always)]
     fn bend<V: Simd>(
         &self,
-        part: Part<V>,
+        part: LaneChunk<V>,
         at: Collocation,
         moved: &Windows<'_, N>,
-    ) -> (Bend<Vector<V>>, Vector<V>) {
+    ) -> (CurvatureKinematics<Vector<V>>, Vector<V>) {
         let (slope, rotation) = self.interpolate(part, moved);
         let (rate, rate_slope) = at.rotations.rates(rotation);
         let curvature = self.curvature.get(part) + part.splat(at.stress) * slope * rate;
-        (Bend { slope, inverse_q: rate, inverse_q_slope: rate_slope }, curvature)
+        (CurvatureKinematics { slope, inverse_q: rate, inverse_q_slope: rate_slope }, curvature)
     }
 
     /// Adds the moments of the point of a lane on the control points of its span.
@@ -158,7 +158,7 @@ impl<const N: usize> MomentPoints<N> {
     #[inline(always)]
     pub(super) fn take_forces<V: Simd>(
         &mut self,
-        part: Part<V>,
+        part: LaneChunk<V>,
         (stiffness, weight): (Vector<V>, f64),
         at: Collocation,
         moved: &Windows<'_, N>,
@@ -180,7 +180,7 @@ impl<const N: usize> MomentPoints<N> {
     #[inline(always)]
     pub(super) fn linearise<V: Simd>(
         &mut self,
-        part: Part<V>,
+        part: LaneChunk<V>,
         (stiffness, weight): (Vector<V>, f64),
         at: Collocation,
         moved: &Windows<'_, N>,
@@ -217,7 +217,7 @@ impl<const N: usize> MomentPoints<N> {
         &self,
         lane: usize,
         tangent: &MomentTangent<N>,
-        block: &mut Block<V, N>,
+        block: &mut SpanTangent<V, N>,
     ) {
         for (row, [_, _, row_omega]) in tangent.0.iter().zip(&mut block.rows) {
             for (entry, [_, _, by_omega]) in row.iter().zip(row_omega) {
@@ -230,7 +230,7 @@ impl<const N: usize> MomentPoints<N> {
     #[inline(always)]
     pub(super) fn take_mismatch_forces<V: Simd>(
         &self,
-        part: Part<V>,
+        part: LaneChunk<V>,
         (stiffness, weight): (Vector<V>, f64),
         weighted_moment: &mut Lanes,
     ) {
@@ -244,7 +244,7 @@ impl<const N: usize> MomentPoints<N> {
     #[inline(always)]
     pub(super) fn correct_moments<V: Simd>(
         &mut self,
-        part: Part<V>,
+        part: LaneChunk<V>,
         stiffness: Vector<V>,
         correction: &Windows<'_, N>,
     ) {
@@ -259,7 +259,7 @@ impl<const N: usize> MomentPoints<N> {
     #[inline(always)]
     pub(super) fn advance<V: Simd>(
         &mut self,
-        part: Part<V>,
+        part: LaneChunk<V>,
         moved: &Windows<'_, N>,
         rotations: RotationIncrement,
     ) {

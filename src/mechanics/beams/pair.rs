@@ -5,7 +5,7 @@ use std::ops::{Add, AddAssign, Mul, Sub};
 use pulp::Simd;
 
 use super::Rotation;
-use super::lanes::{Lanes, Number, Part, Vector};
+use super::simd::{LaneChunk, Lanes, Number, Vector};
 use crate::geometry::Vec2;
 
 /// What has two components in the plane.
@@ -131,12 +131,12 @@ impl<T: Number> Mul<T> for Pair<T> {
 
 impl Pair<Lanes> {
     #[inline(always)]
-    pub(super) fn get<V: Simd>(&self, part: Part<V>) -> Pair<Vector<V>> {
+    pub(super) fn get<V: Simd>(&self, part: LaneChunk<V>) -> Pair<Vector<V>> {
         Pair { x: self.x.get(part), y: self.y.get(part) }
     }
 
     #[inline(always)]
-    pub(super) fn put<V: Simd>(&mut self, part: Part<V>, pair: Pair<Vector<V>>) {
+    pub(super) fn put<V: Simd>(&mut self, part: LaneChunk<V>, pair: Pair<Vector<V>>) {
         self.x.put(part, pair.x);
         self.y.put(part, pair.y);
     }
@@ -154,12 +154,12 @@ impl Pair<Lanes> {
 
 impl Rotation<Lanes> {
     #[inline(always)]
-    pub(super) fn get<V: Simd>(&self, part: Part<V>) -> Rotation<Vector<V>> {
+    pub(super) fn get<V: Simd>(&self, part: LaneChunk<V>) -> Rotation<Vector<V>> {
         Rotation { cos: self.cos.get(part), sin: self.sin.get(part) }
     }
 
     #[inline(always)]
-    pub(super) fn put<V: Simd>(&mut self, part: Part<V>, rotation: Rotation<Vector<V>>) {
+    pub(super) fn put<V: Simd>(&mut self, part: LaneChunk<V>, rotation: Rotation<Vector<V>>) {
         self.cos.put(part, rotation.cos);
         self.sin.put(part, rotation.sin);
     }

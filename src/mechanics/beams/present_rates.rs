@@ -8,7 +8,7 @@ use super::Movement;
 
 /// With which rates a dashpot is asked for its force at the present moment.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct RatesTold<'a> {
+pub(super) struct DashpotRates<'a> {
     /// The present rates of the control points of its span.
     pub(super) present: &'a [Movement],
     /// How far beyond its middle the last step ends, as a part of the time between the middles of the last two [-].
@@ -20,12 +20,12 @@ pub(super) struct RatesTold<'a> {
 /// How far rates at the start of a step are from those between the means of this step and the one before, and how far these are apart: as powers, of
 /// stretching, shear or bending [energy/time].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct RatesSeen {
+pub(super) struct RateMismatch {
     pub(super) off: f64,
     pub(super) apart: f64,
 }
 
-impl RatesSeen {
+impl RateMismatch {
     /// What is seen of a rate at the start of a step, and of its means in the step before and in this one, behind its damping [force·time; energy/time].
     pub(super) fn of(damping: f64, start: f64, [before, now]: [f64; 2], share: f64) -> Self {
         let (change, off) = (now - before, start - before);
@@ -47,16 +47,16 @@ const MOST_OFF: f64 = 0.5;
 
 /// How well steps resolve the rates of what is damped, by those that were seen last.
 #[derive(Debug, Clone, Default)]
-pub(super) struct RatesWatch {
+pub(super) struct RateResolution {
     /// Of stretching, shear and bending, older steps for less.
-    seen: [RatesSeen; 3],
+    seen: [RateMismatch; 3],
     /// How far beyond its middle the last step ends, as a part of the time between the middles of the last two; zero before there were two [-].
     late: f64,
     /// The duration of the last step; zero before there was one [time].
     before: f64,
 }
 
-impl RatesWatch {
+impl RateResolution {
     /// Where between the middles of the last step and of one of a duration [time] the latter begins, as a part of that; none where there is no such step.
     pub(super) fn share(&self, duration: f64) -> Option<f64> {
         let between = duration + self.before;
@@ -66,13 +66,13 @@ impl RatesWatch {
     }
 
     /// Takes in a step of a duration [time], infinite where it took no time.
-    pub(super) fn add(&mut self, duration: f64, seen: [RatesSeen; 3]) {
+    pub(super) fn add(&mut self, duration: f64, seen: [RateMismatch; 3]) {
         if !duration.is_finite() {
             *self = Self::default();
             return;
         }
         for (all, seen) in self.seen.iter_mut().zip(seen) {
-            *all = RatesSeen { off: KEPT * all.off, apart: KEPT * all.apart };
+            *all = RateMismatch { off: KEPT * all.off, apart: KEPT * all.apart };
             all.join(seen);
         }
         self.late = self.share(duration).map_or(0.0, |share| 1.0 - share).max(0.0);
@@ -80,10 +80,10 @@ impl RatesWatch {
     }
 
     /// With which rates dashpots of a span are to be asked, where its control points have these.
-    pub(super) fn told<'a>(&self, present: &'a [Movement]) -> RatesTold<'a> {
-        let is_off = |seen: RatesSeen| seen.off > MOST_OFF * MOST_OFF * seen.apart;
+    pub(super) fn told<'a>(&self, present: &'a [Movement]) -> DashpotRates<'a> {
+        let is_off = |seen: RateMismatch| seen.off > MOST_OFF * MOST_OFF * seen.apart;
         let carried = self.seen.map(|seen| self.late > 0.0 && is_off(seen));
-        RatesTold { present, late: self.late, carried }
+        DashpotRates { present, late: self.late, carried }
     }
 
     pub(super) fn save(&self, state: &mut Vec<f64>) {
@@ -92,7 +92,7 @@ impl RatesWatch {
     }
 
     pub(super) fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
-        let seen = [(); 3].map(|()| RatesSeen { off: next(), apart: next() });
+        let seen = [(); 3].map(|()| RateMismatch { off: next(), apart: next() });
         *self = Self { seen, late: next(), before: next() };
     }
 }
@@ -103,13 +103,16 @@ mod tests {
 
     /// Whether rates are told as they are after each of some steps, where they are given at the ends of these.
     fn are_told(rate: impl Fn(i32) -> f64) -> Vec<bool> {
-        let mut watch = RatesWatch::default();
+        let mut watch = RateResolution::default();
         let mean = |step: i32| 0.5 * (rate(step) + rate(step - 1));
         let told = (1..300).map(|step| {
             let seen = watch.share(0.1).map(|share| {
-                RatesSeen::of(2.0, rate(step - 1), [mean(step - 1), mean(step)], share)
+                RateMismatch::of(2.0, rate(step - 1), [mean(step - 1), mean(step)], share)
             });
-            watch.add(0.1, [RatesSeen::default(), seen.unwrap_or_default(), RatesSeen::default()]);
+            watch.add(
+                0.1,
+                [RateMismatch::default(), seen.unwrap_or_default(), RateMismatch::default()],
+            );
             let [axial, shear, bending] = watch.told(&[]).carried;
             assert!(!axial && !bending);
             !shear
@@ -138,8 +141,8 @@ mod tests {
 
     #[test]
     fn a_movement_that_takes_no_time_ends_it() {
-        let mut watch = RatesWatch::default();
-        let seen = [RatesSeen { off: 1.0, apart: 0.0 }; 3];
+        let mut watch = RateResolution::default();
+        let seen = [RateMismatch { off: 1.0, apart: 0.0 }; 3];
         watch.add(0.1, seen);
         assert_eq!(watch.told(&[]).carried, [false; 3]);
         watch.add(0.3, seen);

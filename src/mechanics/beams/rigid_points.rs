@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
-use super::at_rest::SpanAtRest;
 use super::discrete::move_compensated;
 use super::dynamics::{BlockSink, BodyDynamics, Collocation, ForceSummary, Movement};
+use super::span_stiffness::SpanStiffness;
 use super::{Rotation, RotationIncrement, Section, SectionForces, SectionPlace};
 use crate::geometry::{Vec2, larger};
 
@@ -109,7 +109,7 @@ impl BodyDynamics for RigidPoints {
     ) {
     }
 
-    fn each_span_at_rest(&self, _take: &mut dyn FnMut(&SpanAtRest)) {}
+    fn each_span_at_rest(&self, _take: &mut dyn FnMut(&SpanStiffness)) {}
 
     fn extent(&self) -> Option<(Section, f64)> {
         None

@@ -1,7 +1,7 @@
 //! Section rotations as cosine and sine, advanced by tangent-scaled increments without trigonometric functions.
 
-use super::lanes::Number;
 use super::pair::Planar;
+use super::simd::Number;
 use crate::elementary::{atan, sin_cos, tan};
 
 /// What an interpolated rotation increment `Δω` stands for: which angle `Δθ` a section turns by.

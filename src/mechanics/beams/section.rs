@@ -24,7 +24,7 @@ pub struct Section {
 
 /// The outline of a cross section; bending is about the horizontal centroidal axis.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub enum Shape {
+pub enum SectionShape {
     /// The cross section is a solid rectangle.
     Rectangle {
         /// The width of the rectangle, out of the plane of motion [length].
@@ -56,7 +56,7 @@ pub struct Solid {
     /// The density of the material [mass/length³].
     pub density: f64,
     /// The outline of the cross section.
-    pub shape: Shape,
+    pub shape: SectionShape,
 }
 
 impl Section {
@@ -98,9 +98,9 @@ impl Section {
     pub fn from_solid(solid: Solid) -> Result<Self, BeamError> {
         let Solid { young, poisson, density, shape } = solid;
         let shape_values = match shape {
-            Shape::Rectangle { width, height } => [("width", width), ("height", height)],
-            Shape::Circle { radius } => [("radius", radius), ("radius", radius)],
-            Shape::Tube { outer, inner } => [("outer", outer), ("inner", inner)],
+            SectionShape::Rectangle { width, height } => [("width", width), ("height", height)],
+            SectionShape::Circle { radius } => [("radius", radius), ("radius", radius)],
+            SectionShape::Tube { outer, inner } => [("outer", outer), ("inner", inner)],
         };
         for (name, value) in shape_values {
             if !is_positive(value) {
@@ -122,7 +122,7 @@ impl Section {
         if !(poisson > -1.0 && poisson <= 0.5) {
             return Err(BeamError::PoissonRatio { value: poisson });
         }
-        if let Shape::Tube { outer, inner } = shape
+        if let SectionShape::Tube { outer, inner } = shape
             && inner >= outer
         {
             return Err(BeamError::Tube { inner, outer });
@@ -175,14 +175,15 @@ impl Solid {
     pub(super) fn mixed(&self, other: &Self, share: f64) -> Self {
         let mix = |a: f64, b: f64| a + share * (b - a);
         let shape = match (self.shape, other.shape) {
-            (Shape::Rectangle { width: w, height: h }, Shape::Rectangle { width, height }) => {
-                Shape::Rectangle { width: mix(w, width), height: mix(h, height) }
+            (
+                SectionShape::Rectangle { width: w, height: h },
+                SectionShape::Rectangle { width, height },
+            ) => SectionShape::Rectangle { width: mix(w, width), height: mix(h, height) },
+            (SectionShape::Circle { radius: r }, SectionShape::Circle { radius }) => {
+                SectionShape::Circle { radius: mix(r, radius) }
             }
-            (Shape::Circle { radius: r }, Shape::Circle { radius }) => {
-                Shape::Circle { radius: mix(r, radius) }
-            }
-            (Shape::Tube { outer: o, inner: i }, Shape::Tube { outer, inner }) => {
-                Shape::Tube { outer: mix(o, outer), inner: mix(i, inner) }
+            (SectionShape::Tube { outer: o, inner: i }, SectionShape::Tube { outer, inner }) => {
+                SectionShape::Tube { outer: mix(o, outer), inner: mix(i, inner) }
             }
             (shape, _) => shape,
         };
@@ -195,7 +196,7 @@ impl Solid {
     }
 }
 
-impl Shape {
+impl SectionShape {
     /// The area `A` of the cross section [length²].
     pub fn area(&self) -> f64 {
         match *self {
@@ -242,7 +243,7 @@ mod tests {
     #[test]
     fn a_tube_without_a_hole_is_a_circle() {
         let (circle, tube) =
-            (Shape::Circle { radius: 2.0 }, Shape::Tube { outer: 2.0, inner: 1e-9 });
+            (SectionShape::Circle { radius: 2.0 }, SectionShape::Tube { outer: 2.0, inner: 1e-9 });
         assert!((circle.area() - tube.area()).abs() < 1e-12);
         assert!((circle.second_moment() - tube.second_moment()).abs() < 1e-12);
         assert!((circle.shear_correction(0.3) - tube.shear_correction(0.3)).abs() < 1e-12);
@@ -251,10 +252,11 @@ mod tests {
     #[test]
     fn cowpers_factors_have_their_tabulated_values() {
         assert!(
-            (Shape::Rectangle { width: 1.0, height: 1.0 }.shear_correction(0.3) - 0.850).abs()
+            (SectionShape::Rectangle { width: 1.0, height: 1.0 }.shear_correction(0.3) - 0.850)
+                .abs()
                 < 5e-4
         );
-        assert!((Shape::Circle { radius: 1.0 }.shear_correction(0.3) - 0.886).abs() < 5e-4);
+        assert!((SectionShape::Circle { radius: 1.0 }.shear_correction(0.3) - 0.886).abs() < 5e-4);
     }
 
     #[test]
@@ -263,14 +265,14 @@ mod tests {
             young: 210e9,
             poisson: 0.3,
             density: 7850.0,
-            shape: Shape::Rectangle { width: 0.02, height: 0.01 },
+            shape: SectionShape::Rectangle { width: 0.02, height: 0.01 },
         };
         assert!(Section::from_solid(steel).is_ok());
         let bad = [
             Solid { young: -1.0, ..steel },
             Solid { poisson: 0.7, ..steel },
             Solid { density: f64::NAN, ..steel },
-            Solid { shape: Shape::Tube { outer: 1.0, inner: 1.0 }, ..steel },
+            Solid { shape: SectionShape::Tube { outer: 1.0, inner: 1.0 }, ..steel },
         ];
         let words = ["E is -1", "Poisson", "density is NaN", "inner radius"];
         for (solid, word) in bad.into_iter().zip(words) {

@@ -141,14 +141,14 @@ pub(super) struct MomentShare {
 /// The quadrature points of a beam in the order of the parameter of its mesh, run by run.
 #[derive(Debug, Clone)]
 pub struct SectionPoints {
-    runs: Vec<Run>,
+    runs: Vec<SmoothRun>,
     /// The most points that a polynomial for the normal goes through: as many on either side.
     most: usize,
 }
 
 /// Spans that join smoothly.
 #[derive(Debug, Clone)]
-struct Run {
+struct SmoothRun {
     splines: LowerSplines,
     spans: Vec<Span>,
     of_force: Vec<PointAt>,
@@ -185,7 +185,7 @@ impl SectionPoints {
             }
             let spans: Vec<Span> = run.iter().map(|(_, quadrature)| quadrature.span).collect();
             let splines = LowerSplines::of(mesh.basis(), &spans)?;
-            runs.push(Run { splines, spans, of_force, of_moment });
+            runs.push(SmoothRun { splines, spans, of_force, of_moment });
         }
         Ok(Self { runs, most: (mesh.basis().degree() + 1).next_multiple_of(2) })
     }
@@ -206,7 +206,7 @@ impl SectionPoints {
     /// None that [`of`](Self::of) did not meet.
     pub fn along(&self, within: usize) -> Result<Vec<(f64, SectionPlace)>, BeamError> {
         let pieces = (within + 1) as f64;
-        let of_run = |run: &Run| {
+        let of_run = |run: &SmoothRun| {
             let inside = |span: &Span| {
                 let (start, length) = (span.start, span.end - span.start);
                 (0..=within).map(move |i| start + length * i as f64 / pieces)
@@ -219,7 +219,7 @@ impl SectionPoints {
     }
 }
 
-impl Run {
+impl SmoothRun {
     fn end(&self) -> f64 {
         self.spans[self.spans.len() - 1].end
     }

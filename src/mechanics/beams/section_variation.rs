@@ -135,7 +135,7 @@ fn between<T: Copy>(all: &[(f64, T)], part: f64) -> (f64, [T; 2]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::beams::Shape;
+    use crate::beams::SectionShape;
 
     fn thick() -> Section {
         Section {
@@ -152,7 +152,7 @@ mod tests {
             young: 2.0,
             poisson: 0.3,
             density: 3.0,
-            shape: Shape::Rectangle { width: 0.5, height },
+            shape: SectionShape::Rectangle { width: 0.5, height },
         };
         SectionVariation::Dimensions(vec![(0.0, solid(1.0)), (0.25, solid(0.8)), (1.0, solid(0.2))])
     }

@@ -4,13 +4,13 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-use super::block::Block;
+use super::block::SpanTangent;
 use super::dynamics::{Collocation, ForceSummary, Movement};
 use super::force_maxima::ForceMaxima;
 use super::force_points::{ForceTangent, Resultant};
-use super::lanes::{LANES, Lanes, Part};
 use super::moment_points::MomentTangent;
 use super::sections::Sections;
+use super::simd::{LANES, LaneChunk, Lanes};
 use super::span_points::{SpanGroup, window_mut};
 use super::{RotationIncrement, Section};
 
@@ -24,17 +24,17 @@ pub(super) trait SpanLoop<const N: usize, S> {
     where
         Self: Sized,
     {
-        Arch::new().dispatch(Over { groups, work: self });
+        Arch::new().dispatch(LoopRange { groups, work: self });
     }
 }
 
 /// A loop, and the spans that it is over.
-pub(super) struct Over<'a, const N: usize, S, W> {
+pub(super) struct LoopRange<'a, const N: usize, S, W> {
     pub(super) groups: &'a mut [SpanGroup<N, S>],
     pub(super) work: W,
 }
 
-impl<const N: usize, S, W: SpanLoop<N, S>> WithSimd for Over<'_, N, S, W> {
+impl<const N: usize, S, W: SpanLoop<N, S>> WithSimd for LoopRange<'_, N, S, W> {
     type Output = ();
 
     #[inline(always)]
@@ -47,7 +47,7 @@ impl<const N: usize, S, W: SpanLoop<N, S>> WithSimd for Over<'_, N, S, W> {
 
 /// What internal forces depend on besides the spans: sections, where in the step, movements, and the factor of the forces.
 #[derive(Clone, Copy)]
-pub(super) struct Iterate<'a> {
+pub(super) struct SpanInputs<'a> {
     pub(super) section: &'a Section,
     pub(super) at: Collocation,
     pub(super) moved: &'a [Movement],
@@ -69,16 +69,16 @@ impl ForcesFrom<'_> {
 }
 
 /// Adds the internal forces, with the section forces as they are.
-pub(super) struct Forces<'a> {
-    pub(super) iterate: Iterate<'a>,
+pub(super) struct ForceAssembly<'a> {
+    pub(super) iterate: SpanInputs<'a>,
     pub(super) forces: ForcesFrom<'a>,
     pub(super) summary: &'a mut ForceSummary,
 }
 
-impl<const N: usize, S: Sections> SpanLoop<N, S> for Forces<'_> {
+impl<const N: usize, S: Sections> SpanLoop<N, S> for ForceAssembly<'_> {
     #[inline(always)]
     fn at<V: Simd>(&mut self, simd: V, group: &mut SpanGroup<N, S>) {
-        let Iterate { section, at, moved, weight } = self.iterate;
+        let SpanInputs { section, at, moved, weight } = self.iterate;
         let SpanGroup { spans, force_points, moment_points, sections } = group;
         let mut maxima = ForceMaxima::default();
         let (mut resultant, mut moment) = (Resultant::default(), Lanes::default());
@@ -89,8 +89,8 @@ impl<const N: usize, S: Sections> SpanLoop<N, S> for Forces<'_> {
                 let points = &mut force_points[index];
                 if lane == 0 {
                     let windows = points.windows(moved);
-                    for part in 0..Part::<V>::COUNT {
-                        let part = Part::new(simd, part);
+                    for part in 0..LaneChunk::<V>::COUNT {
+                        let part = LaneChunk::new(simd, part);
                         let stiffness = sections.force_stiffness(section, index, part);
                         let by = (stiffness, weight);
                         points.take_forces(part, by, at, &windows, &mut resultant, &mut maxima);
@@ -103,8 +103,8 @@ impl<const N: usize, S: Sections> SpanLoop<N, S> for Forces<'_> {
                 let points = &mut moment_points[index];
                 if lane == 0 {
                     let windows = points.windows(moved);
-                    for part in 0..Part::<V>::COUNT {
-                        let part = Part::new(simd, part);
+                    for part in 0..LaneChunk::<V>::COUNT {
+                        let part = LaneChunk::new(simd, part);
                         let stiffness = sections.bending_stiffness(section, index, part);
                         let by = (stiffness, weight);
                         points.take_forces(part, by, at, &windows, &mut moment, &mut maxima);
@@ -119,7 +119,7 @@ impl<const N: usize, S: Sections> SpanLoop<N, S> for Forces<'_> {
 
 /// Adds the condensed internal forces, and gives the tangent of each span.
 pub(super) struct Linearisation<'a> {
-    pub(super) iterate: Iterate<'a>,
+    pub(super) iterate: SpanInputs<'a>,
     pub(super) forces: ForcesFrom<'a>,
     pub(super) tangent: &'a mut dyn FnMut(usize, &[f64]),
 }
@@ -127,20 +127,20 @@ pub(super) struct Linearisation<'a> {
 impl<const N: usize, S: Sections> SpanLoop<N, S> for Linearisation<'_> {
     #[inline(always)]
     fn at<V: Simd>(&mut self, simd: V, group: &mut SpanGroup<N, S>) {
-        let Iterate { section, at, moved, weight } = self.iterate;
+        let SpanInputs { section, at, moved, weight } = self.iterate;
         let SpanGroup { spans, force_points, moment_points, sections } = group;
         let (mut resultant, mut tangent) = (Resultant::default(), ForceTangent::default());
         let (mut moment, mut moment_tangent) = (Lanes::default(), MomentTangent::default());
         for span in spans {
             let forces = self.forces.of(span.first);
-            let mut block = Block::zeros(simd);
+            let mut block = SpanTangent::zeros(simd);
             for point in span.force_points.clone() {
                 let (index, lane) = (point / LANES, point % LANES);
                 let points = &mut force_points[index];
                 if lane == 0 {
                     let windows = points.windows(moved);
-                    for part in 0..Part::<V>::COUNT {
-                        let part = Part::new(simd, part);
+                    for part in 0..LaneChunk::<V>::COUNT {
+                        let part = LaneChunk::new(simd, part);
                         let by = (sections.force_stiffness(section, index, part), weight);
                         let out = (&mut resultant, &mut tangent);
                         points.linearise(part, by, at, &windows, out);
@@ -154,8 +154,8 @@ impl<const N: usize, S: Sections> SpanLoop<N, S> for Linearisation<'_> {
                 let points = &mut moment_points[index];
                 if lane == 0 {
                     let windows = points.windows(moved);
-                    for part in 0..Part::<V>::COUNT {
-                        let part = Part::new(simd, part);
+                    for part in 0..LaneChunk::<V>::COUNT {
+                        let part = LaneChunk::new(simd, part);
                         let by = (sections.bending_stiffness(section, index, part), weight);
                         let out = (&mut moment, &mut moment_tangent);
                         points.linearise(part, by, at, &windows, out);
@@ -188,8 +188,8 @@ impl<const N: usize, S: Sections> SpanLoop<N, S> for MismatchForces<'_> {
                 let (index, lane) = (point / LANES, point % LANES);
                 let points = &force_points[index];
                 if lane == 0 {
-                    for part in 0..Part::<V>::COUNT {
-                        let part = Part::new(simd, part);
+                    for part in 0..LaneChunk::<V>::COUNT {
+                        let part = LaneChunk::new(simd, part);
                         let by = (sections.force_stiffness(section, index, part), weight);
                         points.take_mismatch_forces(part, by, &mut resultant);
                     }
@@ -200,8 +200,8 @@ impl<const N: usize, S: Sections> SpanLoop<N, S> for MismatchForces<'_> {
                 let (index, lane) = (point / LANES, point % LANES);
                 let points = &moment_points[index];
                 if lane == 0 {
-                    for part in 0..Part::<V>::COUNT {
-                        let part = Part::new(simd, part);
+                    for part in 0..LaneChunk::<V>::COUNT {
+                        let part = LaneChunk::new(simd, part);
                         let by = (sections.bending_stiffness(section, index, part), weight);
                         points.take_mismatch_forces(part, by, &mut moment);
                     }
@@ -214,12 +214,12 @@ impl<const N: usize, S: Sections> SpanLoop<N, S> for MismatchForces<'_> {
 
 /// Carries a correction of the movements over to the section forces.
 #[derive(Clone, Copy)]
-pub(super) struct Correction<'a> {
+pub(super) struct ForceCorrection<'a> {
     pub(super) section: &'a Section,
     pub(super) movements: &'a [Movement],
 }
 
-impl<const N: usize, S: Sections> SpanLoop<N, S> for Correction<'_> {
+impl<const N: usize, S: Sections> SpanLoop<N, S> for ForceCorrection<'_> {
     #[inline(always)]
     fn at<V: Simd>(&mut self, simd: V, group: &mut SpanGroup<N, S>) {
         group.correct_section_forces(simd, self.section, self.movements);

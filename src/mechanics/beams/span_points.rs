@@ -6,14 +6,14 @@ use pulp::Simd;
 
 use super::RotationIncrement;
 use super::Section;
-use super::at_rest::SpanAtRest;
 use super::dynamics::Movement;
 use super::force_point::ForcePoint;
 use super::force_points::ForcePoints;
-use super::lanes::{LANES, Part};
 use super::moment_point::MomentPoint;
 use super::moment_points::MomentPoints;
 use super::sections::{Sections, Uniform};
+use super::simd::{LANES, LaneChunk};
+use super::span_stiffness::SpanStiffness;
 use crate::geometry::Vec2;
 
 /// So many spans share lanes: enough that few lanes are empty, and few enough that their points stay at hand.
@@ -125,16 +125,16 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
     ) {
         for (index, points) in self.force_points.iter_mut().enumerate() {
             let windows = points.windows(correction);
-            for part in 0..Part::<V>::COUNT {
-                let part = Part::new(simd, part);
+            for part in 0..LaneChunk::<V>::COUNT {
+                let part = LaneChunk::new(simd, part);
                 let stiffness = self.sections.force_stiffness(section, index, part);
                 points.correct_section_forces(part, stiffness, &windows);
             }
         }
         for (index, points) in self.moment_points.iter_mut().enumerate() {
             let windows = points.windows(correction);
-            for part in 0..Part::<V>::COUNT {
-                let part = Part::new(simd, part);
+            for part in 0..LaneChunk::<V>::COUNT {
+                let part = LaneChunk::new(simd, part);
                 let stiffness = self.sections.bending_stiffness(section, index, part);
                 points.correct_moments(part, stiffness, &windows);
             }
@@ -151,14 +151,14 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
     ) {
         for points in &mut self.force_points {
             let windows = points.windows(moved);
-            for part in 0..Part::<V>::COUNT {
-                points.advance(Part::new(simd, part), &windows, rotations);
+            for part in 0..LaneChunk::<V>::COUNT {
+                points.advance(LaneChunk::new(simd, part), &windows, rotations);
             }
         }
         for points in &mut self.moment_points {
             let windows = points.windows(moved);
-            for part in 0..Part::<V>::COUNT {
-                points.advance(Part::new(simd, part), &windows, rotations);
+            for part in 0..LaneChunk::<V>::COUNT {
+                points.advance(LaneChunk::new(simd, part), &windows, rotations);
             }
         }
     }
@@ -221,8 +221,8 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
     pub(super) fn each_at_rest(
         &self,
         section: &Section,
-        rows: &mut SpanAtRest,
-        take: &mut dyn FnMut(&SpanAtRest),
+        rows: &mut SpanStiffness,
+        take: &mut dyn FnMut(&SpanStiffness),
     ) {
         for span in &self.spans {
             rows.begin(span.first);

@@ -27,7 +27,7 @@ pub struct Station {
 
 /// A place on a body of a model, with the basis functions that are not zero there.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Place {
+pub struct BodyPoint {
     /// The index of the body in the model: beams come first, then particles, then rigid bodies.
     pub body: usize,
     /// The index of the first control point whose function is not zero at this place.
@@ -83,7 +83,7 @@ impl Station {
     }
 }
 
-impl Place {
+impl BodyPoint {
     /// The place of a particle: its one control point.
     pub fn of_particle(body: usize) -> Self {
         Self::of_point(body, 0, 0.0)

@@ -1,6 +1,6 @@
 //! A curve in the terms of a basis: its control points or nodes.
 
-use super::collocation::{Row, solve};
+use super::collocation::{CollocationRow, solve};
 use super::{Basis, Curve, GeometryError, Vec2};
 
 /// The control points (splines) or nodes (Lagrange) [length] of `curve` in `basis`, one for each function;
@@ -27,7 +27,7 @@ pub fn interpolate(curve: &Curve, basis: &Basis) -> Result<Vec<Vec2>, GeometryEr
         _ => {
             let rows = abscissae.iter().zip(points).map(|(&xi, point)| {
                 let values = basis.evaluate(xi)?;
-                Ok(Row {
+                Ok(CollocationRow {
                     first: values.first,
                     entries: values.values().to_vec(),
                     right_side: point?,

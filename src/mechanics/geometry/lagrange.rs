@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::error::finite;
 use super::knots::{check_degree, check_inside, check_span_lengths, check_spans};
-use super::values::{BasisValues, Row};
+use super::values::{BasisValues, FunctionRow};
 use super::{GeometryError, Span};
 
 /// The largest degree of Lagrange elements; equispaced nodes serve no higher one well.
@@ -137,8 +137,8 @@ impl LagrangeBasis {
 
     /// `L_j = Π_{m≠j} (ξ - ξ_m) / (ξ_j - ξ_m)` and its derivatives, multiplied up factor by factor: a
     /// linear factor `f` changes them by the rule of Leibniz, `(f g)⁽ᵏ⁾ = f g⁽ᵏ⁾ + k f' g⁽ᵏ⁻¹⁾`.
-    fn polynomial(&self, span: &Span, j: usize, xi: f64) -> Row {
-        let mut derivatives = Row::default();
+    fn polynomial(&self, span: &Span, j: usize, xi: f64) -> FunctionRow {
+        let mut derivatives = FunctionRow::default();
         derivatives[0] = 1.0;
         for m in (0..=self.degree).filter(|&m| m != j) {
             let distance = self.node(span, j) - self.node(span, m);

@@ -18,7 +18,7 @@ pub struct PiecewisePolynomial {
 
 /// A function along a way between two parameters, with the mean of its slope.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct AlongWay {
+pub struct FunctionOnPath {
     /// The value of the function at the start `ξ0` of the way.
     pub start: f64,
     /// The value of the function at the end `ξ1` of the way.

@@ -1,6 +1,6 @@
 //! Gauss's quadrature for splines: as few points as determine a derivative, where they leave no error that matters.
 
-use super::collocation::{Row, solve};
+use super::collocation::{CollocationRow, solve};
 use super::{Basis, BasisValues, GaussRule, Span};
 
 /// The quadrature points of each span of a run of spans, in order, with their weights: `∫ f dξ ≈ Σ weight · f(point)`.
@@ -85,8 +85,8 @@ pub(super) fn lower_count(basis: &Basis, run: &[Span]) -> Option<usize> {
 }
 
 /// Rows without entries, for the equations of lower splines.
-fn empty_rows(count: usize, room: usize) -> Vec<Row<f64>> {
-    let row = || Row { first: 0, entries: Vec::with_capacity(room), right_side: 0.0 };
+fn empty_rows(count: usize, room: usize) -> Vec<CollocationRow<f64>> {
+    let row = || CollocationRow { first: 0, entries: Vec::with_capacity(room), right_side: 0.0 };
     std::iter::repeat_with(row).take(count).collect()
 }
 
@@ -229,8 +229,9 @@ fn derivative_weights(basis: &Basis, run: &[Span], points: &[Vec<f64>]) -> Optio
         }
     }
     // Every point must lie where its own spline is not zero (Schoenberg & Whitney 1953).
-    let has_own =
-        |(at, row): (usize, &Row<f64>)| (row.first..row.first + row.entries.len()).contains(&at);
+    let has_own = |(at, row): (usize, &CollocationRow<f64>)| {
+        (row.first..row.first + row.entries.len()).contains(&at)
+    };
     if number != unknowns || !rows.iter().enumerate().all(has_own) {
         return None;
     }

@@ -6,9 +6,9 @@ use super::{MAX_DEGREE, Vec2};
 const WIDTH: usize = MAX_DEGREE + 1;
 
 /// One number for each function that is non-zero on a span; only the first `degree + 1` count.
-pub(super) type Row = [f64; WIDTH];
+pub(super) type FunctionRow = [f64; WIDTH];
 
-const ZERO: Row = [0.0; WIDTH];
+const ZERO: FunctionRow = [0.0; WIDTH];
 
 /// The `degree + 1` basis functions `N_first … N_{first+degree}` of one span and their derivatives
 /// with respect to ξ, of every order, at one parameter. All other functions are zero there.
@@ -19,7 +19,7 @@ pub struct BasisValues {
     pub first: usize,
     degree: usize,
     /// Derivatives of order `k` in row `k`.
-    rows: [Row; WIDTH],
+    rows: [FunctionRow; WIDTH],
 }
 
 impl BasisValues {
@@ -29,7 +29,7 @@ impl BasisValues {
     }
 
     /// The derivatives of the functions by ξ, of order 0 to `degree`, one row for each order.
-    pub(super) fn rows_mut(&mut self) -> &mut [Row] {
+    pub(super) fn rows_mut(&mut self) -> &mut [FunctionRow] {
         &mut self.rows[..=self.degree]
     }
 

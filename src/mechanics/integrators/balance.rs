@@ -1,10 +1,10 @@
 //! The equations of one step, and the work space to solve them: what all integrators here share.
 
 use super::prescribed::BalancedAt;
-use super::{Culprit, Interval, Mechanism, Solution, Stage, StepError};
+use super::{FailureSource, Interval, Mechanism, Solution, Stage, StepError};
 use crate::elementary::square;
 use crate::linalg::BorderedMatrix;
-use crate::newton::{Equations, Imbalance, Newton, NewtonError, NewtonReport, Tolerance};
+use crate::newton::{Equations, Newton, NewtonError, NewtonReport, ResidualNorms, Tolerance};
 
 /// The largest increment `Δω`, mean rate times step: beyond it a turn cannot be told from one the other way round.
 const LARGEST_INCREMENT: f64 = std::f64::consts::PI;
@@ -15,7 +15,7 @@ const SHORTEST_CHORD: f64 = 1e-3;
 
 /// What a method puts into the balance of a step: how much inertia, and forces of which stage.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Rule {
+pub(super) struct BalanceCoefficients {
     /// The factor `ι` of the inertia, which is that of the acceleration `ι d/Δt²`, but for what is carried [-].
     pub(super) inertia: f64,
     /// The stage of the step at which forces are taken that depend on the increments.
@@ -26,7 +26,7 @@ pub(super) struct Rule {
     pub(super) prescribed: BalancedAt,
 }
 
-impl Rule {
+impl BalanceCoefficients {
     /// The balance of methods with `(v0 + v1)/2 = Δq/Δt` and the acceleration `(v1 - v0)/Δt`.
     pub(super) fn mean(stage: Stage, weight: f64) -> Self {
         Self { inertia: 2.0, stage, weight, prescribed: BalancedAt::Mean }
@@ -40,7 +40,7 @@ impl Rule {
 /// of the velocity, so that momenta do not creep over many steps.
 pub(super) struct StepBalance<'a> {
     mechanism: &'a mut dyn Mechanism,
-    rule: Rule,
+    rule: BalanceCoefficients,
     duration: f64,
     carried: &'a [f64],
     coasting: &'a [f64],
@@ -63,9 +63,9 @@ impl StepBalance<'_> {
     }
 
     /// What a solve failed at.
-    fn culprit(&self, error: &NewtonError, residual: &[f64]) -> Option<Culprit> {
+    fn culprit(&self, error: &NewtonError, residual: &[f64]) -> Option<FailureSource> {
         if let NewtonError::Linear { source, .. } = error {
-            return Some(Culprit::Unknown(source.unknown()));
+            return Some(FailureSource::Unknown(source.unknown()));
         }
         let part = error.history().last()?.worst();
         self.mechanism.worst(part, residual)
@@ -99,13 +99,13 @@ impl Equations for StepBalance<'_> {
         self.mechanism.correct_section_forces(self.split(correction).0);
     }
 
-    fn imbalance(&mut self, unknowns: &[f64], residual: &mut [f64]) -> Imbalance {
+    fn imbalance(&mut self, unknowns: &[f64], residual: &mut [f64]) -> ResidualNorms {
         let (deviation, constraints) = self.split(unknowns);
         self.begin(deviation, residual);
-        let Rule { stage, weight, .. } = self.rule;
+        let BalanceCoefficients { stage, weight, .. } = self.rule;
         let strain = self.mechanism.add_forces(stage, self.increments, weight, residual);
         self.mechanism.add_constraints(self.increments, constraints, residual);
-        Imbalance {
+        ResidualNorms {
             force: self.mechanism.relative_imbalance(residual),
             strain,
             constraint: self.mechanism.relative_violation(residual),
@@ -195,7 +195,7 @@ impl StepSolver {
         &mut self,
         mechanism: &mut dyn Mechanism,
         interval: Interval,
-        rule: Rule,
+        rule: BalanceCoefficients,
     ) -> Result<NewtonReport, StepError> {
         self.solve_by(mechanism, interval, rule, |newton, balance, unknowns, residual| {
             newton.solve(balance, unknowns, residual)
@@ -212,7 +212,7 @@ impl StepSolver {
         &mut self,
         mechanism: &mut dyn Mechanism,
         interval: Interval,
-        rule: Rule,
+        rule: BalanceCoefficients,
         way: impl FnOnce(
             &mut Newton,
             &mut StepBalance<'_>,

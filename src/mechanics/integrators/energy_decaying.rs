@@ -1,6 +1,6 @@
 //! The energy-decaying, momentum-conserving method.
 
-use super::balance::{Rule, StepSolver};
+use super::balance::{BalanceCoefficients, StepSolver};
 use super::{Integrator, Interval, Mechanism, Stage, StepError};
 use crate::newton::{NewtonReport, Tolerance};
 
@@ -39,7 +39,7 @@ impl Integrator for EnergyDecaying {
     ) -> Result<NewtonReport, StepError> {
         mechanism.begin_step(interval, Self::STAGES)?;
         self.solver.predict(mechanism, interval);
-        let rule = Rule::mean(Stage::DampedMidpoint(self.chi), 1.0);
+        let rule = BalanceCoefficients::mean(Stage::DampedMidpoint(self.chi), 1.0);
         let report = self.solver.solve(mechanism, interval, rule)?;
         self.solver.correct(mechanism, interval);
         Ok(report)

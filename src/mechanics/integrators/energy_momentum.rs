@@ -1,6 +1,6 @@
 //! The energy–momentum method.
 
-use super::balance::{Rule, StepSolver};
+use super::balance::{BalanceCoefficients, StepSolver};
 use super::{Integrator, Interval, Mechanism, Stage, StepError};
 use crate::newton::{NewtonReport, Tolerance};
 
@@ -34,7 +34,11 @@ impl Integrator for EnergyMomentum {
     ) -> Result<NewtonReport, StepError> {
         mechanism.begin_step(interval, Self::STAGES)?;
         self.solver.predict(mechanism, interval);
-        let report = self.solver.solve(mechanism, interval, Rule::mean(Stage::Midpoint, 1.0))?;
+        let report = self.solver.solve(
+            mechanism,
+            interval,
+            BalanceCoefficients::mean(Stage::Midpoint, 1.0),
+        )?;
         self.solver.correct(mechanism, interval);
         Ok(report)
     }

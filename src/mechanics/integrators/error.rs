@@ -12,9 +12,9 @@ use crate::newton::NewtonError;
 ///
 /// It stays on its thread: who caused it may be a function of a script, whose errors do.
 #[derive(Debug, Clone)]
-pub struct Cause(Rc<dyn Error>);
+pub struct ExternalError(Rc<dyn Error>);
 
-impl Cause {
+impl ExternalError {
     /// An error of any type.
     pub fn new(error: impl Error + 'static) -> Self {
         Self(Rc::new(error))
@@ -27,19 +27,19 @@ impl Cause {
 }
 
 /// Causes are equal that are told alike.
-impl PartialEq for Cause {
+impl PartialEq for ExternalError {
     fn eq(&self, other: &Self) -> bool {
         self.0.to_string() == other.0.to_string()
     }
 }
 
-impl fmt::Display for Cause {
+impl fmt::Display for ExternalError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.0.fmt(f)
     }
 }
 
-impl Error for Cause {
+impl Error for ExternalError {
     fn source(&self) -> Option<&(dyn Error + 'static)> {
         self.0.source()
     }
@@ -47,7 +47,7 @@ impl Error for Cause {
 
 /// What of a mechanism a step fails at.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Culprit {
+pub enum FailureSource {
     /// The equation, or the matrix, of an unknown, by its number.
     Unknown(usize),
     /// Something with a name.
@@ -55,9 +55,9 @@ pub enum Culprit {
 }
 
 /// The end of a message about a step that fails at something, if its name is known.
-fn at(culprit: Option<&Culprit>) -> String {
+fn at(culprit: Option<&FailureSource>) -> String {
     match culprit {
-        Some(Culprit::Named(name)) => format!("; it fails at {name}"),
+        Some(FailureSource::Named(name)) => format!("; it fails at {name}"),
         _ => String::new(),
     }
 }
@@ -75,7 +75,7 @@ pub enum StepError {
         /// The number of Newton iterations that parts of the refused step took before.
         before: usize,
         /// What the solver failed at, if that is known.
-        culprit: Option<Box<Culprit>>,
+        culprit: Option<Box<FailureSource>>,
     },
     /// The mean rate of a section times the step reaches π: such a turn is not resolved.
     #[error(
@@ -125,7 +125,7 @@ pub enum StepError {
         /// The name of the load without a finite value.
         load: String,
         /// The schedule's reason for having no finite value.
-        source: Cause,
+        source: ExternalError,
     },
 }
 

@@ -1,6 +1,6 @@
 //! The generalized-α method.
 
-use super::balance::{Rule, StepSolver};
+use super::balance::{BalanceCoefficients, StepSolver};
 use super::prescribed::BalancedAt;
 use super::{Integrator, Interval, Mechanism, Stage, StepError};
 use crate::elementary::square;
@@ -76,7 +76,8 @@ impl GeneralizedAlpha {
     ) -> Result<NewtonReport, StepError> {
         let Self { solver, accelerations, .. } = self;
         solver.carry(mechanism, Stage::Start, 0.5);
-        let report = solver.solve(mechanism, interval, Rule::mean(Stage::End, 0.5))?;
+        let report =
+            solver.solve(mechanism, interval, BalanceCoefficients::mean(Stage::End, 0.5))?;
         let inverse = 1.0 / interval.duration();
         solver.accept(mechanism, |at, start, deviation| {
             accelerations[at] = 2.0 * deviation * inverse * inverse;
@@ -100,7 +101,7 @@ impl GeneralizedAlpha {
             accelerations,
         );
         solver.carry(mechanism, Stage::Start, forces_before);
-        let rule = Rule {
+        let rule = BalanceCoefficients {
             inertia: (1.0 - inertia_before) / beta,
             stage: Stage::End,
             weight: 1.0 - forces_before,

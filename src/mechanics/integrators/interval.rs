@@ -9,12 +9,12 @@ pub struct Interval {
     pub end: f64,
     /// Known to more digits than the difference of two late times.
     duration: f64,
-    ending: Ending,
+    ending: IntervalEnd,
 }
 
 /// What ends at the end of an interval: a whole step, or a part of one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ending {
+pub enum IntervalEnd {
     /// The interval ends only a part of a step, which goes on from there: what happens at the end of a step waits.
     OfPart,
     /// The interval ends a step.
@@ -24,12 +24,12 @@ pub enum Ending {
 impl Interval {
     /// The interval from one time to another [time].
     pub const fn between(start: f64, end: f64) -> Self {
-        Self { start, end, duration: end - start, ending: Ending::OfStep }
+        Self { start, end, duration: end - start, ending: IntervalEnd::OfStep }
     }
 
     /// The interval of a duration from a time on [time]; its end is rounded, its duration is not.
     pub fn lasting(start: f64, duration: f64) -> Self {
-        Self { start, end: start + duration, duration, ending: Ending::OfStep }
+        Self { start, end: start + duration, duration, ending: IntervalEnd::OfStep }
     }
 
     /// The part of the interval between two shares of its duration [-], backwards in time if the second one is smaller.
@@ -39,7 +39,7 @@ impl Interval {
         if to == 1.0 {
             return Self { start, duration, ..*self };
         }
-        Self { start, end: self.start + to * self.duration, duration, ending: Ending::OfPart }
+        Self { start, end: self.start + to * self.duration, duration, ending: IntervalEnd::OfPart }
     }
 
     /// The duration `Δt` of the interval, negative if it leads backwards in time [time].
@@ -48,7 +48,7 @@ impl Interval {
     }
 
     /// Whether the interval ends a step or a part of one.
-    pub fn ending(&self) -> Ending {
+    pub fn ending(&self) -> IntervalEnd {
         self.ending
     }
 }
@@ -65,6 +65,6 @@ mod tests {
         assert_eq!((parts[0].end, parts[1].end), (parts[1].start, parts[2].start));
         assert!(parts[1].duration() < 0.0);
         let endings = parts.map(|part| part.ending());
-        assert_eq!(endings, [Ending::OfPart, Ending::OfPart, Ending::OfStep]);
+        assert_eq!(endings, [IntervalEnd::OfPart, IntervalEnd::OfPart, IntervalEnd::OfStep]);
     }
 }

@@ -1,8 +1,8 @@
 //! What an integrator may ask of the mechanical system that it advances.
 
-use super::{Culprit, Interval, PrescribedKinematics, StepError};
+use super::{FailureSource, Interval, PrescribedKinematics, StepError};
 use crate::linalg::{BandedMatrix, BlockLayout, Border, BorderShape};
-use crate::newton::Part;
+use crate::newton::ResidualPart;
 
 /// The place in a step where forces are taken. Increments are counted from the start of the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -68,7 +68,7 @@ pub trait Forces {
     fn relative_imbalance(&self, residual: &[f64]) -> f64;
 
     /// What is worst where a residual was left, of that part of its imbalance which is. For messages; it changes nothing.
-    fn worst(&self, _part: Part, _residual: &[f64]) -> Option<Culprit> {
+    fn worst(&self, _part: ResidualPart, _residual: &[f64]) -> Option<FailureSource> {
         None
     }
 

@@ -1,7 +1,6 @@
 //! Time steps over an abstract mechanism: predict, solve, correct. No integrator mentions a beam.
 
 mod balance;
-mod company;
 mod energy_decaying;
 mod energy_momentum;
 mod error;
@@ -12,16 +11,16 @@ mod interval;
 mod mechanism;
 mod prescribed;
 mod registry;
+mod shared_factor_stepper;
 mod trapezoidal;
 
-pub use company::{Accompanied, Company};
 pub use energy_decaying::EnergyDecaying;
 pub use energy_momentum::EnergyMomentum;
-pub use error::{Cause, Culprit, StepError};
+pub use error::{ExternalError, FailureSource, StepError};
 pub use fourth_order::FourthOrder;
 pub use generalized_alpha::GeneralizedAlpha;
 pub use integrator::Integrator;
-pub use interval::{Ending, Interval};
+pub use interval::{Interval, IntervalEnd};
 pub use mechanism::{
     Accelerated, Checkpoint, Constraints, Forces, Inertia, Mechanism, Overshoot, Solution, Stage,
 };
@@ -29,4 +28,5 @@ pub use prescribed::PrescribedKinematics;
 pub use registry::{
     Claims, EnergyClaim, INTEGRATORS, IntegratorEntry, Method, MethodError, MethodParameter,
 };
+pub use shared_factor_stepper::{SharedFactorStepper, SharedFactorWork};
 pub use trapezoidal::Trapezoidal;

@@ -1,6 +1,6 @@
 //! The trapezoidal rule.
 
-use super::balance::{Rule, StepSolver};
+use super::balance::{BalanceCoefficients, StepSolver};
 use super::{Integrator, Interval, Mechanism, Stage, StepError};
 use crate::newton::{NewtonReport, Tolerance};
 
@@ -35,7 +35,8 @@ impl Integrator for Trapezoidal {
         mechanism.begin_step(interval, Self::STAGES)?;
         self.solver.predict(mechanism, interval);
         self.solver.carry(mechanism, Stage::Start, 0.5);
-        let report = self.solver.solve(mechanism, interval, Rule::mean(Stage::End, 0.5))?;
+        let report =
+            self.solver.solve(mechanism, interval, BalanceCoefficients::mean(Stage::End, 0.5))?;
         self.solver.correct(mechanism, interval);
         Ok(report)
     }

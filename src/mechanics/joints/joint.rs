@@ -119,14 +119,14 @@ pub struct Joint {
 }
 
 /// The line on which something may move.
-enum Line {
+enum MotionLine {
     Horizontal,
     Vertical,
     /// Along a unit vector [-].
     Inclined(Vec2),
 }
 
-impl Line {
+impl MotionLine {
     /// The line along a direction of any length; none where it is zero.
     fn along(direction: Vec2) -> Option<Self> {
         match (direction.x == 0.0, direction.y == 0.0) {
@@ -142,19 +142,19 @@ impl Line {
 impl JointKind {
     /// A roller that lets a station move along a direction and turn: a support where the direction is an axis. None where it is zero.
     pub fn roller(along: Vec2) -> Option<Self> {
-        Some(match Line::along(along)? {
-            Line::Horizontal => Self::Support(Components::Y),
-            Line::Vertical => Self::Support(Components::X),
-            Line::Inclined(along) => Self::InclinedRoller(along),
+        Some(match MotionLine::along(along)? {
+            MotionLine::Horizontal => Self::Support(Components::Y),
+            MotionLine::Vertical => Self::Support(Components::X),
+            MotionLine::Inclined(along) => Self::InclinedRoller(along),
         })
     }
 
     /// A guide that lets a station move along a direction, and not turn: a support where the direction is an axis. None where it is zero.
     pub fn guide(along: Vec2) -> Option<Self> {
-        Some(match Line::along(along)? {
-            Line::Horizontal => Self::Support(Components::YRotation),
-            Line::Vertical => Self::Support(Components::XRotation),
-            Line::Inclined(along) => Self::InclinedGuide(along),
+        Some(match MotionLine::along(along)? {
+            MotionLine::Horizontal => Self::Support(Components::YRotation),
+            MotionLine::Vertical => Self::Support(Components::XRotation),
+            MotionLine::Inclined(along) => Self::InclinedGuide(along),
         })
     }
 

@@ -7,11 +7,11 @@ mod sliding;
 mod track;
 
 pub use joint::{Component, Components, Joint, JointKind, Partner};
-pub use release::{Hold, Release, Trigger};
+pub use release::{Releasable, Release, Trigger};
 pub use slider::{EndAction, Slider, StartVelocities};
 pub use sliding::{
-    CONTACT_UNKNOWNS, Conserving, Contact, ContactUnknowns, Equation, Exact, Frozen, Held, Kink,
-    KinkMotion, KinkState, Kinked, Leaning, Relaxed, Released, Resting, RuleClaims, RuleEntry,
-    SLIDING_RULES, SlidingLaw, SlidingRule, Unit, WayVector,
+    AtStop, CONTACT_UNKNOWNS, Conserving, Contact, ContactUnknowns, Equation, Exact, Frozen,
+    HeldSlider, Kink, KinkMotion, KinkState, Kinked, PathVector, Relaxed, Released, Resting,
+    RuleClaims, RuleEntry, SLIDING_RULES, SlidingLaw, SlidingRule, Unit,
 };
-pub use track::{Course, Heading, Leg, Track};
+pub use track::{Track, TrackBeam, TrackDirection, TrackEnd};

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// What holds something in a scene and may let go of it, by its index among those of its kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Hold {
+pub enum Releasable {
     /// A joint: a hinge, a rigid joint, a clamp, a support.
     Joint(usize),
     /// A slider.
@@ -28,7 +28,7 @@ pub enum Trigger {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Release {
     /// What lets go.
-    pub hold: Hold,
+    pub hold: Releasable,
     /// When it does.
     pub trigger: Trigger,
 }

@@ -8,23 +8,23 @@ pub struct Track {
     /// The name of the track, for messages.
     pub name: String,
     /// The beams of the track in the order in which it leads along them; at least one.
-    pub legs: Vec<Leg>,
+    pub legs: Vec<TrackBeam>,
     /// What becomes of the track behind its last beam.
-    pub course: Course,
+    pub course: TrackEnd,
 }
 
 /// A beam of a track.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Leg {
+pub struct TrackBeam {
     /// The index of the beam.
     pub beam: usize,
     /// How the track leads along the beam.
-    pub heading: Heading,
+    pub heading: TrackDirection,
 }
 
 /// How a track leads along one of its beams.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Heading {
+pub enum TrackDirection {
     /// From the start of the beam to its end.
     Forward,
     /// From the end of the beam to its start.
@@ -33,7 +33,7 @@ pub enum Heading {
 
 /// What becomes of a track behind its last beam.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Course {
+pub enum TrackEnd {
     /// The track ends there.
     Open,
     /// The track goes on along its first beam.
@@ -47,7 +47,7 @@ impl Track {
     }
 }
 
-impl Heading {
+impl TrackDirection {
     /// The other way along a beam.
     pub fn reversed(self) -> Self {
         match self {

@@ -40,10 +40,10 @@ pub enum Border {
 
 /// The factors of a [`BorderedMatrix`], kept in its storage.
 #[derive(Debug)]
-pub struct BorderedLu<'a>(Factors<'a>);
+pub struct BorderedLu<'a>(BorderFactors<'a>);
 
 #[derive(Debug)]
-enum Factors<'a> {
+enum BorderFactors<'a> {
     Band(BandedLu<'a>),
     TwoEnded(TwoEndedLu<'a>),
     Full(FullLu<'a>),
@@ -195,16 +195,16 @@ impl BorderedMatrix {
         let Self { band, border, together, ends } = self;
         let size = band.size();
         let factors = match (border, together) {
-            (Border::Local(border), _) => Factors::Local(border.factorise(band)?),
+            (Border::Local(border), _) => BorderFactors::Local(border.factorise(band)?),
             (Border::Full(border), Some(together)) => {
-                Factors::Together(together.factorise(&border.entries_with(band))?)
+                BorderFactors::Together(together.factorise(&border.entries_with(band))?)
             }
             (Border::Full(border), None) if border.width() == 0 => match ends {
-                Some(ends) => Factors::TwoEnded(ends.factorise(band)?),
-                None => Factors::Band(band.factorise()?),
+                Some(ends) => BorderFactors::TwoEnded(ends.factorise(band)?),
+                None => BorderFactors::Band(band.factorise()?),
             },
             (Border::Full(border), None) => {
-                Factors::Full(border.factorise(band.factorise()?, size)?)
+                BorderFactors::Full(border.factorise(band.factorise()?, size)?)
             }
         };
         Ok(BorderedLu(factors))
@@ -215,11 +215,11 @@ impl BorderedLu<'_> {
     /// Replaces the right-hand side `x`, one number a row, those of the border last, by the solution of `A x = b`.
     pub fn solve(&mut self, x: &mut [f64]) {
         match &mut self.0 {
-            Factors::Band(factors) => factors.solve(x),
-            Factors::TwoEnded(factors) => factors.solve(x),
-            Factors::Full(factors) => factors.solve(x),
-            Factors::Together(factors) => factors.solve(x),
-            Factors::Local(factors) => factors.solve(x),
+            BorderFactors::Band(factors) => factors.solve(x),
+            BorderFactors::TwoEnded(factors) => factors.solve(x),
+            BorderFactors::Full(factors) => factors.solve(x),
+            BorderFactors::Together(factors) => factors.solve(x),
+            BorderFactors::Local(factors) => factors.solve(x),
         }
     }
 }

@@ -10,7 +10,7 @@
 
 use pulp::{Simd, WithSimd};
 
-use super::storage::Rows;
+use super::storage::ActiveRows;
 use super::{LinearError, fixed_band};
 
 /// Numbers that vector instructions treat at once.
@@ -27,7 +27,7 @@ pub(super) const SMALLEST_REACH: usize = PANEL + LANES - 2;
 pub(super) const LARGEST_MULTIPLIER: f64 = 8.0;
 
 /// Gauss's elimination with row exchanges, which replaces a banded matrix by its factors, panel by panel.
-pub(super) struct Elimination<'a>(pub(super) Rows<'a>);
+pub(super) struct Elimination<'a>(pub(super) ActiveRows<'a>);
 
 impl WithSimd for Elimination<'_> {
     type Output = Result<(), LinearError>;
@@ -51,7 +51,7 @@ impl WithSimd for Elimination<'_> {
 
 /// The same where the entries of a matrix end at a profile: for each index the last row with an entry in the column, which is the last column with
 /// one in the row. It never falls, and goes on for a panel behind the last row.
-pub(super) struct ProfileElimination<'a>(pub(super) Rows<'a>, pub(super) &'a [usize]);
+pub(super) struct ProfileElimination<'a>(pub(super) ActiveRows<'a>, pub(super) &'a [usize]);
 
 impl WithSimd for ProfileElimination<'_> {
     type Output = Result<(), LinearError>;
@@ -65,7 +65,7 @@ impl WithSimd for ProfileElimination<'_> {
 #[inline(always)]
 fn eliminate_fixed<S: Simd, const REACH: usize, const WIDTH: usize, const STRIDE: usize>(
     simd: S,
-    storage: &mut Rows<'_>,
+    storage: &mut ActiveRows<'_>,
     first: usize,
 ) -> bool {
     let (rows, _) = storage.rows.as_chunks_mut::<STRIDE>();
@@ -76,9 +76,9 @@ fn eliminate_fixed<S: Simd, const REACH: usize, const WIDTH: usize, const STRIDE
 #[inline(always)]
 fn eliminate<S: Simd>(
     simd: S,
-    storage: &mut Rows<'_>,
+    storage: &mut ActiveRows<'_>,
     reach: usize,
-    eliminate_plain: impl Fn(S, &mut Rows<'_>, usize) -> bool,
+    eliminate_plain: impl Fn(S, &mut ActiveRows<'_>, usize) -> bool,
 ) -> Result<(), LinearError> {
     // The last column in which a row above has an entry.
     let mut filled = 0;
@@ -109,7 +109,7 @@ fn eliminate<S: Simd>(
 #[inline(always)]
 fn eliminate_in_profile<S: Simd>(
     simd: S,
-    storage: &mut Rows<'_>,
+    storage: &mut ActiveRows<'_>,
     ends: &[usize],
 ) -> Result<(), LinearError> {
     let reach = storage.reach;
@@ -181,7 +181,7 @@ impl PanelFactors {
 #[inline(always)]
 fn eliminate_panel<S: Simd>(
     simd: S,
-    storage: &mut Rows<'_>,
+    storage: &mut ActiveRows<'_>,
     first: usize,
     [reach, below]: [usize; 2],
     width: usize,
@@ -272,7 +272,7 @@ pub(super) fn subtract<S: Simd, const COUNT: usize>(
 /// Eliminates one column with the largest of its entries as pivot; returns the last column in which a row has an entry now. Entries of a column, and
 /// of a row, end where `end` has it.
 fn eliminate_column(
-    storage: &mut Rows<'_>,
+    storage: &mut ActiveRows<'_>,
     column: usize,
     filled: usize,
     end: impl Fn(usize) -> usize,

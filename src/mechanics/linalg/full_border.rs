@@ -16,7 +16,7 @@ const STRIP: usize = 5;
 
 /// Some columns of `B`; after factorising, of `Z`.
 #[derive(Debug, Clone)]
-struct Strip {
+struct BorderStrip {
     rows: Vec<[f64; STRIP]>,
     /// The first row with an entry.
     first_row: Option<usize>,
@@ -26,7 +26,7 @@ struct Strip {
 #[derive(Debug, Clone)]
 pub struct FullBorder {
     width: usize,
-    strips: Vec<Strip>,
+    strips: Vec<BorderStrip>,
     /// `C`: (row of the border, column, value); entries of one place add up.
     rows: Vec<(usize, usize, f64)>,
     corner: BandedMatrix,
@@ -38,13 +38,13 @@ pub(super) struct FullLu<'a> {
     width: usize,
     band: BandedLu<'a>,
     /// `Z`
-    solved: &'a [Strip],
+    solved: &'a [BorderStrip],
     /// `C`
     rows: &'a [(usize, usize, f64)],
     complement: BandedLu<'a>,
 }
 
-impl Strip {
+impl BorderStrip {
     fn zeros(size: usize) -> Self {
         Self { rows: vec![[0.0; STRIP]; size], first_row: None }
     }
@@ -64,7 +64,7 @@ impl FullBorder {
     pub(super) fn zeros(size: usize, BorderShape { width, row_entries }: BorderShape) -> Self {
         Self {
             width,
-            strips: vec![Strip::zeros(size); width.div_ceil(STRIP)],
+            strips: vec![BorderStrip::zeros(size); width.div_ceil(STRIP)],
             rows: Vec::with_capacity(row_entries),
             corner: BandedMatrix::zeros(width, width.saturating_sub(1)),
         }
@@ -75,7 +75,7 @@ impl FullBorder {
     }
 
     pub(super) fn clear(&mut self) {
-        self.strips.iter_mut().for_each(Strip::clear);
+        self.strips.iter_mut().for_each(BorderStrip::clear);
         self.rows.clear();
         self.corner.clear();
     }

@@ -6,8 +6,8 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
+use super::double_double::{DoubleDouble, DoubleDoublesMut, add_multiple};
 use super::symmetric_factors::{Pivots, SymmetricFactors, eliminate};
-use super::twofold::{NumbersMut, Twofold, add_multiple};
 use super::{LinearError, SymmetricSparse};
 
 /// A symmetric matrix with numbers of about 32 digits whose entries `(i, j)` vanish for `|i - j|` above the half-bandwidth.
@@ -53,11 +53,16 @@ impl PreciseBand {
     pub fn add_square(&mut self, unknowns: &[usize], factor: f64, r: &[f64]) {
         let is_consecutive = unknowns.windows(2).all(|pair| pair[1] == pair[0] + 1);
         if is_consecutive && unknowns.last().is_some_and(|last| *last < self.size) {
-            return Arch::new().dispatch(Square { band: self, first: unknowns[0], factor, r });
+            return Arch::new().dispatch(PreciseSquare {
+                band: self,
+                first: unknowns[0],
+                factor,
+                r,
+            });
         }
         for (&row, &a) in unknowns.iter().zip(r) {
             if row < self.size && a != 0.0 {
-                let a = Twofold::product(factor, a);
+                let a = DoubleDouble::product(factor, a);
                 for (&column, &b) in unknowns.iter().zip(r) {
                     // Each pair of different unknowns comes by twice, and is taken once.
                     if row <= column && column < self.size {
@@ -73,16 +78,17 @@ impl PreciseBand {
         for ((&row, &p_a), &q_a) in unknowns.iter().zip(p).zip(q) {
             for ((&column, &p_b), &q_b) in unknowns.iter().zip(p).zip(q) {
                 if row <= column && column < self.size {
-                    let value = Twofold::product(p_a, q_b).plus(Twofold::product(q_a, p_b));
+                    let value =
+                        DoubleDouble::product(p_a, q_b).plus(DoubleDouble::product(q_a, p_b));
                     self.add_twofold(row, column, value);
                 }
             }
         }
     }
 
-    fn add_twofold(&mut self, row: usize, column: usize, value: Twofold) {
+    fn add_twofold(&mut self, row: usize, column: usize, value: DoubleDouble) {
         let at = row * self.stride() + column - row;
-        let sum = Twofold { high: self.high[at], low: self.low[at] }.plus(value);
+        let sum = DoubleDouble { high: self.high[at], low: self.low[at] }.plus(value);
         (self.high[at], self.low[at]) = (sum.high, sum.low);
     }
 
@@ -107,14 +113,14 @@ impl PreciseBand {
     }
 }
 
-struct Square<'a> {
+struct PreciseSquare<'a> {
     band: &'a mut PreciseBand,
     first: usize,
     factor: f64,
     r: &'a [f64],
 }
 
-impl WithSimd for Square<'_> {
+impl WithSimd for PreciseSquare<'_> {
     type Output = ();
 
     #[inline(always)]
@@ -124,11 +130,11 @@ impl WithSimd for Square<'_> {
         for (at, &entry) in r.iter().enumerate() {
             if entry != 0.0 {
                 let (start, of) = ((first + at) * stride, &r[at..]);
-                let to = NumbersMut {
+                let to = DoubleDoublesMut {
                     high: &mut band.high[start..][..of.len()],
                     low: &mut band.low[start..][..of.len()],
                 };
-                add_multiple(simd, Twofold::product(factor, entry), of, to);
+                add_multiple(simd, DoubleDouble::product(factor, entry), of, to);
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-use super::strips::Strip;
+use super::strips::VectorStrip;
 
 /// A symmetric matrix of which only the entries are kept that are not zero, row by row.
 #[derive(Debug, Clone)]
@@ -83,18 +83,18 @@ impl SymmetricSparse {
     }
 
     /// Writes the product `M x` of this matrix with four vectors over `product`, and zeros behind it.
-    pub fn times(&self, x: &Strip, product: &mut Strip) {
-        Arch::new().dispatch(Product { matrix: self, x, product });
+    pub fn times(&self, x: &VectorStrip, product: &mut VectorStrip) {
+        Arch::new().dispatch(SparseProduct { matrix: self, x, product });
     }
 }
 
-struct Product<'a> {
+struct SparseProduct<'a> {
     matrix: &'a SymmetricSparse,
-    x: &'a Strip,
-    product: &'a mut Strip,
+    x: &'a VectorStrip,
+    product: &'a mut VectorStrip,
 }
 
-impl WithSimd for Product<'_> {
+impl WithSimd for SparseProduct<'_> {
     type Output = ();
 
     #[inline(always)]

@@ -25,7 +25,7 @@ pub(super) struct Storage {
 
 /// Rows of a banded matrix of which the first columns are eliminated, as [`Storage`] has them.
 #[derive(Debug)]
-pub(super) struct Rows<'a> {
+pub(super) struct ActiveRows<'a> {
     /// The number of rows without those of the identity.
     pub(super) size: usize,
     /// The number of columns to eliminate: all, or a multiple of the panel with as many rows behind it as a column reaches.
@@ -86,10 +86,10 @@ impl Storage {
     }
 
     /// All rows, to be eliminated.
-    pub(super) fn rows_mut(&mut self) -> Rows<'_> {
+    pub(super) fn rows_mut(&mut self) -> ActiveRows<'_> {
         let Self { size, reach, .. } = *self;
         let Self { rows, pivots, last_columns, multipliers, .. } = self;
-        Rows { size, columns: size, reach, rows, pivots, last_columns, multipliers }
+        ActiveRows { size, columns: size, reach, rows, pivots, last_columns, multipliers }
     }
 
     /// The factors, where all rows are eliminated.

@@ -6,29 +6,29 @@ use pulp::{Arch, Simd, WithSimd};
 pub const STRIP_WIDTH: usize = 4;
 
 /// Four vectors side by side: the entries `i` of all of them, then the entries `i + 1`.
-pub type Strip = [[f64; STRIP_WIDTH]];
+pub type VectorStrip = [[f64; STRIP_WIDTH]];
 
 /// A matrix of four by four numbers, row by row: the products of the vectors of two strips.
-pub type Square = [[f64; STRIP_WIDTH]; STRIP_WIDTH];
+pub type Square4 = [[f64; STRIP_WIDTH]; STRIP_WIDTH];
 
 /// The products `Xᵀ Y` of the vectors of two strips: entry `(i, j)` is that of vector `i` of `x` with vector `j` of `y`.
-pub fn products(x: &Strip, y: &Strip) -> Square {
+pub fn products(x: &VectorStrip, y: &VectorStrip) -> Square4 {
     Arch::new().dispatch(Products { x, y })
 }
 
 /// Subtracts combinations of the vectors of the strip `x` from those of the strip `from`: `Y ← Y - X G`.
-pub fn subtract_combination(x: &Strip, by: &Square, from: &mut Strip) {
-    Arch::new().dispatch(Combination { x, by, from });
+pub fn subtract_combination(x: &VectorStrip, by: &Square4, from: &mut VectorStrip) {
+    Arch::new().dispatch(LinearCombination { x, by, from });
 }
 
 /// Replaces the vectors of a strip by combinations of them: `X ← X G`.
-pub fn combine(x: &mut Strip, by: &Square) {
+pub fn combine(x: &mut VectorStrip, by: &Square4) {
     Arch::new().dispatch(Replacement { x, by });
 }
 
 struct Replacement<'a> {
-    x: &'a mut Strip,
-    by: &'a Square,
+    x: &'a mut VectorStrip,
+    by: &'a Square4,
 }
 
 impl WithSimd for Replacement<'_> {
@@ -50,15 +50,15 @@ impl WithSimd for Replacement<'_> {
 }
 
 struct Products<'a> {
-    x: &'a Strip,
-    y: &'a Strip,
+    x: &'a VectorStrip,
+    y: &'a VectorStrip,
 }
 
 impl WithSimd for Products<'_> {
-    type Output = Square;
+    type Output = Square4;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> Square {
+    fn with_simd<S: Simd>(self, _: S) -> Square4 {
         let mut sums = [[0.0; STRIP_WIDTH]; STRIP_WIDTH];
         for (x, y) in self.x.iter().zip(self.y) {
             for (sums, x) in sums.iter_mut().zip(x) {
@@ -71,13 +71,13 @@ impl WithSimd for Products<'_> {
     }
 }
 
-struct Combination<'a> {
-    x: &'a Strip,
-    by: &'a Square,
-    from: &'a mut Strip,
+struct LinearCombination<'a> {
+    x: &'a VectorStrip,
+    by: &'a Square4,
+    from: &'a mut VectorStrip,
 }
 
-impl WithSimd for Combination<'_> {
+impl WithSimd for LinearCombination<'_> {
     type Output = ();
 
     #[inline(always)]

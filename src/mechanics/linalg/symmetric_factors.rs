@@ -6,9 +6,9 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
+use super::double_double::{DoubleDouble, DoubleDoubles, DoubleDoublesMut, subtract_multiple};
 use super::precise_band::{MARGIN, PreciseBand};
-use super::strips::Strip;
-use super::twofold::{Numbers, NumbersMut, Twofold, subtract_multiple};
+use super::strips::VectorStrip;
 use super::{LinearError, SymmetricSparse};
 
 /// What the pivots of an elimination `L D Lᵀ` without row exchanges say about a symmetric matrix.
@@ -56,9 +56,9 @@ impl SymmetricFactors {
     }
 
     /// Replaces four right-hand sides by their solutions. Behind them there must be zeros, as many as the half-bandwidth.
-    pub fn solve(&self, x: &mut Strip) {
+    pub fn solve(&self, x: &mut VectorStrip) {
         assert!(x.len() >= self.size + self.reach, "a strip has a margin");
-        Arch::new().dispatch(Substitution { factors: self, x });
+        Arch::new().dispatch(SymmetricSubstitution { factors: self, x });
     }
 }
 
@@ -72,17 +72,17 @@ pub(super) fn eliminate(
     other: &SymmetricSparse,
     kept: Option<Kept<'_>>,
 ) -> Result<Pivots, LinearError> {
-    Arch::new().dispatch(Elimination { band, shift, other, kept })
+    Arch::new().dispatch(SymmetricElimination { band, shift, other, kept })
 }
 
-struct Elimination<'a> {
+struct SymmetricElimination<'a> {
     band: &'a PreciseBand,
     shift: f64,
     other: &'a SymmetricSparse,
     kept: Option<Kept<'a>>,
 }
 
-impl WithSimd for Elimination<'_> {
+impl WithSimd for SymmetricElimination<'_> {
     type Output = Result<Pivots, LinearError>;
 
     #[inline(always)]
@@ -100,7 +100,7 @@ impl WithSimd for Elimination<'_> {
 /// Numbers that vector instructions treat at once.
 const LANES: usize = MARGIN + 1;
 
-impl Elimination<'_> {
+impl SymmetricElimination<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S, reach: usize) -> Result<Pivots, LinearError> {
         let Self { band, shift, other, mut kept } = self;
@@ -122,8 +122,8 @@ impl Elimination<'_> {
                 for (column, value) in other.row(loaded) {
                     if column >= loaded {
                         let entry = place * stride + column - loaded;
-                        let sum = Twofold { high: high[entry], low: low[entry] }
-                            .plus(Twofold::product(shift, value));
+                        let sum = DoubleDouble { high: high[entry], low: low[entry] }
+                            .plus(DoubleDouble::product(shift, value));
                         (high[entry], low[entry]) = (sum.high, sum.low);
                     }
                 }
@@ -133,7 +133,7 @@ impl Elimination<'_> {
             let place = at % rows;
             pivot_high.copy_from_slice(&high[place * stride..][..stride]);
             pivot_low.copy_from_slice(&low[place * stride..][..stride]);
-            let pivot = Twofold { high: pivot_high[0], low: pivot_low[0] };
+            let pivot = DoubleDouble { high: pivot_high[0], low: pivot_low[0] };
             if pivot.high == 0.0 {
                 let is_alone = pivot_high.iter().all(|entry| *entry == 0.0);
                 if kept.is_none() && is_alone {
@@ -151,7 +151,7 @@ impl Elimination<'_> {
             }
             let inverse = pivot.inverse();
             for below in 1..=reach.min(size - 1 - at) {
-                let entry = Twofold { high: pivot_high[below], low: pivot_low[below] };
+                let entry = DoubleDouble { high: pivot_high[below], low: pivot_low[below] };
                 if entry.high == 0.0 {
                     continue;
                 }
@@ -159,11 +159,11 @@ impl Elimination<'_> {
                 let to = (at + below) % rows;
                 taken[to] += (factor.high * entry.high).abs();
                 let width = (reach + 1 - below).next_multiple_of(LANES);
-                let of = Numbers {
+                let of = DoubleDoubles {
                     high: &pivot_high[below..][..width],
                     low: &pivot_low[below..][..width],
                 };
-                let from = NumbersMut {
+                let from = DoubleDoublesMut {
                     high: &mut high[to * stride..][..width],
                     low: &mut low[to * stride..][..width],
                 };
@@ -180,12 +180,12 @@ impl Elimination<'_> {
     }
 }
 
-struct Substitution<'a> {
+struct SymmetricSubstitution<'a> {
     factors: &'a SymmetricFactors,
-    x: &'a mut Strip,
+    x: &'a mut VectorStrip,
 }
 
-impl WithSimd for Substitution<'_> {
+impl WithSimd for SymmetricSubstitution<'_> {
     type Output = ();
 
     #[inline(always)]
@@ -201,7 +201,7 @@ impl WithSimd for Substitution<'_> {
 }
 
 #[inline(always)]
-fn substitute(factors: &SymmetricFactors, reach: usize, x: &mut Strip) {
+fn substitute(factors: &SymmetricFactors, reach: usize, x: &mut VectorStrip) {
     for column in 0..factors.size {
         let multipliers = &factors.multipliers[column * reach..][..reach];
         let (known, below) = x[column..].split_at_mut(1);

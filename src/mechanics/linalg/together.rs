@@ -11,7 +11,7 @@ use super::{BandedLu, BandedMatrix, LinearError};
 const SCALINGS: usize = 4;
 
 /// An entry of a matrix: row, column, value.
-type Entry = (usize, usize, f64);
+type MatrixEntry = (usize, usize, f64);
 
 /// A square sparse matrix that is eliminated in an order of its own, but for its last rows and columns, which are full.
 #[derive(Debug, Clone)]
@@ -21,18 +21,18 @@ pub(super) struct Together {
     band: BandedMatrix,
     /// Where each of them stands in the band.
     position: Vec<usize>,
-    scales: Scales,
+    scales: Equilibration,
     /// The columns that are full; after factorising, solved with the band.
     columns: Vec<Vec<f64>>,
     /// The entries of the rows that are full, numbered from the first of these.
-    rows: Vec<Entry>,
+    rows: Vec<MatrixEntry>,
     /// What the band leaves of the corner of full rows and columns.
     complement: BandedMatrix,
 }
 
 /// What rows and columns are multiplied with.
 #[derive(Debug, Clone, Default)]
-struct Scales {
+struct Equilibration {
     rows: Vec<f64>,
     columns: Vec<f64>,
 }
@@ -42,7 +42,7 @@ struct Scales {
 pub(super) struct TogetherLu<'a> {
     others: Ordered<'a>,
     columns: &'a [Vec<f64>],
-    rows: &'a [Entry],
+    rows: &'a [MatrixEntry],
     complement: BandedLu<'a>,
 }
 
@@ -51,7 +51,7 @@ pub(super) struct TogetherLu<'a> {
 struct Ordered<'a> {
     band: BandedLu<'a>,
     position: &'a [usize],
-    scales: &'a Scales,
+    scales: &'a Equilibration,
 }
 
 impl Together {
@@ -61,7 +61,7 @@ impl Together {
             size: size - full,
             band: BandedMatrix::zeros(0, 0),
             position: Vec::new(),
-            scales: Scales::default(),
+            scales: Equilibration::default(),
             columns: vec![vec![0.0; size - full]; full],
             rows: Vec::new(),
             complement: BandedMatrix::zeros(full, full.saturating_sub(1)),
@@ -72,7 +72,10 @@ impl Together {
     ///
     /// # Errors
     /// When a column has no non-zero or no finite pivot.
-    pub(super) fn factorise(&mut self, entries: &[Entry]) -> Result<TogetherLu<'_>, LinearError> {
+    pub(super) fn factorise(
+        &mut self,
+        entries: &[MatrixEntry],
+    ) -> Result<TogetherLu<'_>, LinearError> {
         let size = self.size;
         self.columns.iter_mut().for_each(|column| column.fill(0.0));
         self.rows.clear();
@@ -100,8 +103,8 @@ impl Together {
     }
 
     /// Puts the entries of rows that are not full into a narrow band.
-    fn order(&mut self, entries: &[Entry]) {
-        let scales = Scales::of(self.size, entries);
+    fn order(&mut self, entries: &[MatrixEntry]) {
+        let scales = Equilibration::of(self.size, entries);
         let pairs = entries.iter().filter(|(row, column, _)| row != column);
         let groups: Vec<Vec<usize>> = pairs.map(|(row, column, _)| vec![*row, *column]).collect();
         let order = reverse_cuthill_mckee(self.size, &groups);
@@ -142,9 +145,9 @@ impl Ordered<'_> {
     }
 }
 
-impl Scales {
+impl Equilibration {
     /// What makes the largest entries of rows and columns about one.
-    fn of(size: usize, entries: &[Entry]) -> Self {
+    fn of(size: usize, entries: &[MatrixEntry]) -> Self {
         let (mut rows, mut columns) = (vec![1.0; size], vec![1.0; size]);
         for _ in 0..SCALINGS {
             let (mut of_row, mut of_column) = (vec![0.0_f64; size], vec![0.0_f64; size]);

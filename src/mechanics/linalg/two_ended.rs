@@ -7,7 +7,7 @@
 use pulp::Arch;
 
 use super::elimination::{Elimination, PANEL, SMALLEST_REACH};
-use super::storage::{Factors, Rows};
+use super::storage::{ActiveRows, Factors};
 use super::substitution::{Backward, Forward};
 use super::{BandedLu, BandedMatrix, LinearError};
 use crate::threads::both;
@@ -18,7 +18,7 @@ const FEWEST_ROWS: usize = 6000;
 /// What a band that is eliminated from both ends needs besides its own rows.
 #[derive(Debug, Clone)]
 pub(super) struct TwoEnded {
-    cut: Cut,
+    cut: BandCut,
     threads: usize,
     /// Those of elimination from the last row on.
     multipliers: Vec<[f64; PANEL]>,
@@ -31,7 +31,7 @@ pub(super) struct TwoEnded {
 
 /// Where a band of so many rows is cut.
 #[derive(Debug, Clone, Copy)]
-struct Cut {
+struct BandCut {
     size: usize,
     reach: usize,
     /// The number of columns that are eliminated from the first one on, in whole panels.
@@ -43,7 +43,7 @@ struct Cut {
 /// The factors of a band that was eliminated from both ends.
 #[derive(Debug)]
 pub(super) struct TwoEndedLu<'a> {
-    cut: Cut,
+    cut: BandCut,
     threads: usize,
     upper: Factors<'a>,
     lower: Factors<'a>,
@@ -52,7 +52,7 @@ pub(super) struct TwoEndedLu<'a> {
     turned: &'a mut [f64],
 }
 
-impl Cut {
+impl BandCut {
     fn new(size: usize, reach: usize) -> Self {
         let both = size - (2 * reach + 1);
         let upper = both / 2 / PANEL * PANEL;
@@ -83,7 +83,7 @@ impl TwoEnded {
 
     fn new(size: usize, half_bandwidth: usize) -> Self {
         let reach = half_bandwidth.max(SMALLEST_REACH);
-        let cut = Cut::new(size, reach);
+        let cut = BandCut::new(size, reach);
         let middle = cut.middle();
         Self {
             cut,
@@ -119,7 +119,7 @@ impl TwoEnded {
     ) -> Result<TwoEndedLu<'a>, LinearError> {
         let Self { cut, threads, multipliers, middle, right, turned } = self;
         let (cut, threads) = (*cut, *threads);
-        let Cut { size, reach, .. } = cut;
+        let BandCut { size, reach, .. } = cut;
         let storage = band.storage_mut();
         let (stride, centre) = (storage.stride(), storage.centre());
         let (before, behind) = (cut.upper_rows(), size - cut.lower_rows());
@@ -128,7 +128,7 @@ impl TwoEnded {
         let (rows, lower) = storage.rows[..size * stride].split_at_mut(behind * stride - shift);
         let (pivots, lower_pivots) = storage.pivots.split_at_mut(behind);
         let (last_columns, lower_last_columns) = storage.last_columns.split_at_mut(behind);
-        let upper = Rows {
+        let upper = ActiveRows {
             size: before,
             columns: cut.upper,
             reach,
@@ -141,7 +141,7 @@ impl TwoEnded {
         let [of_upper, of_lower] = &mut results;
         let mut from_below = |rows: &mut [f64], result: &mut Result<(), LinearError>| {
             rows.reverse();
-            let lower = Rows {
+            let lower = ActiveRows {
                 size: cut.lower_rows(),
                 columns: cut.lower,
                 reach,

@@ -4,7 +4,7 @@
 //! what jumps. In a step, where one of its values is farther from the next than all others are together, the larger half of that way is followed
 //! through thirty halvings: a jump stays what it is, all else gets small.
 
-use super::{LoadError, Schedule, Side};
+use super::{LimitSide, LoadError, Schedule};
 use crate::elementary::whole_power;
 
 /// A difference counts from so many roundings of the values on.
@@ -62,9 +62,9 @@ pub(super) fn jump_at_start(schedule: &Schedule) -> Result<Option<Jump>, LoadErr
     if !may_jump(schedule) {
         return Ok(None);
     }
-    let before = schedule.value(0.0, Side::After)?;
+    let before = schedule.value(0.0, LimitSide::After)?;
     let [farther, nearer] =
-        CLOSE.map(|power| schedule.value(whole_power(0.125, power), Side::After));
+        CLOSE.map(|power| schedule.value(whole_power(0.125, power), LimitSide::After));
     let (farther, after) = (farther?, nearer?);
     let [far, near] = [farther, after].map(|value| (value - before).abs());
     let noise = ROUNDINGS * f64::EPSILON * (before.abs() + after.abs());
@@ -110,7 +110,7 @@ fn halve(schedule: &Schedule, ends: &mut [(f64, f64); 2]) -> Result<(), LoadErro
     for _ in 0..HALVINGS {
         let [(t0, v0), (t1, v1)] = *ends;
         let middle = 0.5 * (t0 + t1);
-        let value = schedule.value(middle, Side::After)?;
+        let value = schedule.value(middle, LimitSide::After)?;
         let half = usize::from((value - v0).abs() >= (v1 - value).abs());
         ends[half] = (middle, value);
     }
@@ -139,7 +139,7 @@ mod tests {
     fn in_step(function: impl Fn(f64) -> f64 + 'static, from: f64, to: f64) -> Option<Jump> {
         let schedule = of(function);
         let times = [0.0, 0.1464, 0.5, 0.8536, 1.0].map(|part| from + part * (to - from));
-        let values = times.map(|time| schedule.value(time, Side::After).unwrap());
+        let values = times.map(|time| schedule.value(time, LimitSide::After).unwrap());
         jump_between(&schedule, &times, &values).unwrap()
     }
 

@@ -8,7 +8,7 @@ use crate::geometry::Vec2;
 
 /// What the direction of a load is tied to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub enum Frame {
+pub enum LoadFrame {
     /// The load is tied to space: it keeps its direction.
     #[default]
     Dead,
@@ -26,7 +26,7 @@ pub enum LoadKind {
         /// The force while the schedule is 1 [force].
         force: Vec2,
         /// What the direction of the force is tied to.
-        frame: Frame,
+        frame: LoadFrame,
     },
     /// A moment at a station [force·length].
     Moment {
@@ -42,7 +42,7 @@ pub enum LoadKind {
         /// The force per length of the axis as drawn while the schedule is 1 [force/length].
         force: Vec2,
         /// What the direction of the line load is tied to.
-        frame: Frame,
+        frame: LoadFrame,
     },
 }
 

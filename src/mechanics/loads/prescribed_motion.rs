@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::continuity::{jump_at_start, jump_between};
-use super::{LoadError, Schedule, Side};
+use super::{LimitSide, LoadError, Schedule};
 use crate::geometry::larger;
 
 /// A motion that is given: by its place or by its rate.
@@ -97,9 +97,11 @@ impl PrescribedMotion {
                 })
             }
             Self::Rate(schedule) => {
-                let (first, last) =
-                    (schedule.value(start, Side::After)?, schedule.value(end, Side::Before)?);
-                let middle = schedule.value(0.5 * (start + end), Side::After)?;
+                let (first, last) = (
+                    schedule.value(start, LimitSide::After)?,
+                    schedule.value(end, LimitSide::Before)?,
+                );
+                let middle = schedule.value(0.5 * (start + end), LimitSide::After)?;
                 let accelerations = [
                     (4.0 * middle - 3.0 * first - last) / duration,
                     (first + 3.0 * last - 4.0 * middle) / duration,
@@ -138,7 +140,7 @@ impl PrescribedMotion {
                 let step = self.over(start, end, end - start)?;
                 (step.first_rate, step.rounding)
             }
-            Self::Rate(schedule) => (schedule.value(start, Side::After)?, 0.0),
+            Self::Rate(schedule) => (schedule.value(start, LimitSide::After)?, 0.0),
         };
         let negligible = SMOOTH * larger(before.abs(), after.abs()) + rounding;
         Ok(Some(after - before).filter(|jump| jump.abs() > negligible))
@@ -198,7 +200,7 @@ impl PrescribedMotion {
                 }
             }
             Self::Rate(schedule) => {
-                let rate = schedule.value(time, Side::After)?;
+                let rate = schedule.value(time, LimitSide::After)?;
                 let mut found = MotionAtStart { rate, acceleration: 0.0 };
                 let (mut least, mut before) = (f64::INFINITY, None::<f64>);
                 for span in spans {
@@ -233,9 +235,9 @@ fn values_in(schedule: &Schedule, start: f64, end: f64) -> Result<[f64; 5], Load
     let mut values = [0.0; 5];
     for (at, (value, time)) in values.iter_mut().zip(nodes(start, end)).enumerate() {
         *value = match at {
-            0 => schedule.value(start, Side::After)?,
-            4 => schedule.value(end, Side::Before)?,
-            _ => schedule.value(time, Side::After)?,
+            0 => schedule.value(start, LimitSide::After)?,
+            4 => schedule.value(end, LimitSide::Before)?,
+            _ => schedule.value(time, LimitSide::After)?,
         };
     }
     Ok(values)

@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 use std::rc::Rc;
 
 use super::stored_schedule::StoredTerm;
-use super::{Beat, FunctionError, LoadError};
+use super::{FunctionError, LoadError, SampleClock};
 use crate::elementary::{sin, whole_power};
 
 /// A function of time from outside, such as a closure of a script.
@@ -17,7 +17,7 @@ pub type ScheduleFunction = Rc<dyn Fn(f64) -> Result<f64, FunctionError>>;
 
 /// The side from which a time is approached: a schedule that jumps there has two values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Side {
+pub enum LimitSide {
     /// A time is approached from earlier times.
     Before,
     /// A time is approached from later times.
@@ -61,7 +61,7 @@ pub enum Schedule {
         /// Where the value is set.
         value: Rc<Cell<f64>>,
         /// When the controller is asked, and when what it says acts.
-        beat: Beat,
+        beat: SampleClock,
     },
     /// A schedule that is the sum or the product of two others.
     Combined {
@@ -251,7 +251,7 @@ impl Schedule {
     ///
     /// # Errors
     /// When a function fails or the value is not finite.
-    pub fn value(&self, time: f64, side: Side) -> Result<f64, LoadError> {
+    pub fn value(&self, time: f64, side: LimitSide) -> Result<f64, LoadError> {
         let value = match self {
             Self::Constant(factor) => *factor,
             Self::Table(rows) => table_value(rows, time, side),
@@ -264,7 +264,7 @@ impl Schedule {
                 }
             }
             Self::Function { function, breaks } => {
-                let from_before = side == Side::Before && breaks.contains(&time);
+                let from_before = side == LimitSide::Before && breaks.contains(&time);
                 let time = if from_before { time.next_down() } else { time };
                 function(time).map_err(LoadError::Function)?
             }
@@ -291,7 +291,7 @@ impl Schedule {
         let (middle, half) = (0.5 * (start + end), 0.5 * (end - start));
         let mut sum = 0.0;
         for (place, weight) in GAUSS {
-            sum += 0.5 * weight * self.value(middle + half * place, Side::After)?;
+            sum += 0.5 * weight * self.value(middle + half * place, LimitSide::After)?;
         }
         Ok(sum)
     }
@@ -322,10 +322,10 @@ impl Schedule {
     }
 }
 
-fn table_value(rows: &[(f64, f64)], time: f64, side: Side) -> f64 {
+fn table_value(rows: &[(f64, f64)], time: f64, side: LimitSide) -> f64 {
     let passed = match side {
-        Side::Before => rows.partition_point(|row| row.0 < time),
-        Side::After => rows.partition_point(|row| row.0 <= time),
+        LimitSide::Before => rows.partition_point(|row| row.0 < time),
+        LimitSide::After => rows.partition_point(|row| row.0 <= time),
     };
     let (before, after) = (passed.checked_sub(1).and_then(|at| rows.get(at)), rows.get(passed));
     match (before, after) {
@@ -342,9 +342,9 @@ mod tests {
     #[test]
     fn a_held_load_ends_at_its_time_from_either_side() {
         let hold = Schedule::hold_for(2.5).unwrap();
-        assert_eq!(hold.value(2.5, Side::Before), Ok(1.0));
-        assert_eq!(hold.value(2.5, Side::After), Ok(0.0));
-        assert_eq!(hold.value(-1.0, Side::After), Ok(1.0));
+        assert_eq!(hold.value(2.5, LimitSide::Before), Ok(1.0));
+        assert_eq!(hold.value(2.5, LimitSide::After), Ok(0.0));
+        assert_eq!(hold.value(-1.0, LimitSide::After), Ok(1.0));
         assert_eq!(hold.mean(2.4, 2.5), Ok(1.0));
         assert_eq!(hold.breaks(), [2.5, 2.5]);
     }
@@ -352,13 +352,13 @@ mod tests {
     #[test]
     fn pieces_have_their_values_and_means() {
         let ramp = Schedule::ramp(1.0, 3.0).unwrap();
-        assert_eq!(ramp.value(2.0, Side::After), Ok(0.5));
+        assert_eq!(ramp.value(2.0, LimitSide::After), Ok(0.5));
         assert!((ramp.mean(1.0, 3.0).unwrap() - 0.5).abs() < 1e-15);
         let pulse = Schedule::pulse(1.0, 2.0).unwrap();
-        let values = [0.5, 1.5, 2.5].map(|time| pulse.value(time, Side::After).unwrap());
+        let values = [0.5, 1.5, 2.5].map(|time| pulse.value(time, LimitSide::After).unwrap());
         assert_eq!(values, [0.0, 1.0, 0.0]);
         let twice = Schedule::combined(Operation::Product, Schedule::Constant(2.0), pulse).unwrap();
-        assert_eq!(twice.value(1.0, Side::After), Ok(2.0));
+        assert_eq!(twice.value(1.0, LimitSide::After), Ok(2.0));
         let mean = (0..100).map(|i| {
             let pulse = Schedule::smooth_pulse(2.0).unwrap();
             pulse.mean(0.02 * f64::from(i), 0.02 * f64::from(i + 1)).unwrap()

@@ -4,7 +4,7 @@ use crate::linalg::BorderedMatrix;
 
 /// How far a set of equations is from being satisfied.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Imbalance {
+pub struct ResidualNorms {
     /// The largest unbalanced force, relative to the forces that should balance [-].
     pub force: f64,
     /// The largest mismatch between the strain of the section forces and that of the configuration [-].
@@ -13,19 +13,20 @@ pub struct Imbalance {
     pub constraint: f64,
 }
 
-impl Imbalance {
+impl ResidualNorms {
     /// Whether all parts of the imbalance are finite numbers.
     pub fn is_finite(&self) -> bool {
         [self.force, self.strain, self.constraint].iter().all(|part| part.is_finite())
     }
 
     /// Which part of the imbalance is the largest, or no number.
-    pub fn worst(&self) -> Part {
-        let others = [(Part::Strain, self.strain), (Part::Constraint, self.constraint)];
-        let worst = |worst: (Part, f64), other: (Part, f64)| {
+    pub fn worst(&self) -> ResidualPart {
+        let others =
+            [(ResidualPart::Strain, self.strain), (ResidualPart::Constraint, self.constraint)];
+        let worst = |worst: (ResidualPart, f64), other: (ResidualPart, f64)| {
             if other.1 > worst.1 || other.1.is_nan() { other } else { worst }
         };
-        others.into_iter().fold((Part::Force, self.force), worst).0
+        others.into_iter().fold((ResidualPart::Force, self.force), worst).0
     }
 
     /// The largest part of the imbalance [-]; NaN if one of them is not a number.
@@ -38,7 +39,7 @@ impl Imbalance {
 
 /// A part of an imbalance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Part {
+pub enum ResidualPart {
     /// Forces that are not balanced.
     Force,
     /// Strains that do not match.
@@ -64,5 +65,5 @@ pub trait Equations {
     fn correct(&mut self, correction: &[f64]);
 
     /// Fills the residual at `u` with the hidden unknowns as they are, and measures the imbalance.
-    fn imbalance(&mut self, u: &[f64], residual: &mut [f64]) -> Imbalance;
+    fn imbalance(&mut self, u: &[f64], residual: &mut [f64]) -> ResidualNorms;
 }

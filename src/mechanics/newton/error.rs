@@ -1,6 +1,6 @@
 //! Why a Newton solve gave up.
 
-use super::Imbalance;
+use super::ResidualNorms;
 use crate::linalg::LinearError;
 
 /// A Newton solve that found no solution.
@@ -10,13 +10,13 @@ pub enum NewtonError {
     #[error("Newton's method did not converge in {} iterations ({})", history.len(), describe(history))]
     NotConverged {
         /// The imbalance after each iteration of the solve that did not converge, oldest first.
-        history: Vec<Imbalance>,
+        history: Vec<ResidualNorms>,
     },
     /// The iteration of a Newton solve left the finite numbers.
     #[error("Newton's method met a number that is not finite after {} iterations ({})", history.len(), describe(history))]
     NotFinite {
         /// The imbalance after each iteration of the solve that left the finite numbers, oldest first.
-        history: Vec<Imbalance>,
+        history: Vec<ResidualNorms>,
     },
     /// The tangent of a Newton solve could not be factorised.
     #[error("{source} (after {} Newton iterations)", history.len())]
@@ -24,7 +24,7 @@ pub enum NewtonError {
         /// The linear solver's reason why the tangent has no factors.
         source: LinearError,
         /// The imbalance after each iteration before the tangent could not be factorised, oldest first.
-        history: Vec<Imbalance>,
+        history: Vec<ResidualNorms>,
     },
 }
 
@@ -35,7 +35,7 @@ impl NewtonError {
     }
 
     /// The imbalance after each iteration of the failed solve, oldest first.
-    pub fn history(&self) -> &[Imbalance] {
+    pub fn history(&self) -> &[ResidualNorms] {
         match self {
             Self::NotConverged { history }
             | Self::NotFinite { history }
@@ -45,12 +45,12 @@ impl NewtonError {
 }
 
 /// A part of an imbalance, and its name.
-type Part = (&'static str, fn(&Imbalance) -> f64);
+type NamedResidualPart = (&'static str, fn(&ResidualNorms) -> f64);
 
 /// The part that is left at the end, iteration by iteration.
-fn describe(history: &[Imbalance]) -> String {
+fn describe(history: &[ResidualNorms]) -> String {
     let last = history.last().copied().unwrap_or_default();
-    let parts: [Part; 3] = [
+    let parts: [NamedResidualPart; 3] = [
         ("relative force imbalance", |imbalance| imbalance.force),
         ("strain mismatch", |imbalance| imbalance.strain),
         ("relative violation of a constraint", |imbalance| imbalance.constraint),

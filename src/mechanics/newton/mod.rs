@@ -4,6 +4,6 @@ mod equations;
 mod error;
 mod solver;
 
-pub use equations::{Equations, Imbalance, Part};
+pub use equations::{Equations, ResidualNorms, ResidualPart};
 pub use error::NewtonError;
 pub use solver::{Newton, NewtonReport, Tolerance};

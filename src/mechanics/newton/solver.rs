@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Equations, Imbalance, NewtonError};
+use super::{Equations, NewtonError, ResidualNorms};
 use crate::elementary::whole_power;
 use crate::linalg::{BorderShape, BorderedLu, BorderedMatrix};
 
@@ -45,7 +45,12 @@ impl Default for Tolerance {
 impl Tolerance {
     /// Whether to correct once more with the factors at hand, when the last correction has reduced the imbalance by a factor
     /// and so many may follow.
-    fn is_worth_correcting(&self, imbalance: &Imbalance, factor: f64, corrections: i32) -> bool {
+    fn is_worth_correcting(
+        &self,
+        imbalance: &ResidualNorms,
+        factor: f64,
+        corrections: i32,
+    ) -> bool {
         let largest = imbalance.largest();
         if self.accepts(imbalance) {
             return largest > self.polish && factor < STANDSTILL;
@@ -53,7 +58,7 @@ impl Tolerance {
         largest <= NEAR && largest * whole_power(factor, corrections) <= self.polish
     }
 
-    fn accepts(&self, imbalance: &Imbalance) -> bool {
+    fn accepts(&self, imbalance: &ResidualNorms) -> bool {
         imbalance.force <= self.force
             && imbalance.strain <= self.strain
             && imbalance.constraint <= self.constraint
@@ -68,7 +73,7 @@ pub struct NewtonReport {
     /// The number of corrections of the solve with factors at hand, about a third of the work of an iteration each.
     pub corrections: usize,
     /// The imbalance that the solve has left.
-    pub imbalance: Imbalance,
+    pub imbalance: ResidualNorms,
 }
 
 impl NewtonReport {
@@ -89,7 +94,7 @@ pub struct Newton {
     tangent: BorderedMatrix,
     correction: Vec<f64>,
     /// After each iteration and the corrections that followed it.
-    history: Vec<Imbalance>,
+    history: Vec<ResidualNorms>,
 }
 
 impl Newton {
@@ -218,7 +223,7 @@ fn correct(
     correction: &mut Vec<f64>,
     u: &mut [f64],
     residual: &mut [f64],
-) -> Imbalance {
+) -> ResidualNorms {
     correction.clear();
     correction.extend(residual[..u.len()].iter().map(|r| -r));
     factors.solve(correction);
@@ -245,10 +250,13 @@ mod tests {
         }
         fn condense(&mut self, _residual: &mut [f64]) {}
         fn correct(&mut self, _correction: &[f64]) {}
-        fn imbalance(&mut self, u: &[f64], residual: &mut [f64]) -> Imbalance {
+        fn imbalance(&mut self, u: &[f64], residual: &mut [f64]) -> ResidualNorms {
             residual[0] = u[0] * u[0] - 2.0;
             residual[1] = u[0] * u[1] - 1.0;
-            Imbalance { force: residual[0].abs().max(residual[1].abs()), ..Imbalance::default() }
+            ResidualNorms {
+                force: residual[0].abs().max(residual[1].abs()),
+                ..ResidualNorms::default()
+            }
         }
     }
 
@@ -271,7 +279,7 @@ mod tests {
 
     /// `x = 0`, with imbalances that come from a list.
     struct SpoiltByCorrections {
-        imbalances: std::vec::IntoIter<Imbalance>,
+        imbalances: std::vec::IntoIter<ResidualNorms>,
     }
 
     impl Equations for SpoiltByCorrections {
@@ -281,7 +289,7 @@ mod tests {
         }
         fn condense(&mut self, _residual: &mut [f64]) {}
         fn correct(&mut self, _correction: &[f64]) {}
-        fn imbalance(&mut self, u: &[f64], residual: &mut [f64]) -> Imbalance {
+        fn imbalance(&mut self, u: &[f64], residual: &mut [f64]) -> ResidualNorms {
             residual[0] = u[0];
             self.imbalances.next().unwrap()
         }
@@ -289,12 +297,12 @@ mod tests {
 
     #[test]
     fn a_correction_that_leaves_the_finite_numbers_is_an_error_that_shows_it() {
-        let near = Imbalance { force: 1e-12, ..Imbalance::default() };
+        let near = ResidualNorms { force: 1e-12, ..ResidualNorms::default() };
         let spoilt = [
-            Imbalance { force: f64::NAN, ..near },
-            Imbalance { strain: f64::NAN, ..near },
-            Imbalance { constraint: f64::NAN, ..near },
-            Imbalance { strain: f64::INFINITY, ..near },
+            ResidualNorms { force: f64::NAN, ..near },
+            ResidualNorms { strain: f64::NAN, ..near },
+            ResidualNorms { constraint: f64::NAN, ..near },
+            ResidualNorms { strain: f64::INFINITY, ..near },
         ];
         for spoilt in spoilt {
             assert!(!spoilt.largest().is_finite());

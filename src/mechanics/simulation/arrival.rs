@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::Vec2;
-use crate::model::MasterLimit;
+use crate::system::MasterLimit;
 
 /// What happened to a slider at the end of its master.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]

@@ -3,12 +3,12 @@
 use super::Outline;
 use crate::beams::Station;
 use crate::geometry::{BasisValues, GeometryError, Vec2, cross};
-use crate::model::{Model, ModelError, Scene};
+use crate::system::{Scene, System, SystemError};
 
 /// The axes of the beams of a scene, as drawn.
 pub struct Axes<'a> {
     scene: &'a Scene,
-    drawn: Model,
+    drawn: System,
 }
 
 /// A station of a beam with what its axis is like as drawn.
@@ -27,15 +27,15 @@ impl<'a> Axes<'a> {
     ///
     /// # Errors
     /// When the scene cannot be built.
-    pub fn of(scene: &'a Scene) -> Result<Self, ModelError> {
-        Ok(Self { scene, drawn: Model::assemble(scene)? })
+    pub fn of(scene: &'a Scene) -> Result<Self, SystemError> {
+        Ok(Self { scene, drawn: System::assemble(scene)? })
     }
 
     /// Stations along each beam. Station `k` of a beam is at the place `k · Outline::places_a_station(degree)` of its outline.
     ///
     /// # Errors
     /// When one lies outside its mesh, which would be a mistake of ours.
-    pub fn stations(&self) -> Result<Vec<Vec<AxisStation>>, ModelError> {
+    pub fn stations(&self) -> Result<Vec<Vec<AxisStation>>, SystemError> {
         let of_beam = |(beam, mesh): (usize, &crate::beams::Mesh)| {
             let every = Outline::places_a_station(mesh.basis().degree());
             let parameters = Outline::parameters(mesh).into_iter().step_by(every);
@@ -48,22 +48,22 @@ impl<'a> Axes<'a> {
     ///
     /// # Errors
     /// When it lies outside its beam.
-    pub fn at(&self, station: &Station) -> Result<Option<AxisStation>, ModelError> {
+    pub fn at(&self, station: &Station) -> Result<Option<AxisStation>, SystemError> {
         let Some(beam) = station.beam() else { return Ok(None) };
         let xi = station.parameter(&self.scene.beams[beam].axis, &self.drawn.meshes()[beam]);
         let xi = xi.map_err(|source| self.wrong(beam, source))?;
         self.at_parameter(beam, xi).map(Some)
     }
 
-    fn at_parameter(&self, beam: usize, xi: f64) -> Result<AxisStation, ModelError> {
+    fn at_parameter(&self, beam: usize, xi: f64) -> Result<AxisStation, SystemError> {
         let basis = self.drawn.meshes()[beam].basis();
         let values = basis.evaluate(xi).map_err(|source| self.wrong(beam, source))?;
         let points = self.drawn.control_points().nth(beam).unwrap_or_default();
         Ok(AxisStation::new(values, basis.degree(), points))
     }
 
-    fn wrong(&self, beam: usize, source: GeometryError) -> ModelError {
-        ModelError::Beam { beam: self.scene.beams[beam].name.clone(), source: source.into() }
+    fn wrong(&self, beam: usize, source: GeometryError) -> SystemError {
+        SystemError::Beam { beam: self.scene.beams[beam].name.clone(), source: source.into() }
     }
 }
 

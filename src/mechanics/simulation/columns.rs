@@ -3,7 +3,7 @@
 use super::Sample;
 use crate::joints::{Component, Slider};
 use crate::loads::Load;
-use crate::model::{Drive, DriveKind, DriveState, Model, Scene, Spring, SpringKind, SpringState};
+use crate::system::{Drive, DriveKind, DriveState, Scene, Spring, SpringKind, SpringState, System};
 
 /// A column that the history of every run has.
 #[derive(Debug, Clone, Copy)]
@@ -138,7 +138,7 @@ fn told_of(kind: DriveKind, component: Component) -> &'static str {
 }
 
 /// The values of those of the sliders at the present state of the model, in the same order.
-pub(super) fn extra_values(model: &Model) -> impl Iterator<Item = f64> {
+pub(super) fn extra_values(model: &System) -> impl Iterator<Item = f64> {
     let of_sliders = (0..model.slider_names().count()).flat_map(|slider| {
         let force = model.contact_force(slider);
         let (position, speed) = (model.slider_position(slider), model.slider_speed(slider));

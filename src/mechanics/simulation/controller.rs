@@ -30,7 +30,7 @@ const LEAST_ERROR: f64 = 1e-4;
 
 /// How the size of the next step follows from errors: what does not change in a run, such as bounds [time].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Controller {
+pub(super) struct StepController {
     /// The power of the step size that the error of a step is proportional to [-].
     pub(super) order: f64,
     pub(super) first: f64,
@@ -40,7 +40,7 @@ pub(super) struct Controller {
 
 /// How long the next step is to be, and what that follows from; it is a part of the state of a simulation.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub(super) struct Pace {
+pub(super) struct StepSizeState {
     /// The size of the next step, if nothing cuts it [time].
     pub(super) wish: f64,
     /// The error of the last step that was not cut, over that allowed [-]; none where nothing is known.
@@ -58,14 +58,14 @@ pub(super) struct TriedStep {
     pub(super) error: f64,
 }
 
-impl Controller {
+impl StepController {
     /// The pace before the first step.
-    pub(super) fn start(&self) -> Pace {
-        Pace { wish: self.first, error: None, tries: 0 }
+    pub(super) fn start(&self) -> StepSizeState {
+        StepSizeState { wish: self.first, error: None, tries: 0 }
     }
 
     /// Whether the next step may be as short as the pace wishes.
-    pub(super) fn allows(&self, pace: &Pace) -> bool {
+    pub(super) fn allows(&self, pace: &StepSizeState) -> bool {
         let is_error = pace.error.is_none_or(|error| error >= LEAST_ERROR && error.is_finite());
         (self.smallest..=self.largest).contains(&pace.wish)
             && pace.wish.is_finite()
@@ -74,12 +74,12 @@ impl Controller {
     }
 
     /// Begins anew where what comes is not as what was: with a step as at the start, if that is shorter.
-    pub(super) fn restart(&self, pace: &mut Pace) {
-        *pace = Pace { wish: pace.wish.min(self.first), ..self.start() };
+    pub(super) fn restart(&self, pace: &mut StepSizeState) {
+        *pace = StepSizeState { wish: pace.wish.min(self.first), ..self.start() };
     }
 
     /// Takes in that a step was accepted that was as long as was wished.
-    pub(super) fn accept(&self, pace: &mut Pace, trial: TriedStep) {
+    pub(super) fn accept(&self, pace: &mut StepSizeState, trial: TriedStep) {
         let error = trial.error.max(LEAST_ERROR);
         let growth = match pace.error {
             None => self.room(error),
@@ -88,18 +88,18 @@ impl Controller {
         // What has just failed is not tried again at once.
         let most = if pace.tries > 0 { 1.0 } else { MOST_GROWTH };
         let wish = trial.duration * growth.clamp(LEAST_GROWTH, most);
-        *pace = Pace { wish: self.bounded(wish), error: Some(error), tries: 0 };
+        *pace = StepSizeState { wish: self.bounded(wish), error: Some(error), tries: 0 };
     }
 
     /// Takes in that a step was accepted that was cut short: it may let the next ones grow, and cannot shrink them.
-    pub(super) fn accept_cut(&self, pace: &mut Pace, trial: TriedStep) {
-        let mut alone = Pace { error: None, ..*pace };
+    pub(super) fn accept_cut(&self, pace: &mut StepSizeState, trial: TriedStep) {
+        let mut alone = StepSizeState { error: None, ..*pace };
         self.accept(&mut alone, trial);
-        *pace = Pace { wish: alone.wish.max(pace.wish), error: pace.error, tries: 0 };
+        *pace = StepSizeState { wish: alone.wish.max(pace.wish), error: pace.error, tries: 0 };
     }
 
     /// Takes in that a step erred by too much: the next try is shorter.
-    pub(super) fn reject(&self, pace: &mut Pace, trial: TriedStep) {
+    pub(super) fn reject(&self, pace: &mut StepSizeState, trial: TriedStep) {
         let most = if pace.tries > 0 { AGAIN } else { SAFETY };
         // An error that is not a number is a large one.
         let error = if trial.error.is_nan() { f64::INFINITY } else { trial.error };
@@ -107,7 +107,7 @@ impl Controller {
     }
 
     /// Takes in that a step of such a duration [time] was not solved: the next try is shorter.
-    pub(super) fn fail(&self, pace: &mut Pace, duration: f64) {
+    pub(super) fn fail(&self, pace: &mut StepSizeState, duration: f64) {
         self.shorten(pace, duration, AGAIN);
     }
 
@@ -116,7 +116,7 @@ impl Controller {
         SAFETY * power(error, -1.0 / self.order)
     }
 
-    fn shorten(&self, pace: &mut Pace, duration: f64, part: f64) {
+    fn shorten(&self, pace: &mut StepSizeState, duration: f64, part: f64) {
         pace.tries += 1;
         // The end of a step may lie beyond all numbers, and its duration with it.
         pace.wish = self.bounded(duration.min(pace.wish) * part);
@@ -131,12 +131,12 @@ impl Controller {
 mod tests {
     use super::*;
 
-    const CONTROLLER: Controller =
-        Controller { order: 3.0, first: 0.1, smallest: 1e-3, largest: 10.0 };
+    const CONTROLLER: StepController =
+        StepController { order: 3.0, first: 0.1, smallest: 1e-3, largest: 10.0 };
 
     /// Steps with an error of `(size/right)³`, until 1.
     fn sizes(first: f64, right: impl Fn(usize) -> f64) -> (Vec<f64>, usize) {
-        let mut pace = Pace { wish: first, ..CONTROLLER.start() };
+        let mut pace = StepSizeState { wish: first, ..CONTROLLER.start() };
         let (mut sizes, mut rejected) = (Vec::new(), 0);
         while sizes.len() < 30 {
             let duration = pace.wish;
@@ -170,7 +170,7 @@ mod tests {
 
     #[test]
     fn a_cut_step_changes_nothing_unless_the_wish_was_too_small() {
-        let mut pace = Pace { wish: 1.0, error: Some(0.5), tries: 0 };
+        let mut pace = StepSizeState { wish: 1.0, error: Some(0.5), tries: 0 };
         let before = pace;
         CONTROLLER.accept_cut(&mut pace, TriedStep { duration: 1e-2, error: 1e-9 });
         assert_eq!(pace, before);
@@ -191,7 +191,7 @@ mod tests {
 
     #[test]
     fn a_step_beyond_all_numbers_is_shortened_too() {
-        let mut pace = Pace { wish: 4.0, error: None, tries: 0 };
+        let mut pace = StepSizeState { wish: 4.0, error: None, tries: 0 };
         CONTROLLER.fail(&mut pace, f64::INFINITY);
         assert_eq!(pace.wish, 2.0);
         CONTROLLER.reject(&mut pace, TriedStep { duration: f64::INFINITY, error: f64::NAN });
@@ -200,7 +200,7 @@ mod tests {
 
     #[test]
     fn after_a_jump_steps_begin_as_at_the_start() {
-        let mut pace = Pace { wish: 3.0, error: Some(0.5), tries: 2 };
+        let mut pace = StepSizeState { wish: 3.0, error: Some(0.5), tries: 2 };
         CONTROLLER.restart(&mut pace);
         assert_eq!(pace, CONTROLLER.start());
         pace.wish = 0.01;

@@ -2,14 +2,14 @@
 
 use super::{DerivativeError, StepSizeError};
 use crate::integrators::{MethodError, StepError};
-use crate::model::ModelError;
+use crate::system::SystemError;
 
 /// A run that could not start or go on; its history up to the last good step is kept.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SimulationError {
     /// The scene of a run cannot be built.
     #[error(transparent)]
-    Model(#[from] ModelError),
+    Model(#[from] SystemError),
     /// The integrator of a run does not exist with its parameter.
     #[error(transparent)]
     Method(#[from] MethodError),

@@ -3,7 +3,7 @@
 use crate::elementary::square;
 use crate::geometry::larger;
 use crate::integrators::Mechanism;
-use crate::model::{Model, Scene};
+use crate::system::{Scene, System};
 
 /// The part of the time in which a scene without beams moves as far as it is large.
 const PART: f64 = 1e-3;
@@ -34,7 +34,7 @@ fn start_speed(scene: &Scene) -> f64 {
 ///
 /// The time in which an axial wave passes a span, the shortest of all beams. Without beams, a part of that in which the start
 /// velocities or the weight move a particle as far as the scene is large.
-pub(super) fn first_step(scene: &Scene, model: &Model) -> f64 {
+pub(super) fn first_step(scene: &Scene, model: &System) -> f64 {
     let waves = scene.beams.iter().map(|beam| {
         beam.axis.length() / (beam.mesh.spans() as f64 * beam.section.axial_wave_speed())
     });

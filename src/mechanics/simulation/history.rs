@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::columns::{self, Column, ExtraColumn};
 use crate::geometry::{Vec2, larger, smaller};
-use crate::model::Measures;
+use crate::system::Measures;
 
 /// A row of the history: what was measured at the end of a step, and what the step took.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
@@ -64,7 +64,7 @@ impl Invariant {
 
 /// What the drift of a quantity is relative to when the rows themselves give no scale.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Scales {
+pub struct DriftScales {
     /// The mass of the whole scene [mass].
     pub mass: f64,
     /// A length of the scene [length]; zero when it has none, such as a lone particle at the origin.
@@ -80,7 +80,7 @@ pub struct History {
     extra_columns: Vec<ExtraColumn>,
     /// The values of the extra columns, row after row.
     extra: Vec<f64>,
-    scales: Scales,
+    scales: DriftScales,
 }
 
 impl History {
@@ -88,7 +88,7 @@ impl History {
     pub const COLUMNS: &'static [Column] = columns::FIXED;
 
     /// An empty history with columns of its own besides [`COLUMNS`](Self::COLUMNS).
-    pub fn new(scales: Scales, extra_columns: Vec<ExtraColumn>) -> Self {
+    pub fn new(scales: DriftScales, extra_columns: Vec<ExtraColumn>) -> Self {
         Self { samples: Vec::new(), extra_columns, extra: Vec::new(), scales }
     }
 
@@ -216,7 +216,7 @@ impl History {
         let largest = |value: &dyn Fn(&Measures) -> f64| {
             self.samples.iter().map(|row| value(&row.measures).abs()).fold(0.0, f64::max)
         };
-        let Scales { mass, length, rounding_energy } = self.scales;
+        let DriftScales { mass, length, rounding_energy } = self.scales;
         let kinetic = largest(&|row| row.energy.kinetic).max(rounding_energy);
         let motion = (2.0 * mass * kinetic).sqrt();
         let length = if length > 0.0 { length } else { largest(&|row| row.time) * motion / mass };
@@ -266,7 +266,7 @@ impl History {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::Energy;
+    use crate::system::Energy;
 
     fn history(energies: &[f64]) -> History {
         history_with(vec![], energies)
@@ -275,7 +275,7 @@ mod tests {
     /// The extra columns hold 10, 20, … in the first row, 11, 21, … in the second.
     fn history_with(extra: Vec<ExtraColumn>, energies: &[f64]) -> History {
         let width = extra.len();
-        let scales = Scales { mass: 1.0, length: 1.0, rounding_energy: 0.0 };
+        let scales = DriftScales { mass: 1.0, length: 1.0, rounding_energy: 0.0 };
         let mut history = History::new(scales, extra);
         for (index, &kinetic) in energies.iter().enumerate() {
             let measures = Measures {

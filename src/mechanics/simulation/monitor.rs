@@ -8,9 +8,9 @@ pub trait Monitor {
 
 /// A monitor that never stops a run.
 #[derive(Debug, Clone, Copy)]
-pub struct Unwatched;
+pub struct NoMonitor;
 
-impl Monitor for Unwatched {
+impl Monitor for NoMonitor {
     fn goes_on(&mut self, _time: f64) -> bool {
         true
     }

@@ -1,9 +1,9 @@
 //! How beams, particles and rigid bodies look: lines to draw, and marks at knots or nodes.
 
-use crate::beams::{Mesh, Place};
+use crate::beams::{BodyPoint, Mesh};
 use crate::elementary::atan2;
 use crate::geometry::{Vec2, cross, perpendicular};
-use crate::model::{BeamDefinition, ModelError, RigidBodyDefinition, Scene};
+use crate::system::{BeamDefinition, RigidBodyDefinition, Scene, SystemError};
 
 /// Points along each span of a beam of higher degree.
 const POINTS_A_SPAN: usize = 8;
@@ -16,8 +16,8 @@ fn pieces(degree: usize) -> usize {
 /// The places of a beam that a picture needs: points of its axis, and its knots or nodes; or those of a rigid body: its points, around it.
 #[derive(Debug, Clone)]
 pub struct Outline {
-    line: Vec<Place>,
-    marks: Vec<Place>,
+    line: Vec<BodyPoint>,
+    marks: Vec<BodyPoint>,
     /// Of a rigid body with a polygon of its own: its corners, along and to the left of the line from the centre to one of its points, in lengths of that.
     corners: Vec<Vec2>,
 }
@@ -42,10 +42,10 @@ impl Outline {
     ///
     /// # Errors
     /// When an axis has a point without a tangent.
-    pub fn of_scene(scene: &Scene, meshes: &[Mesh]) -> Result<Vec<Self>, ModelError> {
+    pub fn of_scene(scene: &Scene, meshes: &[Mesh]) -> Result<Vec<Self>, SystemError> {
         let of_beam = |(index, (beam, mesh)): (usize, (&BeamDefinition, &Mesh))| {
             let place = |xi: f64| {
-                Place::at(index, &beam.axis, mesh, xi).map_err(|source| ModelError::Beam {
+                BodyPoint::at(index, &beam.axis, mesh, xi).map_err(|source| SystemError::Beam {
                     beam: beam.name.clone(),
                     source: source.into(),
                 })
@@ -79,7 +79,7 @@ impl Outline {
             [one, other] => points = vec![*one, 0, *other],
             _ => points.extend(points.first().copied()),
         }
-        let place = |point| Place::of_point(index, point, body.angle);
+        let place = |point| BodyPoint::of_point(index, point, body.angle);
         let line = points.into_iter().map(place).collect();
         Self { line, marks: Vec::new(), corners: Vec::new() }
     }
@@ -93,7 +93,7 @@ impl Outline {
         let size = arm.norm_squared();
         let seen = |corner: &Vec2| Vec2::new(arm.dot(corner), cross(arm, *corner)) / size;
         let corners = body.outline.iter().chain(body.outline.first()).map(seen).collect();
-        let line = [0, point].map(|point| Place::of_point(index, point, body.angle));
+        let line = [0, point].map(|point| BodyPoint::of_point(index, point, body.angle));
         Self { line: line.into(), marks: Vec::new(), corners }
     }
 
@@ -104,7 +104,7 @@ impl Outline {
     }
 
     /// The points of its line in a configuration, or of its polygon.
-    fn points(&self, at: impl Fn(&Place) -> Vec2) -> Vec<Vec2> {
+    fn points(&self, at: impl Fn(&BodyPoint) -> Vec2) -> Vec<Vec2> {
         let line: Vec<Vec2> = self.line.iter().map(at).collect();
         let ([centre, point], false) = (line.as_slice(), self.corners.is_empty()) else {
             return line;
@@ -141,18 +141,18 @@ impl Outline {
     }
 
     /// The places of the centre line, from its start to its end.
-    pub fn line(&self) -> &[Place] {
+    pub fn line(&self) -> &[BodyPoint] {
         &self.line
     }
 
     /// The knots or nodes.
-    pub fn marks(&self) -> &[Place] {
+    pub fn marks(&self) -> &[BodyPoint] {
         &self.marks
     }
 
     /// The configuration as drawn from the control points of all bodies [length]: one beam after another, then particles, then rigid bodies.
     pub fn draw(outlines: &[Self], time: f64, control_points: &[&[Vec2]]) -> Configuration {
-        let at = |place: &Place| place.interpolate(control_points[place.body]);
+        let at = |place: &BodyPoint| place.interpolate(control_points[place.body]);
         let beams = outlines.partition_point(Self::is_of_beam);
         let mut lines: Vec<Vec<Vec2>> = outlines.iter().map(|outline| outline.points(at)).collect();
         Configuration {

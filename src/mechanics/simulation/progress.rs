@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Arrival, ArrivalKind, LetGo, Sample};
+use super::{Arrival, ArrivalKind, ReleaseEvent, Sample};
 use crate::integrators::Interval;
 use crate::newton::NewtonReport;
 
@@ -52,15 +52,15 @@ impl StepTaken {
 
 /// What a run has done so far: its work, its last step, its arrivals, its releases.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Progress {
+pub(super) struct RunProgress {
     pub(super) counts: WorkCounts,
     pub(super) last_step: StepTaken,
     pub(super) arrivals: Vec<Arrival>,
     /// In the order in which it let go; shared with the states to go back to.
-    pub(super) let_go: Rc<[LetGo]>,
+    pub(super) let_go: Rc<[ReleaseEvent]>,
 }
 
-impl Progress {
+impl RunProgress {
     /// Counts a step that succeeded after some failed tries.
     pub(super) fn count_step(&mut self, interval: Interval, report: NewtonReport, retries: usize) {
         let NewtonReport { iterations, corrections, .. } = report;

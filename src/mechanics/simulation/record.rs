@@ -4,27 +4,27 @@ use std::collections::HashSet;
 
 use super::columns::{ExtraColumn, FIXED, extra_columns, extra_values};
 use super::progress::StepTaken;
-use super::{History, Recording, Sample, Scales, Trajectory};
+use super::{DriftScales, History, Recording, Sample, Trajectory};
 use crate::geometry::Vec2;
-use crate::model::{Model, ModelError, Scene, Sensing};
+use crate::system::{Scene, SensorReader, System, SystemError};
 
 /// What is kept of a run, and which of its states are recorded.
 #[derive(Debug, Clone)]
-pub(super) struct Record {
+pub(super) struct RunRecord {
     pub(super) history: History,
     pub(super) trajectory: Trajectory,
     pub(super) recording: Recording,
     /// The number of rows of the history that stay; a further one belongs to the present.
     pub(super) rows_kept: usize,
-    sensing: Sensing,
+    sensing: SensorReader,
 }
 
-impl Record {
+impl RunRecord {
     /// The record of a run whose first row is the start of a scene.
     ///
     /// # Errors
     /// When a sensor has nothing to read, or a name is that of two columns.
-    pub(super) fn new(scene: &Scene, model: &mut Model) -> Result<Self, ModelError> {
+    pub(super) fn new(scene: &Scene, model: &mut System) -> Result<Self, SystemError> {
         let columns = extra_columns(scene);
         check_names(&columns)?;
         let points = model.control_points().map(<[Vec2]>::len).sum::<usize>();
@@ -33,7 +33,7 @@ impl Record {
             trajectory: Trajectory::new(2 * points),
             recording: Recording::default(),
             rows_kept: 0,
-            sensing: Sensing::of(scene, model)?,
+            sensing: SensorReader::of(scene, model)?,
         };
         if record.sensing.need_mean() {
             model.sum_up_impulses();
@@ -46,8 +46,8 @@ impl Record {
     ///
     /// # Errors
     /// When a sensor has nothing to read, which it had before.
-    pub(super) fn look_again(&mut self, scene: &Scene, model: &Model) -> Result<(), ModelError> {
-        self.sensing = Sensing::of(scene, model)?;
+    pub(super) fn look_again(&mut self, scene: &Scene, model: &System) -> Result<(), SystemError> {
+        self.sensing = SensorReader::of(scene, model)?;
         Ok(())
     }
 
@@ -59,20 +59,20 @@ impl Record {
     }
 
     /// Gives the present state a row of the history that stays.
-    pub(super) fn keep_row(&mut self, model: &mut Model, last_step: StepTaken) {
+    pub(super) fn keep_row(&mut self, model: &mut System, last_step: StepTaken) {
         self.add_row(model, last_step);
         self.rows_kept = self.history.samples().len();
     }
 
     /// Gives the present state a row of the history until it is past, unless it has one.
-    pub(super) fn show_present(&mut self, model: &mut Model, last_step: StepTaken) {
+    pub(super) fn show_present(&mut self, model: &mut System, last_step: StepTaken) {
         let last = self.history.samples().last().map(|row| row.measures.time);
         if last != Some(model.time()) {
             self.add_row(model, last_step);
         }
     }
 
-    fn add_row(&mut self, model: &mut Model, last_step: StepTaken) {
+    fn add_row(&mut self, model: &mut System, last_step: StepTaken) {
         self.go_back(self.rows_kept);
         let StepTaken { dt, newton_iterations, retries } = last_step;
         let sample = Sample { measures: model.measure(), dt, newton_iterations, retries };
@@ -90,25 +90,25 @@ impl Record {
 }
 
 /// Refuses two columns of one name: what is recorded may be called as something is that a scene adds by itself, before or later.
-fn check_names(columns: &[ExtraColumn]) -> Result<(), ModelError> {
+fn check_names(columns: &[ExtraColumn]) -> Result<(), SystemError> {
     let mut names: HashSet<&str> = FIXED.iter().map(|column| column.name).collect();
     match columns.iter().find(|column| !names.insert(&column.name)) {
         Some(ExtraColumn { name, .. }) => {
-            Err(ModelError::DuplicateSensor { name: name.to_owned() })
+            Err(SystemError::DuplicateSensor { name: name.to_owned() })
         }
         None => Ok(()),
     }
 }
 
-fn coordinates(model: &Model) -> impl Iterator<Item = f64> + '_ {
+fn coordinates(model: &System) -> impl Iterator<Item = f64> + '_ {
     model.control_points().flatten().flat_map(|point| [point.x, point.y])
 }
 
 /// What a change of an invariant is measured by when the motion itself is small.
-fn scales(scene: &Scene, model: &Model) -> Scales {
+fn scales(scene: &Scene, model: &System) -> DriftScales {
     let longest = scene.longest_beam().unwrap_or(0.0);
     let distances = model.control_points().flatten().map(|point| point.norm());
-    Scales {
+    DriftScales {
         mass: model.total_mass(),
         // The radius of gyration of the longest beam, or how far the scene is from the origin.
         length: distances.fold(longest / 12_f64.sqrt(), |length, distance| {

@@ -1,11 +1,11 @@
 //! What it does to a step of varying size that controllers are asked only at its start.
 
-use super::adaptive::Plan;
-use super::doubling::{Doubled, Doubling, Failed};
+use super::adaptive::StepPlan;
+use super::error_estimate::{DoubledStep, FailedStep, StepDoubling};
 use crate::elementary::{power, whole_power};
 use crate::geometry::larger;
 use crate::integrators::{Integrator, Interval};
-use crate::model::{Drive, Model, ModelState, Placement, Scene};
+use crate::system::{Drive, Placement, Scene, System, SystemState};
 
 /// How far the second halves may be apart, as a multiple of the length of the scene times a power of the tolerance: as measured, by this number the
 /// error that gathers in the time scale of a motion is about half the tolerance (theory.md, section 13.1).
@@ -22,16 +22,16 @@ pub(super) struct Resampling {
     order: i32,
     allowed: f64,
     length: f64,
-    middle: ModelState,
+    middle: SystemState,
     held: Placement,
     resampled: Placement,
-    under_way: Option<HalfWay>,
+    under_way: Option<HalfStep>,
 }
 
 /// A step that has been taken as far as its middle, where controllers are asked.
-struct HalfWay {
-    plan: Plan,
-    doubled: Doubled,
+struct HalfStep {
+    plan: StepPlan,
+    doubled: DoubledStep,
 }
 
 impl Resampling {
@@ -45,7 +45,7 @@ impl Resampling {
             order,
             allowed: SHARE * whole_power(tolerance, order),
             length,
-            middle: ModelState::default(),
+            middle: SystemState::default(),
             held: Placement::default(),
             resampled: Placement::default(),
             under_way: None,
@@ -53,7 +53,7 @@ impl Resampling {
     }
 
     /// Room for the state in the middle of the step.
-    pub(super) fn middle_mut(&mut self) -> &mut ModelState {
+    pub(super) fn middle_mut(&mut self) -> &mut SystemState {
         &mut self.middle
     }
 
@@ -63,21 +63,26 @@ impl Resampling {
     }
 
     /// Goes back to the middle of a step that was taken to its end.
-    pub(super) fn wait_half_way(&mut self, model: &mut Model, plan: Plan, doubled: Doubled) {
+    pub(super) fn wait_half_way(
+        &mut self,
+        model: &mut System,
+        plan: StepPlan,
+        doubled: DoubledStep,
+    ) {
         model.write_placement(&mut self.held);
         model.restore(&self.middle);
-        self.under_way = Some(HalfWay { plan, doubled });
+        self.under_way = Some(HalfStep { plan, doubled });
     }
 
     /// Takes the second half of the step that waits, if one does, with the values that controllers have now; the step is the worse of both comparisons.
     pub(super) fn go_on(
         &mut self,
-        doubling: &mut Doubling,
+        doubling: &mut StepDoubling,
         integrator: &mut dyn Integrator,
-        model: &mut Model,
+        model: &mut System,
         order: f64,
-    ) -> Option<(Plan, Result<Doubled, Failed>)> {
-        let HalfWay { plan, doubled } = self.under_way.take()?;
+    ) -> Option<(StepPlan, Result<DoubledStep, FailedStep>)> {
+        let HalfStep { plan, doubled } = self.under_way.take()?;
         let half = Interval::between(model.time(), plan.interval.end);
         let taken = doubling.take_or_go_back(integrator, model, half, doubled.report);
         let taken = taken.map(|report| {

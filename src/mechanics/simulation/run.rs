@@ -2,39 +2,39 @@
 
 mod adapting;
 mod back;
-mod blaming;
 mod content;
 mod derivatives;
+mod event_location;
 mod explain;
+mod failure_context;
+mod failure_names;
 mod frames;
-mod landing;
-mod letting_go;
-mod looking_inside;
-mod noting;
-mod plight;
 mod recording;
+mod release;
 mod revisit;
+mod section_results;
 mod stepping;
 mod views;
+mod warnings;
 
 use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 
 use super::adaptive::Adaptive;
-use super::clock::Clock;
-use super::drawn::Drawn;
-use super::halving::Halving;
-use super::progress::Progress;
-use super::record::Record;
+use super::clock::StepClock;
+use super::initial_geometry::InitialGeometry;
+use super::progress::RunProgress;
+use super::record::RunRecord;
 use super::snapshots::Snapshots;
+use super::step_retry::StepRetry;
 use super::stepper::Stepper;
 use super::{History, Monitor, SimulationError, StepSize, TimeGrid, Trajectory, WorkCounts, cores};
 use crate::geometry::larger;
 use crate::integrators::{Constraints, Interval, Mechanism, Method};
-use crate::model::{Model, Scene};
 use crate::newton::Tolerance;
 use crate::statics::Equilibrium;
+use crate::system::{Scene, System};
 
 /// Most steps that a pretended run has.
 const MOST_PRETENDED: usize = 10_000;
@@ -44,7 +44,7 @@ const MOST_SAMPLES: f64 = 1e4;
 
 /// How a scene is simulated: integrator, step size, tolerance.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Settings {
+pub struct SimulationSettings {
     /// The integrator of the simulation.
     pub method: Method,
     /// The step size of the simulation, or what it is found by.
@@ -56,16 +56,16 @@ pub struct Settings {
 /// A simulation: a scene in motion, with its history.
 pub struct Simulation {
     scene: Scene,
-    settings: Settings,
-    model: Model,
+    settings: SimulationSettings,
+    model: System,
     stepper: Stepper,
     /// What finds the size of steps, where it varies.
     adaptive: Option<Box<Adaptive>>,
-    clock: Clock,
-    progress: Progress,
-    record: Record,
+    clock: StepClock,
+    progress: RunProgress,
+    record: RunRecord,
     snapshots: Snapshots,
-    drawn: Drawn,
+    drawn: InitialGeometry,
 }
 
 impl Simulation {
@@ -73,8 +73,8 @@ impl Simulation {
     ///
     /// # Errors
     /// When the step size or the parameter of the method is out of its range, or the scene cannot be built.
-    pub fn start(scene: Scene, settings: Settings) -> Result<Self, SimulationError> {
-        let model = Model::assemble(&scene)?;
+    pub fn start(scene: Scene, settings: SimulationSettings) -> Result<Self, SimulationError> {
+        let model = System::assemble(&scene)?;
         Self::of(scene, model, settings)
     }
 
@@ -83,7 +83,10 @@ impl Simulation {
     ///
     /// # Errors
     /// When the step size or the parameter of the method is out of its range, or a drive rests elsewhere than where its function is.
-    pub fn start_at_rest(rest: &Equilibrium, settings: Settings) -> Result<Self, SimulationError> {
+    pub fn start_at_rest(
+        rest: &Equilibrium,
+        settings: SimulationSettings,
+    ) -> Result<Self, SimulationError> {
         let scene = rest.scene().clone();
         let elsewhere = |time| rest.model().drive_elsewhere(rest.path().load_factor(), time);
         let time = elsewhere(0.0).map_or(0.0, |_| larger(rest.loading().time, 0.0));
@@ -91,11 +94,15 @@ impl Simulation {
             let drive = drive.to_owned();
             return Err(SimulationError::BeginsElsewhere { drive, rests, wanted, time });
         }
-        let model = Model::assemble_at_rest(&scene, &rest.model().state(), time)?;
+        let model = System::assemble_at_rest(&scene, &rest.model().state(), time)?;
         Self::of(scene, model, settings)
     }
 
-    fn of(scene: Scene, mut model: Model, settings: Settings) -> Result<Self, SimulationError> {
+    fn of(
+        scene: Scene,
+        mut model: System,
+        settings: SimulationSettings,
+    ) -> Result<Self, SimulationError> {
         settings.dt.check()?;
         settings.method.check()?;
         model.divide(cores());
@@ -124,16 +131,16 @@ impl Simulation {
             return Err(SimulationError::NoMean { sensor, method });
         }
         Ok(Self {
-            record: Record::new(&scene, &mut model)?,
-            clock: Clock::new(grid, pace),
+            record: RunRecord::new(&scene, &mut model)?,
+            clock: StepClock::new(grid, pace),
             scene,
             settings,
             model,
             stepper: Stepper::of(integrator),
             adaptive,
-            progress: Progress::default(),
+            progress: RunProgress::default(),
             snapshots: Snapshots::default(),
-            drawn: Drawn::default(),
+            drawn: InitialGeometry::default(),
         })
     }
 
@@ -153,12 +160,12 @@ impl Simulation {
     }
 
     /// How the scene is simulated.
-    pub fn settings(&self) -> &Settings {
+    pub fn settings(&self) -> &SimulationSettings {
         &self.settings
     }
 
     /// The mechanism of the simulation at its present state.
-    pub fn model(&self) -> &Model {
+    pub fn model(&self) -> &System {
         &self.model
     }
 
@@ -334,6 +341,6 @@ impl Simulation {
         let end = self.clock.grid.next(self.time(), limit);
         let begun_before = self.clock.under_way.filter(|halving| halving.end() == end);
         let way = Interval::between(self.time(), end);
-        self.cover_with_arrivals(begun_before.unwrap_or_else(|| Halving::new(way)), monitor)
+        self.cover_with_arrivals(begun_before.unwrap_or_else(|| StepRetry::new(way)), monitor)
     }
 }

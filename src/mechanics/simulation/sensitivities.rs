@@ -1,17 +1,19 @@
 //! Derivatives of a run by parameters of its scene, found beside the run by the tangent-linear steps.
 
 mod error;
-mod twins;
+mod perturbed_runs;
 
 use std::fmt;
 
 pub use error::DerivativeError;
-pub(super) use twins::Twins;
+pub(super) use perturbed_runs::PerturbedRuns;
 
-use super::{Recording, Simulation, StepSize, Unwatched};
-use crate::integrators::{Accompanied, Company, Integrator, Interval, Mechanism, StepError};
-use crate::model::{Model, ModelState, Scene};
+use super::{NoMonitor, Recording, Simulation, StepSize};
+use crate::integrators::{
+    Integrator, Interval, Mechanism, SharedFactorStepper, SharedFactorWork, StepError,
+};
 use crate::newton::NewtonReport;
+use crate::system::{Scene, System, SystemState};
 
 /// How a scene varies with a parameter: the scene at the parameter plus and minus a distance.
 #[derive(Debug, Clone)]
@@ -26,7 +28,7 @@ pub struct Variation {
 
 /// A scene beside that of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Side {
+pub enum PerturbedSide {
     /// The scene at the parameter plus a distance.
     Plus,
     /// The scene at the parameter minus a distance.
@@ -45,10 +47,10 @@ pub struct DerivativeCounts {
 /// The derivatives of a run: the state `s` of a step solves `R(s₁; s₀, p) = 0`, and so its derivative solves `∂R/∂s₁ s₁' = -∂R/∂s₀ s₀' - ∂R/∂p`, with the
 /// matrix that the step has factorised. The right-hand side is the difference of two balances, at `p ± δ` from the states `s₀ ± δ s₀'`.
 pub(super) struct Sensitivities {
-    company: Company,
-    parameters: Vec<Twins>,
+    company: SharedFactorStepper,
+    parameters: Vec<PerturbedRuns>,
     /// The state of the run at the start of the present step.
-    start: ModelState,
+    start: SystemState,
     counts: DerivativeCounts,
     lost: Option<DerivativeError>,
 }
@@ -74,10 +76,10 @@ impl Sensitivities {
             return Err(DerivativeError::Mean { sensor: sensor.name.clone() }.into());
         }
         let name = settings.method.entry().name;
-        let company = Company::of(settings.method, run.model_mut(), settings.tolerance)
+        let company = SharedFactorStepper::of(settings.method, run.model_mut(), settings.tolerance)
             .ok_or(DerivativeError::Method { method: name })?;
         let start = run.model().state();
-        let twins = |variation| Twins::start(run, variation, &start);
+        let twins = |variation| PerturbedRuns::start(run, variation, &start);
         let parameters = variations.into_iter().map(twins).collect::<Result<_, _>>()?;
         Ok(Self { company, parameters, start, counts: DerivativeCounts::default(), lost: None })
     }
@@ -88,7 +90,7 @@ impl Sensitivities {
     /// Those of the step of the run.
     pub(super) fn step(
         &mut self,
-        model: &mut Model,
+        model: &mut System,
         integrator: &mut dyn Integrator,
         interval: Interval,
     ) -> Result<NewtonReport, StepError> {
@@ -99,16 +101,16 @@ impl Sensitivities {
         for twins in &mut self.parameters {
             twins.stand_beside(&self.start);
         }
-        let models = self.parameters.iter_mut().flat_map(Twins::models);
+        let models = self.parameters.iter_mut().flat_map(PerturbedRuns::models);
         let mut companions: Vec<&mut dyn Mechanism> =
             models.map(|model| model as &mut dyn Mechanism).collect();
-        let Accompanied { leader, companions } =
+        let SharedFactorWork { leader, companions } =
             self.company.step(model, &mut companions, interval)?;
         match companions {
             Ok(work) => {
                 self.counts.solves += work.corrections + work.iterations;
                 self.counts.factorisations += work.iterations;
-                self.parameters.iter_mut().for_each(Twins::differentiate);
+                self.parameters.iter_mut().for_each(PerturbedRuns::differentiate);
             }
             Err(source) => {
                 let time = interval.start;
@@ -147,7 +149,7 @@ impl Sensitivities {
     pub(super) fn pretend_to(&mut self, end: f64) {
         self.each(|twin| {
             // What would stop it stops the run itself.
-            let _: Result<(), super::SimulationError> = twin.pretend_to(end, &mut Unwatched);
+            let _: Result<(), super::SimulationError> = twin.pretend_to(end, &mut NoMonitor);
         });
     }
 
@@ -158,7 +160,7 @@ impl Sensitivities {
 
     fn each(&mut self, what: impl FnMut(&mut Simulation)) {
         if self.lost.is_none() {
-            self.parameters.iter_mut().flat_map(Twins::runs).for_each(what);
+            self.parameters.iter_mut().flat_map(PerturbedRuns::runs).for_each(what);
         }
     }
 
@@ -187,7 +189,7 @@ impl Sensitivities {
     pub(super) fn beside(
         &self,
         parameter: usize,
-        side: Side,
+        side: PerturbedSide,
     ) -> Result<&Simulation, DerivativeError> {
         match &self.lost {
             Some(reason) => Err(reason.clone()),
@@ -205,7 +207,7 @@ impl Sensitivities {
     pub(super) fn beside_so_far(
         &self,
         parameter: usize,
-        side: Side,
+        side: PerturbedSide,
     ) -> Result<&Simulation, DerivativeError> {
         match &self.lost {
             None | Some(DerivativeError::Event { .. } | DerivativeError::NoStep { .. }) => {
@@ -219,7 +221,7 @@ impl Sensitivities {
     pub(super) fn beside_mut(
         &mut self,
         parameter: usize,
-        side: Side,
+        side: PerturbedSide,
     ) -> Result<&mut Simulation, DerivativeError> {
         match &self.lost {
             Some(reason) => Err(reason.clone()),

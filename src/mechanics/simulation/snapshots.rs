@@ -3,16 +3,16 @@
 use std::collections::VecDeque;
 use std::rc::Rc;
 
-use super::controller::Pace;
-use super::halving::Halving;
+use super::controller::StepSizeState;
 use super::progress::StepTaken;
-use super::{LetGo, WorkCounts};
-use crate::model::ModelState;
+use super::step_retry::StepRetry;
+use super::{ReleaseEvent, WorkCounts};
+use crate::system::SystemState;
 
 /// A snapshot: what a simulation needs to be where it was, bit for bit.
 #[derive(Debug, Clone)]
 pub(super) struct Snapshot {
-    pub(super) state: ModelState,
+    pub(super) state: SystemState,
     /// The time of the snapshot [time].
     pub(super) time: f64,
     /// The number of rows of the history that stay when the simulation goes back to the snapshot.
@@ -20,14 +20,14 @@ pub(super) struct Snapshot {
     pub(super) last_step: StepTaken,
     pub(super) arrivals: usize,
     /// What had let go.
-    pub(super) let_go: Rc<[LetGo]>,
+    pub(super) let_go: Rc<[ReleaseEvent]>,
     pub(super) counts: WorkCounts,
     /// The number of grid points that were passed.
     pub(super) passed: u64,
     /// The step of the grid that was covered in part, if there was one.
-    pub(super) under_way: Option<Halving>,
+    pub(super) under_way: Option<StepRetry>,
     /// How long the next step was to be, where steps are of varying size.
-    pub(super) pace: Option<Pace>,
+    pub(super) pace: Option<StepSizeState>,
 }
 
 impl Snapshot {
@@ -126,7 +126,7 @@ impl Snapshots {
     }
 
     /// A state to write the next one into: that of the oldest snapshot when the store is full; none when no state is to be kept.
-    pub(super) fn blank(&mut self) -> Option<ModelState> {
+    pub(super) fn blank(&mut self) -> Option<SystemState> {
         let first = self.first.as_ref().filter(|_| self.most > 0)?;
         let is_full = self.recent.len() >= self.most;
         let oldest = if is_full { self.recent.pop_front() } else { None };
@@ -150,7 +150,7 @@ mod tests {
 
     fn snapshot(steps: usize) -> Snapshot {
         Snapshot {
-            state: ModelState::default(),
+            state: SystemState::default(),
             time: steps as f64,
             rows: 1,
             last_step: StepTaken::default(),

@@ -7,7 +7,7 @@
 
 use std::f64::consts::TAU;
 
-use super::Series;
+use super::TimeSeries;
 use crate::elementary::{cos, exp, ln, sin_cos};
 
 /// Durations of rows that differ by less, as a part of them, are equal.
@@ -30,7 +30,7 @@ const LOBE: f64 = 4.0;
 
 /// A vibration in a column.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Peak {
+pub struct SpectrumPeak {
     /// The frequency of the sine [1/time].
     pub frequency: f64,
     /// Half of the way from its least to its largest value, in the dimension of the column.
@@ -72,14 +72,14 @@ fn six_digits(number: f64) -> f64 {
     format!("{number:.5e}").parse().unwrap_or(number)
 }
 
-impl Series {
+impl TimeSeries {
     /// The strongest vibrations of the column, at most so many, the strongest first.
     ///
     /// Two that are nearer to each other than about four periods over all rows are not told apart, and slower ones than that are not seen.
     ///
     /// # Errors
     /// When rows are few or not evenly spaced, or a value is not a number.
-    pub fn spectrum(&self, most: usize) -> Result<Vec<Peak>, SpectrumError> {
+    pub fn spectrum(&self, most: usize) -> Result<Vec<SpectrumPeak>, SpectrumError> {
         let count = self.values.len();
         if count < FEWEST {
             return Err(SpectrumError::Few { rows: count });
@@ -97,13 +97,13 @@ impl Series {
             let (before, here, behind) = (magnitudes[at - 1], magnitudes[*at], magnitudes[at + 1]);
             here > before && here >= behind && here > SIDE_LOBES * highest
         };
-        let mut peaks: Vec<Peak> = (lobe.max(1)..magnitudes.len() - 1)
+        let mut peaks: Vec<SpectrumPeak> = (lobe.max(1)..magnitudes.len() - 1)
             .filter(is_peak)
             .map(|at| {
                 let [a, b, c] = [at - 1, at, at + 1].map(|at| ln(magnitudes[at]));
                 let shift = 0.5 * (a - c) / (a - 2.0 * b + c);
                 let frequency = (at as f64 + shift) / (size as f64 * dt);
-                Peak { frequency, amplitude: exp(b - 0.25 * (a - c) * shift) }
+                SpectrumPeak { frequency, amplitude: exp(b - 0.25 * (a - c) * shift) }
             })
             .collect();
         peaks.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
@@ -186,10 +186,10 @@ mod tests {
     use super::*;
     use crate::elementary::sin;
 
-    fn sampled(count: usize, dt: f64, f: impl Fn(f64) -> f64) -> Series {
+    fn sampled(count: usize, dt: f64, f: impl Fn(f64) -> f64) -> TimeSeries {
         let times: Vec<f64> = (0..count).map(|row| row as f64 * dt).collect();
         let values = times.iter().map(|t| f(*t)).collect();
-        Series { times, values }
+        TimeSeries { times, values }
     }
 
     #[test]

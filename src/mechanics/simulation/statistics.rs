@@ -4,7 +4,7 @@
 
 /// A quantity over time: as many values as times, which do not decrease.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Series {
+pub struct TimeSeries {
     /// When [time].
     pub times: Vec<f64>,
     /// The values.
@@ -30,7 +30,7 @@ pub struct Summary {
     pub integral: f64,
 }
 
-impl Series {
+impl TimeSeries {
     /// The extremes, means and integral of the column; none of nothing. What is not a number makes all of them none.
     pub fn summary(&self) -> Option<Summary> {
         let first = (*self.values.first()?, *self.times.first()?);
@@ -122,9 +122,9 @@ impl Series {
 mod tests {
     use super::*;
 
-    fn series(rows: &[(f64, f64)]) -> Series {
+    fn series(rows: &[(f64, f64)]) -> TimeSeries {
         let (times, values) = rows.iter().copied().unzip();
-        Series { times, values }
+        TimeSeries { times, values }
     }
 
     #[test]

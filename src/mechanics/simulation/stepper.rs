@@ -2,8 +2,8 @@
 
 use super::sensitivities::Sensitivities;
 use crate::integrators::{Integrator, Interval, StepError};
-use crate::model::Model;
 use crate::newton::NewtonReport;
+use crate::system::System;
 
 /// What takes the steps of a run: its method, and what finds derivatives with them, if that is asked for.
 pub(super) struct Stepper {
@@ -23,7 +23,7 @@ impl Stepper {
     /// Those of the step of the run.
     pub(super) fn step(
         &mut self,
-        model: &mut Model,
+        model: &mut System,
         interval: Interval,
     ) -> Result<NewtonReport, StepError> {
         let Self { integrator, sensitivities } = self;

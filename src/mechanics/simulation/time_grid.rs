@@ -1,6 +1,6 @@
 //! The times at which steps end.
 
-use crate::loads::{Beat, multiple};
+use crate::loads::{SampleClock, multiple};
 
 /// Times closer than this part of a step are one,
 const SAME: f64 = 1e-9;
@@ -23,7 +23,7 @@ pub struct TimeGrid {
     /// In increasing order.
     cuts: Vec<f64>,
     /// Those of digital controllers.
-    beats: Vec<Beat>,
+    beats: Vec<SampleClock>,
     /// The number of grid points passed.
     passed: u64,
 }
@@ -41,7 +41,7 @@ impl TimeGrid {
     }
 
     /// The same grid with steps that end where digital controllers are asked, and where what they say begins to act.
-    pub fn with_beats(self, beats: impl Iterator<Item = Beat>) -> Self {
+    pub fn with_beats(self, beats: impl Iterator<Item = SampleClock>) -> Self {
         Self { beats: beats.collect(), ..self }
     }
 
@@ -193,7 +193,7 @@ mod tests {
 
     #[test]
     fn the_grid_is_cut_where_controllers_are_asked_and_act() {
-        let beats = [Beat::new(0.5, 0.25).unwrap(), Beat::new(2.0, 0.0).unwrap()];
+        let beats = [SampleClock::new(0.5, 0.25).unwrap(), SampleClock::new(2.0, 0.0).unwrap()];
         let grid = TimeGrid::new(0.0, 1.0, vec![]).with_beats(beats.into_iter());
         let (mut now, mut times) = (0.0, Vec::new());
         while now < 2.0 {

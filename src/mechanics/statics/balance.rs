@@ -3,18 +3,18 @@
 use crate::geometry::larger;
 use crate::integrators::{Forces, Inertia, Mechanism};
 use crate::linalg::BorderedMatrix;
-use crate::model::{Model, StaticForces, UnknownKind};
-use crate::newton::{Equations, Imbalance};
+use crate::newton::{Equations, ResidualNorms};
+use crate::system::{StaticForces, System, UnknownKind};
 
 /// The forces of a model at rest, and what its residual is compared with.
 pub(super) struct Balance<'a> {
-    pub(super) model: &'a mut Model,
+    pub(super) model: &'a mut System,
     /// A length of the scene, which makes a force of a moment: under pure moments there is no other.
     pub(super) length: f64,
 }
 
 impl Balance<'_> {
-    fn imbalance(&mut self, unknowns: &[f64], factor: f64, forces: &mut [f64]) -> Imbalance {
+    fn imbalance(&mut self, unknowns: &[f64], factor: f64, forces: &mut [f64]) -> ResidualNorms {
         let StaticForces { force, moment, strain_mismatch } =
             self.model.add_static_forces(unknowns, factor, forces);
         let scale = force + moment / self.length;
@@ -27,7 +27,7 @@ impl Balance<'_> {
         // Nothing is balanced by nothing.
         let force = if largest == 0.0 { 0.0 } else { largest / scale };
         let constraint = self.model.violation_at_rest(forces, scale);
-        Imbalance { force, strain: strain_mismatch, constraint }
+        ResidualNorms { force, strain: strain_mismatch, constraint }
     }
 }
 
@@ -70,7 +70,7 @@ impl Equations for UnderLoad<'_> {
         self.balance.model.correct_section_forces(&correction[..movements]);
     }
 
-    fn imbalance(&mut self, u: &[f64], residual: &mut [f64]) -> Imbalance {
+    fn imbalance(&mut self, u: &[f64], residual: &mut [f64]) -> ResidualNorms {
         self.resist(u, residual);
         self.balance.imbalance(u, self.factor, residual)
     }
@@ -130,14 +130,14 @@ impl Equations for AlongPath<'_> {
         self.balance.model.correct_section_forces(movements);
     }
 
-    fn imbalance(&mut self, unknowns: &[f64], residual: &mut [f64]) -> Imbalance {
+    fn imbalance(&mut self, unknowns: &[f64], residual: &mut [f64]) -> ResidualNorms {
         let (movements, factor) = unknowns.split_at(self.normal.len());
         self.forces.fill(0.0);
         let imbalance = self.balance.imbalance(movements, factor[0], self.forces);
         self.add_forces_to(residual);
         let beyond = self.beyond_plane(movements);
         residual[movements.len()] = beyond;
-        Imbalance {
+        ResidualNorms {
             constraint: larger(imbalance.constraint, beyond.abs() / self.distance),
             ..imbalance
         }

@@ -1,14 +1,14 @@
 //! A scene at rest under its loads.
 
-use super::tracer::{Hold, Tracer};
-use super::{Control, InTime, Loading, Path, PathPoint, StaticsError};
-use crate::beams::{Place, Section, SectionForces, Station};
+use super::continuation::{Continuation, InitialSupport};
+use super::{Control, EquilibriumPath, InTime, Loading, PathPoint, StaticsError};
+use crate::beams::{BodyPoint, Section, SectionForces, Station};
 use crate::elementary::square;
 use crate::geometry::{Vec2, larger};
 use crate::integrators::{Constraints, Mechanism};
 use crate::joints::StartVelocities;
 use crate::loads::PrescribedMotion;
-use crate::model::{Drive, Element, Model, ModelError, Scene, SectionSample};
+use crate::system::{Drive, Element, Scene, SectionSample, System, SystemError};
 use crate::vibration::{Modes, VibrationError, loose_movements};
 
 /// Forces whose sum is no larger than this part of them are balanced.
@@ -33,8 +33,8 @@ pub enum Stability {
 pub struct Equilibrium {
     scene: Scene,
     loading: Loading,
-    model: Model,
-    path: Path,
+    model: System,
+    path: EquilibriumPath,
 }
 
 impl Equilibrium {
@@ -49,13 +49,14 @@ impl Equilibrium {
     ) -> Result<Self, StaticsError> {
         let model = prepare(&scene, &loading)?;
         let movements = loose_movements(&at_rest(&of_equal_stiffness(&scene))?);
-        let hold = if movements > 0 { Hold::Loads(movements) } else { Hold::Itself };
-        let mut tracer = Tracer::new(&scene, model, loading);
+        let hold =
+            if movements > 0 { InitialSupport::Loads(movements) } else { InitialSupport::Itself };
+        let mut tracer = Continuation::new(&scene, model, loading);
         match loading.control {
             Control::Load => tracer.load_up(hold, goes_on)?,
             Control::ArcLength(arc) => tracer.follow(arc, hold, goes_on)?,
         }
-        let Tracer { model, path, .. } = tracer;
+        let Continuation { model, path, .. } = tracer;
         Ok(Self { scene, loading, model, path })
     }
 
@@ -65,7 +66,7 @@ impl Equilibrium {
     /// As for [`find`](Self::find), but for what only a solution shows.
     pub fn pretend(scene: Scene, loading: Loading) -> Result<Self, StaticsError> {
         let model = prepare(&scene, &loading)?;
-        let Tracer { model, mut path, .. } = Tracer::new(&scene, model, loading);
+        let Continuation { model, mut path, .. } = Continuation::new(&scene, model, loading);
         path.pretend(loading.factor);
         Ok(Self { scene, loading, model, path })
     }
@@ -81,12 +82,12 @@ impl Equilibrium {
     }
 
     /// The model at rest in the equilibrium, as a mechanism.
-    pub fn model(&self) -> &Model {
+    pub fn model(&self) -> &System {
         &self.model
     }
 
     /// The path of equilibria that led to this one.
-    pub fn path(&self) -> &Path {
+    pub fn path(&self) -> &EquilibriumPath {
         &self.path
     }
 
@@ -94,7 +95,7 @@ impl Equilibrium {
     ///
     /// # Errors
     /// None that the scene did not have when the equilibrium was found.
-    pub fn along_path<T>(&self, look: impl Fn(&Model) -> T) -> Result<Vec<T>, StaticsError> {
+    pub fn along_path<T>(&self, look: impl Fn(&System) -> T) -> Result<Vec<T>, StaticsError> {
         let mut model = at_rest(&self.scene)?;
         let at = |point: &PathPoint| {
             model.restore(&point.state);
@@ -104,7 +105,7 @@ impl Equilibrium {
     }
 
     /// The reaction of the supports at a place: force [force] and moment [force·length]; none where no support is.
-    pub fn reaction(&mut self, place: &Place) -> Option<(Vec2, f64)> {
+    pub fn reaction(&mut self, place: &BodyPoint) -> Option<(Vec2, f64)> {
         let mut forces = vec![0.0; self.model.degrees_of_freedom()];
         let contacts = self.model.constraint_shape().width;
         let mut standstill = vec![0.0; self.model.unknowns() + contacts];
@@ -118,7 +119,7 @@ impl Equilibrium {
     ///
     /// # Errors
     /// When the station lies outside its beam, or on a particle.
-    pub fn section_forces(&self, station: &Station) -> Result<SectionForces, ModelError> {
+    pub fn section_forces(&self, station: &Station) -> Result<SectionForces, SystemError> {
         let at = self.model.cross_section(&self.scene, station)?;
         Ok(self.model.section_forces(&at))
     }
@@ -127,7 +128,7 @@ impl Equilibrium {
     ///
     /// # Errors
     /// When an axis has a point without a tangent.
-    pub fn section_forces_along(&self, beam: usize) -> Result<Vec<SectionSample>, ModelError> {
+    pub fn section_forces_along(&self, beam: usize) -> Result<Vec<SectionSample>, SystemError> {
         self.model.section_forces_along(&self.scene, beam)
     }
 
@@ -187,10 +188,10 @@ fn of_equal_stiffness(scene: &Scene) -> Scene {
 }
 
 /// The model of a scene whose start velocities play no part, be they such that sliders would leave their masters.
-fn at_rest(scene: &Scene) -> Result<Model, ModelError> {
+fn at_rest(scene: &Scene) -> Result<System, SystemError> {
     let mut still = scene.clone();
     still.sliders.iter_mut().for_each(|slider| slider.velocities = StartVelocities::Project);
-    Model::assemble(&still)
+    System::assemble(&still)
 }
 
 /// Speeds and controllers make something of time only.
@@ -208,7 +209,7 @@ fn check_needs_no_time(scene: &Scene) -> Result<(), StaticsError> {
 }
 
 /// The model at its start, its loads as they will be held.
-fn prepare(scene: &Scene, loading: &Loading) -> Result<Model, StaticsError> {
+fn prepare(scene: &Scene, loading: &Loading) -> Result<System, StaticsError> {
     loading.check()?;
     check_needs_no_time(scene)?;
     let mut model = at_rest(scene)?;
@@ -235,7 +236,7 @@ fn prepare(scene: &Scene, loading: &Loading) -> Result<Model, StaticsError> {
 }
 
 /// Whether a model without loads is balanced as it is drawn; springs that are not at ease there may pull.
-fn is_at_ease(model: &mut Model) -> bool {
+fn is_at_ease(model: &mut System) -> bool {
     if !model.is_strung() {
         return true;
     }

@@ -3,8 +3,8 @@
 use std::fmt;
 
 use crate::loads::LoadError;
-use crate::model::ModelError;
 use crate::newton::NewtonError;
+use crate::system::SystemError;
 
 /// What says something of a drive or a load only where time passes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,7 +29,7 @@ impl fmt::Display for InTime {
 pub enum StaticsError {
     /// The scene of an equilibrium cannot be built.
     #[error(transparent)]
-    Model(#[from] ModelError),
+    Model(#[from] SystemError),
     /// A load has no value at the time at which loads are taken.
     #[error("load '{load}': {source}")]
     Load {
@@ -88,7 +88,7 @@ pub enum StaticsError {
         /// The number of movements without resistance.
         movements: usize,
         /// The reason why no rest was found.
-        reason: Box<Miss>,
+        reason: Box<StepFailure>,
     },
     /// No equilibrium was found near the last one.
     #[error("no equilibrium of '{scene}' was found near that at load factor {reached}: {reason}")]
@@ -98,7 +98,7 @@ pub enum StaticsError {
         /// The last load factor with an equilibrium before the path was lost [-].
         reached: f64,
         /// The reason why the next equilibrium was missed.
-        reason: Box<Miss>,
+        reason: Box<StepFailure>,
     },
     /// No equilibrium was found beyond the last point of a path.
     #[error(
@@ -112,7 +112,7 @@ pub enum StaticsError {
         /// The load factor at the last of them [-].
         reached: f64,
         /// The reason why the next point was missed.
-        reason: Box<Miss>,
+        reason: Box<StepFailure>,
     },
     /// The search for an equilibrium was stopped from outside.
     #[error("stopped at load factor {reached}")]
@@ -124,7 +124,7 @@ pub enum StaticsError {
 
 /// Why a step found no equilibrium.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum Miss {
+pub enum StepFailure {
     /// Newton's method found no equilibrium.
     #[error(transparent)]
     Newton(#[from] NewtonError),

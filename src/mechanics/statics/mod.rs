@@ -1,15 +1,15 @@
 //! Equilibrium of a scene under its loads: in steps of the load, or along the path of equilibria through its limit points.
 
 mod balance;
+mod continuation;
+mod dynamic_relaxation;
 mod equilibrium;
 mod error;
 mod loading;
 mod path;
-mod settling;
-mod tracer;
-mod trial;
+mod path_step;
 
 pub use equilibrium::{Equilibrium, Stability};
-pub use error::{InTime, Miss, StaticsError};
+pub use error::{InTime, StaticsError, StepFailure};
 pub use loading::{ArcLength, Control, Loading};
-pub use path::{Path, PathPoint};
+pub use path::{EquilibriumPath, PathPoint};

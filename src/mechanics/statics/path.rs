@@ -1,6 +1,6 @@
 //! Equilibria one after another, from the unloaded scene on.
 
-use crate::model::ModelState;
+use crate::system::SystemState;
 
 /// An equilibrium on the path from the unloaded scene.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,16 +15,16 @@ pub struct PathPoint {
     /// The number of Newton iterations from the point before.
     pub iterations: usize,
     /// The state of the model in this equilibrium.
-    pub state: ModelState,
+    pub state: SystemState,
 }
 
 /// Equilibria in the order in which they were found; the first is the unloaded scene.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Path {
+pub struct EquilibriumPath {
     points: Vec<PathPoint>,
 }
 
-impl Path {
+impl EquilibriumPath {
     pub(super) fn push(&mut self, point: PathPoint) {
         self.points.push(point);
     }
@@ -62,7 +62,7 @@ impl Path {
 }
 
 /// The point between three equilibria where the load factor turns.
-pub(super) struct Vertex {
+pub(super) struct LoadTurningPoint {
     /// The distance of the turn from the first of three points, in the metric of the path.
     pub(super) way: f64,
     pub(super) load_factor: f64,
@@ -72,12 +72,12 @@ pub(super) struct Vertex {
 pub(super) fn vertex(
     [first, second, third]: [f64; 3],
     [before, after]: [f64; 2],
-) -> Option<Vertex> {
+) -> Option<LoadTurningPoint> {
     let (rise, fall) = ((second - first) / before, (third - second) / after);
     let curvature = (fall - rise) / (before + after);
     let at = 0.5 * (before - rise / curvature);
     let load_factor = first + rise * at + curvature * at * (at - before);
-    (rise * fall < 0.0).then_some(Vertex { way: at, load_factor })
+    (rise * fall < 0.0).then_some(LoadTurningPoint { way: at, load_factor })
 }
 
 #[cfg(test)]
@@ -85,16 +85,16 @@ mod tests {
     use super::*;
 
     /// A path whose load factor is a function of the way along it.
-    fn path(places: &[f64], load_factor: impl Fn(f64) -> f64) -> Path {
+    fn path(places: &[f64], load_factor: impl Fn(f64) -> f64) -> EquilibriumPath {
         let before = std::iter::once(&0.0).chain(places);
         let point = |(at, before): (&f64, &f64)| PathPoint {
             load_factor: load_factor(*at),
             strain_energy: 0.0,
             distance: at - before,
             iterations: 0,
-            state: ModelState::default(),
+            state: SystemState::default(),
         };
-        Path { points: places.iter().zip(before).map(point).collect() }
+        EquilibriumPath { points: places.iter().zip(before).map(point).collect() }
     }
 
     #[test]

@@ -12,7 +12,7 @@ use super::search::{is_small, lowest};
 use crate::elementary::hypot;
 use crate::geometry::larger;
 use crate::integrators::Mechanism;
-use crate::model::{Model, UnknownKind};
+use crate::system::{System, UnknownKind};
 
 /// Numbers smaller than this part of the highest frequency are rounding of nothing: what creeps back however slowly is far above it.
 const NOTHING: f64 = 1e-40;
@@ -41,7 +41,7 @@ impl DampedMode {
     /// # Errors
     /// When the model is large, something in it has no inertia, there are not so many, or what [`Modes::of`](super::Modes::of) says of undamped modes.
     pub fn of(
-        model: &Model,
+        model: &System,
         count: usize,
         goes_on: &mut dyn FnMut() -> bool,
     ) -> Result<Vec<Self>, VibrationError> {
@@ -78,7 +78,7 @@ impl DampedMode {
 }
 
 /// `B`: a row for each shape, a column for each rate that is damped.
-fn dampers(model: &Model, shapes: &[Vec<f64>]) -> DMatrix<f64> {
+fn dampers(model: &System, shapes: &[Vec<f64>]) -> DMatrix<f64> {
     let mut entries = Vec::new();
     for shape in shapes {
         model.each_damped_rate(shape, &mut |damping, rate| entries.push(damping.sqrt() * rate));

@@ -7,7 +7,7 @@
 use nalgebra::DMatrix;
 
 use super::VibrationError;
-use super::elastic::Lanes;
+use super::elastic::FourVectors;
 use super::lanczos::Pairs;
 use super::pencil::Pencil;
 use crate::elementary::hypot;
@@ -67,7 +67,7 @@ pub(super) fn all_pairs(
         }
         strip
     };
-    let strips: Vec<Vec<Lanes>> = (0..order.len()).step_by(STRIP_WIDTH).map(strip).collect();
+    let strips: Vec<Vec<FourVectors>> = (0..order.len()).step_by(STRIP_WIDTH).map(strip).collect();
     Ok(Pairs { values: order.iter().map(|at| values[*at]).collect(), strips })
 }
 

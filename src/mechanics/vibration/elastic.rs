@@ -5,17 +5,17 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-use crate::beams::SpanAtRest;
+use crate::beams::SpanStiffness;
 use crate::elementary::square;
-use crate::linalg::{STRIP_WIDTH, Strip};
+use crate::linalg::{STRIP_WIDTH, VectorStrip};
 
 /// A number for each of four vectors that are worked on side by side.
-pub(super) type Lanes = [f64; STRIP_WIDTH];
+pub(super) type FourVectors = [f64; STRIP_WIDTH];
 
 /// How all spans of a scene resist small movements: strains by movements, and their stiffnesses.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Elastic {
-    spans: Vec<Rows>,
+    spans: Vec<StrainRows>,
     /// The unknown of each component of each span; supported ones have the first number behind the unknowns.
     unknowns: Vec<u32>,
     /// Of each span: strains, then pairs `p` and `q`.
@@ -25,7 +25,7 @@ pub(super) struct Elastic {
 }
 
 #[derive(Debug, Clone, Copy)]
-struct Rows {
+struct StrainRows {
     width: usize,
     strains: usize,
     twists: usize,
@@ -34,18 +34,18 @@ struct Rows {
 /// Four shapes of movement with their section forces.
 #[derive(Debug, Clone)]
 pub(super) struct Shapes {
-    pub(super) movements: Vec<Lanes>,
+    pub(super) movements: Vec<FourVectors>,
     /// `n`, a row each.
-    forces: Vec<Lanes>,
+    forces: Vec<FourVectors>,
     /// `m`
-    missing: Vec<Lanes>,
+    missing: Vec<FourVectors>,
     /// The force with which the scene resists each shape, `Bᵀ (n + k m) + K_g x` [force, force·length].
-    pub(super) resisting: Vec<Lanes>,
+    pub(super) resisting: Vec<FourVectors>,
 }
 
 impl Shapes {
     /// Multiplies each of the four shapes by a number.
-    pub(super) fn scale(&mut self, factors: &Lanes) {
+    pub(super) fn scale(&mut self, factors: &FourVectors) {
         let Self { movements, forces, missing, resisting } = self;
         for row in movements.iter_mut().chain(forces).chain(missing).chain(resisting) {
             row.iter_mut().zip(factors).for_each(|(entry, factor)| *entry *= factor);
@@ -57,16 +57,16 @@ impl Shapes {
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Energies {
     /// The doubled energy of each shape, `Σ n²/k + xᵀ K_g x`.
-    pub(super) whole: Lanes,
+    pub(super) whole: FourVectors,
     /// The doubled energy of the last correction of each shape.
-    pub(super) correction: Lanes,
+    pub(super) correction: FourVectors,
 }
 
 impl Elastic {
     /// Adds the rows of a span; of the `size` unknowns of the scene, some may be the span's.
-    pub(super) fn add(&mut self, size: usize, degrees: &[usize], span: &SpanAtRest) {
+    pub(super) fn add(&mut self, size: usize, degrees: &[usize], span: &SpanStiffness) {
         let (strains, twists) = (span.stiffness.len(), span.doubts.len());
-        self.spans.push(Rows { width: degrees.len(), strains, twists });
+        self.spans.push(StrainRows { width: degrees.len(), strains, twists });
         self.unknowns.extend(degrees.iter().map(|&at| at.min(size) as u32));
         self.rows.extend(&span.strains);
         self.rows.extend(&span.twists);
@@ -92,7 +92,7 @@ impl Elastic {
     }
 
     /// Makes shapes of four movements, with the section forces of their strains; gives their energies.
-    pub(super) fn begin(&self, movements: &Strip, shapes: &mut Shapes) -> Energies {
+    pub(super) fn begin(&self, movements: &VectorStrip, shapes: &mut Shapes) -> Energies {
         // From nothing they are corrected by all that they are.
         shapes.movements.fill([0.0; STRIP_WIDTH]);
         shapes.forces.fill([0.0; STRIP_WIDTH]);
@@ -101,23 +101,29 @@ impl Elastic {
     }
 
     /// Corrects four shapes, `x ← x + δ`, `n ← n + k (m + B δ)`; gives their energies.
-    pub(super) fn correct(&self, shapes: &mut Shapes, by: &Strip) -> Energies {
-        Arch::new().dispatch(Correction { elastic: self, shapes, by })
+    pub(super) fn correct(&self, shapes: &mut Shapes, by: &VectorStrip) -> Energies {
+        Arch::new().dispatch(ShapeCorrection { elastic: self, shapes, by })
     }
 
     /// What rounding of movements may add to the doubled energy of each: `Σ k (ε Σ |B| |x|)²`, and of section forces in `xᵀ K_g x`.
-    pub(super) fn rounding_of(&self, movements: &Strip) -> Lanes {
+    pub(super) fn rounding_of(&self, movements: &VectorStrip) -> FourVectors {
         Arch::new().dispatch(Rounding { elastic: self, movements })
     }
 
     /// Gives each span its unknowns, its rows, and the places of its strains and pairs.
     #[inline(always)]
-    fn each_span(&self, mut take: impl FnMut(Span<'_>)) {
+    fn each_span(&self, mut take: impl FnMut(ElasticSpan<'_>)) {
         let (mut unknown, mut entry, mut strain, mut twist) = (0, 0, 0, 0);
-        for &Rows { width, strains, twists } in &self.spans {
+        for &StrainRows { width, strains, twists } in &self.spans {
             let count = (strains + 2 * twists) * width;
             let (rows, pairs) = self.rows[entry..][..count].split_at(strains * width);
-            take(Span { unknowns: &self.unknowns[unknown..][..width], rows, pairs, strain, twist });
+            take(ElasticSpan {
+                unknowns: &self.unknowns[unknown..][..width],
+                rows,
+                pairs,
+                strain,
+                twist,
+            });
             unknown += width;
             entry += count;
             strain += strains;
@@ -127,7 +133,7 @@ impl Elastic {
 }
 
 /// What is known of a span.
-struct Span<'a> {
+struct ElasticSpan<'a> {
     unknowns: &'a [u32],
     rows: &'a [f64],
     pairs: &'a [f64],
@@ -140,7 +146,7 @@ struct Span<'a> {
 const WIDEST: usize = 33;
 
 #[inline(always)]
-fn gather<const WIDTH: usize>(unknowns: &[u32], of: &Strip) -> [Lanes; WIDTH] {
+fn gather<const WIDTH: usize>(unknowns: &[u32], of: &VectorStrip) -> [FourVectors; WIDTH] {
     let mut gathered = [[0.0; STRIP_WIDTH]; WIDTH];
     for (to, at) in gathered.iter_mut().zip(unknowns) {
         *to = of[*at as usize];
@@ -149,7 +155,7 @@ fn gather<const WIDTH: usize>(unknowns: &[u32], of: &Strip) -> [Lanes; WIDTH] {
 }
 
 #[inline(always)]
-fn along<const WIDTH: usize>(row: &[f64], of: &[Lanes; WIDTH]) -> Lanes {
+fn along<const WIDTH: usize>(row: &[f64], of: &[FourVectors; WIDTH]) -> FourVectors {
     let mut sum = [0.0; STRIP_WIDTH];
     for (entry, of) in row.iter().zip(of) {
         for (sum, of) in sum.iter_mut().zip(of) {
@@ -160,7 +166,7 @@ fn along<const WIDTH: usize>(row: &[f64], of: &[Lanes; WIDTH]) -> Lanes {
 }
 
 #[inline(always)]
-fn spread<const WIDTH: usize>(row: &[f64], value: &Lanes, to: &mut [Lanes; WIDTH]) {
+fn spread<const WIDTH: usize>(row: &[f64], value: &FourVectors, to: &mut [FourVectors; WIDTH]) {
     for (entry, to) in row.iter().zip(to) {
         for (to, value) in to.iter_mut().zip(value) {
             *to += entry * value;
@@ -168,13 +174,13 @@ fn spread<const WIDTH: usize>(row: &[f64], value: &Lanes, to: &mut [Lanes; WIDTH
     }
 }
 
-struct Correction<'a> {
+struct ShapeCorrection<'a> {
     elastic: &'a Elastic,
     shapes: &'a mut Shapes,
-    by: &'a Strip,
+    by: &'a VectorStrip,
 }
 
-impl WithSimd for Correction<'_> {
+impl WithSimd for ShapeCorrection<'_> {
     type Output = Energies;
 
     #[inline(always)]
@@ -199,14 +205,14 @@ impl WithSimd for Correction<'_> {
 #[inline(always)]
 fn correct_span<const WIDTH: usize>(
     elastic: &Elastic,
-    &Span { unknowns, rows, pairs, strain, .. }: &Span<'_>,
+    &ElasticSpan { unknowns, rows, pairs, strain, .. }: &ElasticSpan<'_>,
     Shapes { movements, forces, missing, resisting }: &mut Shapes,
-    by: &Strip,
+    by: &VectorStrip,
     energies: &mut Energies,
 ) {
     let width = unknowns.len();
-    let x: [Lanes; WIDTH] = gather(unknowns, movements);
-    let by: [Lanes; WIDTH] = gather(unknowns, by);
+    let x: [FourVectors; WIDTH] = gather(unknowns, movements);
+    let by: [FourVectors; WIDTH] = gather(unknowns, by);
     let mut out = [[0.0; STRIP_WIDTH]; WIDTH];
     for (at, row) in rows.chunks_exact(width).enumerate() {
         let stiffness = elastic.stiffness[strain + at];
@@ -243,17 +249,17 @@ fn correct_span<const WIDTH: usize>(
 
 struct Rounding<'a> {
     elastic: &'a Elastic,
-    movements: &'a Strip,
+    movements: &'a VectorStrip,
 }
 
 impl WithSimd for Rounding<'_> {
-    type Output = Lanes;
+    type Output = FourVectors;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> Lanes {
+    fn with_simd<S: Simd>(self, _: S) -> FourVectors {
         let Self { elastic, movements } = self;
         let mut sums = [0.0; STRIP_WIDTH];
-        let sizes = |row: &[f64], x: &[Lanes; WIDEST]| -> Lanes {
+        let sizes = |row: &[f64], x: &[FourVectors; WIDEST]| -> FourVectors {
             let mut sizes = [0.0; STRIP_WIDTH];
             for (entry, x) in row.iter().zip(x) {
                 for (size, x) in sizes.iter_mut().zip(x) {
@@ -262,7 +268,7 @@ impl WithSimd for Rounding<'_> {
             }
             sizes
         };
-        elastic.each_span(|Span { unknowns, rows, pairs, strain, twist }| {
+        elastic.each_span(|ElasticSpan { unknowns, rows, pairs, strain, twist }| {
             let (width, x) = (unknowns.len(), gather(unknowns, movements));
             for (at, row) in rows.chunks_exact(width).enumerate() {
                 for (sum, size) in sums.iter_mut().zip(sizes(row, &x)) {

@@ -6,11 +6,11 @@
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use super::VibrationError;
-use super::elastic::Lanes;
+use super::elastic::FourVectors;
 use super::pencil::Pencil;
 use crate::elementary::square;
 use crate::linalg::{
-    STRIP_WIDTH, Square, SymmetricFactors, combine, products, subtract_combination,
+    STRIP_WIDTH, Square4, SymmetricFactors, combine, products, subtract_combination,
 };
 
 /// A pair has settled when applying the inverted stiffness gives it back but for this part; its value then for the square of that.
@@ -35,22 +35,22 @@ const MOST_RESTARTS: usize = 60;
 pub(super) struct Pairs {
     pub(super) values: Vec<f64>,
     /// The vectors `φ` of the pairs, four in a strip.
-    pub(super) strips: Vec<Vec<Lanes>>,
+    pub(super) strips: Vec<Vec<FourVectors>>,
 }
 
 /// A search by Lanczos's method that is under way.
 pub(super) struct Lanczos<'a> {
     pencil: &'a Pencil,
     factors: &'a SymmetricFactors,
-    basis: Vec<Vec<Lanes>>,
+    basis: Vec<Vec<FourVectors>>,
     /// `Vᵀ M A⁻¹ M V`
     projected: DMatrix<f64>,
     /// The next block, what inertia makes of it, and how it is coupled to the one before.
-    next: Vec<Lanes>,
-    next_momenta: Vec<Lanes>,
-    coupling: Square,
+    next: Vec<FourVectors>,
+    next_momenta: Vec<FourVectors>,
+    coupling: Square4,
     /// Work space.
-    momenta: Vec<Lanes>,
+    momenta: Vec<FourVectors>,
     /// Random numbers so far.
     seed: u64,
 }
@@ -65,7 +65,7 @@ impl<'a> Lanczos<'a> {
             projected: DMatrix::zeros(0, 0),
             next: Vec::new(),
             next_momenta: Vec::new(),
-            coupling: Square::default(),
+            coupling: Square4::default(),
             momenta: pencil.zeros(),
             seed: 0,
         };
@@ -157,7 +157,7 @@ impl<'a> Lanczos<'a> {
     }
 
     /// Takes out of a block what it has in common with the basis, and notes it in columns of the projection; the largest such part.
-    fn project(&mut self, image: &mut [Lanes], columns: Option<usize>) -> f64 {
+    fn project(&mut self, image: &mut [FourVectors], columns: Option<usize>) -> f64 {
         self.pencil.inertia.times(image, &mut self.momenta);
         let mut largest = 0.0_f64;
         for (at, block) in self.basis.iter().enumerate() {
@@ -180,9 +180,9 @@ impl<'a> Lanczos<'a> {
     }
 
     /// Puts vectors of no pattern where some have been lost.
-    fn replace(&mut self, block: &mut [Lanes], lost: &[usize]) {
+    fn replace(&mut self, block: &mut [FourVectors], lost: &[usize]) {
         let mut fresh = self.scattered();
-        let keep_lost = |strip: &mut [Lanes]| {
+        let keep_lost = |strip: &mut [FourVectors]| {
             for row in strip {
                 (0..STRIP_WIDTH).filter(|at| !lost.contains(at)).for_each(|at| row[at] = 0.0);
             }
@@ -207,11 +207,11 @@ impl<'a> Lanczos<'a> {
         self.replace(&mut block, &[0, 1, 2, 3]);
         self.next_momenta = self.pencil.inertia_times(&block);
         self.next = block;
-        self.coupling = Square::default();
+        self.coupling = Square4::default();
     }
 
     /// Vectors without pattern that inertia can move.
-    fn scattered(&mut self) -> Vec<Lanes> {
+    fn scattered(&mut self) -> Vec<FourVectors> {
         let size = self.pencil.size();
         let mut block = self.pencil.zeros();
         for entry in block[..size].as_flattened_mut() {
@@ -240,7 +240,7 @@ impl<'a> Lanczos<'a> {
     fn settled(&self, values: &[f64], vectors: &DMatrix<f64>) -> usize {
         let first = vectors.nrows() - STRIP_WIDTH;
         let rest = |column: usize| {
-            let row = |row: &Lanes| -> f64 {
+            let row = |row: &FourVectors| -> f64 {
                 (0..STRIP_WIDTH).map(|lane| row[lane] * vectors[(first + lane, column)]).sum()
             };
             self.coupling.iter().map(|of| square(row(of))).sum::<f64>().sqrt()
@@ -250,11 +250,11 @@ impl<'a> Lanczos<'a> {
     }
 
     /// Combinations of the basis, some of them, zeros behind them.
-    fn combined(&self, vectors: &DMatrix<f64>, count: usize) -> Vec<Vec<Lanes>> {
+    fn combined(&self, vectors: &DMatrix<f64>, count: usize) -> Vec<Vec<FourVectors>> {
         let strip = |first: usize| {
             let mut strip = self.pencil.zeros();
             for (at, block) in self.basis.iter().enumerate() {
-                let by: Square = std::array::from_fn(|i| {
+                let by: Square4 = std::array::from_fn(|i| {
                     std::array::from_fn(|j| {
                         let column = first + j;
                         if column < count { -vectors[(STRIP_WIDTH * at + i, column)] } else { 0.0 }
@@ -281,8 +281,8 @@ impl<'a> Lanczos<'a> {
 
 /// Makes vectors with these momenta orthonormal in the inertia; the upper triangle that makes the old ones of the new. Vectors that are made of
 /// rounding become zero, and so does their entry on the diagonal.
-fn orthonormalise(block: &mut [Lanes], momenta: &mut [Lanes]) -> Square {
-    let mut triangle = Square::default();
+fn orthonormalise(block: &mut [FourVectors], momenta: &mut [FourVectors]) -> Square4 {
+    let mut triangle = Square4::default();
     (0..STRIP_WIDTH).for_each(|at| triangle[at][at] = 1.0);
     let mut sizes = None;
     // The second time takes away what the condition of the first has left; a third is for vectors that are all but parallel.
@@ -301,21 +301,21 @@ fn orthonormalise(block: &mut [Lanes], momenta: &mut [Lanes]) -> Square {
 }
 
 /// Whether nothing is left to be made orthonormal, vectors of zeros set aside.
-fn is_orthonormal(gram: &Square) -> bool {
+fn is_orthonormal(gram: &Square4) -> bool {
     let expected = |i: usize, j: usize| f64::from(u8::from(i == j && gram[i][i] > 0.0));
     (0..STRIP_WIDTH)
         .all(|i| (0..STRIP_WIDTH).all(|j| (gram[i][j] - expected(i, j)).abs() < ORTHONORMAL))
 }
 
-fn product(a: &Square, b: &Square) -> Square {
+fn product(a: &Square4, b: &Square4) -> Square4 {
     std::array::from_fn(|i| {
         std::array::from_fn(|j| (0..STRIP_WIDTH).map(|k| a[i][k] * b[k][j]).sum())
     })
 }
 
 /// `R` with `Rᵀ R = G`, and its inverse; rows and columns that are made of rounding, compared with the first sizes, are zero.
-fn cholesky(gram: &Square, sizes: &Lanes) -> (Square, Square) {
-    let (mut upper, mut inverse) = (Square::default(), Square::default());
+fn cholesky(gram: &Square4, sizes: &FourVectors) -> (Square4, Square4) {
+    let (mut upper, mut inverse) = (Square4::default(), Square4::default());
     for j in 0..STRIP_WIDTH {
         for i in 0..j {
             let known: f64 = (0..i).map(|k| upper[k][i] * upper[k][j]).sum();

@@ -5,10 +5,10 @@ use std::f64::consts::TAU;
 use super::VibrationError;
 use super::pencil::Pencil;
 use super::search::{is_small, lowest, numbers};
-use crate::beams::{Mesh, Place};
+use crate::beams::{BodyPoint, Mesh};
 use crate::geometry::Vec2;
 use crate::integrators::Mechanism;
-use crate::model::Model;
+use crate::system::System;
 
 /// A movement whose square is below this part of that of the slowest bending meets no resistance.
 const LOOSE: f64 = 1e-10;
@@ -75,7 +75,7 @@ impl Modes {
     /// # Errors
     /// When there are not so many, a load turns with the beam, or it is stopped.
     pub fn of(
-        model: &Model,
+        model: &System,
         count: usize,
         goes_on: &mut dyn FnMut() -> bool,
     ) -> Result<Self, VibrationError> {
@@ -103,7 +103,7 @@ impl Modes {
     }
 
     /// About the memory that looking for so many modes of a model takes at most [bytes].
-    pub fn memory(model: &Model, count: usize) -> u64 {
+    pub fn memory(model: &System, count: usize) -> u64 {
         let unknowns = model.unknown_kinds().len();
         // There are no more than that: a larger number is refused by the search.
         let numbers = numbers(unknowns, count.min(unknowns));
@@ -169,7 +169,7 @@ impl Modes {
     }
 
     /// The displacement of a place in a mode, relative to the largest of a control point [-].
-    pub fn displacement(&self, mode: usize, place: &Place) -> Vec2 {
+    pub fn displacement(&self, mode: usize, place: &BodyPoint) -> Vec2 {
         match self.largest(mode) {
             0.0 => Vec2::zeros(),
             largest => place.interpolate(&self.displacements[mode][place.body]) / largest,
@@ -184,7 +184,7 @@ impl Modes {
 
 /// The number of movements that meet no resistance in the present configuration without loads; 0 where a scene in which nothing slides
 /// is too large to find that out at once.
-pub fn loose_movements(model: &Model) -> usize {
+pub fn loose_movements(model: &System) -> usize {
     if !is_small(model.unknowns()) && model.slider_names().next().is_none() {
         return 0;
     }

@@ -1,9 +1,9 @@
 //! Stiffness and inertia of a configuration.
 
 use super::VibrationError;
-use super::elastic::{Elastic, Lanes};
+use super::elastic::{Elastic, FourVectors};
 use crate::linalg::{LinearError, PreciseBand, STRIP_WIDTH, SymmetricFactors, SymmetricSparse};
-use crate::model::{Model, OrderAtRest, add_resistance};
+use crate::system::{OrderAtRest, System, add_resistance};
 
 /// An elimination whose numbers grew by more is not believed: of its 32 digits half are left.
 const MOST_GROWTH: f64 = 1e12;
@@ -23,7 +23,7 @@ pub(super) struct Pencil {
 
 impl Pencil {
     /// The eigenvalue problem of the present configuration of a model.
-    pub(super) fn of(model: &Model) -> Result<Self, VibrationError> {
+    pub(super) fn of(model: &System) -> Result<Self, VibrationError> {
         let order = model.order_at_rest();
         let size = order.count();
         let mut stiffness = PreciseBand::zeros(size, order.half_bandwidth());
@@ -52,7 +52,7 @@ impl Pencil {
     }
 
     /// About the memory that the eigenvalue problem of a model takes [bytes].
-    pub(super) fn memory(model: &Model) -> usize {
+    pub(super) fn memory(model: &System) -> usize {
         let order = model.order_at_rest();
         let (size, reach) = (order.count(), order.half_bandwidth() + 1);
         // The stiffness in two parts, its factors, inertia while it is sorted, and about two strains for each movement.
@@ -70,7 +70,7 @@ impl Pencil {
     }
 
     /// A strip of zeros, as long as vectors of the eigenvalue problem.
-    pub(super) fn zeros(&self) -> Vec<Lanes> {
+    pub(super) fn zeros(&self) -> Vec<FourVectors> {
         vec![[0.0; STRIP_WIDTH]; self.length()]
     }
 
@@ -90,7 +90,7 @@ impl Pencil {
     }
 
     /// The product `M x` of the inertia with four vectors.
-    pub(super) fn inertia_times(&self, x: &[Lanes]) -> Vec<Lanes> {
+    pub(super) fn inertia_times(&self, x: &[FourVectors]) -> Vec<FourVectors> {
         let mut product = self.zeros();
         self.inertia.times(x, &mut product);
         product

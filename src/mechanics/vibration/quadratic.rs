@@ -21,10 +21,10 @@ const FARTHEST: f64 = 1e12;
 /// What a free movement moves at a damper is rounding below this part of what any mode moves there.
 const ROUNDING: f64 = 1e-13;
 
-pub(super) type Number = Complex<f64>;
+pub(super) type ComplexNumber = Complex<f64>;
 
 /// The size of a complex number.
-pub(super) fn size(at: Number) -> f64 {
+pub(super) fn size(at: ComplexNumber) -> f64 {
     hypot(at.re, at.im)
 }
 
@@ -68,14 +68,14 @@ impl Quadratic {
         &self,
         count: usize,
         goes_on: &mut dyn FnMut() -> bool,
-    ) -> Result<Vec<Number>, VibrationError> {
+    ) -> Result<Vec<ComplexNumber>, VibrationError> {
         let modes = 0..self.squares.len();
         let free = modes.clone().filter(|mode| self.squares[*mode] == 0.0).count();
         let zeros = free + modes.filter(|mode| self.is_loose(*mode)).count();
         let all = 2 * self.squares.len() - zeros;
         let wanted = if count == 0 { usize::MAX } else { count.saturating_sub(zeros) };
         let (mut known, mut told, mut shift) = (0, 0, self.slowest_shift());
-        let mut seen: Vec<(Resolvent, Vec<Number>)> = Vec::new();
+        let mut seen: Vec<(Resolvent, Vec<ComplexNumber>)> = Vec::new();
         while known < all && told < wanted {
             let resolvent = Resolvent::of(self, shift, goes_on)?;
             let numbers = resolvent.numbers()?;
@@ -87,7 +87,7 @@ impl Quadratic {
                 shift *= size(*next).clamp(REACH, FARTHEST);
             }
             let new = numbers[known.min(reached)..reached].iter();
-            let new: Vec<Number> = new.copied().filter(|at| at.im >= 0.0).collect();
+            let new: Vec<ComplexNumber> = new.copied().filter(|at| at.im >= 0.0).collect();
             (known, told) = (known.max(reached), told + new.len());
             seen.push((resolvent, new));
         }
@@ -98,7 +98,10 @@ impl Quadratic {
         let moving = seen.iter().flat_map(|(resolvent, numbers)| {
             numbers.iter().map(|at| resolvent.corrected(*at) * resolvent.shift)
         });
-        Ok(std::iter::repeat_n(Number::new(0.0, 0.0), zeros).chain(moving).take(count).collect())
+        Ok(std::iter::repeat_n(ComplexNumber::new(0.0, 0.0), zeros)
+            .chain(moving)
+            .take(count)
+            .collect())
     }
 
     /// A shift that no number is much below: with `x` scaled by `Ω`, what is held obeys `ẏ = A y` with `|A⁻¹| ≤ |Ω⁻¹ B|² + |Ω⁻¹|` [1/time].
@@ -124,7 +127,7 @@ impl Quadratic {
 }
 
 /// So many of the first numbers, or one less where a pair would be torn apart.
-fn whole_pairs(numbers: &[Number], first: usize) -> usize {
+fn whole_pairs(numbers: &[ComplexNumber], first: usize) -> usize {
     let numbers = numbers[..first].iter();
     let above = numbers.clone().filter(|at| at.im > 0.0).count();
     first - usize::from(above != numbers.filter(|at| at.im < 0.0).count())

@@ -1,7 +1,7 @@
 //! Pairs made sure: each is corrected with its section forces as unknowns, and what the last correction changes is its residual.
 
 use super::VibrationError;
-use super::elastic::{Lanes, Shapes};
+use super::elastic::{FourVectors, Shapes};
 use super::lanczos::Pairs;
 use super::pencil::Pencil;
 use crate::linalg::{STRIP_WIDTH, SymmetricFactors, products, subtract_combination};
@@ -19,7 +19,7 @@ const FALLING: f64 = 0.3;
 const WIDE: f64 = 1e7;
 
 /// A pair of frequency and shape that was made sure.
-pub(super) struct Refined {
+pub(super) struct RefinedPair {
     pub(super) square: f64,
     /// The part of `ω² + σ` by which it may be wrong at most, rounding of the pair itself set aside [-].
     pub(super) residual: f64,
@@ -43,7 +43,7 @@ pub(super) fn refine(
     pairs: &Pairs,
     count: usize,
     goes_on: &mut dyn FnMut() -> bool,
-) -> Result<Vec<Refined>, VibrationError> {
+) -> Result<Vec<RefinedPair>, VibrationError> {
     let strips = &pairs.strips[..count.div_ceil(STRIP_WIDTH)];
     each_strip(pencil, shift, strips, &pairs.values, count, goes_on, |all, at, room| {
         all.refine(factors, at, room)
@@ -60,7 +60,7 @@ pub(super) fn assess(
     pairs: &Pairs,
     count: usize,
     goes_on: &mut dyn FnMut() -> bool,
-) -> Result<Vec<Refined>, VibrationError> {
+) -> Result<Vec<RefinedPair>, VibrationError> {
     each_strip(pencil, shift, &pairs.strips, &pairs.values, count, goes_on, |all, at, room| {
         all.assess(at, room)
     })
@@ -69,14 +69,15 @@ pub(super) fn assess(
 fn each_strip(
     pencil: &Pencil,
     shift: f64,
-    strips: &[Vec<Lanes>],
+    strips: &[Vec<FourVectors>],
     values: &[f64],
     count: usize,
     goes_on: &mut dyn FnMut() -> bool,
-    make_sure: impl Fn(&Others<'_>, usize, &mut Shapes) -> [Refined; STRIP_WIDTH],
-) -> Result<Vec<Refined>, VibrationError> {
-    let momenta: Vec<Vec<Lanes>> = strips.iter().map(|strip| pencil.inertia_times(strip)).collect();
-    let all = Others { pencil, shift, strips, momenta: &momenta, values };
+    make_sure: impl Fn(&OtherPairs<'_>, usize, &mut Shapes) -> [RefinedPair; STRIP_WIDTH],
+) -> Result<Vec<RefinedPair>, VibrationError> {
+    let momenta: Vec<Vec<FourVectors>> =
+        strips.iter().map(|strip| pencil.inertia_times(strip)).collect();
+    let all = OtherPairs { pencil, shift, strips, momenta: &momenta, values };
     let mut room = pencil.elastic.room(pencil.length());
     let mut sure = Vec::with_capacity(count + STRIP_WIDTH);
     for at in 0..count.div_ceil(STRIP_WIDTH) {
@@ -89,25 +90,25 @@ fn each_strip(
     Ok(sure)
 }
 
-struct Others<'a> {
+struct OtherPairs<'a> {
     pencil: &'a Pencil,
     shift: f64,
-    strips: &'a [Vec<Lanes>],
-    momenta: &'a [Vec<Lanes>],
+    strips: &'a [Vec<FourVectors>],
+    momenta: &'a [Vec<FourVectors>],
     /// `μ`
     values: &'a [f64],
 }
 
-impl Others<'_> {
+impl OtherPairs<'_> {
     /// The squares of a strip as the values have them; zero where there is none.
-    fn squares(&self, at: usize) -> Lanes {
+    fn squares(&self, at: usize) -> FourVectors {
         std::array::from_fn(|lane| {
             let value = self.values.get(STRIP_WIDTH * at + lane).copied();
             value.map_or(0.0, |value| 1.0 / value - self.shift)
         })
     }
 
-    fn assess(&self, at: usize, shapes: &mut Shapes) -> [Refined; STRIP_WIDTH] {
+    fn assess(&self, at: usize, shapes: &mut Shapes) -> [RefinedPair; STRIP_WIDTH] {
         let energies = self.pencil.elastic.begin(&self.strips[at], shapes);
         let mut imbalance = self.momenta[at].clone();
         let kinetic = self.kinetic(shapes, &imbalance);
@@ -121,7 +122,7 @@ impl Others<'_> {
         self.sure(shapes, &squares, &residuals)
     }
 
-    fn kinetic(&self, shapes: &Shapes, momenta: &[Lanes]) -> Lanes {
+    fn kinetic(&self, shapes: &Shapes, momenta: &[FourVectors]) -> FourVectors {
         let mut kinetic = [0.0; STRIP_WIDTH];
         for (x, m) in shapes.movements.iter().zip(momenta) {
             for ((kinetic, x), m) in kinetic.iter_mut().zip(x).zip(m) {
@@ -131,9 +132,14 @@ impl Others<'_> {
         kinetic
     }
 
-    fn sure(&self, shapes: &Shapes, squares: &Lanes, residuals: &Lanes) -> [Refined; STRIP_WIDTH] {
+    fn sure(
+        &self,
+        shapes: &Shapes,
+        squares: &FourVectors,
+        residuals: &FourVectors,
+    ) -> [RefinedPair; STRIP_WIDTH] {
         let rounding = self.pencil.elastic.rounding_of(&shapes.movements);
-        std::array::from_fn(|lane| Refined {
+        std::array::from_fn(|lane| RefinedPair {
             square: squares[lane],
             residual: residuals[lane],
             rounding: rounding[lane],
@@ -146,7 +152,7 @@ impl Others<'_> {
         factors: &SymmetricFactors,
         at: usize,
         shapes: &mut Shapes,
-    ) -> [Refined; STRIP_WIDTH] {
+    ) -> [RefinedPair; STRIP_WIDTH] {
         let Self { pencil, shift, .. } = *self;
         pencil.elastic.begin(&self.strips[at], shapes);
         let mut momenta = self.momenta[at].clone();
@@ -198,7 +204,7 @@ impl Others<'_> {
     /// Takes what all pairs have in imbalances out of them; what that leaves of the residuals, to be compared with `ω² + σ`.
     ///
     /// In a pair that is below, an imbalance counts by its size alone: inverted stiffness would make much of what does no harm.
-    fn without_others(&self, imbalance: &mut [Lanes], squares: &Lanes) -> Lanes {
+    fn without_others(&self, imbalance: &mut [FourVectors], squares: &FourVectors) -> FourVectors {
         let mut left = [0.0; STRIP_WIDTH];
         for (at, (strip, momenta)) in self.strips.iter().zip(self.momenta).enumerate() {
             let parts = products(strip, imbalance);
@@ -219,7 +225,7 @@ impl Others<'_> {
     }
 
     /// Takes all pairs out of movements.
-    fn clean(&self, movements: &mut [Lanes]) {
+    fn clean(&self, movements: &mut [FourVectors]) {
         for (strip, momenta) in self.strips.iter().zip(self.momenta) {
             let parts = products(momenta, movements);
             subtract_combination(strip, &parts, movements);
@@ -228,7 +234,7 @@ impl Others<'_> {
 }
 
 /// `r ← ω² r - Bᵀ (n + k m) - K_g x`
-fn subtract_resisting(r: &mut [Lanes], squares: &Lanes, shapes: &Shapes) {
+fn subtract_resisting(r: &mut [FourVectors], squares: &FourVectors, shapes: &Shapes) {
     for (r, resisting) in r.iter_mut().zip(&shapes.resisting) {
         for ((r, resisting), square) in r.iter_mut().zip(resisting).zip(squares) {
             *r = square * *r - resisting;
@@ -237,13 +243,13 @@ fn subtract_resisting(r: &mut [Lanes], squares: &Lanes, shapes: &Shapes) {
 }
 
 /// A lane of zeros stands for no pair.
-fn squares_of(energies: &Lanes, kinetic: &Lanes) -> Lanes {
+fn squares_of(energies: &FourVectors, kinetic: &FourVectors) -> FourVectors {
     std::array::from_fn(
         |lane| if kinetic[lane] > 0.0 { energies[lane] / kinetic[lane] } else { 0.0 },
     )
 }
 
 /// What makes `xᵀ M x = 1`.
-fn scale_of(kinetic: &Lanes) -> Lanes {
+fn scale_of(kinetic: &FourVectors) -> FourVectors {
     kinetic.map(|kinetic| if kinetic > 0.0 { 1.0 / kinetic.sqrt() } else { 0.0 })
 }

@@ -18,7 +18,7 @@ use nalgebra::{DMatrix, DVector, Schur};
 
 use super::VibrationError;
 use super::dense::rotate;
-use super::quadratic::{Number, Quadratic, size};
+use super::quadratic::{ComplexNumber, Quadratic, size};
 use crate::elementary::square;
 
 /// Most sweeps of the search for all `θ`, for each of them; it takes a few.
@@ -94,7 +94,7 @@ impl Resolvent {
     ///
     /// # Errors
     /// When the search does not end.
-    pub(super) fn numbers(&self) -> Result<Vec<Number>, VibrationError> {
+    pub(super) fn numbers(&self) -> Result<Vec<ComplexNumber>, VibrationError> {
         let matrix = self.matrix();
         let count = matrix.nrows();
         if count == 0 {
@@ -109,17 +109,17 @@ impl Resolvent {
             Some(schur.complex_eigenvalues().iter().map(|at| at + moved).collect())
         };
         let either = |part: f64| search(part, 0.0).or_else(|| search(part, 1.0));
-        let found: Option<Vec<Number>> = DECOUPLED.into_iter().find_map(either);
+        let found: Option<Vec<ComplexNumber>> = DECOUPLED.into_iter().find_map(either);
         let found = found.ok_or(VibrationError::Damping)?;
         if found.iter().any(|at| !(at.re.is_finite() && at.im.is_finite())) {
             return Err(VibrationError::Damping);
         }
-        let one = Number::new(1.0, 0.0);
-        let number = |at: Number| match size(at) {
-            0.0 => Number::new(f64::INFINITY, 0.0),
+        let one = ComplexNumber::new(1.0, 0.0);
+        let number = |at: ComplexNumber| match size(at) {
+            0.0 => ComplexNumber::new(f64::INFINITY, 0.0),
             _ => one + one / at,
         };
-        let mut found: Vec<Number> = found.into_iter().map(number).collect();
+        let mut found: Vec<ComplexNumber> = found.into_iter().map(number).collect();
         found.sort_by(|a, b| size(*a).total_cmp(&size(*b)));
         Ok(found)
     }
@@ -154,8 +154,8 @@ impl Resolvent {
     }
 
     /// A number `λ/σ`, corrected.
-    pub(super) fn corrected(&self, start: Number) -> Number {
-        let complex = |value: f64| Number::new(value, 0.0);
+    pub(super) fn corrected(&self, start: ComplexNumber) -> ComplexNumber {
+        let complex = |value: f64| ComplexNumber::new(value, 0.0);
         let modes = self.scales.len();
         let weak = self.weighted(|square| if square > STRONG { 0.0 } else { square });
         let strong: Vec<usize> =
@@ -196,7 +196,8 @@ impl Resolvent {
             }
             let moving = next.rows(0, modes).into_owned();
             let resisted = weak.map(complex) * &moving;
-            let mut damped = moving.iter().zip(resisted.iter()).map(|(a, b)| a * b).sum::<Number>();
+            let mut damped =
+                moving.iter().zip(resisted.iter()).map(|(a, b)| a * b).sum::<ComplexNumber>();
             for (force, damper) in (modes..).zip(&strong) {
                 // The rate follows from the force, without a difference.
                 let rate = next[force] / (beside * self.damping[*damper]);
@@ -225,7 +226,7 @@ impl Resolvent {
 }
 
 /// A square root.
-fn root(of: Number) -> Number {
+fn root(of: ComplexNumber) -> ComplexNumber {
     let size = size(of);
     if size == 0.0 {
         return of;
@@ -234,7 +235,7 @@ fn root(of: Number) -> Number {
     let smaller = 0.5 * of.im.abs() / larger;
     let sign = if of.im < 0.0 { -1.0 } else { 1.0 };
     match of.re >= 0.0 {
-        true => Number::new(larger, sign * smaller),
-        false => Number::new(smaller, sign * larger),
+        true => ComplexNumber::new(larger, sign * smaller),
+        false => ComplexNumber::new(smaller, sign * larger),
     }
 }

@@ -5,7 +5,7 @@ use super::dense::all_pairs;
 use super::lanczos::{Lanczos, Pairs};
 use super::modes::Mode;
 use super::pencil::Pencil;
-use super::refinement::{Refined, assess, refine};
+use super::refinement::{RefinedPair, assess, refine};
 use crate::linalg::{STRIP_WIDTH, SymmetricFactors};
 
 /// Up to so many unknowns all modes are found at once,
@@ -41,14 +41,14 @@ const SMALLEST_SHIFT: f64 = 1e-6;
 
 /// How modes are looked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Search {
+enum ModeSearch {
     /// All at once, and the lowest are taken.
     All,
     /// The lowest alone.
     Lowest,
 }
 
-impl Search {
+impl ModeSearch {
     fn of(unknowns: usize, count: usize) -> Self {
         let is_large = unknowns > MEDIUM || (unknowns > SMALL && 4 * count < unknowns);
         if is_large { Self::Lowest } else { Self::All }
@@ -62,10 +62,10 @@ pub(super) fn is_small(unknowns: usize) -> bool {
 
 /// About how many numbers the search for so many modes keeps at a time.
 pub(super) fn numbers(unknowns: usize, count: usize) -> usize {
-    match Search::of(unknowns, count) {
-        Search::All => DENSE_COPIES * unknowns * unknowns,
+    match ModeSearch::of(unknowns, count) {
+        ModeSearch::All => DENSE_COPIES * unknowns * unknowns,
         // The basis, what becomes of it in a restart, and pairs with their momenta, shapes and section forces.
-        Search::Lowest => unknowns * (2 * Lanczos::width(count) + 3 * count + 16 * STRIP_WIDTH),
+        ModeSearch::Lowest => unknowns * (2 * Lanczos::width(count) + 3 * count + 16 * STRIP_WIDTH),
     }
 }
 
@@ -109,8 +109,8 @@ fn with_shift(
     count: usize,
     goes_on: &mut dyn FnMut() -> bool,
 ) -> Result<Vec<Mode>, VibrationError> {
-    let sure = match Search::of(pencil.size(), count) {
-        Search::All => {
+    let sure = match ModeSearch::of(pencil.size(), count) {
+        ModeSearch::All => {
             let pairs = all_pairs(pencil, factors, goes_on)?;
             let available = pairs.values.len();
             if available < count {
@@ -118,7 +118,7 @@ fn with_shift(
             }
             assess(pencil, shift, &pairs, count, goes_on)?
         }
-        Search::Lowest => {
+        ModeSearch::Lowest => {
             let pairs = counted_pairs(pencil, shift, factors, count, goes_on)?;
             refine(pencil, factors, shift, &pairs, count, goes_on)?
         }
@@ -152,8 +152,8 @@ fn counted_pairs(
     }
 }
 
-fn mode_of(pair: Refined, shift: f64) -> Mode {
-    let Refined { square, residual, rounding, shape } = pair;
+fn mode_of(pair: RefinedPair, shift: f64) -> Mode {
+    let RefinedPair { square, residual, rounding, shape } = pair;
     let hidden = (residual * residual + HIDDEN) * (square.abs() + shift);
     let rounding = ROUNDING * rounding + hidden;
     let square = if square.abs() <= rounding { 0.0 } else { square };

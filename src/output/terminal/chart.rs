@@ -1,8 +1,8 @@
 //! Line charts as text.
 
+use super::character_grid::{CharacterGrid, TerminalColour};
 use super::dots::{ACROSS, DOWN, Dots, Trace};
-use super::sheet::{Ink, Sheet};
-use super::{Colours, Glyphs, Style};
+use super::{Colours, Glyphs, TerminalStyle};
 use crate::output::axis::{Axis, Factor, Tick};
 use crate::output::chart::LineChart;
 use crate::output::frame::Frame;
@@ -23,9 +23,9 @@ impl LineChart {
     /// The chart as text for a terminal, of at most the width and the height of `style`.
     ///
     /// Without colours several curves are told apart by letters: on their curves in braille, instead of dots in ASCII.
-    pub fn text(&self, style: &Style) -> String {
+    pub fn text(&self, style: &TerminalStyle) -> String {
         let layout = Layout::new(self, style);
-        let mut sheet = Sheet::new(style);
+        let mut sheet = CharacterGrid::new(style);
         layout.draw_heading(&mut sheet);
         if layout.has_axes {
             layout.draw_y_axis(&mut sheet);
@@ -36,7 +36,7 @@ impl LineChart {
     }
 
     /// Whether curves carry letters.
-    fn has_letters(&self, style: &Style) -> bool {
+    fn has_letters(&self, style: &TerminalStyle) -> bool {
         self.series.len() > 1 && style.colours == Colours::None
     }
 }
@@ -48,7 +48,7 @@ fn letter(index: usize) -> char {
 
 /// Which part of a sheet holds what.
 struct Layout {
-    style: Style,
+    style: TerminalStyle,
     frame: Frame,
     heading: String,
     /// Lines of the legend: for each name its column and the number of its series.
@@ -66,7 +66,7 @@ struct Layout {
 }
 
 impl Layout {
-    fn new(chart: &LineChart, style: &Style) -> Self {
+    fn new(chart: &LineChart, style: &TerminalStyle) -> Self {
         let (frame, glyphs) = (chart.frame(), style.glyphs);
         let has_letters = chart.has_letters(style);
         let (y_ticks, factor) = frame.y.ticks((style.height / TICK_EVERY.1).clamp(2, 8));
@@ -104,22 +104,26 @@ impl Layout {
         Self { heading: String::new(), legend: vec![], top: 0, columns, rows, ..self }
     }
 
-    fn draw_heading(&self, sheet: &mut Sheet) {
-        sheet.write(0, 0, &self.heading, Ink::Plain);
+    fn draw_heading(&self, sheet: &mut CharacterGrid) {
+        sheet.write(0, 0, &self.heading, TerminalColour::Plain);
         let first = usize::from(!self.heading.is_empty());
         for (row, names) in self.legend.iter().enumerate() {
             for (column, series, name) in names {
-                let ink = if self.has_letters { Ink::Plain } else { Ink::Series(*series) };
+                let ink = if self.has_letters {
+                    TerminalColour::Plain
+                } else {
+                    TerminalColour::Series(*series)
+                };
                 sheet.write(*column, first + row, name, ink);
             }
         }
     }
 
-    fn draw_y_axis(&self, sheet: &mut Sheet) {
+    fn draw_y_axis(&self, sheet: &mut CharacterGrid) {
         let glyphs = self.style.glyphs;
         let (line, mark) = glyphs.choose(('│', '┤'), ('|', '+'));
         for row in 0..self.rows {
-            sheet.put(self.gutter, self.top + row, line, Ink::Plain);
+            sheet.put(self.gutter, self.top + row, line, TerminalColour::Plain);
         }
         let mut last = usize::MAX;
         for tick in &self.y_ticks {
@@ -127,37 +131,38 @@ impl Layout {
             if row != last {
                 let label = glyphs.typeset(&tick.label);
                 let start = self.gutter.saturating_sub(1 + columns(&label));
-                sheet.write(start, self.top + row, &label, Ink::Plain);
-                sheet.put(self.gutter, self.top + row, mark, Ink::Plain);
+                sheet.write(start, self.top + row, &label, TerminalColour::Plain);
+                sheet.put(self.gutter, self.top + row, mark, TerminalColour::Plain);
             }
             last = row;
         }
     }
 
-    fn draw_x_axis(&self, sheet: &mut Sheet) {
+    fn draw_x_axis(&self, sheet: &mut CharacterGrid) {
         let glyphs = self.style.glyphs;
         let (corner, line, mark) = glyphs.choose(('└', '─', '┬'), ('+', '-', '+'));
         let row = self.top + self.rows;
-        sheet.put(self.gutter, row, corner, Ink::Plain);
-        (0..self.columns).for_each(|at| sheet.put(self.gutter + 1 + at, row, line, Ink::Plain));
-        sheet.write(self.gutter + self.columns + 2, row, &self.x_label, Ink::Plain);
+        sheet.put(self.gutter, row, corner, TerminalColour::Plain);
+        (0..self.columns)
+            .for_each(|at| sheet.put(self.gutter + 1 + at, row, line, TerminalColour::Plain));
+        sheet.write(self.gutter + self.columns + 2, row, &self.x_label, TerminalColour::Plain);
         let (ticks, _) = self.frame.x.ticks((self.columns / TICK_EVERY.0).clamp(2, 12));
         let mut free = 0;
         for tick in &ticks {
             let dot = (tick.place * (ACROSS * self.columns - 1) as f64).round() as usize;
             let at = self.gutter + 1 + dot / ACROSS;
-            sheet.put(at, row, mark, Ink::Plain);
+            sheet.put(at, row, mark, TerminalColour::Plain);
             let label = glyphs.typeset(&tick.label);
             let room = self.style.width.saturating_sub(columns(&label));
             let start = at.saturating_sub(columns(&label) / 2).min(room);
             if start >= free {
-                sheet.write(start, row + 1, &label, Ink::Plain);
+                sheet.write(start, row + 1, &label, TerminalColour::Plain);
                 free = start + columns(&label) + 1;
             }
         }
     }
 
-    fn draw_series(&self, sheet: &mut Sheet, chart: &LineChart) {
+    fn draw_series(&self, sheet: &mut CharacterGrid, chart: &LineChart) {
         let glyphs = self.style.glyphs;
         let (left, top) = if self.has_axes { (self.gutter + 1, self.top) } else { (0, self.top) };
         let rasters: Vec<Dots> = (0..chart.series.len())
@@ -166,7 +171,7 @@ impl Layout {
         if rasters.iter().all(|dots| dots.drawn().next().is_none()) {
             let told = glyphs.fit("no data", self.columns);
             let start = left + (self.columns - columns(&told)) / 2;
-            sheet.write(start, top + self.rows / 2, &told, Ink::Plain);
+            sheet.write(start, top + self.rows / 2, &told, TerminalColour::Plain);
         }
         let all = self.raster(&self.frame.x, &self.frame.y, chart, 0..chart.series.len());
         for (column, row, mask, ink) in all.drawn() {
@@ -175,7 +180,7 @@ impl Layout {
         if self.has_letters {
             for (index, raster) in rasters.iter().enumerate() {
                 for (column, row) in self.lettered(index, rasters.len(), raster) {
-                    sheet.put(left + column, top + row, letter(index), Ink::Plain);
+                    sheet.put(left + column, top + row, letter(index), TerminalColour::Plain);
                 }
             }
         }
@@ -198,7 +203,7 @@ impl Layout {
                 false => (f64::NAN, f64::NAN),
             };
             let points = chart.series[index].points.iter().map(seen);
-            dots.curve(points, Trace::Solid, Ink::Series(index));
+            dots.curve(points, Trace::Solid, TerminalColour::Series(index));
         }
         dots
     }
@@ -220,14 +225,14 @@ impl Layout {
 }
 
 /// The title, and what the vertical axis shows.
-fn heading(frame: &Frame, factor: &Factor, style: &Style) -> String {
+fn heading(frame: &Frame, factor: &Factor, style: &TerminalStyle) -> String {
     let parts = [frame.title.clone(), factor.after(&frame.y_label)];
     let parts: Vec<String> = parts.into_iter().filter(|part| !part.trim().is_empty()).collect();
     style.glyphs.fit(&parts.join("  "), style.width)
 }
 
 /// The names of the series in lines that fit; of very many the last ones are left out, and a sign says so.
-fn legend(chart: &LineChart, style: &Style) -> Vec<Vec<(usize, usize, String)>> {
+fn legend(chart: &LineChart, style: &TerminalStyle) -> Vec<Vec<(usize, usize, String)>> {
     let glyphs = style.glyphs;
     let sample = |index| match chart.has_letters(style) {
         true => letter(index).to_string(),
@@ -260,11 +265,11 @@ fn legend(chart: &LineChart, style: &Style) -> Vec<Vec<(usize, usize, String)>> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::output::{Scale, Series};
+    use crate::output::{AxisScale, Series};
     use proptest::prelude::*;
 
-    const PLAIN: Style =
-        Style { glyphs: Glyphs::Braille, colours: Colours::None, width: 40, height: 10 };
+    const PLAIN: TerminalStyle =
+        TerminalStyle { glyphs: Glyphs::Braille, colours: Colours::None, width: 40, height: 10 };
 
     fn chart() -> LineChart {
         let wave = |phase: f64| {
@@ -278,7 +283,7 @@ mod tests {
 
     #[test]
     fn a_chart_in_ascii() {
-        let style = Style { glyphs: Glyphs::Ascii, ..PLAIN };
+        let style = TerminalStyle { glyphs: Glyphs::Ascii, ..PLAIN };
         let expected = [
             "waves",
             "a sine   b cosine",
@@ -313,7 +318,7 @@ mod tests {
 
     #[test]
     fn colours_replace_letters() {
-        let text = chart().text(&Style { colours: Colours::Ansi, ..PLAIN });
+        let text = chart().text(&TerminalStyle { colours: Colours::Ansi, ..PLAIN });
         assert!(text.contains("\x1b[36m── sine\x1b[0m"), "{text}");
         assert!(text.contains("\x1b[33m── cosine\x1b[0m"), "{text}");
         assert!(!text.contains("a sine"));
@@ -322,10 +327,10 @@ mod tests {
     #[test]
     fn a_logarithmic_axis_has_powers_of_ten() {
         let points = (1..50).map(|i| (f64::from(i), 10f64.powi(-i / 5))).collect();
-        let chart = LineChart::new("drift").y_scale(Scale::Logarithmic);
+        let chart = LineChart::new("drift").y_scale(AxisScale::Logarithmic);
         let chart = chart.series(Series::new("energy", points));
         assert!(chart.text(&PLAIN).contains("10⁻⁵ ┤"), "{}", chart.text(&PLAIN));
-        let ascii = chart.text(&Style { glyphs: Glyphs::Ascii, ..PLAIN });
+        let ascii = chart.text(&TerminalStyle { glyphs: Glyphs::Ascii, ..PLAIN });
         assert!(ascii.is_ascii() && ascii.contains("1e-5 +"), "{ascii}");
     }
 
@@ -357,12 +362,12 @@ mod tests {
             width in 0usize..90, height in 0usize..30,
             choices in 0usize..8,
         ) {
-            let style = Style {
+            let style = TerminalStyle {
                 glyphs: if choices & 1 == 0 { Glyphs::Braille } else { Glyphs::Ascii },
                 colours: if choices & 2 == 0 { Colours::None } else { Colours::Ansi },
                 width, height,
             };
-            let scale = if choices & 4 == 0 { Scale::Linear } else { Scale::Logarithmic };
+            let scale = if choices & 4 == 0 { AxisScale::Linear } else { AxisScale::Logarithmic };
             let empty = LineChart::new(name.clone()).y_scale(scale).x_label("t").y_label(name.clone());
             let chart = series.into_iter().fold(empty, |chart, points| chart.series(Series::new(name.clone(), points)));
             let text = chart.text(&style);

@@ -2,7 +2,7 @@
 //! high as wide.
 
 use super::Glyphs;
-use super::sheet::Ink;
+use super::character_grid::TerminalColour;
 use crate::output::canvas::{Area, Point};
 use crate::output::curve::pieces;
 
@@ -28,13 +28,13 @@ pub enum Trace {
 pub struct Dots {
     columns: usize,
     rows: usize,
-    cells: Vec<(u8, Ink)>,
+    cells: Vec<(u8, TerminalColour)>,
 }
 
 impl Dots {
     /// A blank raster of so many columns and rows of characters.
     pub fn new(columns: usize, rows: usize) -> Self {
-        Self { columns, rows, cells: vec![(0, Ink::Plain); columns * rows] }
+        Self { columns, rows, cells: vec![(0, TerminalColour::Plain); columns * rows] }
     }
 
     /// The coordinates of the last dot of the raster: the number of dots less one across and down.
@@ -45,7 +45,12 @@ impl Dots {
 
     /// Draws a curve on the raster, through points given in dots from the upper left one. Points that are not finite leave a gap; what
     /// lies beyond the raster is cut off.
-    pub fn curve(&mut self, points: impl IntoIterator<Item = Point>, trace: Trace, ink: Ink) {
+    pub fn curve(
+        &mut self,
+        points: impl IntoIterator<Item = Point>,
+        trace: Trace,
+        ink: TerminalColour,
+    ) {
         if self.cells.is_empty() {
             return;
         }
@@ -64,7 +69,7 @@ impl Dots {
         }
     }
 
-    fn dot(&mut self, x: i64, y: i64, ink: Ink) {
+    fn dot(&mut self, x: i64, y: i64, ink: TerminalColour) {
         let (Ok(x), Ok(y)) = (usize::try_from(x), usize::try_from(y)) else { return };
         if x < ACROSS * self.columns && y < DOWN * self.rows {
             let (mask, own) = &mut self.cells[y / DOWN * self.columns + x / ACROSS];
@@ -74,8 +79,8 @@ impl Dots {
     }
 
     /// The characters of the raster that have dots: column, row, dots and ink.
-    pub fn drawn(&self) -> impl Iterator<Item = (usize, usize, u8, Ink)> {
-        let of_cell = |(at, (mask, ink)): (usize, &(u8, Ink))| {
+    pub fn drawn(&self) -> impl Iterator<Item = (usize, usize, u8, TerminalColour)> {
+        let of_cell = |(at, (mask, ink)): (usize, &(u8, TerminalColour))| {
             (*mask != 0).then(|| (at % self.columns, at / self.columns, *mask, *ink))
         };
         self.cells.iter().enumerate().filter_map(of_cell)
@@ -146,7 +151,7 @@ mod tests {
 
     fn curve(points: &[Point]) -> Dots {
         let mut dots = Dots::new(4, 2);
-        dots.curve(points.iter().copied(), Trace::Solid, Ink::Plain);
+        dots.curve(points.iter().copied(), Trace::Solid, TerminalColour::Plain);
         dots
     }
 
@@ -181,7 +186,7 @@ mod tests {
         let beyond = curve(&[(-1e6, 0.0), (1e6, 0.0), (1e6, 1e6), (f64::INFINITY, 1.0)]);
         assert_eq!(drawn(&beyond, Glyphs::Ascii), "''''\n    ");
         let mut nothing = Dots::new(0, 3);
-        nothing.curve([(0.0, 0.0)], Trace::Solid, Ink::Plain);
+        nothing.curve([(0.0, 0.0)], Trace::Solid, TerminalColour::Plain);
         assert_eq!(nothing.drawn().count(), 0);
     }
 }

@@ -1,6 +1,6 @@
 //! What the environment says about a terminal.
 
-use super::{Colours, Glyphs, Style};
+use super::{Colours, Glyphs, TerminalStyle};
 
 /// The size of a terminal that does not tell its own.
 const USUAL: (usize, usize) = (80, 24);
@@ -12,7 +12,7 @@ const HEIGHTS: (usize, usize) = (8, 60);
 /// Lines of the terminal that a picture leaves free, so that it and the prompt below it are seen together.
 const LEFT_FREE: usize = 3;
 
-impl Style {
+impl TerminalStyle {
     /// The style for the terminal that these variables of the environment describe; `variable` gives the value of one.
     ///
     /// No colours where `NO_COLOR` is set and not empty, or `TERM` is `dumb` or not known. Braille where the character set of
@@ -50,9 +50,9 @@ impl Style {
 mod tests {
     use super::*;
 
-    fn style(variables: &[(&str, &str)]) -> Style {
+    fn style(variables: &[(&str, &str)]) -> TerminalStyle {
         let value = |name: &str| variables.iter().find(|(other, _)| *other == name);
-        Style::of_environment(|name| value(name).map(|(_, value)| (*value).to_owned()))
+        TerminalStyle::of_environment(|name| value(name).map(|(_, value)| (*value).to_owned()))
     }
 
     fn abilities(variables: &[(&str, &str)]) -> (Glyphs, Colours) {

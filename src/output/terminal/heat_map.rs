@@ -1,7 +1,7 @@
 //! Heat maps as text: a table whose cells begin with a block, the darker the larger their number.
 
-use super::sheet::{Ink, Sheet};
-use super::{Glyphs, Style};
+use super::character_grid::{CharacterGrid, TerminalColour};
+use super::{Glyphs, TerminalStyle};
 use crate::output::heat_map::{HeatCell, HeatMap};
 use crate::output::width::columns;
 
@@ -12,9 +12,9 @@ const BLOCK: usize = 3;
 
 impl HeatMap {
     /// The heat map as text for a terminal, no line of it wider than that of `style`; its height is that of its rows.
-    pub fn text(&self, style: &Style) -> String {
+    pub fn text(&self, style: &TerminalStyle) -> String {
         let glyphs = style.glyphs;
-        let cells: Vec<Vec<(char, Ink, String)>> = self
+        let cells: Vec<Vec<(char, TerminalColour, String)>> = self
             .cells
             .iter()
             .map(|row| row.iter().map(|cell| self.set(cell, glyphs)).collect())
@@ -27,14 +27,14 @@ impl HeatMap {
             widest.max(columns(&glyphs.typeset(name)))
         };
         let widths: Vec<usize> = self.columns.1.iter().enumerate().map(width_of).collect();
-        let mut sheet = Sheet::new(&style.sized(style.width, self.rows.1.len() + 4));
-        sheet.write(0, 0, self.title(), Ink::Plain);
-        sheet.write(0, 1, &self.key(glyphs), Ink::Faint);
-        sheet.write(gutter + BETWEEN, 2, &self.columns.0, Ink::Faint);
-        sheet.write(0, 3, &self.rows.0, Ink::Faint);
+        let mut sheet = CharacterGrid::new(&style.sized(style.width, self.rows.1.len() + 4));
+        sheet.write(0, 0, self.title(), TerminalColour::Plain);
+        sheet.write(0, 1, &self.key(glyphs), TerminalColour::Faint);
+        sheet.write(gutter + BETWEEN, 2, &self.columns.0, TerminalColour::Faint);
+        sheet.write(0, 3, &self.rows.0, TerminalColour::Faint);
         let mut left = gutter + BETWEEN;
         for (column, name) in self.columns.1.iter().enumerate() {
-            sheet.write(left, 3, name, Ink::Plain);
+            sheet.write(left, 3, name, TerminalColour::Plain);
             for (row, cells) in cells.iter().enumerate() {
                 if let Some((block, ink, text)) = cells.get(column) {
                     (0..BLOCK - 1).for_each(|at| sheet.put(left + at, row + 4, *block, *ink));
@@ -44,19 +44,24 @@ impl HeatMap {
             left += widths[column] + BETWEEN;
         }
         for (row, name) in self.rows.1.iter().enumerate() {
-            sheet.write(0, row + 4, name, Ink::Plain);
+            sheet.write(0, row + 4, name, TerminalColour::Plain);
         }
         sheet.render()
     }
 
     /// The block, the ink and the text of a cell.
-    fn set(&self, cell: &HeatCell, glyphs: Glyphs) -> (char, Ink, String) {
+    fn set(&self, cell: &HeatCell, glyphs: Glyphs) -> (char, TerminalColour, String) {
         let text = glyphs.typeset(&cell.text.lines().collect::<Vec<_>>().join(" "));
         match cell.value.and_then(|value| self.part(value)) {
-            None => (glyphs.choose('╳', 'X'), Ink::Series(5), text),
+            None => (glyphs.choose('╳', 'X'), TerminalColour::Series(5), text),
             Some(part) => {
                 let level = (part * 4.0).ceil() as usize;
-                let ink = [Ink::Plain, Ink::Series(0), Ink::Series(1), Ink::Series(2)];
+                let ink = [
+                    TerminalColour::Plain,
+                    TerminalColour::Series(0),
+                    TerminalColour::Series(1),
+                    TerminalColour::Series(2),
+                ];
                 (blocks(glyphs)[level], ink[level.min(3)], text)
             }
         }
@@ -95,7 +100,8 @@ mod tests {
 
     #[test]
     fn a_map_is_a_table_with_blocks() {
-        let style = Style { glyphs: Glyphs::Ascii, colours: Colours::None, width: 60, height: 1 };
+        let style =
+            TerminalStyle { glyphs: Glyphs::Ascii, colours: Colours::None, width: 60, height: 1 };
         let expected = "trapezoidal\n\
                         energy growth: <= 1e-12 .:+%# >= 1e0   X failed\n\
                         \u{20}     dt\n\
@@ -109,7 +115,8 @@ mod tests {
 
     #[test]
     fn colours_are_there_where_they_are_wanted() {
-        let style = Style { glyphs: Glyphs::Braille, colours: Colours::Ansi, width: 60, height: 1 };
+        let style =
+            TerminalStyle { glyphs: Glyphs::Braille, colours: Colours::Ansi, width: 60, height: 1 };
         let text = map().text(&style);
         assert!(text.contains("\x1b[31m╳╳ t = 2\x1b[0m") || text.contains("\x1b[31m╳╳"), "{text}");
         assert!(text.contains("\x1b[35m██"), "{text}");

@@ -5,13 +5,13 @@
 //! heat_map → sheet
 //! ```
 
+mod character_grid;
 mod chart;
 mod dots;
 mod environment;
 mod heat_map;
 mod picture;
-mod sheet;
 mod style;
 
-pub use picture::{ConfigurationPicture, Mark};
-pub use style::{Colours, Glyphs, Style};
+pub use picture::{ConfigurationPicture, PictureMark};
+pub use style::{Colours, Glyphs, TerminalStyle};

@@ -1,17 +1,17 @@
 //! A configuration as text: beams as lines, particles, sliders and supports as signs, both axes equal.
 
-use super::Style;
+use super::TerminalStyle;
+use super::character_grid::{CharacterGrid, TerminalColour};
 use super::dots::{ACROSS, DOWN, Dots, Trace};
-use super::sheet::{Ink, Sheet};
 use crate::output::axis::extent;
 use crate::output::canvas::Point;
 use crate::output::number::significant;
-use crate::output::plane::Limits;
+use crate::output::plane::AxisLimits;
 use crate::output::width::columns;
 
 /// What a mark in a picture of a configuration stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mark {
+pub enum PictureMark {
     /// The mark is a point mass that moves by itself.
     Particle,
     /// The mark is a place that slides along a beam.
@@ -24,7 +24,7 @@ pub enum Mark {
     Clamp,
 }
 
-impl Mark {
+impl PictureMark {
     const ALL: [Self; 5] = [Self::Particle, Self::Slider, Self::Joint, Self::Hinge, Self::Clamp];
 
     /// Its sign in braille pictures and in ASCII, and its name.
@@ -53,12 +53,12 @@ pub struct ConfigurationPicture {
     time: Option<f64>,
     lines: Vec<Vec<Point>>,
     ghost: Vec<Vec<Point>>,
-    marks: Vec<(Mark, Point)>,
-    limits: Limits,
+    marks: Vec<(PictureMark, Point)>,
+    limits: AxisLimits,
 }
 
 /// The part of the plane that is seen.
-struct Window {
+struct PlaneWindow {
     middle: Point,
     /// The length of a dot.
     dot: f64,
@@ -91,19 +91,19 @@ impl ConfigurationPicture {
     }
 
     /// Adds a mark to the picture.
-    pub fn mark(mut self, mark: Mark, at: Point) -> Self {
+    pub fn mark(mut self, mark: PictureMark, at: Point) -> Self {
         self.marks.push((mark, at));
         self
     }
 
     /// Fixes what is seen at least; units stay equally long.
-    pub fn limits(mut self, limits: Limits) -> Self {
+    pub fn limits(mut self, limits: AxisLimits) -> Self {
         self.limits = limits;
         self
     }
 
     /// The picture as text for a terminal, of at most the width and the height of `style`; less high where the drawing is flat.
-    pub fn text(&self, style: &Style) -> String {
+    pub fn text(&self, style: &TerminalStyle) -> String {
         let has_frame = style.width >= LEAST.0 && style.height >= LEAST.1;
         let border = usize::from(has_frame);
         let columns = style.width - 2 * border;
@@ -111,18 +111,19 @@ impl ConfigurationPicture {
             return style.glyphs.fit("nothing to draw", style.width);
         };
         let style = style.sized(style.width, rows + 2 * border);
-        let mut sheet = Sheet::new(&style);
+        let mut sheet = CharacterGrid::new(&style);
         let mut dots = Dots::new(columns, rows);
         let traces = [(&self.ghost, Trace::Dotted, true), (&self.lines, Trace::Solid, false)];
         for (lines, trace, is_ghost) in traces {
             for (index, line) in lines.iter().enumerate() {
-                let ink = if is_ghost { Ink::Faint } else { Ink::Series(index) };
+                let ink =
+                    if is_ghost { TerminalColour::Faint } else { TerminalColour::Series(index) };
                 dots.curve(line.iter().map(|&point| window.place(point)), trace, ink);
             }
         }
         for (column, row, mask, ink) in dots.drawn() {
             let glyph = match ink {
-                Ink::Faint => style.glyphs.choose(style.glyphs.of_dots(mask), '.'),
+                TerminalColour::Faint => style.glyphs.choose(style.glyphs.of_dots(mask), '.'),
                 _ => style.glyphs.of_dots(mask),
             };
             sheet.put(border + column, border + row, glyph, ink);
@@ -134,7 +135,7 @@ impl ConfigurationPicture {
                 let (braille, ascii, _) = mark.look();
                 let (column, row) = (x.round() as usize / ACROSS, y.round() as usize / DOWN);
                 let sign = style.glyphs.choose(braille, ascii);
-                sheet.put(border + column, border + row, sign, Ink::Plain);
+                sheet.put(border + column, border + row, sign, TerminalColour::Plain);
             }
         }
         if has_frame {
@@ -144,7 +145,7 @@ impl ConfigurationPicture {
     }
 
     /// The window for so many characters, and the lines that it needs of them; none when there is nothing to see.
-    fn window(&self, columns: usize, rows: usize) -> Option<(usize, Window)> {
+    fn window(&self, columns: usize, rows: usize) -> Option<(usize, PlaneWindow)> {
         let points = || {
             let lines = self.lines.iter().chain(&self.ghost).flatten().copied();
             let all = lines.chain(self.marks.iter().map(|(_, at)| *at));
@@ -173,26 +174,26 @@ impl ConfigurationPicture {
         let rows = needed.clamp(LEAST.1.min(rows + 2).saturating_sub(2).max(1), rows);
         let last = Dots::new(columns, rows).last();
         let middle = (0.5 * left + 0.5 * right, 0.5 * low + 0.5 * high);
-        Some((rows, Window { middle, dot, last }))
+        Some((rows, PlaneWindow { middle, dot, last }))
     }
 
     /// Title and time above, the edges of the window and the meaning of signs below.
-    fn draw_frame(&self, sheet: &mut Sheet, style: &Style, window: &Window) {
+    fn draw_frame(&self, sheet: &mut CharacterGrid, style: &TerminalStyle, window: &PlaneWindow) {
         let glyphs = style.glyphs;
         let (level, upright) = glyphs.choose(('─', '│'), ('-', '|'));
         let corners = glyphs.choose(['┌', '┐', '└', '┘'], ['+'; 4]);
         let (last_column, last_row) = (style.width - 1, style.height - 1);
         for column in 0..style.width {
-            sheet.put(column, 0, level, Ink::Plain);
-            sheet.put(column, last_row, level, Ink::Plain);
+            sheet.put(column, 0, level, TerminalColour::Plain);
+            sheet.put(column, last_row, level, TerminalColour::Plain);
         }
         for row in 0..style.height {
-            sheet.put(0, row, upright, Ink::Plain);
-            sheet.put(last_column, row, upright, Ink::Plain);
+            sheet.put(0, row, upright, TerminalColour::Plain);
+            sheet.put(last_column, row, upright, TerminalColour::Plain);
         }
         let places = [(0, 0), (last_column, 0), (0, last_row), (last_column, last_row)];
         for ((column, row), corner) in places.into_iter().zip(corners) {
-            sheet.put(column, row, corner, Ink::Plain);
+            sheet.put(column, row, corner, TerminalColour::Plain);
         }
         let time = self.time.map(|time| format!("t = {}", significant(time, 6)));
         let [x, y] = window.edges().map(|ends| ends.map(|end| significant(end, 3)));
@@ -202,7 +203,14 @@ impl ConfigurationPicture {
     }
 
     /// Two texts in a line of the frame; the second one only if it leaves room for the first, or for half a line of it.
-    fn write_into(&self, sheet: &mut Sheet, style: &Style, row: usize, left: &str, right: &str) {
+    fn write_into(
+        &self,
+        sheet: &mut CharacterGrid,
+        style: &TerminalStyle,
+        row: usize,
+        left: &str,
+        right: &str,
+    ) {
         let room = style.width - 6;
         let right = style.glyphs.typeset(right);
         let beside = if right.is_empty() { 0 } else { columns(&right) + 3 };
@@ -210,16 +218,22 @@ impl ConfigurationPicture {
         let is_room = beside + wanted.min(room / 2) <= room;
         let left = style.glyphs.fit(left, if is_room { room - beside } else { room });
         if !left.trim().is_empty() {
-            sheet.write(2, row, &format!(" {left} "), Ink::Plain);
+            sheet.write(2, row, &format!(" {left} "), TerminalColour::Plain);
         }
         if is_room && !right.is_empty() {
-            sheet.write(style.width - 1 - beside, row, &format!(" {right} "), Ink::Plain);
+            sheet.write(
+                style.width - 1 - beside,
+                row,
+                &format!(" {right} "),
+                TerminalColour::Plain,
+            );
         }
     }
 
     /// What the signs of the picture mean.
-    fn signs(&self, style: &Style) -> String {
-        let used = Mark::ALL.into_iter().filter(|mark| self.marks.iter().any(|(m, _)| m == mark));
+    fn signs(&self, style: &TerminalStyle) -> String {
+        let used =
+            PictureMark::ALL.into_iter().filter(|mark| self.marks.iter().any(|(m, _)| m == mark));
         let named = used.map(|mark| {
             let (braille, ascii, name) = mark.look();
             format!("{} {name}", style.glyphs.choose(braille, ascii))
@@ -228,7 +242,7 @@ impl ConfigurationPicture {
     }
 }
 
-impl Window {
+impl PlaneWindow {
     /// Where a point is, in dots from the upper left one.
     fn place(&self, (x, y): Point) -> Point {
         let far = |value: f64, middle: f64| (value - middle) / self.dot;
@@ -254,16 +268,16 @@ mod tests {
     use crate::output::terminal::{Colours, Glyphs};
     use proptest::prelude::*;
 
-    const PLAIN: Style =
-        Style { glyphs: Glyphs::Braille, colours: Colours::None, width: 40, height: 12 };
+    const PLAIN: TerminalStyle =
+        TerminalStyle { glyphs: Glyphs::Braille, colours: Colours::None, width: 40, height: 12 };
 
     fn picture() -> ConfigurationPicture {
         ConfigurationPicture::new("rod")
             .time(2.5)
             .ghost(vec![(0.0, 0.0), (4.0, 0.0)])
             .line(vec![(0.0, 0.0), (3.0, 2.0)])
-            .mark(Mark::Hinge, (0.0, 0.0))
-            .mark(Mark::Particle, (3.0, 2.0))
+            .mark(PictureMark::Hinge, (0.0, 0.0))
+            .mark(PictureMark::Particle, (3.0, 2.0))
     }
 
     #[test]
@@ -287,7 +301,7 @@ mod tests {
 
     #[test]
     fn a_picture_in_ascii() {
-        let style = Style { glyphs: Glyphs::Ascii, width: 44, ..PLAIN };
+        let style = TerminalStyle { glyphs: Glyphs::Ascii, width: 44, ..PLAIN };
         let expected = [
             "+- rod -------------------------- t = 2.5 -+",
             "|                            _O            |",
@@ -335,9 +349,9 @@ mod tests {
             width in 0usize..90, height in 0usize..30,
         ) {
             for glyphs in [Glyphs::Braille, Glyphs::Ascii] {
-                let style = Style { glyphs, width, height, ..PLAIN };
+                let style = TerminalStyle { glyphs, width, height, ..PLAIN };
                 let picture = ConfigurationPicture::new(title.clone()).time(mark.0)
-                    .line(line.clone()).ghost(ghost.clone()).mark(Mark::Slider, mark);
+                    .line(line.clone()).ghost(ghost.clone()).mark(PictureMark::Slider, mark);
                 let text = picture.text(&style);
                 prop_assert!(text.lines().count() <= height.max(1));
                 prop_assert!(text.lines().all(|line| line.chars().count() <= width), "{text}");

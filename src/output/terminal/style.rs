@@ -22,7 +22,7 @@ pub enum Colours {
 
 /// How a picture in a terminal is set: no line of it is wider than `width`, and it has no more than `height` lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Style {
+pub struct TerminalStyle {
     /// The characters that the picture is made of.
     pub glyphs: Glyphs,
     /// Whether the picture has colours.
@@ -33,7 +33,7 @@ pub struct Style {
     pub height: usize,
 }
 
-impl Style {
+impl TerminalStyle {
     /// The same style in another size, in characters and lines.
     #[must_use]
     pub fn sized(self, width: usize, height: usize) -> Self {

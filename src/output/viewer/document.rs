@@ -2,8 +2,11 @@
 
 use serde_json::{Value, json};
 
-use super::film::{Anchor, Arrow, Beam, Body, Column, Field, Film, Place, Sign, Spring};
-use super::packing::{FINEST, Scale, pack};
+use super::data::{
+    Arrow, BeamShape, BodyShape, ColourField, PointCombination, SpringEnd, SpringShape, SymbolMark,
+    TimeCurve, ViewerData,
+};
+use super::packing::{FINEST, Quantisation, pack};
 use super::thinning::rows_to_keep;
 use crate::output::OutputError;
 use crate::output::canvas::Point;
@@ -38,7 +41,7 @@ pub struct Viewer {
     /// What stands above them.
     pub title: String,
     /// The motions.
-    pub films: Vec<Film>,
+    pub films: Vec<ViewerData>,
 }
 
 impl Viewer {
@@ -98,11 +101,10 @@ fn escaped(text: &str) -> String {
     text.chars().map(escape).collect()
 }
 
-fn packed_film(film: &Film) -> Result<Value, OutputError> {
+fn packed_film(film: &ViewerData) -> Result<Value, OutputError> {
     let mut shapes: Vec<Value> = Vec::new();
     let beams: Vec<Value> = film.beams.iter().map(|beam| packed_beam(beam, &mut shapes)).collect();
-    let particle =
-        |particle: &super::Particle| json!({ "name": particle.name, "at": place(&particle.at, 0) });
+    let particle = |particle: &super::ParticleShape| json!({ "name": particle.name, "at": place(&particle.at, 0) });
     let trail = |trail: &super::Trail| json!({ "name": trail.name, "at": place(&trail.at, 0) });
     let (x, y) = packed_points(film)?;
     Ok(json!({
@@ -124,8 +126,9 @@ fn packed_film(film: &Film) -> Result<Value, OutputError> {
 }
 
 /// A rigid body: its places.
-fn packed_body(body: &Body) -> Value {
-    let point = |(name, at): &(String, Place)| json!({ "name": name, "at": place(at, 0) });
+fn packed_body(body: &BodyShape) -> Value {
+    let point =
+        |(name, at): &(String, PointCombination)| json!({ "name": name, "at": place(at, 0) });
     json!({
         "name": body.name,
         "at": place(&body.centre, 0),
@@ -135,24 +138,24 @@ fn packed_body(body: &Body) -> Value {
     })
 }
 
-fn packed_sign(sign: &Sign) -> Value {
+fn packed_sign(sign: &SymbolMark) -> Value {
     json!({
         "kind": sign.symbol.name(), "name": sign.name, "at": place(&sign.at, 0), "angle": sign.angle, "until": sign.until,
     })
 }
 
 /// A spring: its places, those on the ground as points without weights.
-fn packed_spring(spring: &Spring) -> Value {
-    let anchor = |anchor: &Anchor| match anchor {
-        Anchor::Moving(at) => place(at, 0),
-        Anchor::Ground((x, y)) => json!({ "x": x, "y": y }),
+fn packed_spring(spring: &SpringShape) -> Value {
+    let anchor = |anchor: &SpringEnd| match anchor {
+        SpringEnd::Moving(at) => place(at, 0),
+        SpringEnd::Ground((x, y)) => json!({ "x": x, "y": y }),
     };
     let anchors = spring.anchors.iter().map(anchor).collect::<Vec<_>>();
     json!({ "kind": spring.symbol.name(), "name": spring.name, "anchors": anchors, "until": spring.until })
 }
 
 /// A beam by its first point and its shape, which beams of the same mesh share.
-fn packed_beam(beam: &Beam, shapes: &mut Vec<Value>) -> Value {
+fn packed_beam(beam: &BeamShape, shapes: &mut Vec<Value>) -> Value {
     let first = beam.line.iter().map(|place| place.first).min().unwrap_or(0);
     let shape = json!({
         "line": beam.line.iter().map(|at| place(at, first)).collect::<Vec<_>>(),
@@ -168,21 +171,22 @@ fn packed_beam(beam: &Beam, shapes: &mut Vec<Value>) -> Value {
 }
 
 /// A place as its first point, counted from another one, and the weights.
-fn place(place: &Place, from: usize) -> Value {
+fn place(place: &PointCombination, from: usize) -> Value {
     let rounded = |weight: &f64| (weight * WEIGHT_PARTS).round() / WEIGHT_PARTS;
     let weights: Vec<f64> = place.weights.iter().map(rounded).collect();
     json!([place.first - from, weights])
 }
 
 /// The coordinates of all points, with the same step along both axes.
-fn packed_points(film: &Film) -> Result<(Value, Value), OutputError> {
-    let along =
-        |pick: fn(&Point) -> f64| Scale::over(film.points.iter().flatten().map(pick), FINEST);
+fn packed_points(film: &ViewerData) -> Result<(Value, Value), OutputError> {
+    let along = |pick: fn(&Point) -> f64| {
+        Quantisation::over(film.points.iter().flatten().map(pick), FINEST)
+    };
     let (x, y) = (along(|point| point.0), along(|point| point.1));
     let step = x.step.max(y.step);
     let shape = (film.points.first().map_or(0, Vec::len), film.points.len());
-    let packed = |scale: Scale, pick: fn(&Point) -> f64| {
-        pack(Scale { step, ..scale }, shape, |point, frame| pick(&film.points[frame][point]))
+    let packed = |scale: Quantisation, pick: fn(&Point) -> f64| {
+        pack(Quantisation { step, ..scale }, shape, |point, frame| pick(&film.points[frame][point]))
     };
     Ok((packed(x, |point| point.0)?, packed(y, |point| point.1)?))
 }
@@ -199,7 +203,7 @@ fn packed_arrows(arrows: &[Arrow], frames: usize) -> Result<Value, OutputError> 
         let (x, y) = arrows[number / 2].values[frame];
         [x, y][number % 2] / sizes[number / 2]
     };
-    let scale = Scale { origin: -1.0, step: 2.0 / f64::from(LOAD_STEPS - 1) };
+    let scale = Quantisation { origin: -1.0, step: 2.0 / f64::from(LOAD_STEPS - 1) };
     let arrow = |arrow: &Arrow| json!({ "kind": arrow.symbol.name(), "name": arrow.name, "at": place(&arrow.at, 0) });
     Ok(json!({
         "all": arrows.iter().map(arrow).collect::<Vec<_>>(),
@@ -207,19 +211,19 @@ fn packed_arrows(arrows: &[Arrow], frames: usize) -> Result<Value, OutputError> 
     }))
 }
 
-fn packed_field(field: &Field) -> Result<Value, OutputError> {
-    let scale = Scale::over(field.values.iter().flatten().copied(), SHADES);
+fn packed_field(field: &ColourField) -> Result<Value, OutputError> {
+    let scale = Quantisation::over(field.values.iter().flatten().copied(), SHADES);
     let shape = (field.values.first().map_or(0, Vec::len), field.values.len());
     let values = pack(scale, shape, |station, frame| field.values[frame][station])?;
     Ok(json!({ "name": field.name, "unit": field.unit, "values": values }))
 }
 
-fn packed_history(film: &Film) -> Result<Value, OutputError> {
+fn packed_history(film: &ViewerData) -> Result<Value, OutputError> {
     let columns: Vec<&[f64]> = film.columns.iter().map(|column| column.values.as_slice()).collect();
     let kept = rows_to_keep(film.rows.len(), &columns);
-    let column = |column: &Column| {
+    let column = |column: &TimeCurve| {
         let values = || kept.iter().map(|row| column.values[*row]);
-        let packed = pack(Scale::over(values(), FINEST), (1, kept.len()), |_, row| {
+        let packed = pack(Quantisation::over(values(), FINEST), (1, kept.len()), |_, row| {
             column.values[kept[row]]
         })?;
         Ok(json!({ "name": column.name, "unit": column.unit, "values": packed }))

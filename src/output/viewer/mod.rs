@@ -7,12 +7,13 @@
 //! The bodies are sent as their points, control points or nodes, in 16 bits, and drawn from them in the browser: a curve is exact at every
 //! place at which it is drawn, and takes less room than its polyline.
 
+mod data;
 mod document;
-mod film;
 mod packing;
 mod thinning;
 
-pub use document::Viewer;
-pub use film::{
-    Anchor, Arrow, Beam, Body, Column, Field, Film, Particle, Place, Sign, Spring, Trail,
+pub use data::{
+    Arrow, BeamShape, BodyShape, ColourField, ParticleShape, PointCombination, SpringEnd,
+    SpringShape, SymbolMark, TimeCurve, Trail, ViewerData,
 };
+pub use document::Viewer;

@@ -16,14 +16,14 @@ pub const FINEST: u16 = MISSING - 1;
 
 /// How numbers become codes: `origin + step · code`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Scale {
+pub struct Quantisation {
     /// What the code 0 stands for.
     pub origin: f64,
     /// From one code to the next; zero where all numbers are the same.
     pub step: f64,
 }
 
-impl Scale {
+impl Quantisation {
     /// The scale from the least to the greatest finite number in so many steps.
     pub fn over(numbers: impl Iterator<Item = f64>, steps: u16) -> Self {
         let finite = numbers.filter(|number| number.is_finite());
@@ -58,7 +58,7 @@ impl Scale {
 /// # Errors
 /// When they cannot be deflated, which would be a mistake of ours.
 pub fn pack(
-    scale: Scale,
+    scale: Quantisation,
     (numbers, frames): (usize, usize),
     value: impl Fn(usize, usize) -> f64,
 ) -> Result<Value, OutputError> {
@@ -107,16 +107,19 @@ mod tests {
     #[test]
     fn a_number_is_off_by_half_a_step_at_most() {
         let numbers = [-3.0, 0.1, 2.7, 9.0, f64::NAN];
-        let scale = Scale::over(numbers.into_iter(), FINEST);
+        let scale = Quantisation::over(numbers.into_iter(), FINEST);
         for number in &numbers[..4] {
             let back = scale.origin + scale.step * f64::from(scale.code(*number));
             assert!((back - number).abs() <= 0.500001 * scale.step);
         }
         assert_eq!((scale.code(-3.0), scale.code(9.0), scale.code(f64::NAN)), (0, FINEST, MISSING));
-        assert_eq!(Scale::over([7.0; 3].into_iter(), FINEST).code(7.0), 0);
-        let huge = Scale::over([-f64::MAX, f64::MAX].into_iter(), FINEST);
+        assert_eq!(Quantisation::over([7.0; 3].into_iter(), FINEST).code(7.0), 0);
+        let huge = Quantisation::over([-f64::MAX, f64::MAX].into_iter(), FINEST);
         assert_eq!((huge.code(-f64::MAX), huge.code(f64::MAX)), (0, FINEST));
-        assert_eq!(Scale::over([f64::NAN].into_iter(), FINEST), Scale { origin: 0.0, step: 0.0 });
+        assert_eq!(
+            Quantisation::over([f64::NAN].into_iter(), FINEST),
+            Quantisation { origin: 0.0, step: 0.0 }
+        );
     }
 
     #[test]

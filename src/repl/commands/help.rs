@@ -1,14 +1,14 @@
 //! `:help` and `?`: what a name means.
 
-use super::names::{Known, in_language, known};
+use super::names::{NameInfo, in_language, known};
 use super::{COMMANDS, Command, find};
 use crate::output::Colours;
-use crate::repl::shell::{Outcome, Shell};
+use crate::repl::shell::{CommandOutcome, Shell};
 use crate::script::diagnose::Diagnostic;
-use crate::script::pages::help::{self, Page, Span};
+use crate::script::help::lookup::{self, HelpPage, StyledText};
 
 /// The command `:help [name]`: shows help on a name, or on the prompt.
-pub fn help(shell: &mut Shell, operand: &str) -> Outcome {
+pub fn help(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let name = operand.trim_matches('"').trim_end_matches('?').trim_end_matches("()").trim();
     match name {
         "" => return commands(shell),
@@ -26,18 +26,18 @@ pub fn help(shell: &mut Shell, operand: &str) -> Outcome {
     }
     let mut texts = Vec::new();
     let mut name_of_page = in_language(shell, name);
-    if let Some(Known { page, shown }) = known(shell, name) {
+    if let Some(NameInfo { page, shown }) = known(shell, name) {
         let text = format!("{}{}", drawn(shell, &page), shown.unwrap_or_default());
         texts.push(text);
         // What is known of the type, where the name itself means nothing to the language.
-        let is_plain = help::find(shell.session().catalog(), &name_of_page).is_empty();
+        let is_plain = lookup::find(shell.session().catalog(), &name_of_page).is_empty();
         let value = shell.session().variables().get(name).filter(|_| is_plain);
         if let Some(value) = value {
             name_of_page = shell.session().engine().map_type_name(value.type_name()).to_owned();
         }
     }
     let command = COMMANDS.iter().find(|command| command.name[1..] == *name);
-    match help::page(shell.session().catalog(), &name_of_page) {
+    match lookup::page(shell.session().catalog(), &name_of_page) {
         Ok(page) => {
             texts.push(drawn(shell, &page));
             texts.extend(command.map(|command| drawn(shell, &explained(command))));
@@ -52,7 +52,7 @@ pub fn help(shell: &mut Shell, operand: &str) -> Outcome {
                 });
             }
             if command.is_some() && !unknown.is_strange() {
-                let mut page = Page::default();
+                let mut page = HelpPage::default();
                 page.paragraph(&format!("In a script: {}", unknown.hint()));
                 texts.push(drawn(shell, &page));
             }
@@ -61,8 +61,8 @@ pub fn help(shell: &mut Shell, operand: &str) -> Outcome {
     show(shell, &texts)
 }
 
-fn explained(command: &Command) -> Page {
-    let mut page = Page::default();
+fn explained(command: &Command) -> HelpPage {
+    let mut page = HelpPage::default();
     page.heading(command.usage());
     page.paragraph(&format!("At the prompt, it {}.", command.summary));
     if !command.doc.is_empty() {
@@ -72,12 +72,12 @@ fn explained(command: &Command) -> Page {
 }
 
 /// The commands, and how to come to the rest: what is asked for must not scroll away.
-fn commands(shell: &mut Shell) -> Outcome {
-    let mut page = Page::default();
+fn commands(shell: &mut Shell) -> CommandOutcome {
+    let mut page = HelpPage::default();
     page.heading("Commands of the prompt");
     for command in COMMANDS {
-        let summary = Span::plain(format!(": {}", command.summary));
-        page.words(2, vec![Span::name(command.usage()), summary]);
+        let summary = StyledText::plain(format!(": {}", command.summary));
+        page.words(2, vec![StyledText::name(command.usage()), summary]);
     }
     page.gap();
     page.paragraph(
@@ -88,14 +88,14 @@ fn commands(shell: &mut Shell) -> Outcome {
 }
 
 /// All that has a page.
-fn topics(shell: &mut Shell) -> Outcome {
-    match help::page(shell.session().catalog(), "") {
+fn topics(shell: &mut Shell) -> CommandOutcome {
+    match lookup::page(shell.session().catalog(), "") {
         Ok(page) => show(shell, &[drawn(shell, &page)]),
         Err(unknown) => shell.refuse(&Diagnostic::bug(unknown)),
     }
 }
 
-fn drawn(shell: &Shell, page: &Page) -> String {
+fn drawn(shell: &Shell, page: &HelpPage) -> String {
     match shell.colours() {
         Colours::Ansi => page.ansi(shell.width()),
         Colours::None => page.plain(shell.width()),
@@ -103,7 +103,7 @@ fn drawn(shell: &Shell, page: &Page) -> String {
 }
 
 /// Shows texts one below the other.
-fn show(shell: &mut Shell, texts: &[String]) -> Outcome {
+fn show(shell: &mut Shell, texts: &[String]) -> CommandOutcome {
     let texts: Vec<&str> = texts.iter().map(|text| text.trim_end()).collect();
     shell.print_in_pages(&texts.join("\n\n"))
 }

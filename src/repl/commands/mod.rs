@@ -1,14 +1,14 @@
 //! The commands of the prompt: one table, and what they do.
 
 mod help;
-mod looking;
+mod inspection;
 mod names;
+mod plain_commands;
 mod plotting;
 mod session;
 mod stepping;
 mod table;
 mod timing;
-mod words;
 
+pub use plain_commands::meant;
 pub use table::{COMMANDS, Command, HELP, QUIT, find};
-pub use words::meant;

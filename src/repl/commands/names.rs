@@ -6,35 +6,35 @@ use crate::output::significant;
 use crate::repl::editor::type_before;
 use crate::repl::session::{ANSWER, Reply};
 use crate::repl::shell::Shell;
+use crate::script::help::lookup::{HelpPage, StyledText};
 use crate::script::library::page_of;
-use crate::script::looks::present::present;
-use crate::script::pages::help::{Page, Span};
-use crate::script::words::nouns::with_article;
+use crate::script::messages::nouns::with_article;
+use crate::script::presentation::present::present;
 
 /// Digits of a number.
 const DIGITS: usize = 6;
 
 /// What the session knows of a name: lines to be shown as they are, and a page.
-pub struct Known {
+pub struct NameInfo {
     /// What the value of the name looks like.
     pub shown: Option<String>,
     /// The page of what there is to say of the name besides.
-    pub page: Page,
+    pub page: HelpPage,
 }
 
 /// What a name stands for in the session of the shell, if anything.
-pub fn known(shell: &mut Shell, name: &str) -> Option<Known> {
+pub fn known(shell: &mut Shell, name: &str) -> Option<NameInfo> {
     if name.contains('.') {
         return member(shell, name);
     }
     if let Some(value) = shell.session().variables().get(name).cloned() {
         return Some(variable(shell, name, &value));
     }
-    let mut page = Page::default();
+    let mut page = HelpPage::default();
     if name == ANSWER {
         page.heading(ANSWER);
         page.paragraph("At the prompt, the value of the last input that had one.");
-        return Some(Known { shown: None, page });
+        return Some(NameInfo { shown: None, page });
     }
     for function in shell.session().functions().filter(|function| function.name == name) {
         describe(&mut page, "", &function, "a function of this session");
@@ -53,7 +53,7 @@ pub fn known(shell: &mut Shell, name: &str) -> Option<Known> {
     } else if let Some((_, module)) = shell.session().modules().find(|(known, _)| *known == name) {
         describe_module(&mut page, name, module);
     }
-    (!page.parts.is_empty()).then(|| Known { shown: text_of(shell, name), page })
+    (!page.parts.is_empty()).then(|| NameInfo { shown: text_of(shell, name), page })
 }
 
 /// How a function of the session was typed, without the comments that are told already.
@@ -83,7 +83,7 @@ pub fn in_language(shell: &Shell, name: &str) -> String {
     }
 }
 
-fn variable(shell: &Shell, name: &str, value: &Dynamic) -> Known {
+fn variable(shell: &Shell, name: &str, value: &Dynamic) -> NameInfo {
     let session = shell.session();
     let kind = match (name, session.variables().is_constant(name)) {
         (ANSWER, Some(false)) => "the value of the last input that had one",
@@ -91,12 +91,15 @@ fn variable(shell: &Shell, name: &str, value: &Dynamic) -> Known {
         _ => "a variable",
     };
     let of = with_article(session.engine().map_type_name(value.type_name()));
-    let mut page = Page::default();
+    let mut page = HelpPage::default();
     page.words(
         0,
-        vec![Span::name(name), Span::plain(format!(" is {kind}: {of}{}", extent(value)))],
+        vec![
+            StyledText::name(name),
+            StyledText::plain(format!(" is {kind}: {of}{}", extent(value))),
+        ],
     );
-    Known { shown: Some(present(session.catalog(), value, shell.width())), page }
+    NameInfo { shown: Some(present(session.catalog(), value, shell.width())), page }
 }
 
 /// How much an array or a map holds.
@@ -129,36 +132,42 @@ fn extent(value: &Dynamic) -> String {
 }
 
 /// The value of a property of what a variable holds; asking for one changes nothing.
-fn member(shell: &mut Shell, path: &str) -> Option<Known> {
+fn member(shell: &mut Shell, path: &str) -> Option<NameInfo> {
     let (first, _) = path.split_once('.')?;
     if !shell.session().variables().contains(first) || path.contains(['(', '[', '/', ':']) {
         return None;
     }
     let Reply::Value(value) = shell.session_mut().peek(path) else { return None };
     let of = with_article(shell.session().engine().map_type_name(value.type_name()));
-    let mut page = Page::default();
-    page.words(0, vec![Span::name(path), Span::plain(format!(" is {of}{}", extent(&value)))]);
+    let mut page = HelpPage::default();
+    page.words(
+        0,
+        vec![StyledText::name(path), StyledText::plain(format!(" is {of}{}", extent(&value)))],
+    );
     let shown = present(shell.session().catalog(), &value, shell.width());
-    Some(Known { shown: Some(shown), page })
+    Some(NameInfo { shown: Some(shown), page })
 }
 
-fn describe(page: &mut Page, alias: &str, function: &ScriptFnMetadata, what: &str) {
+fn describe(page: &mut HelpPage, alias: &str, function: &ScriptFnMetadata, what: &str) {
     if !page.parts.is_empty() {
         page.gap();
     }
     let path = if alias.is_empty() { String::new() } else { format!("{alias}::") };
     let of = function.this_type.map(|of| format!("{of}.")).unwrap_or_default();
     let signature = format!("{path}{of}{}({})", function.name, function.params.join(", "));
-    page.words(0, vec![Span::name(signature), Span::plain(format!(" is {what}."))]);
+    page.words(0, vec![StyledText::name(signature), StyledText::plain(format!(" is {what}."))]);
     for line in function.comments.iter().flat_map(|comment| comment.lines()) {
         page.paragraph(line.trim_start().trim_start_matches('/').trim());
     }
 }
 
-fn describe_module(page: &mut Page, alias: &str, module: &Module) {
+fn describe_module(page: &mut HelpPage, alias: &str, module: &Module) {
     let from = module.id().map(|id| id.trim_end_matches(".rhai"));
     let from = from.map(|id| format!(" of \"{id}\"")).unwrap_or_default();
-    page.words(0, vec![Span::name(alias), Span::plain(format!(" is an import{from}."))]);
+    page.words(
+        0,
+        vec![StyledText::name(alias), StyledText::plain(format!(" is an import{from}."))],
+    );
     // The page of the library follows.
     if module.id().and_then(page_of).is_some() {
         return;
@@ -170,7 +179,7 @@ fn describe_module(page: &mut Page, alias: &str, module: &Module) {
             let first = metadata.comments.iter().flat_map(|comment| comment.lines()).next();
             let first = first.map(|line| line.trim_start().trim_start_matches('/').trim());
             let about = first.map(|line| format!(": {line}")).unwrap_or_default();
-            page.words(2, vec![Span::name(signature), Span::plain(about)]);
+            page.words(2, vec![StyledText::name(signature), StyledText::plain(about)]);
         }
     }
 }

@@ -4,18 +4,18 @@ use std::collections::BTreeSet;
 
 use rhai::Map;
 
-use super::looking::{draw, options_of};
-use crate::repl::curves::{Curve, Over, Shape, parts, shape, summary};
-use crate::repl::following::{Followed, follow, moves};
+use super::inspection::{draw, options_of};
+use crate::repl::curves::{CurveAbscissa, PlotCurve, PlotShape, parts, shape, summary};
+use crate::repl::history_expression::{Followed, follow, moves};
 use crate::repl::session::Reply;
-use crate::repl::shell::{Outcome, Screen, Shell, no_simulation};
+use crate::repl::shell::{CommandOutcome, ReplyTarget, Shell, no_simulation};
 use crate::script::diagnose::Diagnostic;
 use crate::script::handles::simulation::{Revisit, SimulationHandle};
-use crate::script::looks::sight;
+use crate::script::messages::error::ScriptError;
+use crate::script::messages::nouns::with_article;
 use crate::script::packages::pictures::curves::typed_chart;
-use crate::script::source::scanner::{Kind, scan};
-use crate::script::words::error::ScriptError;
-use crate::script::words::nouns::with_article;
+use crate::script::presentation::plots;
+use crate::script::source::scanner::{TokenKind, scan};
 use crate::simulation::History;
 
 /// What is drawn when nothing is named.
@@ -25,31 +25,31 @@ const ENERGIES: [&str; 3] = ["kinetic", "strain", "energy"];
 const PLOT_EXAMPLE: &str = ":plot energy, #{ y_log: true }";
 
 /// What was found about a part of what is to be drawn.
-enum Part {
+enum PlotPart {
     Columns(Vec<String>),
     Expression(String),
 }
 
 /// The command `:plot [curves] [options]`: draws columns of the history, or curves of expressions.
-pub fn plot(shell: &mut Shell, operand: &str) -> Outcome {
+pub fn plot(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let (operand, options) = with_options(operand);
     let options = match options.map(|text| options_of(shell, text, PLOT_EXAMPLE)).transpose() {
         Ok(options) => options,
         Err(outcome) => return outcome,
     };
-    let found: Vec<Part> = parts(operand).into_iter().map(|part| read(shell, part)).collect();
+    let found: Vec<PlotPart> = parts(operand).into_iter().map(|part| read(shell, part)).collect();
     let mut columns = Vec::new();
     for part in &found {
         match part {
-            Part::Columns(names) => columns.extend(names.iter().cloned()),
-            Part::Expression(_) => return plot_curves(shell, found, options),
+            PlotPart::Columns(names) => columns.extend(names.iter().cloned()),
+            PlotPart::Expression(_) => return plot_curves(shell, found, options),
         }
     }
     if columns.is_empty() {
         columns = ENERGIES.map(str::to_owned).to_vec();
     }
     match options {
-        Some(_) => plot_curves(shell, vec![Part::Columns(columns)], options),
+        Some(_) => plot_curves(shell, vec![PlotPart::Columns(columns)], options),
         None => plot_columns(shell, &columns),
     }
 }
@@ -71,7 +71,7 @@ fn with_options(operand: &str) -> (&str, Option<&str>) {
     (operand, None)
 }
 
-fn plot_columns(shell: &mut Shell, columns: &[String]) -> Outcome {
+fn plot_columns(shell: &mut Shell, columns: &[String]) -> CommandOutcome {
     for name in columns.iter().filter(|name| shell.session().variables().contains(name)) {
         shell.note(&format!(
             "note: '{name}' is a column of the history here; write ({name}) for the variable"
@@ -79,17 +79,17 @@ fn plot_columns(shell: &mut Shell, columns: &[String]) -> Outcome {
     }
     let has_one_row = has_one_row(shell);
     let outcome = draw(shell, |simulation, screen| match screen {
-        Screen::Terminal(_) if has_one_row && columns != ["drift"] => {
+        ReplyTarget::Terminal(_) if has_one_row && columns != ["drift"] => {
             column_summaries(simulation.history(), columns)
         }
-        Screen::Terminal(style) if columns == ["drift"] => {
-            Ok(sight::drift_chart(simulation.history(), &style))
+        ReplyTarget::Terminal(style) if columns == ["drift"] => {
+            Ok(plots::drift_chart(simulation.history(), &style))
         }
-        Screen::Terminal(style) => sight::history_chart(simulation.history(), columns, &style),
-        Screen::Pipe if columns == ["drift"] => Ok(sight::drift_summary(simulation.history())),
-        Screen::Pipe => column_summaries(simulation.history(), columns),
+        ReplyTarget::Terminal(style) => plots::history_chart(simulation.history(), columns, &style),
+        ReplyTarget::Pipe if columns == ["drift"] => Ok(plots::drift_summary(simulation.history())),
+        ReplyTarget::Pipe => column_summaries(simulation.history(), columns),
     });
-    if outcome == Outcome::Good {
+    if outcome == CommandOutcome::Good {
         note_one_state(shell);
     }
     outcome
@@ -101,18 +101,18 @@ fn has_one_row(shell: &Shell) -> bool {
 
 /// Says at a terminal why there are numbers in the place of a chart.
 fn note_one_state(shell: &mut Shell) {
-    if has_one_row(shell) && matches!(shell.screen(), Screen::Terminal(_)) {
+    if has_one_row(shell) && matches!(shell.screen(), ReplyTarget::Terminal(_)) {
         shell.note("note: there is one state so far; :run T or :step 10 makes a curve");
     }
 }
 
 fn column_summaries(history: &History, columns: &[String]) -> Result<String, ScriptError> {
-    let line = |column: &String| sight::column_summary(history, column);
+    let line = |column: &String| plots::column_summary(history, column);
     Ok(columns.iter().map(line).collect::<Result<Vec<_>, _>>()?.join("\n"))
 }
 
 /// Columns are names, as they stand or in quotes; so are words that can be nothing else.
-fn read(shell: &Shell, part: &str) -> Part {
+fn read(shell: &Shell, part: &str) -> PlotPart {
     let words: Vec<String> =
         part.split_whitespace().map(|word| word.trim_matches('"').to_owned()).collect();
     let latest = shell.latest();
@@ -126,23 +126,23 @@ fn read(shell: &Shell, part: &str) -> Part {
         None => History::COLUMNS.iter().any(|column| column.name == name) && !is_known(name),
     };
     let is_word = |name: &String| {
-        matches!(scan(name).as_slice(), [token] if token.kind == Kind::Word)
+        matches!(scan(name).as_slice(), [token] if token.kind == TokenKind::Word)
             && !is_known(name)
             && (latest.is_some() || words.len() > 1)
     };
     match words.iter().all(|word| is_column(word) || is_word(word)) {
-        true => Part::Columns(words),
-        false => Part::Expression(part.to_owned()),
+        true => PlotPart::Columns(words),
+        false => PlotPart::Expression(part.to_owned()),
     }
 }
 
-fn plot_curves(shell: &mut Shell, found: Vec<Part>, options: Option<Map>) -> Outcome {
+fn plot_curves(shell: &mut Shell, found: Vec<PlotPart>, options: Option<Map>) -> CommandOutcome {
     let mut curves = Vec::new();
     let mut said = BTreeSet::new();
     for part in found {
         let outcome = match part {
-            Part::Columns(names) => columns(shell, &names),
-            Part::Expression(text) => expression(shell, &text),
+            PlotPart::Columns(names) => columns(shell, &names),
+            PlotPart::Expression(text) => expression(shell, &text),
         };
         match outcome {
             Ok((more, words)) => {
@@ -152,7 +152,9 @@ fn plot_curves(shell: &mut Shell, found: Vec<Part>, options: Option<Map>) -> Out
             Err(outcome) => return outcome,
         }
     }
-    let Some(first) = curves.first().map(|curve: &Curve| curve.over) else { return Outcome::Good };
+    let Some(first) = curves.first().map(|curve: &PlotCurve| curve.over) else {
+        return CommandOutcome::Good;
+    };
     if let Some(empty) = curves.iter().find(|curve| !curve.has_points()) {
         let told = format!("'{}' is nowhere a finite number", empty.name);
         return shell.refuse(&Diagnostic::general(told).with_hint("there is nothing to draw"));
@@ -162,7 +164,8 @@ fn plot_curves(shell: &mut Shell, found: Vec<Part>, options: Option<Map>) -> Out
         let told = format!("'{}' goes over {one} and '{}' over {two}", curves[0].name, other.name);
         return shell.refuse(&Diagnostic::general(told).with_hint("plot them one after the other"));
     }
-    let is_one_state = |curve: &Curve| curve.over == Over::Time && curve.points.len() == 1;
+    let is_one_state =
+        |curve: &PlotCurve| curve.over == CurveAbscissa::Time && curve.points.len() == 1;
     let drawn = curves.iter().map(|curve| (curve.name.clone(), curve.points.clone())).collect();
     let engine = shell.session().engine();
     let chart = match typed_chart(engine, &options.unwrap_or_default(), first.label(), drawn) {
@@ -170,23 +173,23 @@ fn plot_curves(shell: &mut Shell, found: Vec<Part>, options: Option<Map>) -> Out
         Err(error) => return shell.refuse_native(error),
     };
     match shell.screen() {
-        Screen::Terminal(_) if curves.iter().any(is_one_state) => {
+        ReplyTarget::Terminal(_) if curves.iter().any(is_one_state) => {
             curves.iter().for_each(|curve| shell.print(&summary(curve)));
         }
-        Screen::Pipe => {
+        ReplyTarget::Pipe => {
             curves.iter().for_each(|curve| shell.print(&summary(curve)));
         }
-        Screen::Terminal(style) => shell.print(chart.text(&style).trim_end()),
+        ReplyTarget::Terminal(style) => shell.print(chart.text(&style).trim_end()),
     }
     said.iter().for_each(|words| shell.note(words));
     note_one_state(shell);
-    Outcome::Good
+    CommandOutcome::Good
 }
 
 /// Curves, and what is to be said of them.
-type Drawn = Result<(Vec<Curve>, Option<String>), Outcome>;
+type PlotData = Result<(Vec<PlotCurve>, Option<String>), CommandOutcome>;
 
-fn columns(shell: &mut Shell, names: &[String]) -> Drawn {
+fn columns(shell: &mut Shell, names: &[String]) -> PlotData {
     let Some(latest) = shell.latest() else { return Err(shell.refuse(&no_simulation())) };
     let simulation = latest.simulation();
     let history = simulation.history();
@@ -194,18 +197,18 @@ fn columns(shell: &mut Shell, names: &[String]) -> Drawn {
     for name in names {
         let Some(values) = history.column(name) else {
             let told = format!("the history has no column {name:?}");
-            let hint = sight::column_hint(history, name);
+            let hint = plots::column_hint(history, name);
             return Err(shell.refuse(&Diagnostic::general(told).with_hint(hint)));
         };
         let times = history.samples().iter().map(|row| row.measures.time);
         let points = times.zip(values).collect();
-        curves.push(Curve { name: name.clone(), over: Over::Time, points });
+        curves.push(PlotCurve { name: name.clone(), over: CurveAbscissa::Time, points });
     }
     Ok((curves, None))
 }
 
 /// An expression is looked at in the present, and then, if it is a point, wherever the simulation has been.
-fn expression(shell: &mut Shell, text: &str) -> Drawn {
+fn expression(shell: &mut Shell, text: &str) -> PlotData {
     let subject = match subject(shell, text) {
         Ok(subject) => subject,
         Err(refusal) => return Err(shell.refuse(&refusal)),
@@ -232,10 +235,10 @@ fn expression(shell: &mut Shell, text: &str) -> Drawn {
     };
     let of = with_article(shell.session().engine().map_type_name(value.type_name()));
     let is_point = match shape(&value, &of) {
-        Shape::Whole(over, points) => {
-            return Ok((vec![Curve { name: text.to_owned(), over, points }], None));
+        PlotShape::Whole(over, points) => {
+            return Ok((vec![PlotCurve { name: text.to_owned(), over, points }], None));
         }
-        Shape::None(why) => {
+        PlotShape::None(why) => {
             let told = format!("'{text}' cannot be drawn: {why}");
             let hint = match value.is_bool() {
                 true => "write if … { 1 } else { 0 }",
@@ -261,22 +264,22 @@ fn expression(shell: &mut Shell, text: &str) -> Drawn {
     if is_flat && !asks && points.len() > 1 {
         return Err(alone(shell));
     }
-    let curve = |name: String, read: fn(&Shape) -> f64| Curve {
+    let curve = |name: String, read: fn(&PlotShape) -> f64| PlotCurve {
         name,
-        over: Over::Time,
+        over: CurveAbscissa::Time,
         points: points.iter().map(|(time, point)| (*time, read(point))).collect(),
     };
-    let x = |point: &Shape| match point {
-        Shape::Number(value) => *value,
-        Shape::Vector(vector) => vector.x,
+    let x = |point: &PlotShape| match point {
+        PlotShape::Number(value) => *value,
+        PlotShape::Vector(vector) => vector.x,
         _ => f64::NAN,
     };
-    let y = |point: &Shape| match point {
-        Shape::Vector(vector) => vector.y,
+    let y = |point: &PlotShape| match point {
+        PlotShape::Vector(vector) => vector.y,
         _ => f64::NAN,
     };
     let curves = match is_point {
-        Shape::Vector(_) => vec![curve(format!("{text}.x"), x), curve(format!("{text}.y"), y)],
+        PlotShape::Vector(_) => vec![curve(format!("{text}.x"), x), curve(format!("{text}.y"), y)],
         _ => vec![curve(text.to_owned(), x)],
     };
     Ok((curves, Some(words)))
@@ -286,7 +289,9 @@ fn expression(shell: &mut Shell, text: &str) -> Drawn {
 fn mentions<'s>(shell: &'s Shell, text: &str) -> impl Iterator<Item = SimulationHandle> + 's {
     let tokens: Vec<_> = scan(text).into_iter().filter(|token| token.is_significant()).collect();
     let mut named: Vec<SimulationHandle> = Vec::new();
-    for (index, token) in tokens.iter().enumerate().filter(|(_, token)| token.kind == Kind::Word) {
+    for (index, token) in
+        tokens.iter().enumerate().filter(|(_, token)| token.kind == TokenKind::Word)
+    {
         let is_member = index > 0 && matches!(tokens[index - 1].of(text), "." | "?." | "::");
         let name = token.of(text);
         let held = match name {

@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use crate::output::write_whole;
-use crate::repl::shell::{Outcome, Shell};
+use crate::repl::shell::{CommandOutcome, Shell};
 use crate::script::diagnose::Diagnostic;
 use crate::script::source::program::Program;
 
 /// The command `:save file`: writes the session as a script.
-pub fn save(shell: &mut Shell, operand: &str) -> Outcome {
+pub fn save(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let operand = operand.trim_matches('"');
     if operand.is_empty() {
         let told = Diagnostic::general("the name of a file is missing");
@@ -40,11 +40,11 @@ pub fn save(shell: &mut Shell, operand: &str) -> Outcome {
     }
     shell.note_saved(path, script);
     shell.print(&format!("saved to {operand}"));
-    Outcome::Good
+    CommandOutcome::Good
 }
 
 /// The command `:load file`: evaluates a script as if it had been typed.
-pub fn load(shell: &mut Shell, operand: &str) -> Outcome {
+pub fn load(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let operand = operand.trim_matches('"');
     if operand.is_empty() {
         let told = Diagnostic::general("the name of a file is missing");
@@ -57,12 +57,12 @@ pub fn load(shell: &mut Shell, operand: &str) -> Outcome {
 }
 
 /// The command `:reset`: forgets everything but the screen.
-pub fn reset(shell: &mut Shell, _: &str) -> Outcome {
+pub fn reset(shell: &mut Shell, _: &str) -> CommandOutcome {
     shell.reset();
-    Outcome::Good
+    CommandOutcome::Good
 }
 
 /// The command `:quit`: leaves the prompt.
-pub fn quit(_: &mut Shell, _: &str) -> Outcome {
-    Outcome::Quit
+pub fn quit(_: &mut Shell, _: &str) -> CommandOutcome {
+    CommandOutcome::Quit
 }

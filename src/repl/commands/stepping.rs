@@ -1,14 +1,14 @@
 //! Commands that move the last simulation.
 
-use crate::repl::shell::{Outcome, Shell};
+use crate::repl::shell::{CommandOutcome, Shell};
 use crate::script::diagnose::Diagnostic;
-use crate::script::words::numbers::format_number;
+use crate::script::messages::numbers::format_number;
 
 /// Whole numbers below this are exact as numbers of the language.
 const MOST_STEPS: f64 = 9e15;
 
 /// The command `:step [count]`: takes steps with the last simulation.
-pub fn step(shell: &mut Shell, operand: &str) -> Outcome {
+pub fn step(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let count = match whole(operand, "step") {
         Ok(count) => count,
         Err(refusal) => return shell.refuse(&refusal),
@@ -16,10 +16,10 @@ pub fn step(shell: &mut Shell, operand: &str) -> Outcome {
     if !shell.is_watching() {
         return move_latest(shell, &format!("step({count})"));
     }
-    let mut outcome = Outcome::Good;
+    let mut outcome = CommandOutcome::Good;
     for _ in 0..count {
         outcome = shell.call_latest_watched("step()");
-        if outcome != Outcome::Good {
+        if outcome != CommandOutcome::Good {
             break;
         }
     }
@@ -27,7 +27,7 @@ pub fn step(shell: &mut Shell, operand: &str) -> Outcome {
 }
 
 /// The command `:run time`: runs the last simulation to a time.
-pub fn run(shell: &mut Shell, operand: &str) -> Outcome {
+pub fn run(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let Ok(end) = operand.parse::<f64>() else {
         let hint = "write :run T, with the time to run to";
         return shell.refuse(&not_a_number(operand, "a time").with_hint(hint));
@@ -36,15 +36,15 @@ pub fn run(shell: &mut Shell, operand: &str) -> Outcome {
     if !shell.is_watching() || !end.is_finite() || shell.next_stop(end).is_none() {
         return move_latest(shell, &format!("run_to({})", format_number(end)));
     }
-    let mut outcome = Outcome::Good;
-    while let (Outcome::Good, Some(next)) = (outcome, shell.next_stop(end)) {
+    let mut outcome = CommandOutcome::Good;
+    while let (CommandOutcome::Good, Some(next)) = (outcome, shell.next_stop(end)) {
         outcome = shell.call_latest_watched(&format!("run_to({})", format_number(next)));
     }
     outcome
 }
 
 /// The command `:back [count]`: takes the last simulation back by steps.
-pub fn back(shell: &mut Shell, operand: &str) -> Outcome {
+pub fn back(shell: &mut Shell, operand: &str) -> CommandOutcome {
     match whole(operand, "back") {
         Ok(count) => move_latest(shell, &format!("back({count})")),
         Err(refusal) => shell.refuse(&refusal),
@@ -52,18 +52,18 @@ pub fn back(shell: &mut Shell, operand: &str) -> Outcome {
 }
 
 /// The command `:watch [expression]`: shows an expression after each step.
-pub fn watch(shell: &mut Shell, operand: &str) -> Outcome {
+pub fn watch(shell: &mut Shell, operand: &str) -> CommandOutcome {
     if operand.is_empty() {
         shell.watch_nothing();
-        return Outcome::Good;
+        return CommandOutcome::Good;
     }
     shell.watch(operand)
 }
 
 /// Calls a method that moves the last simulation, and says where it is then.
-fn move_latest(shell: &mut Shell, call: &str) -> Outcome {
+fn move_latest(shell: &mut Shell, call: &str) -> CommandOutcome {
     let outcome = shell.call_latest(call);
-    if outcome == Outcome::Good {
+    if outcome == CommandOutcome::Good {
         match shell.is_watching() {
             true => return shell.show_watched(),
             false => shell.tell_place(),

@@ -1,18 +1,18 @@
 //! The table of commands, from which come dispatch, `:help` and completion.
 
-use super::{help, looking, plotting, session, stepping, timing};
-use crate::repl::editor::surroundings::Operand;
-use crate::repl::shell::{Outcome, Shell};
+use super::{help, inspection, plotting, session, stepping, timing};
+use crate::repl::editor::surroundings::CommandOperand;
+use crate::repl::shell::{CommandOutcome, Shell};
 use crate::script::diagnose::Diagnostic;
-use crate::script::looks::quantities::NAMES;
-use crate::script::words::suggest::nearest;
+use crate::script::messages::suggest::nearest;
+use crate::script::presentation::quantities::NAMES;
 
 /// A command of the prompt.
 pub struct Command {
     /// The name of the command, with the colon.
     pub name: &'static str,
     /// What follows the name of the command.
-    pub operand: Operand,
+    pub operand: CommandOperand,
     /// How the operand of the command is written in the help; empty for nothing.
     pub placeholder: &'static str,
     /// One line on what the command does.
@@ -20,13 +20,13 @@ pub struct Command {
     /// More on the command, where a line is not enough.
     pub doc: &'static str,
     /// The function that does the command, given what follows its name.
-    pub body: fn(&mut Shell, &str) -> Outcome,
+    pub body: fn(&mut Shell, &str) -> CommandOutcome,
 }
 
 /// The command that `?` stands for: help.
 pub const HELP: Command = Command {
     name: ":help",
-    operand: Operand::Name,
+    operand: CommandOperand::Name,
     placeholder: "[NAME]",
     summary: "explains a function, a type, a topic or a command; ?name does the same",
     doc: "Without a name it lists the commands; :help topics lists all that has a page.",
@@ -36,7 +36,7 @@ pub const HELP: Command = Command {
 /// The command that leaves the prompt.
 pub const QUIT: Command = Command {
     name: ":quit",
-    operand: Operand::Nothing,
+    operand: CommandOperand::Nothing,
     placeholder: "",
     summary: "leaves; so does Ctrl-D",
     doc: "The words quit and exit do the same.",
@@ -48,15 +48,15 @@ pub const COMMANDS: &[Command] = &[
     HELP,
     Command {
         name: ":vars",
-        operand: Operand::Nothing,
+        operand: CommandOperand::Nothing,
         placeholder: "",
         summary: "lists variables, functions and imports",
         doc: "",
-        body: looking::variables,
+        body: inspection::variables,
     },
     Command {
         name: ":step",
-        operand: Operand::Number,
+        operand: CommandOperand::Number,
         placeholder: "[COUNT]",
         summary: "takes a step of the last simulation, or so many",
         doc: "The last simulation is the one that was started, loaded, forked or stepped last.",
@@ -64,7 +64,7 @@ pub const COMMANDS: &[Command] = &[
     },
     Command {
         name: ":run",
-        operand: Operand::Number,
+        operand: CommandOperand::Number,
         placeholder: "TIME",
         summary: "runs the last simulation to a time; Ctrl-C stops it after the step that it is in",
         doc: "",
@@ -72,7 +72,7 @@ pub const COMMANDS: &[Command] = &[
     },
     Command {
         name: ":back",
-        operand: Operand::Number,
+        operand: CommandOperand::Number,
         placeholder: "[COUNT]",
         summary: "goes back a step of the last simulation, or so many, to the very state that was",
         doc: "Snapshots reach back as far as their memory allows: `withy repl --snapshots MB`.",
@@ -80,15 +80,15 @@ pub const COMMANDS: &[Command] = &[
     },
     Command {
         name: ":invariants",
-        operand: Operand::Nothing,
+        operand: CommandOperand::Nothing,
         placeholder: "",
         summary: "shows how well energy, momenta and gaps were kept",
         doc: "",
-        body: looking::invariants,
+        body: inspection::invariants,
     },
     Command {
         name: ":plot",
-        operand: Operand::Curves,
+        operand: CommandOperand::Curves,
         placeholder: "[CURVES, OPTIONS]",
         summary: "draws columns of the history, or any expression, over time; the energies unless given",
         doc: "Curves are separated by commas. Each is a column, such as `energy`, or an expression. One that is a number or a vector, such as \
@@ -102,32 +102,32 @@ pub const COMMANDS: &[Command] = &[
     },
     Command {
         name: ":show",
-        operand: Operand::OptionsOf("plot_motion(0, \"\", "),
+        operand: CommandOperand::OptionsOf("plot_motion(0, \"\", "),
         placeholder: "[TIME] [OPTIONS]",
         summary: "draws the beams as they are now, or as they were at a time",
         doc: "The start is dotted behind them. With options, those of plot_motion, as in `:show #{ trace: [rod.end], magnify: 10 }`, what is dotted is \
               what they ask for: earlier snapshots with `every` or `from`, and paths. Pictures for files are drawn by plot_motion.",
-        body: looking::show,
+        body: inspection::show,
     },
     Command {
         name: ":along",
-        operand: Operand::OneOf(NAMES),
+        operand: CommandOperand::OneOf(NAMES),
         placeholder: "[QUANTITY]",
         summary: "draws a quantity along the beams as they are now; the bending moment M unless given",
         doc: "Quantities are N, Q, M, axial_strain, shear_strain, curvature, strain_energy and speed. Pictures for files are drawn by plot_along.",
-        body: looking::along,
+        body: inspection::along,
     },
     Command {
         name: ":view",
-        operand: Operand::File,
+        operand: CommandOperand::File,
         placeholder: "[FILE]",
         summary: "writes a page on which the last simulation moves, to be opened in a browser",
         doc: "The page is view.html in the output folder unless another name is given. More can be chosen with write_viewer.",
-        body: looking::view,
+        body: inspection::view,
     },
     Command {
         name: ":watch",
-        operand: Operand::Expression,
+        operand: CommandOperand::Expression,
         placeholder: "[EXPRESSION]",
         summary: "shows an expression after every step from now on; without one, watches no more",
         doc: "Several expressions can be watched. After inputs that are no commands they are shown once, if a simulation has moved.",
@@ -135,7 +135,7 @@ pub const COMMANDS: &[Command] = &[
     },
     Command {
         name: ":time",
-        operand: Operand::Expression,
+        operand: CommandOperand::Expression,
         placeholder: "INPUT",
         summary: "evaluates an input and says how long it takes, the first time and again",
         doc: "It is done again, each time from the same variables, which are then as the first time left them, until the median is known to a hundredth, or for two seconds. What it \
@@ -145,15 +145,15 @@ pub const COMMANDS: &[Command] = &[
     },
     Command {
         name: ":explain",
-        operand: Operand::Nothing,
+        operand: CommandOperand::Nothing,
         placeholder: "",
         summary: "says what the last simulation uses, and what it therefore leaves out",
         doc: "",
-        body: looking::explain,
+        body: inspection::explain,
     },
     Command {
         name: ":save",
-        operand: Operand::File,
+        operand: CommandOperand::File,
         placeholder: "FILE",
         summary: "writes the inputs that worked to a script that can be run",
         doc: "Of a function that was defined again, only the last definition is written. A file that this session has not \
@@ -162,7 +162,7 @@ pub const COMMANDS: &[Command] = &[
     },
     Command {
         name: ":load",
-        operand: Operand::File,
+        operand: CommandOperand::File,
         placeholder: "FILE",
         summary: "evaluates a script as if it had been typed",
         doc: "",
@@ -170,7 +170,7 @@ pub const COMMANDS: &[Command] = &[
     },
     Command {
         name: ":reset",
-        operand: Operand::Nothing,
+        operand: CommandOperand::Nothing,
         placeholder: "",
         summary: "forgets all variables, functions, imports and simulations",
         doc: "",

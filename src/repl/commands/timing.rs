@@ -5,11 +5,11 @@ use std::time::Duration;
 use crate::repl::effects::Footprint;
 use crate::repl::sampling::{Figures, LONGEST, Sampling};
 use crate::repl::session::Reply;
-use crate::repl::shell::{Outcome, Shell};
+use crate::repl::shell::{CommandOutcome, Shell};
 use crate::script::diagnose::Diagnostic;
 
 /// The command `:time input`: tells how long an input takes.
-pub fn time(shell: &mut Shell, operand: &str) -> Outcome {
+pub fn time(shell: &mut Shell, operand: &str) -> CommandOutcome {
     if operand.is_empty() {
         let told = Diagnostic::general("there is nothing to time");
         return shell.refuse(&told.with_hint("write :time followed by an input"));
@@ -24,7 +24,7 @@ pub fn time(shell: &mut Shell, operand: &str) -> Outcome {
     if let Some(earlier) = earlier.filter(|_| !shell.holds_latest()) {
         shell.session().context().note_simulation(earlier);
     }
-    if outcome != Outcome::Good {
+    if outcome != CommandOutcome::Good {
         return outcome;
     }
     let change = match operand.starts_with([':', '?']) {
@@ -39,11 +39,11 @@ pub fn time(shell: &mut Shell, operand: &str) -> Outcome {
         None if took >= LONGEST => shell.print(&once("it takes long")),
         None => return repeat(shell, operand, took),
     }
-    Outcome::Good
+    CommandOutcome::Good
 }
 
 /// Does it again, without a word of what it prints, until the figure is known.
-fn repeat(shell: &mut Shell, operand: &str, first: Duration) -> Outcome {
+fn repeat(shell: &mut Shell, operand: &str, first: Duration) -> CommandOutcome {
     let first = in_words(first);
     let (before, places) = (Footprint::of(shell.session()), shell.session().whereabouts());
     let context = shell.session().context().clone();
@@ -68,7 +68,7 @@ fn repeat(shell: &mut Shell, operand: &str, first: Duration) -> Outcome {
         shell.note(&format!("note: done again, it {change}"));
     }
     match outcome {
-        Ok(()) | Err(Reply::Failed(_)) => Outcome::Good,
+        Ok(()) | Err(Reply::Failed(_)) => CommandOutcome::Good,
         Err(stopped) => shell.tell(stopped),
     }
 }

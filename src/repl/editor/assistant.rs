@@ -12,7 +12,7 @@ use rustyline::{Context, Helper, Result};
 use super::candidates::Candidate;
 use super::completeness::{Completeness, completeness};
 use super::completion::complete;
-use super::highlight::{Vocabulary, highlight};
+use super::highlight::{SessionNames, highlight};
 use super::hints::{self, Hint};
 use crate::output::{Colours, columns, cut, padded};
 
@@ -21,7 +21,7 @@ const SHORT_LIST: usize = 12;
 
 /// The assistant of the line editor for one prompt: it completes, hints and colours.
 pub struct Assistant {
-    vocabulary: Vocabulary,
+    vocabulary: SessionNames,
     columns: usize,
     prompt_width: usize,
     colours: Colours,
@@ -33,7 +33,7 @@ pub struct Assistant {
 impl Assistant {
     /// The assistant for a terminal of so many columns, and a prompt of so many.
     pub fn new(
-        vocabulary: Vocabulary,
+        vocabulary: SessionNames,
         columns: usize,
         prompt_width: usize,
         colours: Colours,
@@ -178,7 +178,7 @@ mod tests {
     use super::*;
 
     fn assistant(columns: usize) -> Assistant {
-        Assistant::new(Vocabulary::of(surroundings()), columns, 2, Colours::Ansi)
+        Assistant::new(SessionNames::of(surroundings()), columns, 2, Colours::Ansi)
     }
 
     #[test]
@@ -198,7 +198,7 @@ mod tests {
     fn without_colours_only_notes_are_shown() {
         let history = rustyline::history::DefaultHistory::new();
         let context = Context::new(&history);
-        let plain = Assistant::new(Vocabulary::of(surroundings()), 80, 2, Colours::None);
+        let plain = Assistant::new(SessionNames::of(surroundings()), 80, 2, Colours::None);
         assert!(plain.hint("rod.e", 5, &context).is_none());
         assert!(plain.hint("line(", 5, &context).is_some());
         assert!(assistant(80).hint("rod.e", 5, &context).is_some());

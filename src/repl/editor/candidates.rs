@@ -1,8 +1,8 @@
 //! Candidates of a completion, and which of them fit what is typed.
 
-use crate::script::rows::built_in::{BuiltIn, Ending, Written};
-use crate::script::rows::parameter::Parameter;
-use crate::script::rows::table::{Form, Row};
+use crate::script::bindings::built_in::{BuiltIn, FunctionForm, NameSuffix};
+use crate::script::bindings::parameter::Parameter;
+use crate::script::bindings::table::{CallSyntax, FunctionBinding};
 
 /// A candidate of completion: something that what is typed may become.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -33,10 +33,10 @@ impl Candidate {
     }
 
     /// The candidate of a row of the language, in the way in which it is written after a dot, or without one.
-    pub fn row(row: &'static Row, before_dot: usize) -> Self {
+    pub fn row(row: &'static FunctionBinding, before_dot: usize) -> Self {
         match row.form {
-            Form::Property(_) | Form::Operator => Self::word(row.name, row.summary),
-            Form::Function | Form::Method(_) => {
+            CallSyntax::Property(_) | CallSyntax::Operator => Self::word(row.name, row.summary),
+            CallSyntax::Function | CallSyntax::Method(_) => {
                 let rest = row.parameters.get(before_dot..).unwrap_or_default();
                 Self::call(row.name, &arguments(rest), row.summary)
             }
@@ -44,10 +44,10 @@ impl Candidate {
     }
 
     /// The candidate of a function of Rhai's own, as it is written.
-    pub fn built_in((known, form): (&'static BuiltIn, Written)) -> Self {
+    pub fn built_in((known, form): (&'static BuiltIn, FunctionForm)) -> Self {
         match form.ending {
-            Ending::Property => Self::word(form.name, known.summary),
-            Ending::Arguments | Ending::Repeated => {
+            NameSuffix::Property => Self::word(form.name, known.summary),
+            NameSuffix::Arguments | NameSuffix::Repeated => {
                 Self::call(form.name, form.arguments, known.summary)
             }
         }

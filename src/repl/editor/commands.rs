@@ -2,11 +2,11 @@
 
 use super::candidates::{Candidate, fitting};
 use super::completion::complete;
-use super::paths::{Files, complete_path};
-use super::surroundings::{CommandWord, Operand, Surroundings};
+use super::paths::{FileFilter, complete_path};
+use super::surroundings::{CommandOperand, CommandWord, CompletionContext};
 
 /// The candidates for the end of `text`, which is a command or a question up to the cursor, and where what they replace begins.
-pub fn complete_command(text: &str, surroundings: &Surroundings) -> (usize, Vec<Candidate>) {
+pub fn complete_command(text: &str, surroundings: &CompletionContext) -> (usize, Vec<Candidate>) {
     let begin = text.len() - text.trim_start().len();
     let command = &text[begin..];
     if let Some(asked) = command.strip_prefix('?') {
@@ -23,15 +23,15 @@ pub fn complete_command(text: &str, surroundings: &Surroundings) -> (usize, Vec<
     let operand = command[end..].trim_start();
     let start = text.len() - operand.len();
     match command_named(&command[..end], surroundings).map(|word| word.operand) {
-        Some(Operand::Name) => (start, fitting(operand, topics(surroundings))),
-        Some(Operand::File) => {
-            let (offset, found) = complete_path(operand, &surroundings.folder, Files::Any);
+        Some(CommandOperand::Name) => (start, fitting(operand, topics(surroundings))),
+        Some(CommandOperand::File) => {
+            let (offset, found) = complete_path(operand, &surroundings.folder, FileFilter::Any);
             (start + offset, found)
         }
-        Some(Operand::Curves) if options_at(operand).is_some() => {
+        Some(CommandOperand::Curves) if options_at(operand).is_some() => {
             in_call("plot([], [], \"\", ", operand, start, surroundings)
         }
-        Some(Operand::Curves) => {
+        Some(CommandOperand::Curves) => {
             let last = operand.rfind([' ', ',']).map_or(0, |gap| gap + 1);
             let columns = surroundings.columns.iter().map(|column| Candidate::word(column, ""));
             let columns = fitting(&operand[last..], columns);
@@ -46,15 +46,15 @@ pub fn complete_command(text: &str, surroundings: &Surroundings) -> (usize, Vec<
                 true => (start + offset, found),
             }
         }
-        Some(Operand::Expression) => {
+        Some(CommandOperand::Expression) => {
             let (offset, found) = complete(operand, operand.len(), surroundings);
             (start + offset, found)
         }
-        Some(Operand::OneOf(words)) => {
+        Some(CommandOperand::OneOf(words)) => {
             (start, fitting(operand, words.iter().map(|word| Candidate::word(word, ""))))
         }
-        Some(Operand::OptionsOf(call)) => in_call(call, operand, start, surroundings),
-        Some(Operand::Nothing | Operand::Number) | None => (text.len(), Vec::new()),
+        Some(CommandOperand::OptionsOf(call)) => in_call(call, operand, start, surroundings),
+        Some(CommandOperand::Nothing | CommandOperand::Number) | None => (text.len(), Vec::new()),
     }
 }
 
@@ -69,7 +69,7 @@ fn in_call(
     call: &str,
     operand: &str,
     start: usize,
-    surroundings: &Surroundings,
+    surroundings: &CompletionContext,
 ) -> (usize, Vec<Candidate>) {
     let Some(map) = options_at(operand) else {
         let (offset, found) = complete(operand, operand.len(), surroundings);
@@ -81,14 +81,17 @@ fn in_call(
 }
 
 /// The command with this name, or the only one that begins so.
-pub fn command_named<'s>(name: &str, surroundings: &'s Surroundings) -> Option<&'s CommandWord> {
+pub fn command_named<'s>(
+    name: &str,
+    surroundings: &'s CompletionContext,
+) -> Option<&'s CommandWord> {
     let mut beginning = surroundings.commands.iter().filter(|word| word.name.starts_with(name));
     let exact = surroundings.commands.iter().find(|word| word.name == name);
     exact.or_else(|| beginning.next().filter(|_| beginning.next().is_none()))
 }
 
 /// What help can be asked for: names of the language, of the session, and of commands.
-fn topics(surroundings: &Surroundings) -> Vec<Candidate> {
+fn topics(surroundings: &CompletionContext) -> Vec<Candidate> {
     let catalog = &surroundings.catalog;
     let is_name = |name: &str| name.starts_with(|letter: char| letter.is_alphabetic());
     let rows = catalog.rows().filter(|row| is_name(row.name));
@@ -118,8 +121,8 @@ mod tests {
     fn words_and_options_of_commands_are_completed() {
         let mut known = surroundings();
         let command = |name, operand| CommandWord { name, summary: "", operand };
-        known.commands.push(command(":along", Operand::OneOf(&["M", "N", "speed"])));
-        known.commands.push(command(":look", Operand::OptionsOf("plot_motion(0, \"\", ")));
+        known.commands.push(command(":along", CommandOperand::OneOf(&["M", "N", "speed"])));
+        known.commands.push(command(":look", CommandOperand::OptionsOf("plot_motion(0, \"\", ")));
         let found = |text: &str| {
             let (start, found) = complete_command(text, &known);
             let names: Vec<String> = found.iter().map(|one| one.replacement.clone()).collect();

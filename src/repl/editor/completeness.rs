@@ -1,6 +1,6 @@
 //! Whether an input can be run, or goes on in the next line.
 
-use crate::script::source::scanner::{Bracket, Kind, Token, scan};
+use crate::script::source::scanner::{Bracket, Token, TokenKind, scan};
 
 /// Whether an input is complete.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,14 +38,14 @@ pub fn is_command(text: &str) -> bool {
 pub fn completeness_of_script(text: &str) -> Completeness {
     let tokens = scan(text);
     // A comment that documents stands before its function.
-    let last = tokens.iter().rev().find(|token| token.kind != Kind::Space);
-    let last = last.filter(|token| token.kind == Kind::Comment).map(|token| token.of(text));
+    let last = tokens.iter().rev().find(|token| token.kind != TokenKind::Space);
+    let last = last.filter(|token| token.kind == TokenKind::Comment).map(|token| token.of(text));
     if last.is_some_and(|comment| comment.starts_with("///") && !comment.starts_with("////")) {
         return Open(0);
     }
-    let mut reader = Reader::default();
+    let mut reader = InputReader::default();
     for token in &tokens {
-        if let Outcome::Final(complete) = reader.read(token, text) {
+        if let ParseOutcome::Final(complete) = reader.read(token, text) {
             return complete;
         }
     }
@@ -66,14 +66,14 @@ const INTRODUCE: &[&str] = &["let", "const", "in", "import", "as", "private", "e
 const HEADS: &[&str] =
     &["fn", "if", "else", "while", "until", "for", "loop", "switch", "do", "try", "catch"];
 
-enum Outcome {
+enum ParseOutcome {
     GoOn,
     Final(Completeness),
 }
 
 /// One level of brackets.
 #[derive(Default)]
-struct Level<'t> {
+struct BracketLevel<'t> {
     bracket: Option<Bracket>,
     line: usize,
     /// The keyword whose block this level is.
@@ -87,9 +87,9 @@ struct Level<'t> {
 }
 
 #[derive(Default)]
-struct Reader<'t> {
-    outer: Vec<Level<'t>>,
-    level: Level<'t>,
+struct InputReader<'t> {
+    outer: Vec<BracketLevel<'t>>,
+    level: BracketLevel<'t>,
     line: usize,
     /// Whether what was read last must be followed by something.
     goes_on: bool,
@@ -99,8 +99,8 @@ struct Reader<'t> {
     is_literal: bool,
 }
 
-impl<'t> Reader<'t> {
-    fn read(&mut self, token: &Token, text: &'t str) -> Outcome {
+impl<'t> InputReader<'t> {
+    fn read(&mut self, token: &Token, text: &'t str) -> ParseOutcome {
         let written = token.of(text);
         if token.is_significant() {
             (self.goes_on, self.is_literal) = (false, false);
@@ -110,46 +110,51 @@ impl<'t> Reader<'t> {
             false => None,
         };
         match token.kind {
-            Kind::OpenText => return self.read_open_text(written),
-            Kind::OpenPiece | Kind::OpenComment => self.is_literal = true,
-            Kind::Close(Bracket::Interpolation) => {
+            TokenKind::OpenText => return self.read_open_text(written),
+            TokenKind::OpenPiece | TokenKind::OpenComment => self.is_literal = true,
+            TokenKind::Close(Bracket::Interpolation) => {
                 self.close();
                 self.is_literal = true;
             }
-            Kind::Open(bracket) => self.open(bracket),
-            Kind::Close(bracket) => {
+            TokenKind::Open(bracket) => self.open(bracket),
+            TokenKind::Close(bracket) => {
                 if !self.level.bracket.is_some_and(|open| open.is_closed_by(bracket)) {
-                    return Outcome::Final(Complete);
+                    return ParseOutcome::Final(Complete);
                 }
                 self.close();
             }
-            Kind::Word => self.read_word(written, just_closed),
-            Kind::Symbol => {
+            TokenKind::Word => self.read_word(written, just_closed),
+            TokenKind::Symbol => {
                 if written == "|" {
                     self.level.is_between_bars = !self.level.is_between_bars && !self.is_value;
                 }
                 // Blocks of other languages begin with a colon; here it stands in maps only.
                 if written == ":" && self.level.bracket != Some(Bracket::Map) {
-                    return Outcome::Final(Complete);
+                    return ParseOutcome::Final(Complete);
                 }
                 self.goes_on = GO_ON.contains(&written);
                 if matches!(written, ";" | "=>") {
                     self.level.waiting = None;
                 }
             }
-            Kind::Space | Kind::Comment | Kind::Text | Kind::Piece | Kind::Number => (),
+            TokenKind::Space
+            | TokenKind::Comment
+            | TokenKind::Text
+            | TokenKind::Piece
+            | TokenKind::Number => (),
         }
         if token.is_significant() {
-            self.is_value = !matches!(token.kind, Kind::Symbol | Kind::Open(_)) && !self.goes_on;
+            self.is_value =
+                !matches!(token.kind, TokenKind::Symbol | TokenKind::Open(_)) && !self.goes_on;
         }
         self.line += written.matches('\n').count();
-        Outcome::GoOn
+        ParseOutcome::GoOn
     }
 
     /// A text in quotes goes on in the next line only after a backslash.
-    fn read_open_text(&mut self, written: &str) -> Outcome {
+    fn read_open_text(&mut self, written: &str) -> ParseOutcome {
         let backslashes = written.len() - written.trim_end_matches('\\').len();
-        Outcome::Final(if backslashes % 2 == 1 { Open(0) } else { Complete })
+        ParseOutcome::Final(if backslashes % 2 == 1 { Open(0) } else { Complete })
     }
 
     fn read_word(&mut self, word: &'t str, just_closed: Option<&str>) {
@@ -165,7 +170,12 @@ impl<'t> Reader<'t> {
             Bracket::Curly => self.level.waiting.take(),
             _ => None,
         };
-        let level = Level { bracket: Some(bracket), line: self.line, owner, ..Level::default() };
+        let level = BracketLevel {
+            bracket: Some(bracket),
+            line: self.line,
+            owner,
+            ..BracketLevel::default()
+        };
         self.outer.push(std::mem::replace(&mut self.level, level));
     }
 
@@ -203,7 +213,7 @@ mod tests {
     use crate::script::engine;
     use crate::script::packages::language;
     use crate::script::state::context::Context;
-    use crate::script::state::settings::{Mode, Settings};
+    use crate::script::state::settings::{RunMode, RunSettings};
 
     #[test]
     fn brackets_texts_and_comments_keep_an_input_open() {
@@ -359,7 +369,7 @@ mod tests {
 
     #[test]
     fn the_scripts_of_the_repository_can_be_typed() {
-        let context = Context::new(Settings::silent(Mode::DryBuild));
+        let context = Context::new(RunSettings::silent(RunMode::DryBuild));
         let engine = engine::build(&language(), &context).expect("an engine");
         let scripts = concat!(env!("CARGO_MANIFEST_DIR"), "/scripts");
         let mut count = 0;

@@ -6,19 +6,19 @@ use super::completeness::is_command;
 use super::expected::{Expected, kinds};
 use super::input::Input;
 use super::members::members;
-use super::paths::{Files, complete_path};
-use super::surroundings::{Function, Surroundings};
+use super::paths::{FileFilter, complete_path};
+use super::surroundings::{CompletionContext, ScriptFunction};
 use super::types::Types;
-use crate::script::rows::kind;
-use crate::script::rows::table::Form;
+use crate::script::bindings::kind;
+use crate::script::bindings::table::CallSyntax;
 use crate::script::source::keywords::KEYWORDS;
-use crate::script::source::scanner::{Bracket, Kind, Token, scan};
+use crate::script::source::scanner::{Bracket, Token, TokenKind, scan};
 
 /// The candidates for the word that is typed in `line` at `position`, and where that word begins.
 pub fn complete(
     line: &str,
     position: usize,
-    surroundings: &Surroundings,
+    surroundings: &CompletionContext,
 ) -> (usize, Vec<Candidate>) {
     let Some(after) = line.get(position..) else { return (position, Vec::new()) };
     let (start, mut candidates) = match is_command(line) {
@@ -43,17 +43,23 @@ const DECLARING: &[&str] = &["let", "const", "fn", "for", "as"];
 fn complete_language(
     line: &str,
     position: usize,
-    surroundings: &Surroundings,
+    surroundings: &CompletionContext,
 ) -> (usize, Vec<Candidate>) {
     let nothing = (position, Vec::new());
     let input = Input::before(line, position);
     match input.last.map(|token| token.kind) {
-        Some(Kind::OpenText) => return complete_text(&input, surroundings),
-        Some(Kind::Comment) if !input.text.ends_with("*/") => return nothing,
-        Some(Kind::Comment | Kind::OpenComment | Kind::OpenPiece | Kind::Text | Kind::Number) => {
+        Some(TokenKind::OpenText) => return complete_text(&input, surroundings),
+        Some(TokenKind::Comment) if !input.text.ends_with("*/") => return nothing,
+        Some(
+            TokenKind::Comment
+            | TokenKind::OpenComment
+            | TokenKind::OpenPiece
+            | TokenKind::Text
+            | TokenKind::Number,
+        ) => {
             return nothing;
         }
-        Some(Kind::Piece | Kind::Close(Bracket::Interpolation)) => return nothing,
+        Some(TokenKind::Piece | TokenKind::Close(Bracket::Interpolation)) => return nothing,
         _ => (),
     }
     let (start, typed) = input.name();
@@ -84,11 +90,11 @@ fn is_indentation(input: &Input) -> bool {
 }
 
 /// All names that can begin an expression or a statement.
-fn names(surroundings: &Surroundings) -> Vec<Candidate> {
+fn names(surroundings: &CompletionContext) -> Vec<Candidate> {
     let catalog = &surroundings.catalog;
     let own =
         surroundings.variables.iter().map(|variable| Candidate::word(&variable.name, &variable.of));
-    let functions = catalog.rows().filter(|row| matches!(row.form, Form::Function));
+    let functions = catalog.rows().filter(|row| matches!(row.form, CallSyntax::Function));
     let built_ins =
         catalog.built_ins().filter_map(|known| Some((known, known.form_of_function()?)));
     let constants = catalog.tables().flat_map(|table| table.constants);
@@ -105,7 +111,7 @@ fn names(surroundings: &Surroundings) -> Vec<Candidate> {
         .collect()
 }
 
-fn script_function(function: &Function) -> Candidate {
+fn script_function(function: &ScriptFunction) -> Candidate {
     Candidate::call(
         &function.name,
         &format!("({})", function.parameters.join(", ")),
@@ -113,13 +119,13 @@ fn script_function(function: &Function) -> Candidate {
     )
 }
 
-fn module_members(alias: &str, surroundings: &Surroundings) -> Vec<Candidate> {
+fn module_members(alias: &str, surroundings: &CompletionContext) -> Vec<Candidate> {
     let modules = surroundings.modules.iter().filter(|module| module.alias == alias);
     modules.flat_map(|module| &module.functions).map(script_function).collect()
 }
 
 /// The keys that may still be given, if a key of a map stands at the cursor.
-fn keys(input: &Input, line: &str, surroundings: &Surroundings) -> Option<Vec<Candidate>> {
+fn keys(input: &Input, line: &str, surroundings: &CompletionContext) -> Option<Vec<Candidate>> {
     let expected = Expected::new(input, surroundings);
     let level = expected
         .innermost()
@@ -141,9 +147,9 @@ fn keys_after(rest: &str) -> Vec<&str> {
     let mut found = Vec::new();
     for (index, token) in tokens.iter().enumerate() {
         match token.kind {
-            Kind::Open(_) => depth += 1,
-            Kind::Close(_) if depth == 0 => break,
-            Kind::Close(_) => depth -= 1,
+            TokenKind::Open(_) => depth += 1,
+            TokenKind::Close(_) if depth == 0 => break,
+            TokenKind::Close(_) => depth -= 1,
             _ if depth == 0 && tokens.get(index + 1).is_some_and(|next| next.of(rest) == ":") => {
                 found.push(token.of(rest));
             }
@@ -154,7 +160,7 @@ fn keys_after(rest: &str) -> Vec<&str> {
 }
 
 /// Inside quotes: names of files, columns, choices and keys, where the call says so.
-fn complete_text(input: &Input, surroundings: &Surroundings) -> (usize, Vec<Candidate>) {
+fn complete_text(input: &Input, surroundings: &CompletionContext) -> (usize, Vec<Candidate>) {
     let nothing = (input.text.len(), Vec::new());
     let Some(text) = input.tokens.last().filter(|text| text.of(input.text).starts_with('"')) else {
         return nothing;
@@ -163,7 +169,7 @@ fn complete_text(input: &Input, surroundings: &Surroundings) -> (usize, Vec<Cand
     let count = input.tokens.len() - 1;
     let before = |back: usize| count.checked_sub(back).map_or("", |index| input.written(index));
     if before(1) == "import" {
-        return complete_path_at(start, typed, surroundings, Files::Modules);
+        return complete_path_at(start, typed, surroundings, FileFilter::Modules);
     }
     let expected = Expected::new(input, surroundings);
     if before(1) == "["
@@ -173,7 +179,7 @@ fn complete_text(input: &Input, surroundings: &Surroundings) -> (usize, Vec<Cand
     }
     let parameters = expected.here();
     if parameters.iter().any(|parameter| parameter.name == "file") {
-        return complete_path_at(start, typed, surroundings, Files::Any);
+        return complete_path_at(start, typed, surroundings, FileFilter::Any);
     }
     let mut candidates = Vec::new();
     for parameter in parameters {
@@ -196,8 +202,8 @@ fn quoted(word: &str, end: &str) -> Candidate {
 fn complete_path_at(
     start: usize,
     typed: &str,
-    surroundings: &Surroundings,
-    files: Files,
+    surroundings: &CompletionContext,
+    files: FileFilter,
 ) -> (usize, Vec<Candidate>) {
     let (offset, mut candidates) = complete_path(typed, &surroundings.folder, files);
     for candidate in candidates.iter_mut().filter(|candidate| !candidate.replacement.ends_with('/'))

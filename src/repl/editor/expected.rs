@@ -1,37 +1,37 @@
 //! What a call expects at the cursor: the parameters that the value being written may stand for.
 
-use super::input::{Callee, Input, Level};
-use super::surroundings::Surroundings;
+use super::input::{CalleeName, Input, OpenBracket};
+use super::surroundings::CompletionContext;
 use super::types::Types;
-use crate::script::rows::built_in::{BuiltIn, Ending, Written};
-use crate::script::rows::kind::Kind;
-use crate::script::rows::parameter::Parameter;
-use crate::script::rows::table::{Form, Row};
+use crate::script::bindings::built_in::{BuiltIn, FunctionForm, NameSuffix};
+use crate::script::bindings::kind::Kind;
+use crate::script::bindings::parameter::Parameter;
+use crate::script::bindings::table::{CallSyntax, FunctionBinding};
 use crate::script::source::scanner::Bracket;
 
 /// The parameters that are expected in the brackets around the cursor.
 pub struct Expected<'a, 't> {
     types: Types<'a, 't>,
-    levels: Vec<Level<'t>>,
+    levels: Vec<OpenBracket<'t>>,
 }
 
 /// A row that is called, and how many of its parameters stand before the dot.
 #[derive(Clone, Copy)]
-pub struct Called {
+pub struct ActiveCall {
     /// The row that is called.
-    pub row: &'static Row,
+    pub row: &'static FunctionBinding,
     /// The number of parameters before the dot: one for a function that is written as a method.
     pub before_dot: usize,
 }
 
 impl<'a, 't> Expected<'a, 't> {
     /// Looks at what stands before the cursor of an input.
-    pub fn new(input: &'a Input<'t>, surroundings: &'a Surroundings) -> Self {
+    pub fn new(input: &'a Input<'t>, surroundings: &'a CompletionContext) -> Self {
         Self { types: Types { input, surroundings }, levels: input.levels() }
     }
 
     /// The innermost open bracket before the cursor.
-    pub fn innermost(&self) -> Option<&Level<'t>> {
+    pub fn innermost(&self) -> Option<&OpenBracket<'t>> {
         self.levels.last()
     }
 
@@ -64,8 +64,8 @@ impl<'a, 't> Expected<'a, 't> {
     }
 
     /// The innermost call whose arguments are being written, with what is between it and the cursor left aside.
-    pub fn call(&self) -> Option<(Level<'t>, Callee<'t>)> {
-        let transparent = |level: &&Level| {
+    pub fn call(&self) -> Option<(OpenBracket<'t>, CalleeName<'t>)> {
+        let transparent = |level: &&OpenBracket| {
             matches!(level.bracket, Bracket::Round | Bracket::Square | Bracket::Map)
         };
         let levels = self.levels.iter().rev().take_while(transparent);
@@ -73,18 +73,18 @@ impl<'a, 't> Expected<'a, 't> {
     }
 
     /// The rows that a call may mean.
-    pub fn rows(&self, callee: &Callee) -> Vec<Called> {
+    pub fn rows(&self, callee: &CalleeName) -> Vec<ActiveCall> {
         if callee.module.is_some() {
             return Vec::new();
         }
         let receiver = callee.receiver.map(|end| self.types.of(end));
         let rows = self.types.surroundings.catalog.named(callee.name);
         let fitting = rows.filter_map(|row| match (row.form, &receiver) {
-            (Form::Function, None) => Some(Called { row, before_dot: 0 }),
-            (Form::Function, Some(_)) => Some(Called { row, before_dot: 1 }),
-            (Form::Method(_), Some(None)) => Some(Called { row, before_dot: 0 }),
-            (Form::Method(of), Some(Some(known))) => {
-                (known.type_name() == Some(of.name())).then_some(Called { row, before_dot: 0 })
+            (CallSyntax::Function, None) => Some(ActiveCall { row, before_dot: 0 }),
+            (CallSyntax::Function, Some(_)) => Some(ActiveCall { row, before_dot: 1 }),
+            (CallSyntax::Method(_), Some(None)) => Some(ActiveCall { row, before_dot: 0 }),
+            (CallSyntax::Method(of), Some(Some(known))) => {
+                (known.type_name() == Some(of.name())).then_some(ActiveCall { row, before_dot: 0 })
             }
             _ => None,
         });
@@ -92,19 +92,19 @@ impl<'a, 't> Expected<'a, 't> {
     }
 
     /// The functions of Rhai that a call may mean, each in the way in which it is written there.
-    pub fn built_ins(&self, callee: &Callee) -> Vec<(&'static BuiltIn, Written)> {
+    pub fn built_ins(&self, callee: &CalleeName) -> Vec<(&'static BuiltIn, FunctionForm)> {
         if callee.module.is_some() {
             return Vec::new();
         }
         let receiver = callee.receiver.map(|end| self.types.of(end));
-        let fits = |form: &Written| match (receiver, form.receiver) {
+        let fits = |form: &FunctionForm| match (receiver, form.receiver) {
             (None, None) | (Some(None), Some(_)) => true,
             (Some(Some(kind)), Some(_)) => kind.type_name().is_some_and(|of| form.is_of(of)),
             _ => false,
         };
         let known = self.types.surroundings.catalog.built_ins_named(callee.name);
         let forms = known.flat_map(|known| known.written().map(move |form| (known, form)));
-        forms.filter(|(_, form)| form.ending != Ending::Property && fits(form)).collect()
+        forms.filter(|(_, form)| form.ending != NameSuffix::Property && fits(form)).collect()
     }
 
     fn at(&self, depth: usize) -> Vec<&'static Parameter> {
@@ -114,8 +114,9 @@ impl<'a, 't> Expected<'a, 't> {
             (Bracket::Round, _) => {
                 let callee = self.types.input.callee(level.opener);
                 let rows = callee.map(|callee| self.rows(&callee)).unwrap_or_default();
-                let parameter =
-                    |called: Called| called.row.parameters.get(level.commas + called.before_dot);
+                let parameter = |called: ActiveCall| {
+                    called.row.parameters.get(level.commas + called.before_dot)
+                };
                 rows.into_iter().filter_map(parameter).collect()
             }
             (Bracket::Map, Some(name)) => {

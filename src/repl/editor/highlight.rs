@@ -2,20 +2,20 @@
 
 use super::commands::command_named;
 use super::completeness::is_command;
-use super::surroundings::{Operand, Surroundings};
-use crate::script::looks::highlight::{self, STRAY, Style, draw};
+use super::surroundings::{CommandOperand, CompletionContext};
+use crate::script::presentation::highlight::{self, HighlightStyle, STRAY, draw};
 
-const COMMAND: Style = Style("1");
+const COMMAND: HighlightStyle = HighlightStyle("1");
 
 /// The names of a session that are drawn in colours of their own; made once for each prompt.
-pub struct Vocabulary {
+pub struct SessionNames {
     language: highlight::Vocabulary,
-    surroundings: Surroundings,
+    surroundings: CompletionContext,
 }
 
-impl Vocabulary {
+impl SessionNames {
     /// The names of a session in colours.
-    pub fn of(surroundings: Surroundings) -> Self {
+    pub fn of(surroundings: CompletionContext) -> Self {
         let mut language = highlight::Vocabulary::of_language(&surroundings.catalog);
         for function in &surroundings.functions {
             language.add_function(&function.name);
@@ -31,20 +31,20 @@ impl Vocabulary {
     }
 
     /// The session that the names are of.
-    pub fn surroundings(&self) -> &Surroundings {
+    pub fn surroundings(&self) -> &CompletionContext {
         &self.surroundings
     }
 }
 
 /// The input `text` with colours; a bracket at the cursor and its partner stand out.
-pub fn highlight(text: &str, cursor: Option<usize>, vocabulary: &Vocabulary) -> String {
+pub fn highlight(text: &str, cursor: Option<usize>, vocabulary: &SessionNames) -> String {
     match is_command(text) && !text.contains('\x1b') {
         true => highlight_command(text, cursor, vocabulary),
         false => highlight::highlight(text, cursor, &vocabulary.language),
     }
 }
 
-fn highlight_command(text: &str, cursor: Option<usize>, vocabulary: &Vocabulary) -> String {
+fn highlight_command(text: &str, cursor: Option<usize>, vocabulary: &SessionNames) -> String {
     let begin = text.len() - text.trim_start().len();
     let is_question = text[begin..].starts_with('?');
     let length = match is_question {
@@ -67,7 +67,10 @@ fn highlight_command(text: &str, cursor: Option<usize>, vocabulary: &Vocabulary)
     let has_colours = |operand| {
         matches!(
             operand,
-            Operand::Expression | Operand::Curves | Operand::Name | Operand::OptionsOf(_)
+            CommandOperand::Expression
+                | CommandOperand::Curves
+                | CommandOperand::Name
+                | CommandOperand::OptionsOf(_)
         )
     };
     if is_question || command.is_some_and(|command| has_colours(command.operand)) {
@@ -85,13 +88,13 @@ mod tests {
 
     use super::super::samples::surroundings;
     use super::*;
-    use crate::script::looks::highlight::{
+    use crate::script::presentation::highlight::{
         COMMENT, CONSTANT, FUNCTION, KEYWORD, NUMBER, TEXT, UNKNOWN_MEMBER,
     };
     use proptest::prelude::*;
 
-    fn vocabulary() -> Vocabulary {
-        Vocabulary::of(surroundings())
+    fn vocabulary() -> SessionNames {
+        SessionNames::of(surroundings())
     }
 
     /// The pieces that have a colour, with its numbers.

@@ -4,13 +4,13 @@ use super::candidates::arguments;
 use super::commands::command_named;
 use super::completeness::is_command;
 use super::completion::complete;
-use super::expected::{Called, Expected};
-use super::input::{Callee, Input, Level};
-use super::surroundings::{Function, Operand, Surroundings};
-use crate::script::rows::built_in::{BuiltIn, Written};
-use crate::script::rows::parameter::{Parameter, Presence};
-use crate::script::source::scanner::{Bracket, Kind};
-use crate::script::words::numbers::format_number;
+use super::expected::{ActiveCall, Expected};
+use super::input::{CalleeName, Input, OpenBracket};
+use super::surroundings::{CommandOperand, CompletionContext, ScriptFunction};
+use crate::script::bindings::built_in::{BuiltIn, FunctionForm};
+use crate::script::bindings::parameter::{Parameter, Presence};
+use crate::script::messages::numbers::format_number;
+use crate::script::source::scanner::{Bracket, TokenKind};
 
 /// A hint that is shown behind the cursor.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -36,7 +36,7 @@ impl Hint {
 
 /// The hint for the cursor at the end of `line`: the rest of the only name that fits, the signature of the call
 /// whose arguments are being written, the keys of its options.
-pub fn hint(line: &str, position: usize, surroundings: &Surroundings) -> Option<Hint> {
+pub fn hint(line: &str, position: usize, surroundings: &CompletionContext) -> Option<Hint> {
     if position != line.len() || line.trim().is_empty() {
         return None;
     }
@@ -47,7 +47,7 @@ pub fn hint(line: &str, position: usize, surroundings: &Surroundings) -> Option<
             && let Some(command) = command_named(word, surroundings)
             && matches!(
                 command.operand,
-                Operand::Expression | Operand::Curves | Operand::OptionsOf(_)
+                CommandOperand::Expression | CommandOperand::Curves | CommandOperand::OptionsOf(_)
             )
         {
             return hint(operand, operand.len(), surroundings);
@@ -56,7 +56,10 @@ pub fn hint(line: &str, position: usize, surroundings: &Surroundings) -> Option<
         return Hint::note(command.summary.to_owned());
     }
     let input = Input::before(line, position);
-    if matches!(input.last.map(|token| token.kind), Some(Kind::Comment | Kind::OpenComment)) {
+    if matches!(
+        input.last.map(|token| token.kind),
+        Some(TokenKind::Comment | TokenKind::OpenComment)
+    ) {
         return None;
     }
     let expected = Expected::new(&input, surroundings);
@@ -69,7 +72,7 @@ pub fn hint(line: &str, position: usize, surroundings: &Surroundings) -> Option<
 }
 
 /// The rest of the only name that fits.
-fn only_candidate(line: &str, surroundings: &Surroundings) -> Option<Hint> {
+fn only_candidate(line: &str, surroundings: &CompletionContext) -> Option<Hint> {
     let (start, candidates) = complete(line, line.len(), surroundings);
     match candidates.as_slice() {
         [only] => Hint::rest(only.replacement.strip_prefix(&line[start..])?),
@@ -81,7 +84,7 @@ fn call_hint(
     expected: &Expected,
     is_key: bool,
     line: &str,
-    surroundings: &Surroundings,
+    surroundings: &CompletionContext,
 ) -> Option<Hint> {
     if is_key && !(expected.keys().is_empty() && expected.library_keys().is_empty()) {
         let (_, free) = complete(line, line.len(), surroundings);
@@ -94,7 +97,7 @@ fn call_hint(
     }
     let rows = expected.rows(&callee);
     let is_long_enough =
-        |called: &&Called| level.commas + called.before_dot < called.row.parameters.len();
+        |called: &&ActiveCall| level.commas + called.before_dot < called.row.parameters.len();
     match rows.iter().find(is_long_enough).or(rows.first()) {
         Some(called) => Hint::note(signature(called, &level)),
         None => match script_function(&callee, surroundings) {
@@ -105,7 +108,7 @@ fn call_hint(
 }
 
 /// A signature with the current parameter in angle quotes, and what it may be.
-fn signature(called: &Called, level: &Level) -> String {
+fn signature(called: &ActiveCall, level: &OpenBracket) -> String {
     let parameters = called.row.parameters.get(called.before_dot..).unwrap_or_default();
     let names: Vec<String> = parameters
         .iter()
@@ -124,8 +127,8 @@ fn signature(called: &Called, level: &Level) -> String {
 }
 
 /// The signature of a function of Rhai with the current argument in angle quotes, and what the function does.
-fn built_in_signature(known: &[(&BuiltIn, Written)], level: &Level) -> Option<String> {
-    let is_long_enough = |(_, form): &&(&BuiltIn, Written)| level.commas < form.listed().len();
+fn built_in_signature(known: &[(&BuiltIn, FunctionForm)], level: &OpenBracket) -> Option<String> {
+    let is_long_enough = |(_, form): &&(&BuiltIn, FunctionForm)| level.commas < form.listed().len();
     let (known, form) = known.iter().find(is_long_enough).or(known.first())?;
     let names = marked(form.listed(), level.commas);
     Some(format!("{}({})  {}", form.name, names.join(", "), known.summary))
@@ -158,8 +161,11 @@ fn describe(parameter: &Parameter) -> String {
     text
 }
 
-fn script_function<'s>(callee: &Callee, surroundings: &'s Surroundings) -> Option<&'s Function> {
-    let named = |function: &&Function| function.name == callee.name;
+fn script_function<'s>(
+    callee: &CalleeName,
+    surroundings: &'s CompletionContext,
+) -> Option<&'s ScriptFunction> {
+    let named = |function: &&ScriptFunction| function.name == callee.name;
     match callee.module {
         None => surroundings.functions.iter().find(named),
         Some(alias) => {
@@ -169,7 +175,7 @@ fn script_function<'s>(callee: &Callee, surroundings: &'s Surroundings) -> Optio
     }
 }
 
-fn script_signature(function: &Function, level: &Level) -> String {
+fn script_signature(function: &ScriptFunction, level: &OpenBracket) -> String {
     let names = marked(function.parameters.clone(), level.commas);
     format!("{}({})", function.name, names.join(", "))
 }

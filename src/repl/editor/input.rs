@@ -1,6 +1,6 @@
 //! An input up to the cursor: its tokens, which brackets are open there, and whose they are.
 
-use crate::script::source::scanner::{Bracket, Kind, Token, pair, scan};
+use crate::script::source::scanner::{Bracket, Token, TokenKind, pair, scan};
 
 /// Open brackets that are looked at: what stands further outside does not matter at the cursor.
 const MOST_LEVELS: usize = 64;
@@ -21,7 +21,7 @@ pub struct Input<'t> {
 
 /// A bracket that is open at the cursor.
 #[derive(Clone, Copy, Debug)]
-pub struct Level<'t> {
+pub struct OpenBracket<'t> {
     /// The kind of the bracket.
     pub bracket: Bracket,
     /// The index of the bracket's token.
@@ -34,7 +34,7 @@ pub struct Level<'t> {
 
 /// The name that a bracket calls.
 #[derive(Clone, Copy, Debug)]
-pub struct Callee<'t> {
+pub struct CalleeName<'t> {
     /// The name of the function that is called.
     pub name: &'t str,
     /// The index of the last token of the value whose method is called.
@@ -60,7 +60,7 @@ impl<'t> Input<'t> {
     }
 
     /// The kind of a token of the input, by the token's index; none where there is no token.
-    pub fn kind(&self, index: usize) -> Option<Kind> {
+    pub fn kind(&self, index: usize) -> Option<TokenKind> {
         self.tokens.get(index).map(|token| token.kind)
     }
 
@@ -77,7 +77,7 @@ impl<'t> Input<'t> {
     /// The name that is being written at the cursor, and where it begins in the input [bytes]; empty between names.
     pub fn name(&self) -> (usize, &'t str) {
         match self.last {
-            Some(token) if token.kind == Kind::Word => (token.start, token.of(self.text)),
+            Some(token) if token.kind == TokenKind::Word => (token.start, token.of(self.text)),
             _ => (self.text.len(), ""),
         }
     }
@@ -88,17 +88,17 @@ impl<'t> Input<'t> {
     }
 
     /// The brackets that are open at the cursor, the innermost last; of very many the innermost.
-    pub fn levels(&self) -> Vec<Level<'t>> {
+    pub fn levels(&self) -> Vec<OpenBracket<'t>> {
         let first = self.open.len().saturating_sub(MOST_LEVELS);
         self.open[first..].iter().map(|opener| self.level(*opener)).collect()
     }
 
-    fn level(&self, opener: usize) -> Level<'t> {
+    fn level(&self, opener: usize) -> OpenBracket<'t> {
         let bracket = match self.kind(opener) {
-            Some(Kind::Open(bracket)) => bracket,
+            Some(TokenKind::Open(bracket)) => bracket,
             _ => Bracket::Curly,
         };
-        let mut level = Level { bracket, opener, commas: 0, key: None };
+        let mut level = OpenBracket { bracket, opener, commas: 0, key: None };
         let mut index = opener + 1;
         while index < self.tokens.len() {
             match self.written(index) {
@@ -109,7 +109,7 @@ impl<'t> Input<'t> {
                 _ => (),
             }
             // Brackets inside are passed over, unless they are open too.
-            let opens = matches!(self.kind(index), Some(Kind::Open(_)));
+            let opens = matches!(self.kind(index), Some(TokenKind::Open(_)));
             index = match self.partner(index) {
                 Some(closer) if opens => closer + 1,
                 None if opens => break,
@@ -120,10 +120,10 @@ impl<'t> Input<'t> {
     }
 
     /// What is called by the bracket at token `opener`, if it opens the arguments of a call.
-    pub fn callee(&self, opener: usize) -> Option<Callee<'t>> {
+    pub fn callee(&self, opener: usize) -> Option<CalleeName<'t>> {
         let at = opener.checked_sub(1)?;
-        let is_call = self.kind(opener) == Some(Kind::Open(Bracket::Round))
-            && self.kind(at) == Some(Kind::Word)
+        let is_call = self.kind(opener) == Some(TokenKind::Open(Bracket::Round))
+            && self.kind(at) == Some(TokenKind::Word)
             && !crate::script::source::keywords::is_keyword(self.written(at));
         if !is_call {
             return None;
@@ -132,7 +132,7 @@ impl<'t> Input<'t> {
         let before = at.checked_sub(2);
         let receiver = before.filter(|_| self.is_dot(at - 1));
         let module = before.filter(|_| self.written(at - 1) == "::").map(|at| self.written(at));
-        Some(Callee { name, receiver, module })
+        Some(CalleeName { name, receiver, module })
     }
 }
 

@@ -17,37 +17,37 @@ pub type Entries = Arc<Mutex<HashSet<String>>>;
 
 /// Binds the keys of the line editor.
 pub fn bind<H: Helper, I: History>(editor: &mut Editor<H, I>, entries: &Entries) {
-    let conditional = |rule: Rule| EventHandler::Conditional(Box::new(rule));
-    editor.bind_sequence(KeyEvent(KeyCode::Enter, Modifiers::NONE), conditional(Rule::Enter));
+    let conditional = |rule: KeyRule| EventHandler::Conditional(Box::new(rule));
+    editor.bind_sequence(KeyEvent(KeyCode::Enter, Modifiers::NONE), conditional(KeyRule::Enter));
     editor.bind_sequence(
         KeyEvent(KeyCode::Enter, Modifiers::ALT),
         EventHandler::Simple(Cmd::Newline),
     );
-    editor.bind_sequence(KeyEvent(KeyCode::Backspace, Modifiers::NONE), conditional(Rule::Back));
+    editor.bind_sequence(KeyEvent(KeyCode::Backspace, Modifiers::NONE), conditional(KeyRule::Back));
     for (key, direction) in
-        [(KeyCode::Up, Direction::Backward), (KeyCode::Down, Direction::Forward)]
+        [(KeyCode::Up, HistoryDirection::Backward), (KeyCode::Down, HistoryDirection::Forward)]
     {
-        let rule = Rule::Search(direction, Arc::clone(entries));
+        let rule = KeyRule::Search(direction, Arc::clone(entries));
         editor.bind_sequence(KeyEvent(key, Modifiers::NONE), conditional(rule));
     }
 }
 
 #[derive(Clone, Copy)]
-enum Direction {
+enum HistoryDirection {
     Backward,
     Forward,
 }
 
-enum Rule {
+enum KeyRule {
     /// The next line of an open input is indented.
     Enter,
     /// Backspace takes back a level of indentation.
     Back,
     /// Goes through the entries that begin as the line does up to the cursor.
-    Search(Direction, Entries),
+    Search(HistoryDirection, Entries),
 }
 
-impl ConditionalEventHandler for Rule {
+impl ConditionalEventHandler for KeyRule {
     fn handle(&self, _: &Event, _: RepeatCount, _: bool, context: &EventContext) -> Option<Cmd> {
         if context.mode() == EditMode::Vi && context.input_mode() == InputMode::Command {
             return None;
@@ -59,8 +59,8 @@ impl ConditionalEventHandler for Rule {
             Self::Search(direction, entries) => {
                 let is_entry = entries.lock().is_ok_and(|entries| entries.contains(line));
                 searches(line, at, is_entry).then_some(match direction {
-                    Direction::Backward => Cmd::HistorySearchBackward,
-                    Direction::Forward => Cmd::HistorySearchForward,
+                    HistoryDirection::Backward => Cmd::HistorySearchBackward,
+                    HistoryDirection::Forward => Cmd::HistorySearchForward,
                 })
             }
         }

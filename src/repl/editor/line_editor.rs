@@ -9,10 +9,10 @@ use rustyline::history::FileHistory;
 use rustyline::{ColorMode, CompletionType, Config, EditMode};
 
 use super::assistant::Assistant;
-use super::highlight::Vocabulary;
+use super::highlight::SessionNames;
 use super::history;
 use super::keys::{self, Entries};
-use super::surroundings::Surroundings;
+use super::surroundings::CompletionContext;
 use crate::output::Colours;
 
 /// The keys with which lines are edited.
@@ -41,7 +41,7 @@ impl Keys {
 
 /// How a line editor behaves.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Options {
+pub struct EditorOptions {
     /// The keys with which lines are edited.
     pub keys: Keys,
     /// Whether lines are drawn in colours.
@@ -50,7 +50,7 @@ pub struct Options {
     pub history: Option<PathBuf>,
 }
 
-impl Options {
+impl EditorOptions {
     /// The options that the environment asks for by `WITHY_KEYS` and `WITHY_HISTORY`.
     pub fn from_environment(colours: Colours) -> Self {
         let keys = env::var(Keys::VARIABLE).ok().and_then(|name| Keys::named(&name));
@@ -61,7 +61,7 @@ impl Options {
 
 /// What a person has typed at a prompt.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Typed {
+pub enum EditorInput {
     /// A complete input, of one line or more.
     Line(String),
     /// Ctrl-C was typed: what stood there is thrown away.
@@ -87,7 +87,7 @@ impl Editor {
     ///
     /// # Errors
     /// If the terminal cannot be used.
-    pub fn new(options: Options) -> io::Result<Self> {
+    pub fn new(options: EditorOptions) -> io::Result<Self> {
         let lines = rustyline::Editor::with_config(configuration(&options)?).map_err(into_io)?;
         let entries = Entries::default();
         let mut editor =
@@ -101,11 +101,15 @@ impl Editor {
     ///
     /// # Errors
     /// If the terminal fails.
-    pub fn read(&mut self, prompt: &str, surroundings: Surroundings) -> io::Result<Typed> {
+    pub fn read(
+        &mut self,
+        prompt: &str,
+        surroundings: CompletionContext,
+    ) -> io::Result<EditorInput> {
         let columns =
             self.lines.dimensions().map_or(USUAL_COLUMNS, |(columns, _)| usize::from(columns));
         let assistant = Assistant::new(
-            Vocabulary::of(surroundings),
+            SessionNames::of(surroundings),
             columns,
             crate::output::columns(prompt),
             self.colours,
@@ -114,10 +118,10 @@ impl Editor {
         match self.lines.readline(prompt) {
             Ok(line) => {
                 self.remember(&line);
-                Ok(Typed::Line(line))
+                Ok(EditorInput::Line(line))
             }
-            Err(ReadlineError::Interrupted) => Ok(Typed::Interrupted),
-            Err(ReadlineError::Eof) => Ok(Typed::End),
+            Err(ReadlineError::Interrupted) => Ok(EditorInput::Interrupted),
+            Err(ReadlineError::Eof) => Ok(EditorInput::End),
             Err(error) => Err(into_io(error)),
         }
     }
@@ -174,7 +178,7 @@ impl Editor {
     }
 }
 
-fn configuration(options: &Options) -> io::Result<Config> {
+fn configuration(options: &EditorOptions) -> io::Result<Config> {
     let builder = Config::builder()
         .max_history_size(history::MOST_ENTRIES)
         .and_then(|builder| builder.history_ignore_dups(true))
@@ -211,7 +215,8 @@ mod tests {
     use super::*;
 
     fn editor(history: PathBuf) -> Editor {
-        let options = Options { keys: Keys::Emacs, colours: Colours::None, history: Some(history) };
+        let options =
+            EditorOptions { keys: Keys::Emacs, colours: Colours::None, history: Some(history) };
         Editor::new(options).expect("an editor")
     }
 

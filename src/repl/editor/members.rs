@@ -1,10 +1,10 @@
 //! What can stand after the dot of a value.
 
 use super::candidates::Candidate;
-use super::surroundings::{Surroundings, Variable};
-use crate::script::rows::kind::Kind;
-use crate::script::rows::returns::ValueKind;
-use crate::script::rows::table::{Form, Row};
+use super::surroundings::{CompletionContext, Variable};
+use crate::script::bindings::kind::Kind;
+use crate::script::bindings::returns::ValueKind;
+use crate::script::bindings::table::{CallSyntax, FunctionBinding};
 use crate::script::source::scanner::is_name;
 
 /// The members of a value, as candidates. Of an unknown kind all members of all types are offered once something is typed; of a map
@@ -13,7 +13,7 @@ pub fn members(
     of: Option<ValueKind>,
     variable: Option<&Variable>,
     typed: &str,
-    surroundings: &Surroundings,
+    surroundings: &CompletionContext,
 ) -> Vec<Candidate> {
     let catalog = &surroundings.catalog;
     let Some(of) = of.and_then(|kind| kind.type_name()) else {
@@ -31,7 +31,7 @@ pub fn members(
 }
 
 /// The members of all types.
-fn all_members(surroundings: &Surroundings) -> Vec<Candidate> {
+fn all_members(surroundings: &CompletionContext) -> Vec<Candidate> {
     let catalog = &surroundings.catalog;
     let own = catalog.rows().filter(|row| row.receiver().is_some());
     let built_ins = catalog.built_ins().filter_map(|known| {
@@ -42,8 +42,8 @@ fn all_members(surroundings: &Surroundings) -> Vec<Candidate> {
 }
 
 /// Whether a function is about values of a type, so that it may be written as a method of them.
-fn takes_first(row: &Row, of: &str) -> bool {
-    let first = row.parameters.first().filter(|_| matches!(row.form, Form::Function));
+fn takes_first(row: &FunctionBinding, of: &str) -> bool {
+    let first = row.parameters.first().filter(|_| matches!(row.form, CallSyntax::Function));
     first.is_some_and(|parameter| match parameter.kind {
         Kind::Object(first) => first.name() == of,
         Kind::Point => of == "vector",

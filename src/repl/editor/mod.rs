@@ -23,5 +23,5 @@ pub mod surroundings;
 pub mod typed_ahead;
 mod types;
 
-pub use line_editor::{Editor, Keys, Options, Typed};
+pub use line_editor::{Editor, EditorInput, EditorOptions, Keys};
 pub use types::type_before;

@@ -4,12 +4,12 @@ use std::fs;
 use std::path::Path;
 
 use super::candidates::{Candidate, fitting};
+use crate::script::bindings::sources::FOLDER;
 use crate::script::library::MODULES;
-use crate::script::rows::sources::FOLDER;
 
 /// The files that a completion offers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Files {
+pub enum FileFilter {
     /// All files are offered.
     Any,
     /// Scripts are offered, named without their ending.
@@ -18,14 +18,14 @@ pub enum Files {
 
 /// The files and folders that begin as `typed` does, seen from `folder`, and where in `typed` the last part of the
 /// path begins. Hidden ones only if a dot is typed.
-pub fn complete_path(typed: &str, folder: &Path, files: Files) -> (usize, Vec<Candidate>) {
+pub fn complete_path(typed: &str, folder: &Path, files: FileFilter) -> (usize, Vec<Candidate>) {
     let start = typed.rfind('/').map_or(0, |slash| slash + 1);
     let (parent, name) = typed.split_at(start);
-    if files == Files::Modules && parent == FOLDER {
+    if files == FileFilter::Modules && parent == FOLDER {
         let names = MODULES.iter().filter_map(|module| module.name.strip_prefix(FOLDER));
         return (start, fitting(name, names.map(|name| Candidate::word(name, ""))));
     }
-    let library = (files == Files::Modules && parent.is_empty())
+    let library = (files == FileFilter::Modules && parent.is_empty())
         .then(|| Candidate::word(FOLDER, "the standard library"));
     let entries = fs::read_dir(folder.join(parent)).into_iter().flatten().flatten();
     let candidates = entries.filter_map(|entry| {
@@ -35,8 +35,8 @@ pub fn complete_path(typed: &str, folder: &Path, files: Files) -> (usize, Vec<Ca
         }
         match (entry.path().is_dir(), files) {
             (true, _) => Some(Candidate::word(&format!("{known}/"), "")),
-            (false, Files::Any) => Some(Candidate::word(&known, "")),
-            (false, Files::Modules) => Some(Candidate::word(known.strip_suffix(".rhai")?, "")),
+            (false, FileFilter::Any) => Some(Candidate::word(&known, "")),
+            (false, FileFilter::Modules) => Some(Candidate::word(known.strip_suffix(".rhai")?, "")),
         }
     });
     (start, fitting(name, library.into_iter().chain(candidates)))
@@ -58,14 +58,14 @@ mod tests {
             (start, found.into_iter().map(|candidate| candidate.replacement).collect::<Vec<_>>())
         };
         assert_eq!(
-            names("", Files::Any),
+            names("", FileFilter::Any),
             (0, vec!["parts/".into(), "rods.csv".into(), "rods.rhai".into()])
         );
-        assert_eq!(names("ro", Files::Modules), (0, vec!["rods".into()]));
-        assert_eq!(names("parts/a", Files::Modules), (6, vec!["arch".into()]));
-        assert_eq!(names("nowhere/", Files::Any), (8, vec![]));
-        assert_eq!(names(".h", Files::Any).1, [".hidden"]);
-        assert_eq!(names("st", Files::Modules), (0, vec!["std/".into()]));
-        assert_eq!(names("std/se", Files::Modules), (4, vec!["sections".into()]));
+        assert_eq!(names("ro", FileFilter::Modules), (0, vec!["rods".into()]));
+        assert_eq!(names("parts/a", FileFilter::Modules), (6, vec!["arch".into()]));
+        assert_eq!(names("nowhere/", FileFilter::Any), (8, vec![]));
+        assert_eq!(names(".h", FileFilter::Any).1, [".hidden"]);
+        assert_eq!(names("st", FileFilter::Modules), (0, vec!["std/".into()]));
+        assert_eq!(names("std/se", FileFilter::Modules), (4, vec!["sections".into()]));
     }
 }

@@ -1,23 +1,25 @@
 //! A session for the tests of the editor: the flying spaghetti, half built.
 
-use super::surroundings::{CommandWord, Function, Module, Operand, Surroundings, Variable};
+use super::surroundings::{
+    CommandOperand, CommandWord, CompletionContext, ImportedModule, ScriptFunction, Variable,
+};
 use crate::script::packages::language;
 
 /// The names of a session for tests: a beam, a simulation, functions, modules.
-pub fn surroundings() -> Surroundings {
+pub fn surroundings() -> CompletionContext {
     let variable = |name: &str, of: &str, keys: &[&str]| Variable {
         name: name.into(),
         of: of.into(),
         keys: keys.iter().map(|key| (*key).to_owned()).collect(),
     };
-    let function = |name: &str, parameters: &[&str]| Function {
+    let function = |name: &str, parameters: &[&str]| ScriptFunction {
         name: name.into(),
         parameters: parameters.iter().map(|parameter| (*parameter).to_owned()).collect(),
-        ..Function::default()
+        ..ScriptFunction::default()
     };
     let command = |name, summary, operand| CommandWord { name, summary, operand };
     let columns = ["t", "kinetic", "strain", "energy", "ring.force"];
-    Surroundings {
+    CompletionContext {
         variables: vec![
             variable("scene", "scene", &[]),
             variable("rod", "beam", &[]),
@@ -27,10 +29,10 @@ pub fn surroundings() -> Surroundings {
             variable("values", "array", &[]),
         ],
         functions: vec![function("swing", &["angle", "speed"])],
-        modules: vec![Module {
+        modules: vec![ImportedModule {
             alias: "shapes".into(),
             functions: vec![
-                Function {
+                ScriptFunction {
                     summary: "An arch.".into(),
                     keys: vec![("rise".into(), "its height".into()), ("span".into(), "".into())],
                     ..function("arch", &["rise"])
@@ -39,14 +41,14 @@ pub fn surroundings() -> Surroundings {
             ],
         }],
         commands: vec![
-            command(":help", "Shows what a name does.", Operand::Name),
-            command(":step", "Takes steps.", Operand::Number),
-            command(":save", "Writes the session as a script.", Operand::File),
-            command(":show", "Draws the beam.", Operand::Nothing),
-            command(":plot", "Draws columns.", Operand::Curves),
-            command(":time", "Measures an expression.", Operand::Expression),
+            command(":help", "Shows what a name does.", CommandOperand::Name),
+            command(":step", "Takes steps.", CommandOperand::Number),
+            command(":save", "Writes the session as a script.", CommandOperand::File),
+            command(":show", "Draws the beam.", CommandOperand::Nothing),
+            command(":plot", "Draws columns.", CommandOperand::Curves),
+            command(":time", "Measures an expression.", CommandOperand::Expression),
         ],
         columns: columns.map(str::to_owned).into(),
-        ..Surroundings::of_language(language())
+        ..CompletionContext::of_language(language())
     }
 }

@@ -2,20 +2,20 @@
 
 use std::path::PathBuf;
 
-use crate::script::rows::catalog::Catalog;
+use crate::script::bindings::catalog::Catalog;
 
 /// What can be completed and hinted besides the syntax of the language: a picture of the session as it was when the prompt
 /// appeared. A session takes one before each line; it holds names only, so it is small however large the values are.
 #[derive(Clone)]
-pub struct Surroundings {
+pub struct CompletionContext {
     /// The language of the session.
     pub catalog: Catalog,
     /// The variables and constants of the session.
     pub variables: Vec<Variable>,
     /// The functions defined in the session.
-    pub functions: Vec<Function>,
+    pub functions: Vec<ScriptFunction>,
     /// The modules imported into the session.
-    pub modules: Vec<Module>,
+    pub modules: Vec<ImportedModule>,
     /// The commands that can be written after `:`.
     pub commands: Vec<CommandWord>,
     /// The columns of the history of the last simulation.
@@ -37,7 +37,7 @@ pub struct Variable {
 
 /// A script function of the session or of a module.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Function {
+pub struct ScriptFunction {
     /// The name of the script function.
     pub name: String,
     /// The names of the script function's parameters.
@@ -50,11 +50,11 @@ pub struct Function {
 
 /// A module imported into the session.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Module {
+pub struct ImportedModule {
     /// The name of the module before `::`.
     pub alias: String,
     /// The functions of the module, which are named after `::`.
-    pub functions: Vec<Function>,
+    pub functions: Vec<ScriptFunction>,
 }
 
 /// A command of the prompt.
@@ -65,12 +65,12 @@ pub struct CommandWord {
     /// One line on what the command does.
     pub summary: &'static str,
     /// What is written after the command.
-    pub operand: Operand,
+    pub operand: CommandOperand,
 }
 
 /// What is written after a command of the prompt.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Operand {
+pub enum CommandOperand {
     /// Nothing is written after the command.
     Nothing,
     /// A name of the language is written after the command.
@@ -89,7 +89,7 @@ pub enum Operand {
     OptionsOf(&'static str),
 }
 
-impl Surroundings {
+impl CompletionContext {
     /// The surroundings of a session in which nothing has happened.
     pub fn of_language(catalog: Catalog) -> Self {
         Self {

@@ -14,15 +14,15 @@ impl TypedAhead {
     }
 
     /// Gives the terminal to another program as it was, for as long as the result lives, if it is held at all.
-    pub fn lend() -> Lent {
-        Lent(terminal::give_back())
+    pub fn lend() -> TerminalLease {
+        TerminalLease(terminal::give_back())
     }
 }
 
 /// A guard that lasts while another program has the terminal.
-pub struct Lent(bool);
+pub struct TerminalLease(bool);
 
-impl Drop for Lent {
+impl Drop for TerminalLease {
     fn drop(&mut self) {
         if self.0 {
             terminal::take();

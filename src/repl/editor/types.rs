@@ -1,11 +1,11 @@
 //! Of which type the value before a dot is, as far as can be told without running anything.
 
 use super::input::Input;
-use super::surroundings::Surroundings;
-use crate::script::rows::returns::{Returns, ValueKind};
-use crate::script::rows::table::Form;
+use super::surroundings::CompletionContext;
+use crate::script::bindings::returns::{Returns, ValueKind};
+use crate::script::bindings::table::CallSyntax;
 use crate::script::source::keywords;
-use crate::script::source::scanner::{Bracket, Kind};
+use crate::script::source::scanner::{Bracket, TokenKind};
 
 /// Members and calls that are followed in `a.b().c[0].d`.
 const LONGEST_CHAIN: usize = 32;
@@ -19,23 +19,23 @@ pub struct Types<'a, 't> {
     /// The input before the cursor.
     pub input: &'a Input<'t>,
     /// The names that the session holds.
-    pub surroundings: &'a Surroundings,
+    pub surroundings: &'a CompletionContext,
 }
 
 /// A value with its type, and the token at which it begins.
-struct Typed {
+struct TypedValue {
     of: Option<ValueKind>,
     start: usize,
 }
 
 /// The kind of the value that `text` ends with.
-pub fn type_before(text: &str, surroundings: &Surroundings) -> Option<ValueKind> {
+pub fn type_before(text: &str, surroundings: &CompletionContext) -> Option<ValueKind> {
     let input = Input::before(text, text.len());
     let last = input.tokens.len().checked_sub(1)?;
     Types { input: &input, surroundings }.of(last)
 }
 
-enum Step<'t> {
+enum TypeStep<'t> {
     Property(&'t str),
     Call(&'t str),
     Index,
@@ -47,7 +47,7 @@ impl<'t> Types<'_, 't> {
         self.value(end, 0)?.of
     }
 
-    fn value(&self, end: usize, depth: usize) -> Option<Typed> {
+    fn value(&self, end: usize, depth: usize) -> Option<TypedValue> {
         if depth > DEEPEST {
             return None;
         }
@@ -58,50 +58,55 @@ impl<'t> Types<'_, 't> {
                 return None;
             }
             match self.input.kind(at)? {
-                Kind::Text => break Typed { of: Some(ValueKind::Text), start: at },
-                Kind::Number => break Typed { of: Some(ValueKind::Number), start: at },
-                Kind::Word => match self.receiver(at) {
+                TokenKind::Text => break TypedValue { of: Some(ValueKind::Text), start: at },
+                TokenKind::Number => break TypedValue { of: Some(ValueKind::Number), start: at },
+                TokenKind::Word => match self.receiver(at) {
                     Some(receiver) => {
-                        steps.push(Step::Property(self.input.written(at)));
+                        steps.push(TypeStep::Property(self.input.written(at)));
                         at = receiver;
                     }
-                    None => break Typed { of: self.variable(at, depth), start: at },
+                    None => break TypedValue { of: self.variable(at, depth), start: at },
                 },
-                Kind::Close(Bracket::Round) => {
+                TokenKind::Close(Bracket::Round) => {
                     let opener = self.input.partner(at)?;
                     match self.input.callee(opener) {
                         Some(callee) => match callee.receiver {
                             Some(receiver) => {
-                                steps.push(Step::Call(callee.name));
+                                steps.push(TypeStep::Call(callee.name));
                                 at = receiver;
                             }
                             None => {
-                                break Typed { of: self.called(callee.name), start: opener - 1 };
+                                break TypedValue {
+                                    of: self.called(callee.name),
+                                    start: opener - 1,
+                                };
                             }
                         },
-                        None => break Typed { of: self.group(opener, at, depth), start: opener },
+                        None => {
+                            break TypedValue { of: self.group(opener, at, depth), start: opener };
+                        }
                     }
                 }
-                Kind::Close(Bracket::Square) => {
+                TokenKind::Close(Bracket::Square) => {
                     let opener = self.input.partner(at)?;
                     match opener.checked_sub(1).filter(|before| self.is_value(*before)) {
                         Some(indexed) => {
-                            steps.push(Step::Index);
+                            steps.push(TypeStep::Index);
                             at = indexed;
                         }
-                        None => break Typed { of: Some(ValueKind::ARRAY), start: opener },
+                        None => break TypedValue { of: Some(ValueKind::ARRAY), start: opener },
                     }
                 }
-                Kind::Close(Bracket::Curly) => {
+                TokenKind::Close(Bracket::Curly) => {
                     let opener = self.input.partner(at)?;
-                    let is_map = self.input.kind(opener) == Some(Kind::Open(Bracket::Map));
-                    break Typed { of: is_map.then_some(ValueKind::Map), start: opener };
+                    let is_map = self.input.kind(opener) == Some(TokenKind::Open(Bracket::Map));
+                    break TypedValue { of: is_map.then_some(ValueKind::Map), start: opener };
                 }
                 _ => return None,
             }
         };
         let of = steps.iter().rev().try_fold(first.of?, |of, step| self.after(of, step));
-        Some(Typed { of, start: first.start })
+        Some(TypedValue { of, start: first.start })
     }
 
     /// The last token of the value whose member is named at token `at`.
@@ -111,8 +116,8 @@ impl<'t> Types<'_, 't> {
 
     fn is_value(&self, at: usize) -> bool {
         match self.input.kind(at) {
-            Some(Kind::Word) => !keywords::is_keyword(self.input.written(at)),
-            Some(Kind::Close(_) | Kind::Text) => true,
+            Some(TokenKind::Word) => !keywords::is_keyword(self.input.written(at)),
+            Some(TokenKind::Close(_) | TokenKind::Text) => true,
             _ => false,
         }
     }
@@ -148,7 +153,7 @@ impl<'t> Types<'_, 't> {
         let place = (1..at).rev().find(is_declared)?;
         let mut end = place + 2;
         while end < at && input.written(end) != ";" {
-            let opens = matches!(input.kind(end), Some(Kind::Open(_)));
+            let opens = matches!(input.kind(end), Some(TokenKind::Open(_)));
             end = input.partner(end).filter(|_| opens).unwrap_or(end) + 1;
         }
         let is_assigned = input.written(place + 1) == "=" && end < at;
@@ -161,23 +166,23 @@ impl<'t> Types<'_, 't> {
             return None;
         }
         let catalog = &self.surroundings.catalog;
-        let mut rows = catalog.named(name).filter(|row| matches!(row.form, Form::Function));
+        let mut rows = catalog.named(name).filter(|row| matches!(row.form, CallSyntax::Function));
         let mut built_ins = catalog.built_ins_named(name);
         let row = rows.next().map(|row| row.returns);
         known(row.or_else(|| built_ins.find(|of| of.is_function()).map(|of| of.returns))?)
     }
 
-    fn after(&self, of: ValueKind, step: &Step<'t>) -> Option<ValueKind> {
+    fn after(&self, of: ValueKind, step: &TypeStep<'t>) -> Option<ValueKind> {
         let (name, is_call) = match step {
-            Step::Index => return known(Returns::of(of.element()?)),
-            Step::Property(name) => (*name, false),
-            Step::Call(name) => (*name, true),
+            TypeStep::Index => return known(Returns::of(of.element()?)),
+            TypeStep::Property(name) => (*name, false),
+            TypeStep::Call(name) => (*name, true),
         };
         let of = of.type_name()?;
         let catalog = &self.surroundings.catalog;
         let members = catalog.members(of).into_iter();
         let mut matching = members
-            .filter(|row| row.name == name && matches!(row.form, Form::Method(_)) == is_call);
+            .filter(|row| row.name == name && matches!(row.form, CallSyntax::Method(_)) == is_call);
         let mut built_ins = catalog.built_ins_named(name).filter(|known| known.is_of(of));
         let row = matching.next().map(|row| row.returns);
         match row.or_else(|| built_ins.next().map(|of| of.returns)) {

@@ -28,7 +28,7 @@ pub trait Keyboard {
     fn rest_of_sequence(&mut self) -> io::Result<Vec<u8>>;
 }
 
-pub use of_system::{Terminal, keys_wait};
+pub use of_system::{KeyboardTerminal, keys_wait};
 
 #[cfg(unix)]
 mod of_system {
@@ -47,9 +47,9 @@ mod of_system {
     const SOON: u8 = 30;
 
     /// The terminal that is typed at. Between two prompts it hands keys on as they are.
-    pub struct Terminal(());
+    pub struct KeyboardTerminal(());
 
-    impl Terminal {
+    impl KeyboardTerminal {
         /// The terminal that is typed at, if there is one.
         pub fn open() -> Option<Self> {
             Some(Self(()))
@@ -81,7 +81,7 @@ mod of_system {
         }
     }
 
-    impl Keyboard for Terminal {
+    impl Keyboard for KeyboardTerminal {
         fn read(&mut self, was_interrupted: &dyn Fn() -> bool) -> io::Result<Pressed> {
             loop {
                 if was_interrupted() {
@@ -121,9 +121,9 @@ mod of_system {
     use super::{Keyboard, Pressed};
 
     /// The terminal that is typed at, on a system where none is known.
-    pub struct Terminal(());
+    pub struct KeyboardTerminal(());
 
-    impl Terminal {
+    impl KeyboardTerminal {
         /// No terminal: this system has none that is known.
         pub fn open() -> Option<Self> {
             None
@@ -135,7 +135,7 @@ mod of_system {
         false
     }
 
-    impl Keyboard for Terminal {
+    impl Keyboard for KeyboardTerminal {
         fn read(&mut self, _: &dyn Fn() -> bool) -> io::Result<Pressed> {
             Ok(Pressed::End)
         }

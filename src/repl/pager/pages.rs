@@ -3,14 +3,14 @@
 use std::io::{self, Write};
 use std::ops::Range;
 
-use super::{Keyboard, Pressed, Shown};
+use super::{Keyboard, PagerOutcome, Pressed};
 
 /// To the beginning of the line, which is cleared.
 const CLEAR: &str = "\r\x1b[K";
 const KEYS: &str = "space: more, b: back, /: search, q: leave";
 
 /// What a key wants.
-enum Wish {
+enum PagerAction {
     Page,
     Line,
     PageBack,
@@ -46,16 +46,19 @@ struct Pages<'t> {
 
 impl Pages<'_> {
     /// The lines to write for a wish that goes somewhere.
-    fn go(&mut self, wish: &Wish) -> Range<usize> {
+    fn go(&mut self, wish: &PagerAction) -> Range<usize> {
         let Range { start, end } = self.shown;
         match wish {
-            Wish::Page => self.forward(end + self.height),
-            Wish::Line => self.forward(end + 1),
-            Wish::PageBack => self.from(start.saturating_sub(self.height)),
-            Wish::LineBack => self.from(start.saturating_sub(1)),
-            Wish::Start => self.from(0),
-            Wish::End => self.from(self.lines.len().saturating_sub(self.height)),
-            Wish::Search | Wish::SearchOn | Wish::Leave | Wish::Nothing => end..end,
+            PagerAction::Page => self.forward(end + self.height),
+            PagerAction::Line => self.forward(end + 1),
+            PagerAction::PageBack => self.from(start.saturating_sub(self.height)),
+            PagerAction::LineBack => self.from(start.saturating_sub(1)),
+            PagerAction::Start => self.from(0),
+            PagerAction::End => self.from(self.lines.len().saturating_sub(self.height)),
+            PagerAction::Search
+            | PagerAction::SearchOn
+            | PagerAction::Leave
+            | PagerAction::Nothing => end..end,
         }
     }
 
@@ -95,7 +98,7 @@ pub fn walk(
     keys: &mut dyn Keyboard,
     was_interrupted: &dyn Fn() -> bool,
     out: &mut dyn Write,
-) -> io::Result<Shown> {
+) -> io::Result<PagerOutcome> {
     let height = lines.saturating_sub(1).max(1);
     let mut pages =
         Pages { lines: text.lines().collect(), height, shown: 0..0, word: String::new() };
@@ -106,14 +109,14 @@ pub fn walk(
             writeln!(out, "{line}")?;
         }
         if pages.is_at_end() {
-            return Ok(Shown::Seen);
+            return Ok(PagerOutcome::Seen);
         }
         let percent = 100 * pages.shown.end / pages.lines.len();
         write!(out, "-- {percent} % -- {note}")?;
         out.flush()?;
         let wish = wish(keys, was_interrupted)?;
         let searched = match wish {
-            Ok(Wish::Search) => ask(&mut pages.word, keys, was_interrupted, out)?,
+            Ok(PagerAction::Search) => ask(&mut pages.word, keys, was_interrupted, out)?,
             _ => Some(()),
         };
         write!(out, "{CLEAR}")?;
@@ -121,9 +124,9 @@ pub fn walk(
         note = KEYS.to_owned();
         new = match (wish, searched) {
             (Err(end), _) => return Ok(end),
-            (Ok(Wish::Leave), _) => return Ok(Shown::Seen),
-            (Ok(_), None) => return Ok(Shown::Interrupted),
-            (Ok(Wish::Search | Wish::SearchOn), _) if !pages.word.is_empty() => {
+            (Ok(PagerAction::Leave), _) => return Ok(PagerOutcome::Seen),
+            (Ok(_), None) => return Ok(PagerOutcome::Interrupted),
+            (Ok(PagerAction::Search | PagerAction::SearchOn), _) if !pages.word.is_empty() => {
                 pages.search().unwrap_or_else(|| {
                     note = format!("'{}' is nowhere below", pages.word);
                     pages.shown.end..pages.shown.end
@@ -173,36 +176,36 @@ fn ask(
 fn wish(
     keys: &mut dyn Keyboard,
     was_interrupted: &dyn Fn() -> bool,
-) -> io::Result<Result<Wish, Shown>> {
+) -> io::Result<Result<PagerAction, PagerOutcome>> {
     let wish = match keys.read(was_interrupted)? {
-        Pressed::Interrupt => return Ok(Err(Shown::Interrupted)),
-        Pressed::End => Wish::Leave,
-        Pressed::Byte(b' ' | b'f' | 6) => Wish::Page,
-        Pressed::Byte(b'\r' | b'\n' | b'j') => Wish::Line,
-        Pressed::Byte(b'b' | 2) => Wish::PageBack,
-        Pressed::Byte(b'k' | b'y') => Wish::LineBack,
-        Pressed::Byte(b'g' | b'<') => Wish::Start,
-        Pressed::Byte(b'G' | b'>') => Wish::End,
-        Pressed::Byte(b'/') => Wish::Search,
-        Pressed::Byte(b'n') => Wish::SearchOn,
-        Pressed::Byte(b'q' | b'Q' | 4) => Wish::Leave,
+        Pressed::Interrupt => return Ok(Err(PagerOutcome::Interrupted)),
+        Pressed::End => PagerAction::Leave,
+        Pressed::Byte(b' ' | b'f' | 6) => PagerAction::Page,
+        Pressed::Byte(b'\r' | b'\n' | b'j') => PagerAction::Line,
+        Pressed::Byte(b'b' | 2) => PagerAction::PageBack,
+        Pressed::Byte(b'k' | b'y') => PagerAction::LineBack,
+        Pressed::Byte(b'g' | b'<') => PagerAction::Start,
+        Pressed::Byte(b'G' | b'>') => PagerAction::End,
+        Pressed::Byte(b'/') => PagerAction::Search,
+        Pressed::Byte(b'n') => PagerAction::SearchOn,
+        Pressed::Byte(b'q' | b'Q' | 4) => PagerAction::Leave,
         Pressed::Byte(27) => of_sequence(&keys.rest_of_sequence()?),
-        Pressed::Byte(_) => Wish::Nothing,
+        Pressed::Byte(_) => PagerAction::Nothing,
     };
     Ok(Ok(wish))
 }
 
 /// What a key wants that sends a sequence after an escape character.
-fn of_sequence(rest: &[u8]) -> Wish {
+fn of_sequence(rest: &[u8]) -> PagerAction {
     match rest {
-        [] => Wish::Leave,
-        b"[A" | b"OA" => Wish::LineBack,
-        b"[B" | b"OB" => Wish::Line,
-        b"[5~" => Wish::PageBack,
-        b"[6~" => Wish::Page,
-        b"[H" | b"OH" | b"[1~" => Wish::Start,
-        b"[F" | b"OF" | b"[4~" => Wish::End,
-        _ => Wish::Nothing,
+        [] => PagerAction::Leave,
+        b"[A" | b"OA" => PagerAction::LineBack,
+        b"[B" | b"OB" => PagerAction::Line,
+        b"[5~" => PagerAction::PageBack,
+        b"[6~" => PagerAction::Page,
+        b"[H" | b"OH" | b"[1~" => PagerAction::Start,
+        b"[F" | b"OF" | b"[4~" => PagerAction::End,
+        _ => PagerAction::Nothing,
     }
 }
 
@@ -230,7 +233,7 @@ mod tests {
     }
 
     /// The lines that are written for a text of ten lines on a terminal of four, and how it ends.
-    fn walked(keys: &str) -> (String, Shown) {
+    fn walked(keys: &str) -> (String, PagerOutcome) {
         let text: Vec<String> = (0..10).map(|line| format!("\x1b[1mline\x1b[0m {line}")).collect();
         let mut out = Vec::new();
         let mut keys = Decided(keys.bytes().collect());
@@ -242,26 +245,26 @@ mod tests {
 
     #[test]
     fn pages_go_on_and_back_and_end_with_the_text() {
-        assert_eq!(walked("q"), ("012".into(), Shown::Seen));
-        assert_eq!(walked("   q"), ("0123456789".into(), Shown::Seen));
-        assert_eq!(walked(" \rbq"), ("0123456123".into(), Shown::Seen));
-        assert_eq!(walked("\x1b[B\x1b[Aq"), ("0123012".into(), Shown::Seen));
-        assert_eq!(walked("G"), ("012789".into(), Shown::Seen));
-        assert_eq!(walked(""), ("012".into(), Shown::Seen));
-        assert_eq!(walked("xq"), ("012".into(), Shown::Seen));
+        assert_eq!(walked("q"), ("012".into(), PagerOutcome::Seen));
+        assert_eq!(walked("   q"), ("0123456789".into(), PagerOutcome::Seen));
+        assert_eq!(walked(" \rbq"), ("0123456123".into(), PagerOutcome::Seen));
+        assert_eq!(walked("\x1b[B\x1b[Aq"), ("0123012".into(), PagerOutcome::Seen));
+        assert_eq!(walked("G"), ("012789".into(), PagerOutcome::Seen));
+        assert_eq!(walked(""), ("012".into(), PagerOutcome::Seen));
+        assert_eq!(walked("xq"), ("012".into(), PagerOutcome::Seen));
     }
 
     #[test]
     fn a_word_is_found_in_what_can_be_read() {
-        assert_eq!(walked("/LINE 4\rq"), ("012456".into(), Shown::Seen));
-        assert_eq!(walked("/line\rnnq"), ("012123234345".into(), Shown::Seen));
-        assert_eq!(walked("/1m\rq"), ("012".into(), Shown::Seen), "colours are no letters");
-        assert_eq!(walked("/5x\x7f\rq"), ("012567".into(), Shown::Seen));
+        assert_eq!(walked("/LINE 4\rq"), ("012456".into(), PagerOutcome::Seen));
+        assert_eq!(walked("/line\rnnq"), ("012123234345".into(), PagerOutcome::Seen));
+        assert_eq!(walked("/1m\rq"), ("012".into(), PagerOutcome::Seen), "colours are no letters");
+        assert_eq!(walked("/5x\x7f\rq"), ("012567".into(), PagerOutcome::Seen));
     }
 
     #[test]
     fn an_interrupt_leaves_at_once() {
-        assert_eq!(walked(" ^  "), ("012345".into(), Shown::Interrupted));
-        assert_eq!(walked("/a^"), ("012".into(), Shown::Interrupted));
+        assert_eq!(walked(" ^  "), ("012345".into(), PagerOutcome::Interrupted));
+        assert_eq!(walked("/a^"), ("012".into(), PagerOutcome::Interrupted));
     }
 }

@@ -2,15 +2,15 @@
 
 use rhai::EvalAltResult;
 
-use super::{Outcome, Shell};
+use super::{CommandOutcome, Shell};
 use crate::repl::session::Reply;
 use crate::script::diagnose::Diagnostic;
-use crate::script::words::error::ScriptError;
-use crate::script::words::stop::Stop;
+use crate::script::messages::error::ScriptError;
+use crate::script::messages::stop::Stop;
 
 impl Shell {
     /// Tells the user an error that came from no script.
-    pub fn refuse_native(&mut self, error: ScriptError) -> Outcome {
+    pub fn refuse_native(&mut self, error: ScriptError) -> CommandOutcome {
         match error {
             ScriptError::Failure(failure) => {
                 let hint = failure.hint.clone();

@@ -2,31 +2,31 @@
 
 use rhai::Position;
 
-use super::{elsewhere, operands};
+use super::{foreign_names, operands};
+use crate::script::bindings::built_in::BuiltIn;
+use crate::script::bindings::catalog::Catalog;
+use crate::script::bindings::sources::{FOLDER, Sources};
+use crate::script::bindings::table::{CallSyntax, FunctionBinding};
 use crate::script::dialect::operators;
 use crate::script::library::{ModuleFunction, page_of, pages};
-use crate::script::rows::built_in::BuiltIn;
-use crate::script::rows::catalog::Catalog;
-use crate::script::rows::sources::{FOLDER, Sources};
-use crate::script::rows::table::{Form, Row};
-use crate::script::source::outline::Outline;
+use crate::script::messages::nouns::{type_word, with_article};
+use crate::script::messages::suggest::{nearest, related};
+use crate::script::source::outline::ScriptOutline;
 use crate::script::source::program::Program;
-use crate::script::words::nouns::{type_word, with_article};
-use crate::script::words::suggest::{nearest, related};
 
 /// What a script asked for and is not known, with what is known to be held against it.
-pub struct Unknown<'a> {
+pub struct UnknownName<'a> {
     pub catalog: &'a Catalog,
     pub program: &'a Program,
-    pub outline: &'a Outline,
+    pub outline: &'a ScriptOutline,
     pub sources: &'a Sources,
 }
 
-type Words = (String, Option<String>);
+type ErrorText = (String, Option<String>);
 
-impl Unknown<'_> {
+impl UnknownName<'_> {
     /// The words for the engine's "Function not found: name (types)".
-    pub fn function(&self, signature: &str, at: Position) -> Words {
+    pub fn function(&self, signature: &str, at: Position) -> ErrorText {
         let (name, types) = signature.split_once(" (").unwrap_or((signature, ")"));
         let types: Vec<&str> = types
             .trim_end_matches(')')
@@ -57,14 +57,14 @@ impl Unknown<'_> {
             return self.of_module(module, own, types.len());
         }
         let rows: Vec<_> = self.catalog.named(name).collect();
-        let of_receiver = rows
-            .iter()
-            .find(|row| matches!(row.form, Form::Method(of) if types.first() == Some(&of.name())));
+        let of_receiver = rows.iter().find(
+            |row| matches!(row.form, CallSyntax::Method(of) if types.first() == Some(&of.name())),
+        );
         if let Some(row) = of_receiver {
             return wrong_count(row, &[], types.len() - 1);
         }
-        let functions: Vec<&Row> =
-            rows.iter().copied().filter(|row| matches!(row.form, Form::Function)).collect();
+        let functions: Vec<&FunctionBinding> =
+            rows.iter().copied().filter(|row| matches!(row.form, CallSyntax::Function)).collect();
         if let Some((row, others)) = functions.split_first() {
             return wrong_count(row, others, types.len());
         }
@@ -83,7 +83,7 @@ impl Unknown<'_> {
     }
 
     /// A function of an imported module; only what the standard library has is known.
-    fn of_module(&self, module: &str, name: &str, got: usize) -> Words {
+    fn of_module(&self, module: &str, name: &str, got: usize) -> ErrorText {
         let message = format!("there is no function '{name}' in '{module}'");
         let mut imports = self.outline.imports.iter().rev();
         let path = imports.find(|(known, _)| known == module).map(|(_, path)| path);
@@ -104,7 +104,7 @@ impl Unknown<'_> {
     }
 
     /// The words for a name before `::` that was not imported.
-    pub fn module(&self, name: &str) -> Words {
+    pub fn module(&self, name: &str) -> ErrorText {
         let message = format!("nothing was imported as '{name}'");
         let imports = || self.outline.imports.iter().map(|(known, _)| known.as_str());
         let hint = match (page_of(&format!("{FOLDER}{name}")), nearest(name, imports())) {
@@ -118,7 +118,7 @@ impl Unknown<'_> {
     }
 
     /// A function of Rhai that these values could be meant for, called with the wrong ones.
-    fn wrong_built_in(&self, name: &str, types: &[&str]) -> Option<Words> {
+    fn wrong_built_in(&self, name: &str, types: &[&str]) -> Option<ErrorText> {
         let meant: Vec<_> = self
             .catalog
             .built_ins_named(name)
@@ -126,14 +126,21 @@ impl Unknown<'_> {
             .collect();
         let got = types.iter().map(|name| with_article(name)).collect::<Vec<_>>().join(", ");
         let message = format!("{name} cannot be called with ({got})");
-        if let Some(hint) = elsewhere::called_with(name, types.len()).filter(|_| !meant.is_empty())
+        if let Some(hint) =
+            foreign_names::called_with(name, types.len()).filter(|_| !meant.is_empty())
         {
             return Some((message, Some(hint.into())));
         }
         (!meant.is_empty()).then(|| (message, Some(format!("write {}", forms(&meant)))))
     }
 
-    fn unknown_name(&self, name: &str, types: &[&str], rows: &[&Row], dotted: bool) -> Words {
+    fn unknown_name(
+        &self,
+        name: &str,
+        types: &[&str],
+        rows: &[&FunctionBinding],
+        dotted: bool,
+    ) -> ErrorText {
         let receiver = types.first().filter(|_| dotted);
         let message = match receiver {
             Some(receiver) => format!("{} has no method '{name}'", with_article(receiver)),
@@ -149,12 +156,12 @@ impl Unknown<'_> {
         if !is_owned
             && !is_variable
             && own_function.is_none()
-            && let Some(found) = elsewhere::find(name)
+            && let Some(found) = foreign_names::find(name)
         {
             return (message, Some(found.cure.into()));
         }
         if let Some(row) = rows.first() {
-            if let Some(hint) = elsewhere::called_with(name, types.len()) {
+            if let Some(hint) = foreign_names::called_with(name, types.len()) {
                 return (message, Some(hint.into()));
             }
             let owner = row.receiver().map_or("an operand", |of| of.name());
@@ -182,9 +189,9 @@ impl Unknown<'_> {
         let members = receiver.map(|of| self.catalog.members(of)).unwrap_or_default();
         let mut known: Vec<String> = members.iter().map(|row| row.name.to_owned()).collect();
         // What takes no such value is not meant behind its dot.
-        let takes = |row: &&Row| {
+        let takes = |row: &&FunctionBinding| {
             let first = row.parameters.first();
-            matches!(row.form, Form::Function)
+            matches!(row.form, CallSyntax::Function)
                 && receiver.is_none_or(|of| first.is_some_and(|first| first.kind.takes(of)))
         };
         known.extend(self.catalog.rows().filter(takes).map(|row| row.name.to_owned()));
@@ -219,7 +226,7 @@ impl Unknown<'_> {
                 .into_iter()
                 .find(|row| row.name == near)
                 .or_else(|| rows.next()),
-            None => rows.find(|row| matches!(row.form, Form::Function)),
+            None => rows.find(|row| matches!(row.form, CallSyntax::Function)),
         };
         match row {
             Some(row) => format!("did you mean '{near}'? {}", row.signature()),
@@ -234,7 +241,7 @@ impl Unknown<'_> {
     }
 
     /// The words for the engine's "Unknown property 'p' - … for type 't'" and "No writable property 'p' - …".
-    pub fn property(&self, text: &str) -> Words {
+    pub fn property(&self, text: &str) -> ErrorText {
         let mut quoted = text.split('\'').skip(1).step_by(2);
         let (Some(name), Some(of)) = (quoted.next(), quoted.next().map(type_word)) else {
             return (text.to_owned(), None);
@@ -243,21 +250,21 @@ impl Unknown<'_> {
         let members = self.catalog.members(of);
         let own = members.iter().find(|row| row.name == name);
         if let Some(own) = own.filter(|_| text.starts_with("No writable")) {
-            let is_called = !matches!(own.form, Form::Property(_));
+            let is_called = !matches!(own.form, CallSyntax::Property(_));
             let hint = is_called.then(|| format!("it is called: {}", own.signature()));
             return (format!("'{name}' of {owner} cannot be assigned"), hint);
         }
         let message = format!("{owner} has no property '{name}'");
         let is_own = members.iter().any(|row| row.name == name)
             || self.catalog.built_ins_named(name).any(|known| known.is_of(of));
-        if let Some(found) = elsewhere::find(name).filter(|_| !is_own) {
+        if let Some(found) = foreign_names::find(name).filter(|_| !is_own) {
             return (message, Some(found.cure.into()));
         }
         if let Some(row) =
             members.iter().copied().chain(self.catalog.named(name)).find(|row| row.name == name)
         {
             let hint = match row.form {
-                Form::Property(of) => {
+                CallSyntax::Property(of) => {
                     format!("'{name}' belongs to {}: {}", with_article(of.name()), row.signature())
                 }
                 _ => format!("'{name}' is called with parentheses: {}", row.signature()),
@@ -322,7 +329,7 @@ pub fn of_library(name: &str) -> Option<String> {
 }
 
 /// `others` are further functions of the name, which take other values.
-fn wrong_count(row: &Row, others: &[&Row], got: usize) -> Words {
+fn wrong_count(row: &FunctionBinding, others: &[&FunctionBinding], got: usize) -> ErrorText {
     let (least, most) = (row.required(), row.parameters.len());
     let takes =
         if least == most { arguments(most) } else { format!("{least} to {}", arguments(most)) };
@@ -331,7 +338,7 @@ fn wrong_count(row: &Row, others: &[&Row], got: usize) -> Words {
         .iter()
         .map(|parameter| format!("\n{}: {}", parameter.name, parameter.expectation()));
     let others: String = others.iter().map(|row| format!(" or {}", row.signature())).collect();
-    let hint = match elsewhere::called_with(row.name, got) {
+    let hint = match foreign_names::called_with(row.name, got) {
         Some(hint) => hint.to_owned(),
         None => format!("write {}{others}{}", row.signature(), parameters.collect::<String>()),
     };
@@ -347,7 +354,7 @@ fn arguments(count: usize) -> String {
 }
 
 /// The names that a value has, or the way to them where they are many.
-fn list(members: &[&'static Row], of: &str) -> Option<String> {
+fn list(members: &[&'static FunctionBinding], of: &str) -> Option<String> {
     const MOST: usize = 12;
     let names: Vec<_> = members.iter().map(|row| row.name).collect();
     match names.len() {

@@ -4,8 +4,8 @@ use std::fmt;
 use std::sync::Arc;
 
 use super::render::Colours;
+use crate::script::messages::brief::brief;
 use crate::script::source::program::{Program, Unreadable};
-use crate::script::words::brief::brief;
 
 /// A diagnostic: an error as it is shown to people.
 #[derive(Clone, Debug)]
@@ -17,7 +17,7 @@ pub struct Diagnostic {
     /// The place of the error, if it is about one in a script.
     pub location: Option<Location>,
     /// The calls of script functions that led to the error, innermost first.
-    pub trace: Vec<Step>,
+    pub trace: Vec<CallFrame>,
     /// Whose mistake the error is.
     pub blame: Blame,
 }
@@ -46,7 +46,7 @@ pub struct Location {
 
 /// One call on the way to an error.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Step {
+pub struct CallFrame {
     /// What the call has called.
     pub callee: Callee,
     /// The line of the call on the way to the error, if it is known.

@@ -1,6 +1,6 @@
 //! Values that do not fit: of another type, out of bounds, too large.
 
-use crate::script::words::nouns::{type_word, with_article};
+use crate::script::messages::nouns::{type_word, with_article};
 
 /// What is wrong with a value of another type than is asked for, and what to do.
 pub fn mismatch(wanted: &str, got: &str) -> (String, Option<String>) {

@@ -5,12 +5,12 @@ use std::sync::Arc;
 use rhai::{Position, Token};
 
 use super::Location;
-use crate::script::rows::catalog::Catalog;
-use crate::script::rows::table::Form;
+use crate::script::bindings::catalog::Catalog;
+use crate::script::bindings::table::CallSyntax;
+use crate::script::messages::error::CallPart;
 use crate::script::source::definitions::{closing, nesting};
 use crate::script::source::program::Program;
 use crate::script::source::text::Lexeme;
-use crate::script::words::error::Place;
 
 /// The word, number, text or sign at `position`; nothing if the engine gave no position.
 pub fn word_at(program: &Program, position: Position) -> Option<Location> {
@@ -38,15 +38,15 @@ pub fn part_of_call(
     program: &Program,
     catalog: &Catalog,
     position: Position,
-    place: &Place,
+    place: &CallPart,
 ) -> Option<Location> {
     let found = match place {
-        Place::Call => None,
-        Place::Argument(number) => argument_of(program, catalog, position, *number),
-        Place::ArgumentOfMethod(number) => {
+        CallPart::Call => None,
+        CallPart::Argument(number) => argument_of(program, catalog, position, *number),
+        CallPart::ArgumentOfMethod(number) => {
             inside_call(program, position).and_then(|(call, _)| argument(program, call, *number))
         }
-        Place::Key(key) => key_of_call(program, position, key),
+        CallPart::Key(key) => key_of_call(program, position, key),
     };
     found.or_else(|| word_at(program, position))
 }
@@ -93,7 +93,8 @@ fn argument_of(
 ) -> Option<Location> {
     let (call, dotted) = inside_call(program, position)?;
     let called = word_at(program, position)?;
-    let is_function = catalog.named(called.text()).any(|row| matches!(row.form, Form::Function));
+    let is_function =
+        catalog.named(called.text()).any(|row| matches!(row.form, CallSyntax::Function));
     // In `a.norm()` the first argument of the function stands before the dot.
     let number = if dotted && is_function { number.checked_sub(1)? } else { number };
     argument(program, call, number)

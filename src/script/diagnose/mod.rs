@@ -2,15 +2,15 @@
 
 mod calls;
 mod diagnostic;
-pub(in crate::script) mod elsewhere;
 mod faults;
-mod habits;
+pub(in crate::script) mod foreign_names;
+mod foreign_syntax;
 mod locate;
 mod operands;
 mod parsing;
 mod render;
 mod translate;
 
-pub use diagnostic::{Blame, Callee, Diagnostic, Location, Step};
+pub use diagnostic::{Blame, CallFrame, Callee, Diagnostic, Location};
 pub use render::Colours;
 pub use translate::{Explainer, is_interrupt, is_waiting};

@@ -1,6 +1,6 @@
 //! Operators that do not work on the values beside them, and what is written instead.
 
-use crate::script::words::nouns::with_article;
+use crate::script::messages::nouns::with_article;
 
 /// What is wrong with the operator `symbol` between, or before, values of these types, and what to do.
 pub fn explain(symbol: &str, types: &[&str]) -> (String, Option<String>) {

@@ -7,7 +7,7 @@ use codespan_reporting::files::SimpleFile;
 use codespan_reporting::term::termcolor::Buffer;
 use codespan_reporting::term::{self, Config};
 
-use super::{Blame, Callee, Diagnostic, Location, Step};
+use super::{Blame, CallFrame, Callee, Diagnostic, Location};
 pub use crate::output::Colours;
 use crate::output::columns;
 
@@ -83,16 +83,16 @@ fn wrapped(line: &str, width: usize) -> Vec<String> {
 }
 
 /// The calls, with the middle of a long recursion left out.
-fn shown_steps(trace: &[Step]) -> Vec<String> {
+fn shown_steps(trace: &[CallFrame]) -> Vec<String> {
     const SHOWN: usize = 8;
-    let mut lines: Vec<_> = trace.iter().take(SHOWN).map(Step::to_string).collect();
+    let mut lines: Vec<_> = trace.iter().take(SHOWN).map(CallFrame::to_string).collect();
     if trace.len() > SHOWN {
         lines.push(format!("… and {} more calls", trace.len() - SHOWN));
     }
     lines
 }
 
-impl std::fmt::Display for Step {
+impl std::fmt::Display for CallFrame {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let reached = match &self.callee {
             Callee::Closure => {

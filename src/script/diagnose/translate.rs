@@ -4,24 +4,24 @@ use std::path::Path;
 
 use rhai::{Dynamic, Engine, EvalAltResult, ParseErrorType, Position};
 
-use super::calls::{Unknown, of_library};
+use super::calls::{UnknownName, of_library};
 use super::faults::{arithmetic, bounds, mismatch, too_large};
-use super::{Callee, Diagnostic, Step, elsewhere, habits, locate, parsing};
+use super::{CallFrame, Callee, Diagnostic, foreign_names, foreign_syntax, locate, parsing};
+use crate::script::bindings::catalog::Catalog;
+use crate::script::bindings::kind::Scripted;
+use crate::script::bindings::parameter_variants::VariantValue;
+use crate::script::bindings::register::STEERED;
+use crate::script::bindings::sources::{FOLDER, Sources};
+use crate::script::bindings::table::{CallSyntax, FunctionBinding, SETTER};
 use crate::script::dialect::naming::not_visible;
 use crate::script::library;
-use crate::script::rows::catalog::Catalog;
-use crate::script::rows::kind::Scripted;
-use crate::script::rows::lifting::Varied;
-use crate::script::rows::register::STEERED;
-use crate::script::rows::sources::{FOLDER, Sources};
-use crate::script::rows::table::{Form, Row, SETTER};
-use crate::script::source::outline::Outline;
+use crate::script::messages::brief::brief;
+use crate::script::messages::error::{BUG, CallPart, Failure};
+use crate::script::messages::nouns::{type_word, with_article};
+use crate::script::messages::stop::Stop;
+use crate::script::messages::suggest::nearest;
+use crate::script::source::outline::ScriptOutline;
 use crate::script::source::program::Program;
-use crate::script::words::brief::brief;
-use crate::script::words::error::{BUG, Failure, Place};
-use crate::script::words::nouns::{type_word, with_article};
-use crate::script::words::stop::Stop;
-use crate::script::words::suggest::nearest;
 
 /// What explains errors of the engine to people, with all that its words are drawn from.
 pub struct Explainer<'a> {
@@ -39,7 +39,7 @@ struct Unwrapped<'e> {
     /// The file it stands in.
     program: Program,
     /// The calls that led there, innermost first.
-    trace: Vec<Step>,
+    trace: Vec<CallFrame>,
     /// Where the innermost of them was called.
     called_at: Option<(Program, Position)>,
     /// Where the standard library was called, when the error arose in it.
@@ -47,7 +47,7 @@ struct Unwrapped<'e> {
 }
 
 /// What is wrong, what to do, and where.
-type Words = (String, Option<String>);
+type Diagnosis = (String, Option<String>);
 
 /// Whether the run was stopped from outside and not by a limit, at whatever depth of calls.
 pub fn is_interrupt(error: &EvalAltResult) -> bool {
@@ -82,7 +82,7 @@ impl Explainer<'_> {
             return Diagnostic { trace, ..Diagnostic::bug(message) };
         }
         if let EvalAltResult::ErrorParsing(kind, at) = inner
-            && let Some(cure) = habits::cure(&program, self.catalog, kind, *at)
+            && let Some(cure) = foreign_syntax::cure(&program, self.catalog, kind, *at)
         {
             let location = match cure.at.is_none() {
                 true => Some(locate::end_of(&program, &program.text)),
@@ -95,23 +95,24 @@ impl Explainer<'_> {
                 ..Diagnostic::general(cure.message)
             };
         }
-        let outline = Outline::of(&program.text);
+        let outline = ScriptOutline::of(&program.text);
         let (message, hint) = self.words(inner, &program, &outline, &trace);
         let is_of_engine = !matches!(inner, EvalAltResult::ErrorRuntime(..));
-        let plain = (is_of_engine && message.contains(Varied::NAME)).then(|| PLAIN.to_owned());
+        let plain =
+            (is_of_engine && message.contains(VariantValue::NAME)).then(|| PLAIN.to_owned());
         let hint = plain.or(hint).map(brief);
         if let Some((caller, at)) = library_called_at {
             let file = Some(program.name.clone());
             let line = inner.position().line();
-            trace.insert(0, Step { callee: Callee::Library, line, file });
+            trace.insert(0, CallFrame { callee: Callee::Library, line, file });
             let place = match inner {
                 EvalAltResult::ErrorRuntime(payload, _) => payload.read_lock::<Failure>(),
                 _ => None,
             };
             // A key that the library hands on is written in the call of the user too; an argument is another one there.
             let place = match place.map(|failure| failure.place.clone()) {
-                Some(Place::Key(key)) => Place::Key(key),
-                _ => Place::Call,
+                Some(CallPart::Key(key)) => CallPart::Key(key),
+                _ => CallPart::Call,
             };
             let location = locate::part_of_call(&caller, self.catalog, at, &place);
             return Diagnostic { hint, location, trace, ..Diagnostic::general(message) };
@@ -146,7 +147,7 @@ impl Explainer<'_> {
                 _ => return Unwrapped { inner, program, trace, called_at, library_called_at },
             };
             let caller = (program.name != self.program.name).then(|| program.name.clone());
-            trace.insert(0, Step { callee, line: at.line(), file: caller });
+            trace.insert(0, CallFrame { callee, line: at.line(), file: caller });
             called_at = Some((program.clone(), *at));
             if let Some(file) = file {
                 library_called_at = match file.starts_with(FOLDER) {
@@ -181,12 +182,12 @@ impl Explainer<'_> {
         &self,
         error: &EvalAltResult,
         program: &Program,
-        outline: &Outline,
-        trace: &[Step],
-    ) -> Words {
+        outline: &ScriptOutline,
+        trace: &[CallFrame],
+    ) -> Diagnosis {
         use EvalAltResult as Error;
         let sources = Sources::of(self.engine);
-        let unknown = Unknown { catalog: self.catalog, program, outline, sources: &sources };
+        let unknown = UnknownName { catalog: self.catalog, program, outline, sources: &sources };
         match error {
             Error::ErrorParsing(kind, at) => parsing::explain(kind, &word_of(program, *at)),
             Error::ErrorFunctionNotFound(signature, at) => unknown.function(signature, *at),
@@ -261,7 +262,7 @@ impl Explainer<'_> {
         }
     }
 
-    fn variable(&self, name: &str, outline: &Outline, trace: &[Step]) -> Words {
+    fn variable(&self, name: &str, outline: &ScriptOutline, trace: &[CallFrame]) -> Diagnosis {
         let message = format!("there is no variable '{name}' here");
         if let Some((_, own)) = name.rsplit_once("::").filter(|_| !name.starts_with("global::")) {
             let hint = format!("the file shows what it exports: export const {own} = …");
@@ -276,10 +277,10 @@ impl Explainer<'_> {
         }
         let declared = || outline.variables.iter().map(String::as_str);
         let is_own = declared().any(|known| known == name) || nearest(name, declared()).is_some();
-        if let Some(found) = elsewhere::find(name).filter(|_| !is_own) {
+        if let Some(found) = foreign_names::find(name).filter(|_| !is_own) {
             return (message, Some(found.cure.into()));
         }
-        let is_function = |row: &&Row| matches!(row.form, Form::Function);
+        let is_function = |row: &&FunctionBinding| matches!(row.form, CallSyntax::Function);
         if let Some(row) = self.catalog.named(name).find(is_function) {
             return (
                 message,
@@ -295,7 +296,7 @@ impl Explainer<'_> {
         (message, Some(hint))
     }
 
-    fn thrown(&self, payload: &Dynamic) -> Words {
+    fn thrown(&self, payload: &Dynamic) -> Diagnosis {
         if let Some(failure) = payload.read_lock::<Failure>() {
             return (failure.message.clone(), failure.hint.clone());
         }
@@ -312,8 +313,8 @@ fn word_of(program: &Program, at: Position) -> String {
 }
 
 /// For `import numpy`, which reads a variable.
-fn not_imported(name: &str) -> Words {
-    let hint = match elsewhere::find(name) {
+fn not_imported(name: &str) -> Diagnosis {
+    let hint = match foreign_names::find(name) {
         Some(found) => found.cure.to_owned(),
         None => format!(
             "the name of a file stands in quotes: import \"{name}\" as {name}; the library is read by import \"std/sections\" as \
@@ -323,7 +324,7 @@ fn not_imported(name: &str) -> Words {
     (format!("there is no variable '{name}' here"), Some(hint))
 }
 
-fn missing_key(key: &str, outline: &Outline) -> Words {
+fn missing_key(key: &str, outline: &ScriptOutline) -> Diagnosis {
     let hint = match nearest(key, outline.keys.iter().map(String::as_str)) {
         Some(near) => format!("did you mean '{near}'?"),
         None => format!("ask with \"{key}\" in map before reading it"),

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use rhai::{Dynamic, Engine};
 
-use crate::script::rows::catalog::Catalog;
+use crate::script::bindings::catalog::Catalog;
 
 /// Lets scripts read the constants of `catalog`.
 ///

@@ -6,20 +6,20 @@ use std::rc::Rc;
 use rhai::{Dynamic, Engine, NativeCallContext};
 
 use crate::elementary::power;
-use crate::script::rows::lifting::{
-    Corner, Family, Varied, at_multiples, corner_of, gathered, gathered_without, near_zero_base,
-    near_zero_divisor, present, present_variant,
+use crate::script::bindings::parameter_variants::{
+    NonsmoothCheck, ParameterSet, VariantValue, at_multiples, corner_of, gathered,
+    gathered_without, near_zero_base, near_zero_divisor, present, present_variant,
 };
+use crate::script::messages::error::{EngineResult, ScriptError};
+use crate::script::messages::numbers::as_number;
 use crate::script::source::syntax::{LONGEST_CHAIN, OWN, power_name};
-use crate::script::words::error::{EngineResult, ScriptError};
-use crate::script::words::numbers::as_number;
 
 /// An operator on numbers.
 #[derive(Clone, Copy)]
 struct OnNumbers {
     of: fn(f64, f64) -> f64,
     /// Where it has no derivatives.
-    corner: Option<Corner>,
+    corner: Option<NonsmoothCheck>,
 }
 
 impl OnNumbers {
@@ -29,7 +29,7 @@ impl OnNumbers {
     }
 
     /// One that has none in some places.
-    const fn rough(of: fn(f64, f64) -> f64, corner: Corner) -> Self {
+    const fn rough(of: fn(f64, f64) -> f64, corner: NonsmoothCheck) -> Self {
         Self { of, corner: Some(corner) }
     }
 }
@@ -53,7 +53,7 @@ pub fn install(engine: &mut Engine) {
             });
         }
     }
-    let varied = [TypeId::of::<Varied>()];
+    let varied = [TypeId::of::<VariantValue>()];
     engine.register_raw_fn("-", varied, |context: NativeCallContext, operands| {
         let mut values = vec![&mut *operands[0]];
         let mut minus = Dynamic::from(-1.0);
@@ -64,10 +64,10 @@ pub fn install(engine: &mut Engine) {
         Ok(operands[0].clone())
     });
     // A number that depends on parameters has a point already.
-    engine.register_fn("to_float", |number: Varied| number);
+    engine.register_fn("to_float", |number: VariantValue| number);
     for name in ["to_int", "sign", "is_zero", "is_even", "is_odd"] {
         engine.register_raw_fn(name, varied, move |context: NativeCallContext, operands| {
-            let mut number = Varied::project(operands[0], present_variant());
+            let mut number = VariantValue::project(operands[0], present_variant());
             context.call_native_fn_raw(name, true, &mut [&mut number])
         });
     }
@@ -81,7 +81,8 @@ pub fn install(engine: &mut Engine) {
                     move |context: NativeCallContext, operands| {
                         let [left, right] = operands else { return Ok(Dynamic::UNIT) };
                         let at = present_variant();
-                        let [mut left, mut right] = [left, right].map(|of| Varied::project(of, at));
+                        let [mut left, mut right] =
+                            [left, right].map(|of| VariantValue::project(of, at));
                         context.call_native_fn_raw(&own, false, &mut [&mut left, &mut right])
                     },
                 );
@@ -92,7 +93,7 @@ pub fn install(engine: &mut Engine) {
 
 /// Two operands of which one at least depends on parameters.
 fn with_one() -> [[TypeId; 2]; 3] {
-    let (varied, any) = (TypeId::of::<Varied>(), TypeId::of::<Dynamic>());
+    let (varied, any) = (TypeId::of::<VariantValue>(), TypeId::of::<Dynamic>());
     [[varied, varied], [varied, any], [any, varied]]
 }
 
@@ -105,7 +106,7 @@ fn in_each(
     let [left, right] = operands else { return Ok(Dynamic::UNIT) };
     let (left, right) = ((**left).clone().flatten(), (**right).clone().flatten());
     let at = |variant: usize| -> EngineResult<Dynamic> {
-        let [mut left, mut right] = [&left, &right].map(|of| Varied::project(of, variant));
+        let [mut left, mut right] = [&left, &right].map(|of| VariantValue::project(of, variant));
         match (as_number(&left), as_number(&right)) {
             (Some(left), Some(right)) => Ok((numbers.of)(left, right).into()),
             _ => context.call_native_fn_raw(name, false, &mut [&mut left, &mut right]),
@@ -115,8 +116,8 @@ fn in_each(
         return at(present.variant);
     }
     let position = context.call_position();
-    let found = Family::common(&[&left, &right]);
-    let family: Rc<Family> = match found.map_err(|error| error.into_engine(position))? {
+    let found = ParameterSet::common(&[&left, &right]);
+    let family: Rc<ParameterSet> = match found.map_err(|error| error.into_engine(position))? {
         Some(family) => family,
         None => return at(0),
     };

@@ -6,8 +6,8 @@ use std::cell::Cell;
 
 use rhai::{Array, Dynamic, Engine, EvalAltResult, FnPtr, INT, Map, NativeCallContext, Position};
 
-use crate::script::words::error::{EngineResult, ScriptError};
-use crate::script::words::numbers::describe;
+use crate::script::messages::error::{EngineResult, ScriptError};
+use crate::script::messages::numbers::describe;
 
 /// Registers the methods of arrays and maps that call a function for each element, under the names that they have in Rhai.
 pub fn install(engine: &mut Engine) {
@@ -16,7 +16,7 @@ pub fn install(engine: &mut Engine) {
     let types = [TypeId::of::<Array>(), TypeId::of::<FnPtr>()];
     engine.register_raw_fn("for_each", types, |native, values| -> EngineResult<()> {
         let function = function_of(values)?;
-        let asked = Asked::new(&native, &function);
+        let asked = ElementCallback::new(&native, &function);
         let Some(mut array) = values.first_mut().and_then(|array| array.write_lock::<Array>())
         else {
             return Ok(());
@@ -40,7 +40,7 @@ fn install_searches(engine: &mut Engine) {
     let types = [TypeId::of::<Array>(), TypeId::of::<FnPtr>()];
     engine.register_raw_fn("all", types, |native, values| -> EngineResult<bool> {
         let (mut array, test) = array_and_test(values)?;
-        let asked = Asked::new(&native, &test);
+        let asked = ElementCallback::new(&native, &test);
         for (index, element) in array.iter_mut().enumerate() {
             if !asked.whether(index, element)? {
                 return Ok(false);
@@ -65,7 +65,7 @@ fn search(engine: &mut Engine, name: &str, give: fn(&Array, Option<usize>) -> Dy
                     Ok(start) => start,
                     Err(_) => array.len().saturating_sub(start.unsigned_abs() as usize),
                 };
-                let asked = Asked::new(&native, &test);
+                let asked = ElementCallback::new(&native, &test);
                 let mut found = None;
                 for (index, element) in array.iter_mut().enumerate().skip(first) {
                     if asked.whether(index, element)? {
@@ -80,12 +80,14 @@ fn search(engine: &mut Engine, name: &str, give: fn(&Array, Option<usize>) -> Dy
 }
 
 /// Parts what a method is called on into what passes its test and the rest.
-type Part = fn(&NativeCallContext, &[&mut Dynamic]) -> EngineResult<(Dynamic, Dynamic)>;
+type Partition = fn(&NativeCallContext, &[&mut Dynamic]) -> EngineResult<(Dynamic, Dynamic)>;
 
 /// What parts the elements of an array or a map into those that pass a test and the others.
 fn install_sieves(engine: &mut Engine) {
-    let kinds =
-        [(TypeId::of::<Array>(), part_array as Part), (TypeId::of::<Map>(), part_map as Part)];
+    let kinds = [
+        (TypeId::of::<Array>(), part_array as Partition),
+        (TypeId::of::<Map>(), part_map as Partition),
+    ];
     for (of, part) in kinds {
         let types = [of, TypeId::of::<FnPtr>()];
         engine.register_raw_fn("filter", types, move |native, values| -> EngineResult<Dynamic> {
@@ -115,7 +117,7 @@ fn part_array(
     values: &[&mut Dynamic],
 ) -> EngineResult<(Dynamic, Dynamic)> {
     let (array, test) = array_and_test(values)?;
-    let asked = Asked::new(native, &test);
+    let asked = ElementCallback::new(native, &test);
     let (mut passed, mut others) = (Array::new(), Array::new());
     for (index, mut element) in array.into_iter().enumerate() {
         let is_passed = asked.whether(index, &mut element)?;
@@ -165,7 +167,7 @@ fn function_of(values: &[&mut Dynamic]) -> EngineResult<FnPtr> {
 
 /// What a function is given about an element.
 #[derive(Clone, Copy)]
-enum Given {
+enum CallbackArguments {
     Element,
     ElementAndIndex,
     /// Nothing: it sees the element as `this`.
@@ -173,13 +175,13 @@ enum Given {
 }
 
 /// A function that is asked about one element after the other.
-struct Asked<'a> {
+struct ElementCallback<'a> {
     native: &'a NativeCallContext<'a>,
     function: &'a FnPtr,
-    given: Cell<Option<Given>>,
+    given: Cell<Option<CallbackArguments>>,
 }
 
-impl<'a> Asked<'a> {
+impl<'a> ElementCallback<'a> {
     fn new(native: &'a NativeCallContext<'a>, function: &'a FnPtr) -> Self {
         Self { native, function, given: Cell::new(None) }
     }
@@ -190,7 +192,11 @@ impl<'a> Asked<'a> {
             return self.call(given, index, element);
         }
         let mut refused = None;
-        for given in [Given::Element, Given::ElementAndIndex, Given::This] {
+        for given in [
+            CallbackArguments::Element,
+            CallbackArguments::ElementAndIndex,
+            CallbackArguments::This,
+        ] {
             match self.call(given, index, element) {
                 Err(error) if self.is_wrong_count(&error) => refused = refused.or(Some(error)),
                 other => {
@@ -202,15 +208,22 @@ impl<'a> Asked<'a> {
         refused.map_or(Ok(Dynamic::UNIT), Err)
     }
 
-    fn call(&self, given: Given, index: usize, element: &mut Dynamic) -> EngineResult<Dynamic> {
+    fn call(
+        &self,
+        given: CallbackArguments,
+        index: usize,
+        element: &mut Dynamic,
+    ) -> EngineResult<Dynamic> {
         let copy = element.clone();
         let index = Dynamic::from(INT::try_from(index).unwrap_or(INT::MAX));
         // A native function would take this for its first argument.
         let this = self.function.is_anonymous().then_some(&mut *element);
         match given {
-            Given::Element => self.function.call_raw(self.native, this, [copy]),
-            Given::ElementAndIndex => self.function.call_raw(self.native, this, [copy, index]),
-            Given::This => self.function.call_raw(self.native, Some(element), []),
+            CallbackArguments::Element => self.function.call_raw(self.native, this, [copy]),
+            CallbackArguments::ElementAndIndex => {
+                self.function.call_raw(self.native, this, [copy, index])
+            }
+            CallbackArguments::This => self.function.call_raw(self.native, Some(element), []),
         }
     }
 

@@ -13,7 +13,7 @@ use rhai::packages::{
 };
 use rhai::{Dynamic, Engine, EvalAltResult, ImmutableString};
 
-use crate::script::words::error::ScriptError;
+use crate::script::messages::error::ScriptError;
 
 rhai::def_package! {
     /// What the language takes over from Rhai.

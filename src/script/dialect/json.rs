@@ -6,9 +6,9 @@ use rhai::{
 };
 
 use crate::geometry::Vec2;
-use crate::script::rows::lifting::{Varied, present_variant};
-use crate::script::words::error::ScriptError;
-use crate::script::words::numbers::describe;
+use crate::script::bindings::parameter_variants::{VariantValue, present_variant};
+use crate::script::messages::error::ScriptError;
+use crate::script::messages::numbers::describe;
 
 /// Registers it in the place of Rhai's own.
 pub fn install(engine: &mut Engine) {
@@ -31,7 +31,7 @@ fn writable(
     key: &str,
     at: Position,
 ) -> Result<Dynamic, Box<EvalAltResult>> {
-    let value = Varied::project(value, present_variant());
+    let value = VariantValue::project(value, present_variant());
     let value = value.flatten();
     if let Some(vector) = value.read_lock::<Vec2>() {
         return Ok(vec![Dynamic::from(vector.x), Dynamic::from(vector.y)].into());

@@ -1,6 +1,5 @@
 //! What makes Rhai the language of withy: reading, operators, arrays, constants, names that are refused.
 
-pub mod choosing;
 pub mod constants;
 pub mod derivatives;
 pub mod elements;
@@ -12,3 +11,4 @@ pub mod reading;
 pub mod repetitions;
 pub mod replacing;
 pub mod sorting;
+pub mod switch_values;

@@ -4,12 +4,12 @@
 
 use rhai::{Engine, EvalAltResult, Position, Token};
 
-use crate::script::rows::catalog::Catalog;
-use crate::script::rows::sources::Sources;
-use crate::script::rows::table::Form;
+use crate::script::bindings::catalog::Catalog;
+use crate::script::bindings::sources::Sources;
+use crate::script::bindings::table::CallSyntax;
+use crate::script::messages::error::ScriptError;
 use crate::script::source::definitions::{Definition, definitions};
 use crate::script::source::text::{Source, behind, name_of};
-use crate::script::words::error::ScriptError;
 
 /// Judges the functions of `source`, which stands behind so many lines of a file that has `variables` outside functions, with their
 /// lines.
@@ -24,7 +24,7 @@ pub fn judge(
 ) -> Result<(), Box<EvalAltResult>> {
     let Some(catalog) = Sources::of(engine).catalog() else { return Ok(()) };
     let functions: Vec<_> = definitions(source.tokens())
-        .map(|definition| Function { definition, lines_before })
+        .map(|definition| NamedFunction { definition, lines_before })
         .collect();
     if functions.is_empty() {
         return Ok(());
@@ -54,17 +54,17 @@ pub fn not_visible(name: &str, line: usize) -> String {
 }
 
 /// A function, and how many lines of its file stand before the text that it is in.
-struct Function<'t> {
+struct NamedFunction<'t> {
     definition: Definition<'t>,
     lines_before: usize,
 }
 
-impl Function<'_> {
+impl NamedFunction<'_> {
     fn refuse_taken(&self, catalog: &Catalog) -> Result<(), Box<EvalAltResult>> {
         let Some((name, (_, at))) = self.definition.name() else { return Ok(()) };
         let count = self.definition.parameters().count();
         let is_row = catalog.named(name).any(|row| {
-            matches!(row.form, Form::Function)
+            matches!(row.form, CallSyntax::Function)
                 && (row.required()..=row.parameters.len()).contains(&count)
         });
         let is_rhais = catalog
@@ -150,7 +150,7 @@ mod tests {
         let declares = |text: &str| {
             let source = Source::from(text);
             let definition = definitions(source.tokens()).next().expect("a function");
-            Function { definition, lines_before: 0 }.declares("E")
+            NamedFunction { definition, lines_before: 0 }.declares("E")
         };
         for own in [
             "fn f(E) { }",

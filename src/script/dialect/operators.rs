@@ -13,8 +13,8 @@ use std::any::TypeId;
 use rhai::{Dynamic, Engine, EvalAltResult, INT, NativeCallContext, Position};
 
 use crate::elementary::power;
-use crate::script::source::syntax::{LONGEST_CHAIN, OWN, Operand, REPLACED, power_name};
-use crate::script::words::error::{EngineResult, ScriptError};
+use crate::script::messages::error::{EngineResult, ScriptError};
+use crate::script::source::syntax::{DivisionOperand, LONGEST_CHAIN, OWN, REPLACED, power_name};
 
 /// Registers the operators on numbers, under the language's own names and where possible under the engine's.
 pub fn install(engine: &mut Engine) {
@@ -163,13 +163,14 @@ fn hand_over(engine: &mut Engine, name: String, symbol: &'static str) {
 
 /// `x /= y` as `x = x / y`, whatever x and y are.
 fn register_assignment(engine: &mut Engine, name: &'static str, operator: String) {
-    let types = [TypeId::of::<Dynamic>(), TypeId::of::<Operand>()];
+    let types = [TypeId::of::<Dynamic>(), TypeId::of::<DivisionOperand>()];
     engine.register_raw_fn(
         name,
         types,
         move |context: NativeCallContext, values| -> EngineResult<()> {
             let [target, operand] = values else { return Ok(()) };
-            let Some(Operand(mut right)) = operand.clone().try_cast::<Operand>() else {
+            let Some(DivisionOperand(mut right)) = operand.clone().try_cast::<DivisionOperand>()
+            else {
                 return Ok(());
             };
             let mut left = target.clone();

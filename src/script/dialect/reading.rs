@@ -5,10 +5,10 @@
 
 use rhai::{AST, Engine, EvalAltResult, Position, Scope};
 
-use crate::script::rows::sources::Sources;
+use crate::script::bindings::sources::Sources;
+use crate::script::messages::error::ScriptError;
 use crate::script::source::syntax::mark;
 use crate::script::source::text::Source;
-use crate::script::words::error::ScriptError;
 
 /// The most lines of a source, and the most characters of a line: a little less than Rhai can count.
 pub const MOST: usize = 65_000;
@@ -64,10 +64,10 @@ mod tests {
     use crate::script::engine::build;
     use crate::script::packages::language;
     use crate::script::state::context::Context;
-    use crate::script::state::settings::{Mode, Settings};
+    use crate::script::state::settings::{RunMode, RunSettings};
 
     fn engine() -> Engine {
-        let context = Context::new(Settings::silent(Mode::Run));
+        let context = Context::new(RunSettings::silent(RunMode::Run));
         build(&language(), &context).expect("an engine")
     }
 
@@ -77,7 +77,7 @@ mod tests {
             .map(|value| value.to_string())
             .map_err(|error| match *error {
                 EvalAltResult::ErrorRuntime(told, _) => told
-                    .try_cast::<crate::script::words::error::Failure>()
+                    .try_cast::<crate::script::messages::error::Failure>()
                     .map(|failure| failure.message)
                     .unwrap_or_default(),
                 other => other.to_string(),
@@ -97,7 +97,7 @@ mod tests {
 
     #[test]
     fn a_reading_that_is_stopped_within_a_text_ends() {
-        let settings = Settings::silent(Mode::Run);
+        let settings = RunSettings::silent(RunMode::Run);
         settings.interrupt.store(true, std::sync::atomic::Ordering::Relaxed);
         let context = Context::new(settings);
         let engine = build(&language(), &context).expect("an engine");

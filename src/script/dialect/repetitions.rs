@@ -5,9 +5,9 @@ use std::any::TypeId;
 use rhai::{Array, Dynamic, Engine, FnPtr, NativeCallContext};
 
 use super::elements::{array_of, truth};
+use crate::script::messages::error::EngineResult;
 use crate::script::source::syntax::OWN;
 use crate::script::state::context::Context;
-use crate::script::words::error::EngineResult;
 
 /// The number of elements after which it is asked whether to go on.
 pub(super) const PULSE: usize = 4096;

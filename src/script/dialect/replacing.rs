@@ -3,17 +3,17 @@
 use rhai::{Engine, EvalAltResult, ImmutableString, NativeCallContext};
 
 /// A piece of a text: text or a character.
-trait Piece {
+trait TextPiece {
     fn as_text(&self) -> String;
 }
 
-impl Piece for char {
+impl TextPiece for char {
     fn as_text(&self) -> String {
         self.to_string()
     }
 }
 
-impl Piece for ImmutableString {
+impl TextPiece for ImmutableString {
     fn as_text(&self) -> String {
         self.to_string()
     }
@@ -27,7 +27,7 @@ pub fn install(engine: &mut Engine) {
     engine.register_fn("replace", replace::<char, char>);
 }
 
-fn replace<F: Piece, O: Piece>(
+fn replace<F: TextPiece, O: TextPiece>(
     call: NativeCallContext,
     text: &mut ImmutableString,
     found: F,

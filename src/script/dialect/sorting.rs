@@ -8,13 +8,13 @@ use rhai::{Array, Dynamic, Engine, EvalAltResult, FnPtr, NativeCallContext};
 
 use super::elements::array_of;
 use super::repetitions::PULSE;
-use crate::script::rows::lifting::Varied;
+use crate::script::bindings::parameter_variants::VariantValue;
+use crate::script::messages::error::{EngineResult, ScriptError};
+use crate::script::messages::numbers::describe;
 use crate::script::state::context::Context;
-use crate::script::words::error::{EngineResult, ScriptError};
-use crate::script::words::numbers::describe;
 
 /// What makes of an order the one that is sorted by.
-type Turn = fn(Ordering) -> Ordering;
+type SortFunction = fn(Ordering) -> Ordering;
 
 /// Registers `sort` and `order`, with and without a function that compares.
 pub fn install(engine: &mut Engine, context: &Context) {
@@ -34,8 +34,8 @@ pub fn install(engine: &mut Engine, context: &Context) {
         });
     }
     for (sort, order, turned) in [
-        ("sort", "order", (|order| order) as Turn),
-        ("sort_desc", "order_desc", Ordering::reverse as Turn),
+        ("sort", "order", (|order| order) as SortFunction),
+        ("sort_desc", "order_desc", Ordering::reverse as SortFunction),
     ] {
         let types = [TypeId::of::<Array>()];
         let asked = context.clone();
@@ -57,7 +57,7 @@ fn sorted_naturally(
     native: &NativeCallContext,
     context: &Context,
     values: &[&mut Dynamic],
-    turned: Turn,
+    turned: SortFunction,
 ) -> EngineResult<Array> {
     let array = array_of(values);
     let [first, others @ ..] = array.as_slice() else { return Ok(array) };
@@ -85,7 +85,7 @@ fn sorted_naturally(
 
 /// The order of two numbers, texts, characters or truth values; what is not a number comes behind the numbers.
 fn natural_order(x: &Dynamic, y: &Dynamic) -> Option<Ordering> {
-    if let (Some(x), Some(y)) = (Varied::number(x), Varied::number(y)) {
+    if let (Some(x), Some(y)) = (VariantValue::number(x), VariantValue::number(y)) {
         return Some(x.partial_cmp(&y).unwrap_or_else(|| x.is_nan().cmp(&y.is_nan())));
     }
     if let (Ok(x), Ok(y)) = (x.as_immutable_string_ref(), y.as_immutable_string_ref()) {
@@ -111,7 +111,7 @@ fn is_after(native: &NativeCallContext, order: &Dynamic) -> EngineResult<bool> {
     if let Ok(is_before) = order.as_bool() {
         return Ok(!is_before);
     }
-    Varied::number(order).filter(|order| !order.is_nan()).map(|order| order > 0.0).ok_or_else(
+    VariantValue::number(order).filter(|order| !order.is_nan()).map(|order| order > 0.0).ok_or_else(
         || {
             let got = describe(native.engine(), order);
             let told = format!(

@@ -5,18 +5,18 @@ use std::ops::{Range, RangeInclusive};
 use rhai::{Dynamic, Engine, FnPtr, INT, ImmutableString, Map, OptimizationLevel};
 
 use crate::analysis::is_out_of_patience;
+use crate::script::bindings::catalog::Catalog;
+use crate::script::bindings::members;
+use crate::script::bindings::register::register;
+use crate::script::bindings::sources::Sources;
 use crate::script::dialect::{
-    choosing, constants, derivatives, elements, foundation, json, operators, repetitions,
-    replacing, sorting,
+    constants, derivatives, elements, foundation, json, operators, repetitions, replacing, sorting,
+    switch_values,
 };
-use crate::script::rows::catalog::Catalog;
-use crate::script::rows::members;
-use crate::script::rows::register::register;
-use crate::script::rows::sources::Sources;
+use crate::script::messages::numbers::format_number;
 use crate::script::source::syntax;
 use crate::script::state::context::Context;
 use crate::script::state::limits::DEEPEST;
-use crate::script::words::numbers::format_number;
 
 /// Nesting of one expression at the top level, and inside a function where it adds up with calls.
 const EXPRESSION_DEPTH: usize = 256;
@@ -43,7 +43,7 @@ pub fn build(catalog: &Catalog, context: &Context) -> Result<Engine, String> {
     sorting::install(&mut engine, context);
     repetitions::install(&mut engine, context);
     replacing::install(&mut engine);
-    choosing::install(&mut engine);
+    switch_values::install(&mut engine);
     json::install(&mut engine);
     elements::install(&mut engine);
     print_numbers(&mut engine);

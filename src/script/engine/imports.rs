@@ -10,11 +10,11 @@ use rhai::{
 };
 
 use super::parse::parse;
+use crate::script::bindings::sources::Sources;
 use crate::script::library;
-use crate::script::rows::sources::Sources;
+use crate::script::messages::error::ScriptError;
 use crate::script::source::program::{LARGEST_SCRIPT, Program};
 use crate::script::state::files::{InputFolder, InputFolders};
-use crate::script::words::error::ScriptError;
 
 /// Files that import files that import files: so many at most.
 const LONGEST_CHAIN: usize = 50;

@@ -2,16 +2,16 @@
 
 use rhai::{AST, Engine, Scope};
 
+use crate::script::bindings::sources::Sources;
 use crate::script::dialect::naming;
 use crate::script::dialect::reading::read;
-use crate::script::rows::sources::Sources;
-use crate::script::source::outline::Outline;
+use crate::script::messages::error::{EngineResult, ScriptError};
+use crate::script::source::outline::ScriptOutline;
 use crate::script::source::program::Program;
 use crate::script::source::text::{Source, behind};
-use crate::script::words::error::{EngineResult, ScriptError};
 
 /// A text to be parsed that stands behind others which the engine has read before.
-pub struct Piece<'a> {
+pub struct SourcePiece<'a> {
     /// The name of what it belongs to, in messages.
     pub name: &'a str,
     /// The text itself.
@@ -28,8 +28,8 @@ pub struct Piece<'a> {
 /// When the program is not one of the language.
 pub fn parse(engine: &Engine, program: &Program) -> EngineResult<AST> {
     let (name, text) = (program.name.as_str(), &program.text);
-    let piece = Piece { name, text, before: 0, scope: &Scope::new() };
-    let mut ast = parse_piece(engine, &piece, || Outline::of(text).top_level)?;
+    let piece = SourcePiece { name, text, before: 0, scope: &Scope::new() };
+    let mut ast = parse_piece(engine, &piece, || ScriptOutline::of(text).top_level)?;
     ast.set_source(name);
     Ok(ast)
 }
@@ -41,10 +41,10 @@ pub fn parse(engine: &Engine, program: &Program) -> EngineResult<AST> {
 /// When the piece is not a part of a program of the language.
 pub fn parse_piece(
     engine: &Engine,
-    piece: &Piece,
+    piece: &SourcePiece,
     variables: impl FnOnce() -> Vec<(String, usize)>,
 ) -> EngineResult<AST> {
-    let &Piece { name, text, before, scope } = piece;
+    let &SourcePiece { name, text, before, scope } = piece;
     let ast = read(engine, scope, text, before)?;
     Sources::of(engine).note(&ast, name);
     naming::judge(engine, text, before, variables)?;

@@ -4,18 +4,18 @@ use std::path::PathBuf;
 
 use rhai::Engine;
 
-use super::host::{Halt, Host};
 use super::parse::parse;
+use super::script_engine::{Halt, ScriptEngine};
 use super::stack::on_large_stack;
+use crate::script::bindings::catalog::Catalog;
+use crate::script::bindings::sources::FOLDER;
 use crate::script::diagnose::Diagnostic;
-use crate::script::rows::catalog::Catalog;
-use crate::script::rows::sources::FOLDER;
+use crate::script::messages::checks::Checks;
+use crate::script::messages::error::ScriptError;
+use crate::script::messages::stop::Stop;
 use crate::script::source::program::Program;
 use crate::script::state::context::Context;
-use crate::script::state::settings::Settings;
-use crate::script::words::checks::Checks;
-use crate::script::words::error::ScriptError;
-use crate::script::words::stop::Stop;
+use crate::script::state::settings::RunSettings;
 
 /// How the run of a script ended.
 #[derive(Debug)]
@@ -45,7 +45,7 @@ impl From<Halt> for Ending {
 
 /// What is left after the run of a script.
 #[derive(Debug)]
-pub struct Outcome {
+pub struct RunOutcome {
     /// How the run ended.
     pub ending: Ending,
     /// The checks that the script made.
@@ -60,7 +60,7 @@ pub struct Outcome {
     pub kept_cases: usize,
 }
 
-impl Outcome {
+impl RunOutcome {
     /// A run that could not begin.
     fn refused(diagnostic: Diagnostic) -> Self {
         Self {
@@ -75,10 +75,10 @@ impl Outcome {
 }
 
 /// Runs `program` in the language of `catalog`; gives what is left after the run.
-pub fn run(program: &Program, catalog: &Catalog, settings: Settings) -> Outcome {
+pub fn run(program: &Program, catalog: &Catalog, settings: RunSettings) -> RunOutcome {
     let limits = settings.limits;
     let run = || run_here(program, catalog, settings);
-    on_large_stack(&limits, run).unwrap_or_else(Outcome::refused)
+    on_large_stack(&limits, run).unwrap_or_else(RunOutcome::refused)
 }
 
 /// The memory that a simulation may take for states to go back to, in a script that goes back [bytes].
@@ -93,14 +93,14 @@ fn may_go_back(program: &Program) -> bool {
         || source.imports().any(|path| !is_library(path))
 }
 
-fn run_here(program: &Program, catalog: &Catalog, settings: Settings) -> Outcome {
+fn run_here(program: &Program, catalog: &Catalog, settings: RunSettings) -> RunOutcome {
     let needed = if may_go_back(program) { SNAPSHOTS } else { 0 };
     let snapshots = settings.snapshots.max(needed);
     let (folder, whole) = (program.folder.clone(), Some(program.clone()));
-    let settings = Settings { snapshots, folder, program: whole, ..settings };
-    let host = match Host::open(catalog.clone(), settings) {
+    let settings = RunSettings { snapshots, folder, program: whole, ..settings };
+    let host = match ScriptEngine::open(catalog.clone(), settings) {
         Ok(host) => host,
-        Err(diagnostic) => return Outcome::refused(diagnostic),
+        Err(diagnostic) => return RunOutcome::refused(diagnostic),
     };
     let run = |engine: &Engine| engine.run_ast(&parse(engine, program)?);
     let done = host.watch().and_then(|guard| host.run(&guard, || program.clone(), run));
@@ -109,7 +109,7 @@ fn run_here(program: &Program, catalog: &Catalog, settings: Settings) -> Outcome
         Ok(()) => discard_journals(context),
         Err(_) => context.save_remains(),
     }
-    Outcome {
+    RunOutcome {
         ending: done.map_or_else(Ending::from, |()| Ending::Finished),
         checks: context.with_checks(|checks| checks.clone()),
         simulations: context.report(),
@@ -131,7 +131,7 @@ mod tests {
     use super::*;
     use crate::script::packages::language;
     use crate::script::source::lexing::lexings;
-    use crate::script::state::settings::Mode;
+    use crate::script::state::settings::RunMode;
 
     #[test]
     fn a_script_is_lexed_once_whether_it_is_right_or_wrong() {
@@ -143,7 +143,7 @@ mod tests {
         ] {
             let program = Program::named("a", text);
             let before = lexings();
-            let _ = run_here(&program, &language(), Settings::silent(Mode::Run));
+            let _ = run_here(&program, &language(), RunSettings::silent(RunMode::Run));
             assert_eq!(lexings(), before + 1, "{text}");
         }
     }

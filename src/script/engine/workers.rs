@@ -7,18 +7,18 @@ use std::time::{Duration, Instant};
 
 use rhai::{AST, CallFnOptions, Dynamic, Engine, FnPtr, Scope, Stmt};
 
-use super::host::Host;
 use super::parse::parse;
+use super::script_engine::ScriptEngine;
 use super::stack::on_large_stack;
 use crate::panics::caught;
+use crate::script::bindings::catalog::Catalog;
+use crate::script::bindings::sources::Sources;
 use crate::script::diagnose::Diagnostic;
-use crate::script::rows::catalog::Catalog;
-use crate::script::rows::sources::Sources;
+use crate::script::messages::error::{EngineResult, ScriptError};
 use crate::script::source::program::Program;
 use crate::script::state::context::Context;
 use crate::script::state::limits::Limits;
-use crate::script::state::settings::{Mode, Settings};
-use crate::script::words::error::{EngineResult, ScriptError};
+use crate::script::state::settings::{RunMode, RunSettings};
 use crate::simulation::cores;
 
 /// How often it is asked whether to go on while no job ends.
@@ -29,7 +29,7 @@ const REST: Duration = Duration::from_millis(1);
 
 /// What an engine on another thread needs to be like the one of the run.
 #[derive(Clone)]
-pub struct Blueprint {
+pub struct EngineConfig {
     catalog: Catalog,
     program: Program,
     limits: Limits,
@@ -37,7 +37,7 @@ pub struct Blueprint {
     refusal: &'static str,
 }
 
-impl Blueprint {
+impl EngineConfig {
     /// The blueprint of the engine of a run; none where its script is not there as a whole, as at the prompt. `refusal` says why a function may write no
     /// files there.
     pub fn of(engine: &Engine, context: &Context, refusal: &'static str) -> Option<Self> {
@@ -52,24 +52,24 @@ impl Blueprint {
 
 /// An engine of another thread, with the functions and imports of the script, none of whose statements were run.
 pub struct Worker {
-    host: Host,
+    host: ScriptEngine,
     script: AST,
     program: Program,
     interrupt: Arc<AtomicBool>,
 }
 
 impl Worker {
-    fn open(blueprint: &Blueprint, interrupt: Arc<AtomicBool>) -> Result<Self, Diagnostic> {
-        let Blueprint { catalog, program, limits, snapshots, refusal } = blueprint;
-        let settings = Settings {
+    fn open(blueprint: &EngineConfig, interrupt: Arc<AtomicBool>) -> Result<Self, Diagnostic> {
+        let EngineConfig { catalog, program, limits, snapshots, refusal } = blueprint;
+        let settings = RunSettings {
             folder: program.folder.clone(),
             limits: *limits,
             snapshots: *snapshots,
             interrupt: Arc::clone(&interrupt),
             refuses_files: Some(refusal),
-            ..Settings::silent(Mode::Run)
+            ..RunSettings::silent(RunMode::Run)
         };
-        let host = Host::open(catalog.clone(), settings)?;
+        let host = ScriptEngine::open(catalog.clone(), settings)?;
         let read = parse(host.engine(), program);
         let script = read.map_err(|error| host.explain(&error, program))?;
         let imports = script.statements().iter().filter(|stmt| matches!(stmt, Stmt::Import(..)));
@@ -140,7 +140,7 @@ impl Post {
 }
 
 /// Workers on all cores, to whom jobs are given and from whom results are heard, as long as somebody drives them.
-pub struct Crew<'c, J, R> {
+pub struct WorkerPool<'c, J, R> {
     posts: &'c [Post],
     jobs: mpsc::Sender<(usize, J)>,
     results: mpsc::Receiver<(usize, R)>,
@@ -149,7 +149,7 @@ pub struct Crew<'c, J, R> {
 }
 
 /// What is heard of a crew.
-pub enum News<R> {
+pub enum WorkerEvent<R> {
     /// The result of the job with a number.
     Done(usize, R),
     /// Nothing for some time: it can be asked whether to go on.
@@ -158,7 +158,7 @@ pub enum News<R> {
     Nobody,
 }
 
-impl<J, R> Crew<'_, J, R> {
+impl<J, R> WorkerPool<'_, J, R> {
     /// How many workers there are.
     pub fn size(&self) -> usize {
         self.posts.len()
@@ -171,9 +171,9 @@ impl<J, R> Crew<'_, J, R> {
     }
 
     /// As [`hear`](Self::hear), where so many jobs were given that results may gather for a while: to wake who waits for each takes time of a worker.
-    pub fn hear_of_many(&self) -> News<R> {
+    pub fn hear_of_many(&self) -> WorkerEvent<R> {
         match self.results.try_recv() {
-            Ok((number, result)) => News::Done(number, result),
+            Ok((number, result)) => WorkerEvent::Done(number, result),
             Err(_) => {
                 thread::sleep(REST);
                 self.hear()
@@ -182,14 +182,14 @@ impl<J, R> Crew<'_, J, R> {
     }
 
     /// Waits for the next result, in no order. A job that takes too long is stopped.
-    pub fn hear(&self) -> News<R> {
+    pub fn hear(&self) -> WorkerEvent<R> {
         match self.results.recv_timeout(PULSE) {
-            Ok((number, result)) => News::Done(number, result),
+            Ok((number, result)) => WorkerEvent::Done(number, result),
             Err(mpsc::RecvTimeoutError::Timeout) => {
                 self.posts.iter().for_each(|post| post.stop_after(self.wall));
-                News::Nothing
+                WorkerEvent::Nothing
             }
-            Err(mpsc::RecvTimeoutError::Disconnected) => News::Nobody,
+            Err(mpsc::RecvTimeoutError::Disconnected) => WorkerEvent::Nobody,
         }
     }
 }
@@ -200,11 +200,11 @@ impl<J, R> Crew<'_, J, R> {
 /// # Errors
 /// When no worker can be made.
 pub fn with_crew<J: Send, R: Send, T>(
-    blueprint: &Blueprint,
+    blueprint: &EngineConfig,
     wall: Duration,
     work: impl Fn(&Worker, J) -> R + Sync,
     panicked: impl Fn(String) -> R + Sync,
-    drive: impl FnOnce(&Crew<J, R>) -> T,
+    drive: impl FnOnce(&WorkerPool<J, R>) -> T,
 ) -> Result<T, ScriptError> {
     let is_over = AtomicBool::new(false);
     let posts: Vec<Post> = (0..cores()).map(|_| Post::default()).collect();
@@ -245,7 +245,7 @@ pub fn with_crew<J: Send, R: Send, T>(
         };
         let running: Vec<_> = posts.iter().map(hire).collect();
         drop(done);
-        let crew = Crew { posts: &posts, jobs, results, is_over: &is_over, wall };
+        let crew = WorkerPool { posts: &posts, jobs, results, is_over: &is_over, wall };
         let driven = drive(&crew);
         crew.dismiss();
         let ends = running.into_iter().filter_map(|worker| worker.join().ok());
@@ -258,7 +258,7 @@ pub fn with_crew<J: Send, R: Send, T>(
     })
 }
 
-impl<J, R> Crew<'_, J, R> {
+impl<J, R> WorkerPool<'_, J, R> {
     /// Stops all work.
     fn dismiss(self) {
         self.is_over.store(true, Ordering::Relaxed);

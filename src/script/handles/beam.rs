@@ -4,10 +4,10 @@ use std::rc::Rc;
 
 use super::scene::SceneHandle;
 use crate::output::significant;
-use crate::script::looks::details;
-use crate::script::rows::kind::{Details, Scripted};
-use crate::script::rows::lifting::Family;
-use crate::script::words::error::ScriptError;
+use crate::script::bindings::kind::{Details, Scripted};
+use crate::script::bindings::parameter_variants::ParameterSet;
+use crate::script::messages::error::ScriptError;
+use crate::script::presentation::details;
 
 /// A handle on a beam of a scene.
 #[derive(Clone)]
@@ -55,7 +55,7 @@ impl Scripted for BeamHandle {
         details::of_beam(&self.scene.scene().borrow(), self.index)
     }
 
-    fn family(&self) -> Option<Rc<Family>> {
+    fn family(&self) -> Option<Rc<ParameterSet>> {
         self.scene.family()
     }
 }

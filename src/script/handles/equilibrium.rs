@@ -5,17 +5,17 @@ use std::rc::Rc;
 
 use super::scene::SceneHandle;
 use super::station::StationHandle;
-use crate::beams::Place;
+use crate::beams::BodyPoint;
 use crate::output::significant;
-use crate::script::rows::kind::{Details, Scripted};
-use crate::script::words::error::ScriptError;
+use crate::script::bindings::kind::{Details, Scripted};
+use crate::script::messages::error::ScriptError;
 use crate::statics::Equilibrium;
 
 /// A handle on an equilibrium that a script holds; clones are the same one.
 #[derive(Clone)]
-pub struct EquilibriumHandle(Rc<Held>);
+pub struct EquilibriumHandle(Rc<EquilibriumData>);
 
-struct Held {
+struct EquilibriumData {
     scene: SceneHandle,
     rest: RefCell<Equilibrium>,
 }
@@ -23,7 +23,7 @@ struct Held {
 impl EquilibriumHandle {
     /// A handle on an equilibrium of a scene.
     pub fn new(scene: SceneHandle, rest: Equilibrium) -> Self {
-        Self(Rc::new(Held { scene, rest: RefCell::new(rest) }))
+        Self(Rc::new(EquilibriumData { scene, rest: RefCell::new(rest) }))
     }
 
     /// The scene that it is of.
@@ -42,7 +42,7 @@ impl EquilibriumHandle {
     }
 
     /// The place of a station of the equilibrium's scene.
-    pub fn place(&self, station: &StationHandle) -> Result<Place, ScriptError> {
+    pub fn place(&self, station: &StationHandle) -> Result<BodyPoint, ScriptError> {
         let rest = self.rest();
         station.within(&self.0.scene, rest.scene(), rest.model().meshes())
     }

@@ -3,12 +3,12 @@
 use rhai::Dynamic;
 
 use super::simulation::SimulationHandle;
-use crate::script::looks::details;
-use crate::script::looks::sight::{column_hint, column_names};
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::{Details, Scripted};
-use crate::script::words::error::{Place, ScriptError};
-use crate::script::words::numbers::format_number;
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::{Details, Scripted};
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::messages::numbers::format_number;
+use crate::script::presentation::details;
+use crate::script::presentation::plots::{column_hint, column_names};
 use crate::simulation::{History, Sample};
 
 /// A handle on a part of the history of a simulation; it grows with it.
@@ -69,7 +69,7 @@ impl HistoryHandle {
         Err(call
             .error(format!("the history of '{}' has no column {got}", self.of.name()))
             .hint(hint)
-            .at(Place::Argument(argument)))
+            .at(CallPart::Argument(argument)))
     }
 
     /// The part of this part of the history between two times.
@@ -109,7 +109,9 @@ impl Scripted for HistoryHandle {
         self.read(details::of_history)
     }
 
-    fn family(&self) -> Option<std::rc::Rc<crate::script::rows::lifting::Family>> {
+    fn family(
+        &self,
+    ) -> Option<std::rc::Rc<crate::script::bindings::parameter_variants::ParameterSet>> {
         Scripted::family(&self.of)
     }
 }

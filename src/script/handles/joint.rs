@@ -3,8 +3,8 @@
 use std::rc::Rc;
 
 use super::scene::SceneHandle;
-use crate::script::rows::kind::{Details, Scripted};
-use crate::script::rows::lifting::Family;
+use crate::script::bindings::kind::{Details, Scripted};
+use crate::script::bindings::parameter_variants::ParameterSet;
 
 /// A handle on a joint of a scene.
 #[derive(Clone)]
@@ -40,7 +40,7 @@ impl Scripted for JointHandle {
         Vec::new()
     }
 
-    fn family(&self) -> Option<Rc<Family>> {
+    fn family(&self) -> Option<Rc<ParameterSet>> {
         self.scene.family()
     }
 }

@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 
 use crate::script::state::context::Context;
-use crate::simulation::{Note, Simulation};
+use crate::simulation::{Simulation, Warning};
 
 /// Whether notes are printed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -19,7 +19,7 @@ pub enum Printing {
 #[derive(Debug, Clone, Default)]
 pub struct Notes {
     printing: Printing,
-    told: RefCell<Vec<Note>>,
+    told: RefCell<Vec<Warning>>,
 }
 
 impl Notes {

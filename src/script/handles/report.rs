@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use super::simulation::SimulationHandle;
 use crate::geometry::Vec2;
 use crate::output::CsvTable;
-use crate::script::words::reports::Reporter;
+use crate::script::messages::reports::Reporter;
 use crate::simulation::{History, Invariant};
 
 impl Reporter for SimulationHandle {
@@ -97,12 +97,12 @@ pub fn history_table(name: &str, history: &History) -> CsvTable {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::simulation::{ExtraColumn, Sample, Scales};
+    use crate::simulation::{DriftScales, ExtraColumn, Sample};
 
     #[test]
     fn a_table_has_the_columns_of_the_scene_too() {
         let extra = vec![ExtraColumn { name: "slider.force".into(), dimension: "force" }];
-        let mut history = History::new(Scales::default(), extra);
+        let mut history = History::new(DriftScales::default(), extra);
         history.push(Sample::default(), std::iter::once(2.0));
         let table = history_table("rod", &history);
         assert_eq!(table.columns.len(), History::COLUMNS.len() + 1);

@@ -5,10 +5,10 @@ use std::rc::Rc;
 use super::scene::SceneHandle;
 use super::station::StationHandle;
 use crate::beams::Station;
-use crate::script::looks::details;
-use crate::script::rows::kind::{Details, Scripted};
-use crate::script::rows::lifting::Family;
-use crate::script::words::error::ScriptError;
+use crate::script::bindings::kind::{Details, Scripted};
+use crate::script::bindings::parameter_variants::ParameterSet;
+use crate::script::messages::error::ScriptError;
+use crate::script::presentation::details;
 
 /// A handle on a rigid body of a scene.
 #[derive(Clone)]
@@ -58,7 +58,7 @@ impl Scripted for RigidBodyHandle {
         details::of_rigid_body(&self.scene.scene().borrow(), self.index)
     }
 
-    fn family(&self) -> Option<Rc<Family>> {
+    fn family(&self) -> Option<Rc<ParameterSet>> {
         self.scene.family()
     }
 }

@@ -6,14 +6,16 @@ use std::rc::Rc;
 use super::station::StationHandle;
 use crate::beams::Station;
 use crate::geometry::ROUNDING_OF_PLACES;
-use crate::loads::Beat;
-use crate::model::Scene;
-use crate::script::looks::details;
-use crate::script::rows::kind::{Details, Scripted};
-use crate::script::rows::lifting::{Family, Present, Varied, present};
-use crate::script::rows::stored::StoredFunction;
-use crate::script::words::error::{Place, ScriptError};
+use crate::loads::SampleClock;
+use crate::script::bindings::kind::{Details, Scripted};
+use crate::script::bindings::parameter_variants::{
+    CurrentVariant, ParameterSet, VariantValue, present,
+};
+use crate::script::bindings::stored::StoredFunction;
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::presentation::details;
 use crate::simulation::Variation;
+use crate::system::Scene;
 
 /// What to do where the shape of a scene depends on a parameter.
 const SHAPED: &str = "numbers of sections, loads, springs, masses and velocities may depend on scene.parameter(…); for shapes and places give plain numbers and take central differences, as fit does";
@@ -34,14 +36,14 @@ pub struct SceneHandle {
 struct Variants {
     scene: Rc<RefCell<Scene>>,
     /// Parameters that were declared by the scene.
-    declared: RefCell<Option<Rc<Family>>>,
+    declared: RefCell<Option<Rc<ParameterSet>>>,
     /// From the first call on in which something depends on a parameter.
     beside: OnceCell<Beside>,
 }
 
 /// The scenes beside one, at parameters plus and minus a distance.
 struct Beside {
-    family: Rc<Family>,
+    family: Rc<ParameterSet>,
     /// In the order of the variants, from 1.
     scenes: Vec<Rc<RefCell<Scene>>>,
 }
@@ -62,7 +64,7 @@ pub struct Controller {
     /// The value of the controller for the present step.
     pub value: Rc<Cell<f64>>,
     /// When it is asked and acts; at every step where there is none.
-    pub beat: Option<Beat>,
+    pub beat: Option<SampleClock>,
 }
 
 impl SceneHandle {
@@ -91,7 +93,7 @@ impl SceneHandle {
 
     fn of_present(&self) -> &Rc<RefCell<Scene>> {
         let Variants { scene, beside, .. } = &*self.variants;
-        let Some(Present { family, variant }) = present().filter(|of| of.variant > 0) else {
+        let Some(CurrentVariant { family, variant }) = present().filter(|of| of.variant > 0) else {
             return scene;
         };
         // It has not been changed by the present call yet, which is made for the scene itself last.
@@ -103,7 +105,7 @@ impl SceneHandle {
     }
 
     /// The parameters that the scene depends on, if it does.
-    pub fn family(&self) -> Option<Rc<Family>> {
+    pub fn family(&self) -> Option<Rc<ParameterSet>> {
         self.variants.beside.get().map(|beside| Rc::clone(&beside.family))
     }
 
@@ -116,12 +118,12 @@ impl SceneHandle {
         name: &str,
         value: f64,
         distance: Option<f64>,
-    ) -> Result<Varied, ScriptError> {
+    ) -> Result<VariantValue, ScriptError> {
         let family = self.family();
         let mut declared = self.variants.declared.borrow_mut();
         family
             .as_ref()
-            .unwrap_or_else(|| declared.get_or_insert_with(Family::new))
+            .unwrap_or_else(|| declared.get_or_insert_with(ParameterSet::new))
             .declare(name, value, distance)
     }
 
@@ -204,7 +206,11 @@ impl SceneHandle {
     }
 
     /// Keeps a function that is asked at the start of every step, or at the samples of a beat; gives where its value will be.
-    pub fn keep_controller(&self, function: StoredFunction, beat: Option<Beat>) -> Rc<Cell<f64>> {
+    pub fn keep_controller(
+        &self,
+        function: StoredFunction,
+        beat: Option<SampleClock>,
+    ) -> Rc<Cell<f64>> {
         let value = Rc::new(Cell::new(0.0));
         let controller = Controller { function, value: Rc::clone(&value), beat };
         if self.keeps() {
@@ -237,7 +243,7 @@ impl SceneHandle {
         }
         let told = "functions of the simulation, |t, q| … of a controller or when: |q| … of a release, are asked between steps, which a study does not do";
         let hint = "give functions of time, |t| …, and the time of a release, or step the scene in a loop of your own";
-        Err(ScriptError::new(told).hint(hint).at(Place::Key("scene".into())))
+        Err(ScriptError::new(told).hint(hint).at(CallPart::Key("scene".into())))
     }
 
     /// The functions that are asked at the start of every step.
@@ -293,7 +299,7 @@ impl Scripted for SceneHandle {
         details::of_scene(&self.scene().borrow())
     }
 
-    fn family(&self) -> Option<Rc<Family>> {
+    fn family(&self) -> Option<Rc<ParameterSet>> {
         Self::family(self)
     }
 }

@@ -2,8 +2,8 @@
 
 use crate::beams::{Relaxation, Section, SectionVariation, Solid};
 use crate::output::significant;
-use crate::script::looks::details;
-use crate::script::rows::kind::{Details, Scripted};
+use crate::script::bindings::kind::{Details, Scripted};
+use crate::script::presentation::details;
 
 /// Digits of a stiffness or an inertia where it is shown.
 const DIGITS: usize = 7;

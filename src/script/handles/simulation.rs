@@ -14,19 +14,19 @@ use rhai::Dynamic;
 use super::events::Events;
 use super::notes::Notes;
 use super::scene::SceneHandle;
-use crate::script::looks::details;
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::{Details, Scripted};
-use crate::script::rows::lifting::Family;
-use crate::script::rows::stored::StoredFunction;
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::{Details, Scripted};
+use crate::script::bindings::parameter_variants::ParameterSet;
+use crate::script::bindings::stored::StoredFunction;
+use crate::script::messages::error::ScriptError;
+use crate::script::messages::numbers::format_number;
+use crate::script::messages::stop::Stop;
+use crate::script::presentation::details;
 use crate::script::state::context::Context;
-use crate::script::state::settings::Mode;
-use crate::script::words::error::ScriptError;
-use crate::script::words::numbers::format_number;
-use crate::script::words::stop::Stop;
+use crate::script::state::settings::RunMode;
 use crate::simulation::{Monitor, Simulation, SimulationError, StepSize};
 use crate::vibration::{Modes, VibrationError};
-use sensing::Sensing;
+use sensing::ColumnReader;
 
 pub use revisit::Revisit;
 pub use visit::Visited;
@@ -45,11 +45,11 @@ struct Live {
     /// Whether the user knows that the run ended earlier than the script wanted.
     is_ending_told: Cell<bool>,
     notes: Notes,
-    sensing: Sensing,
+    sensing: ColumnReader,
 }
 
 /// How far a script lets a simulation go on, or back.
-pub enum Goal {
+pub enum RunTarget {
     /// The simulation goes so many steps.
     Steps(usize),
     /// The simulation goes to a time.
@@ -57,7 +57,7 @@ pub enum Goal {
 }
 
 /// Tells the progress bar, counts steps, and stops when the run is interrupted or beyond a limit.
-struct Watch<'a> {
+struct ProgressMonitor<'a> {
     context: &'a Context,
     /// Steps beyond this time are no longer wanted.
     end: f64,
@@ -67,13 +67,13 @@ struct Watch<'a> {
     is_paused: bool,
 }
 
-impl<'a> Watch<'a> {
+impl<'a> ProgressMonitor<'a> {
     fn new(context: &'a Context, end: f64) -> Self {
         Self { context, end, pauses: false, is_paused: false }
     }
 }
 
-impl Monitor for Watch<'_> {
+impl Monitor for ProgressMonitor<'_> {
     fn goes_on(&mut self, time: f64) -> bool {
         self.context.progress().reach(time);
         self.context.meter().count_step();
@@ -103,7 +103,7 @@ impl SimulationHandle {
         context: &Context,
     ) -> Self {
         let live = Live {
-            sensing: Sensing::new(
+            sensing: ColumnReader::new(
                 scene.functions(simulation.outside_columns()),
                 scene.controllers(),
                 scene.conditions(),
@@ -199,14 +199,14 @@ impl SimulationHandle {
     }
 
     /// Takes the simulation back to a state that it was in; a dry build goes as near as it can.
-    pub fn go_back(&self, call: &Call, goal: &Goal) -> Result<(), ScriptError> {
+    pub fn go_back(&self, call: &Call, goal: &RunTarget) -> Result<(), ScriptError> {
         self.0.sensing.expect_idle()?;
         let mut simulation = self.0.simulation.borrow_mut();
         match (call.context().mode(), goal) {
-            (Mode::Run, Goal::Steps(steps)) => simulation.back(*steps)?,
-            (Mode::Run, Goal::Time(time)) => simulation.rewind(*time)?,
-            (Mode::DryBuild, Goal::Steps(steps)) => simulation.pretend_back(*steps),
-            (Mode::DryBuild, Goal::Time(time)) => simulation.pretend_rewind(*time),
+            (RunMode::Run, RunTarget::Steps(steps)) => simulation.back(*steps)?,
+            (RunMode::Run, RunTarget::Time(time)) => simulation.rewind(*time)?,
+            (RunMode::DryBuild, RunTarget::Steps(steps)) => simulation.pretend_back(*steps),
+            (RunMode::DryBuild, RunTarget::Time(time)) => simulation.pretend_rewind(*time),
         }
         drop(simulation);
         self.sense()?;
@@ -222,21 +222,21 @@ impl SimulationHandle {
     }
 
     /// Lets the simulation go on, calling the functions of the events on its way.
-    pub fn go_on(&self, call: &Call, goal: &Goal) -> Result<(), ScriptError> {
+    pub fn go_on(&self, call: &Call, goal: &RunTarget) -> Result<(), ScriptError> {
         self.0.sensing.expect_idle()?;
         let context = call.context();
         let dt = self.simulation().dt();
         let now = self.time();
         let end = match goal {
-            Goal::Steps(steps) => now + *steps as f64 * dt,
-            Goal::Time(time) => *time,
+            RunTarget::Steps(steps) => now + *steps as f64 * dt,
+            RunTarget::Time(time) => *time,
         };
         self.is_latest(context);
         context.progress().begin(&self.0.name, now, end);
         let outcome = match (context.mode(), goal) {
-            (Mode::DryBuild, _) => self.pretend(call, end),
-            (Mode::Run, Goal::Steps(steps)) => self.take_steps(call, *steps),
-            (Mode::Run, Goal::Time(_)) => {
+            (RunMode::DryBuild, _) => self.pretend(call, end),
+            (RunMode::Run, RunTarget::Steps(steps)) => self.take_steps(call, *steps),
+            (RunMode::Run, RunTarget::Time(_)) => {
                 let ran = self.run_to(call, end);
                 self.0.notes.tell(self.name(), &self.simulation(), context);
                 ran
@@ -372,7 +372,7 @@ impl Scripted for SimulationHandle {
         details::of_simulation(&self.simulation())
     }
 
-    fn family(&self) -> Option<Rc<Family>> {
+    fn family(&self) -> Option<Rc<ParameterSet>> {
         let has = self.0.simulation.try_borrow().is_ok_and(|of| of.parameters().next().is_some());
         self.0.scene.family().filter(|_| has)
     }

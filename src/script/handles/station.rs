@@ -9,12 +9,12 @@ use super::rigid_body::RigidBodyHandle;
 use super::scene::SceneHandle;
 use super::simulation::SimulationHandle;
 use crate::beams::{self, BodyIndex, Mesh, Station};
-use crate::model::Scene;
-use crate::script::looks::details;
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::{Details, Scripted};
-use crate::script::rows::lifting::Family;
-use crate::script::words::error::ScriptError;
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::{Details, Scripted};
+use crate::script::bindings::parameter_variants::ParameterSet;
+use crate::script::messages::error::ScriptError;
+use crate::script::presentation::details;
+use crate::system::Scene;
 
 /// A handle on a station of a body of a scene.
 #[derive(Clone)]
@@ -27,7 +27,7 @@ pub struct StationHandle {
 
 impl StationHandle {
     /// The place of the station in a simulation, if that is one of its scene.
-    pub fn on(&self, handle: &SimulationHandle) -> Result<beams::Place, ScriptError> {
+    pub fn on(&self, handle: &SimulationHandle) -> Result<beams::BodyPoint, ScriptError> {
         let simulation = handle.simulation();
         self.within(handle.scene(), simulation.scene(), simulation.model().meshes())
     }
@@ -38,7 +38,7 @@ impl StationHandle {
         of: &SceneHandle,
         built: &Scene,
         meshes: &[Mesh],
-    ) -> Result<beams::Place, ScriptError> {
+    ) -> Result<beams::BodyPoint, ScriptError> {
         of.own(self)?;
         let known = match self.station.body {
             BodyIndex::Beam(beam) => beam < built.beams.len(),
@@ -72,7 +72,7 @@ impl Scripted for StationHandle {
         details::of_station(&self.scene.scene().borrow(), &self.station)
     }
 
-    fn family(&self) -> Option<Rc<Family>> {
+    fn family(&self) -> Option<Rc<ParameterSet>> {
         self.scene.family()
     }
 }

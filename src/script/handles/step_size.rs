@@ -2,7 +2,7 @@
 
 use rhai::Dynamic;
 
-use crate::script::words::numbers::as_number;
+use crate::script::messages::numbers::as_number;
 use crate::simulation::{StepControl, StepSize};
 
 /// The step size that a value stands for: a positive number, or adaptive(…); none when it is something else.

@@ -3,12 +3,12 @@
 use std::rc::Rc;
 
 use super::scene::SceneHandle;
-use crate::joints::Course;
+use crate::joints::TrackEnd;
 use crate::output::significant;
-use crate::script::looks::details;
-use crate::script::rows::kind::{Details, Scripted};
-use crate::script::rows::lifting::Family;
-use crate::script::words::error::ScriptError;
+use crate::script::bindings::kind::{Details, Scripted};
+use crate::script::bindings::parameter_variants::ParameterSet;
+use crate::script::messages::error::ScriptError;
+use crate::script::presentation::details;
 
 /// A handle on a track of a scene.
 #[derive(Clone)]
@@ -33,7 +33,7 @@ impl TrackHandle {
 
     /// Whether the track goes on along its first beam behind its last one.
     pub fn is_closed(&self) -> bool {
-        self.scene.scene().borrow().tracks[self.index].course == Course::Closed
+        self.scene.scene().borrow().tracks[self.index].course == TrackEnd::Closed
     }
 
     /// The name of the track.
@@ -50,8 +50,8 @@ impl Scripted for TrackHandle {
         let scene = self.scene.scene().borrow();
         let track = &scene.tracks[self.index];
         let course = match track.course {
-            Course::Open => "track",
-            Course::Closed => "closed track",
+            TrackEnd::Open => "track",
+            TrackEnd::Closed => "closed track",
         };
         let beams = track.legs.len();
         format!(
@@ -66,7 +66,7 @@ impl Scripted for TrackHandle {
         details::of_track(&self.scene.scene().borrow(), self.index)
     }
 
-    fn family(&self) -> Option<Rc<Family>> {
+    fn family(&self) -> Option<Rc<ParameterSet>> {
         self.scene.family()
     }
 }

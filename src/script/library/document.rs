@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::pages::{Block, ModulePage, pages};
+use super::pages::{DocBlock, ModulePage, pages};
 
 const HEAD: &str = "# The standard library
 
@@ -39,17 +39,17 @@ fn describe(text: &mut String, page: &ModulePage) {
     }
 }
 
-fn write_blocks(text: &mut String, blocks: &[Block]) {
+fn write_blocks(text: &mut String, blocks: &[DocBlock]) {
     let mut was_item = false;
     for block in blocks {
-        let is_item = matches!(block, Block::Item(_));
+        let is_item = matches!(block, DocBlock::Item(_));
         if !(was_item && is_item) {
             text.push('\n');
         }
         let _ = match block {
-            Block::Paragraph(words) => writeln!(text, "{words}"),
-            Block::Item(words) => writeln!(text, "- {words}"),
-            Block::Example(script) => writeln!(text, "```rhai example\n{script}\n```"),
+            DocBlock::Paragraph(words) => writeln!(text, "{words}"),
+            DocBlock::Item(words) => writeln!(text, "- {words}"),
+            DocBlock::Example(script) => writeln!(text, "```rhai example\n{script}\n```"),
         };
         was_item = is_item;
     }

@@ -8,12 +8,12 @@ use rhai::{
     RhaiFunc, ScriptFuncDef, Shared,
 };
 
-use crate::script::rows::sources::Sources;
-use crate::script::words::error::BUG;
+use crate::script::bindings::sources::Sources;
+use crate::script::messages::error::BUG;
 
 /// What the functions of a module see.
 #[derive(Clone)]
-struct Surroundings {
+struct ModuleScope {
     file: String,
     functions: Shared<Module>,
     imports: Vec<(String, Shared<Module>)>,
@@ -22,7 +22,7 @@ struct Surroundings {
 /// The public functions of `module`, which was made of `ast`, each behind its entrance.
 pub fn behind_entrances(module: &Module, ast: &AST, file: &str) -> Module {
     let imports = module.iter_sub_modules().map(|(name, other)| (name.to_owned(), other.clone()));
-    let surroundings = Surroundings {
+    let surroundings = ModuleScope {
         file: file.to_owned(),
         functions: ast.shared_lib().clone(),
         imports: imports.collect(),
@@ -42,7 +42,7 @@ pub fn behind_entrances(module: &Module, ast: &AST, file: &str) -> Module {
     outside
 }
 
-fn add(module: &mut Module, function: Shared<ScriptFuncDef>, surroundings: Surroundings) {
+fn add(module: &mut Module, function: Shared<ScriptFuncDef>, surroundings: ModuleScope) {
     let types = vec![TypeId::of::<Dynamic>(); function.params.len()];
     let name = function.name.clone();
     let enter = move |native: Option<NativeCallContext>, values: &mut [&mut Dynamic]| {
@@ -61,7 +61,7 @@ fn add(module: &mut Module, function: Shared<ScriptFuncDef>, surroundings: Surro
     FuncRegistration::new(name).set_into_module_raw(module, types, native);
 }
 
-impl Surroundings {
+impl ModuleScope {
     /// Calls a function of the module from outside of it.
     fn call(
         &self,

@@ -8,4 +8,4 @@ mod pages;
 pub use document::document;
 pub use entrance::behind_entrances;
 pub use modules::{MODULES, Module, find};
-pub use pages::{Block, ModuleFunction, ModulePage, page_of, pages};
+pub use pages::{DocBlock, ModuleFunction, ModulePage, page_of, pages};

@@ -1,9 +1,9 @@
 //! The modules and their texts. None is parsed before a script imports it.
 
-use crate::script::rows::sources::FOLDER;
+use crate::script::bindings::sources::FOLDER;
+use crate::script::messages::error::ScriptError;
+use crate::script::messages::suggest::nearest;
 use crate::script::source::program::Program;
-use crate::script::words::error::ScriptError;
-use crate::script::words::suggest::nearest;
 
 /// A module of the standard library.
 #[derive(Debug)]

@@ -4,7 +4,7 @@
 use std::sync::LazyLock;
 
 use super::modules::{MODULES, Module};
-use crate::script::rows::sources::FOLDER;
+use crate::script::bindings::sources::FOLDER;
 
 /// The page of a module of the standard library: what is said about it.
 #[derive(Debug)]
@@ -12,7 +12,7 @@ pub struct ModulePage {
     /// The module that the page is about.
     pub module: &'static Module,
     /// What the module is for.
-    pub about: Vec<Block>,
+    pub about: Vec<DocBlock>,
     /// The public functions of the module, in the order of the file.
     pub functions: Vec<ModuleFunction>,
 }
@@ -25,12 +25,12 @@ pub struct ModuleFunction {
     /// The names of the function's parameters.
     pub parameters: Vec<String>,
     /// What is said of the function: the summary, what it takes, sources, and examples.
-    pub text: Vec<Block>,
+    pub text: Vec<DocBlock>,
 }
 
 /// A block of what is said about a module or a function.
 #[derive(Debug, PartialEq, Eq)]
-pub enum Block {
+pub enum DocBlock {
     /// The block is a paragraph of sentences.
     Paragraph(String),
     /// The block is an entry of a list.
@@ -105,7 +105,7 @@ impl ModuleFunction {
     /// The summary of the function: the first paragraph.
     pub fn summary(&self) -> &str {
         match self.text.first() {
-            Some(Block::Paragraph(text)) => text,
+            Some(DocBlock::Paragraph(text)) => text,
             _ => "",
         }
     }
@@ -114,7 +114,7 @@ impl ModuleFunction {
     pub fn keys(&self) -> Vec<(String, String)> {
         let mut keys: Vec<(String, String)> = Vec::new();
         let items = self.text.iter().filter_map(|block| match block {
-            Block::Item(text) => text.strip_prefix("`options`:"),
+            DocBlock::Item(text) => text.strip_prefix("`options`:"),
             _ => None,
         });
         for clause in items.flat_map(|item| item.split(';')) {
@@ -133,14 +133,14 @@ impl ModuleFunction {
     /// The examples of the function.
     pub fn examples(&self) -> impl Iterator<Item = &str> {
         self.text.iter().filter_map(|block| match block {
-            Block::Example(script) => Some(script.as_str()),
+            DocBlock::Example(script) => Some(script.as_str()),
             _ => None,
         })
     }
 }
 
 /// The blocks of a comment without its leaders.
-fn blocks(lines: &[&str]) -> Vec<Block> {
+fn blocks(lines: &[&str]) -> Vec<DocBlock> {
     let mut blocks = Vec::new();
     let mut example: Option<Vec<&str>> = None;
     let mut is_new = true;
@@ -148,23 +148,23 @@ fn blocks(lines: &[&str]) -> Vec<Block> {
         let line = line.strip_prefix(' ').unwrap_or(line);
         if line.starts_with("```") {
             match example.take() {
-                Some(script) => blocks.push(Block::Example(script.join("\n"))),
+                Some(script) => blocks.push(DocBlock::Example(script.join("\n"))),
                 None => example = Some(Vec::new()),
             }
             is_new = true;
         } else if let Some(script) = &mut example {
             script.push(line);
         } else if let Some(item) = line.strip_prefix("- ") {
-            blocks.push(Block::Item(item.to_owned()));
+            blocks.push(DocBlock::Item(item.to_owned()));
             is_new = false;
         } else if line.trim().is_empty() {
             is_new = true;
         } else {
             match blocks.last_mut() {
-                Some(Block::Paragraph(text) | Block::Item(text)) if !is_new => {
+                Some(DocBlock::Paragraph(text) | DocBlock::Item(text)) if !is_new => {
                     *text += &format!(" {}", line.trim());
                 }
-                _ => blocks.push(Block::Paragraph(line.trim().to_owned())),
+                _ => blocks.push(DocBlock::Paragraph(line.trim().to_owned())),
             }
             is_new = false;
         }
@@ -178,7 +178,7 @@ mod tests {
     use crate::script::engine::runner::{Ending, run};
     use crate::script::packages::language;
     use crate::script::source::program::Program;
-    use crate::script::state::settings::{Mode, Settings};
+    use crate::script::state::settings::{RunMode, RunSettings};
 
     #[test]
     fn a_comment_is_taken_apart() {
@@ -194,9 +194,9 @@ mod tests {
             " ```",
         ];
         let expected = [
-            Block::Paragraph("One sentence.".into()),
-            Block::Item("`a`: a length, as drawn".into()),
-            Block::Example("f(1);".into()),
+            DocBlock::Paragraph("One sentence.".into()),
+            DocBlock::Item("`a`: a length, as drawn".into()),
+            DocBlock::Example("f(1);".into()),
         ];
         assert_eq!(blocks(&lines), expected);
     }
@@ -221,9 +221,9 @@ mod tests {
                 assert!(function.examples().count() > 0, "{name}: an example is missing");
                 for parameter in &function.parameters {
                     let named = format!("`{parameter}`");
-                    let is_told = |block: &Block| match block {
-                        Block::Paragraph(text) | Block::Item(text) => text.contains(&named),
-                        Block::Example(_) => false,
+                    let is_told = |block: &DocBlock| match block {
+                        DocBlock::Paragraph(text) | DocBlock::Item(text) => text.contains(&named),
+                        DocBlock::Example(_) => false,
                     };
                     assert!(function.text.iter().any(is_told), "{name}: what is {parameter}?");
                 }
@@ -238,7 +238,8 @@ mod tests {
                 let name = &function.full_name;
                 assert!(example.contains(name.as_str()), "{name}: the example does not show it");
                 let out = tempfile::tempdir().unwrap();
-                let settings = Settings { out: out.path().into(), ..Settings::silent(Mode::Run) };
+                let settings =
+                    RunSettings { out: out.path().into(), ..RunSettings::silent(RunMode::Run) };
                 let outcome = run(&Program::named(name, example), &language(), settings);
                 assert!(matches!(outcome.ending, Ending::Finished), "{name}: {:?}", outcome.ending);
                 assert_eq!(outcome.checks.failed(), [], "{name}");

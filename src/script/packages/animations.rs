@@ -9,22 +9,24 @@ use super::simulations::SPINNING;
 use super::viewers::span;
 use crate::elementary::whole_power;
 use crate::output::{
-    Animation, Figure, Limits, Margins, MotionPicture, OutputError, Page, Panel, PlacedSymbol,
-    Point, Snapshot,
+    Animation, AxisLimits, Figure, Margins, MotionFrame, MotionPicture, OutputError, Page, Panel,
+    PlacedSymbol, Point,
 };
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::Scripted;
+use crate::script::bindings::options::Options;
+use crate::script::bindings::parameter::{
+    Parameter, Presence, array, number, options, text, whole,
+};
+use crate::script::bindings::table::{BindingTable, function};
 use crate::script::handles::simulation::SimulationHandle;
 use crate::script::handles::station::StationHandle;
-use crate::script::looks::motion::{Shown, has_room_for_dots, placed, snapshot};
-use crate::script::looks::symbols::uncrowded;
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::Scripted;
-use crate::script::rows::options::Options;
-use crate::script::rows::parameter::{Parameter, Presence, array, number, options, text, whole};
-use crate::script::rows::table::{Table, function};
-use crate::script::words::error::{Place, ScriptError};
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::presentation::motion::{Visibility, has_room_for_dots, placed, snapshot};
+use crate::script::presentation::symbols::uncrowded;
 
 /// Animations.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "animations",
     doc: "An animation is a PNG file with many frames, which browsers play and Markdown shows, as in a README; other programs show its first frame.",
     types: &[],
@@ -66,23 +68,23 @@ const WIDTHS: (f64, f64) = (640.0, 960.0);
 const LEAST_HEIGHT: f64 = 100.0;
 
 /// A path: points with their times.
-type Path = Vec<(f64, Point)>;
+type TimedPath = Vec<(f64, Point)>;
 
 /// A simulation in frames.
-struct Reel {
+struct FrameSource {
     /// The picture without what moves.
     base: MotionPicture,
-    snapshots: Vec<Snapshot>,
+    snapshots: Vec<MotionFrame>,
     /// The symbols of each snapshot.
     symbols: Vec<Vec<PlacedSymbol>>,
     /// Paths by name.
-    traces: Vec<(String, Path)>,
+    traces: Vec<(String, TimedPath)>,
 }
 
-impl Reel {
+impl FrameSource {
     /// The picture of a frame.
     fn picture(&self, frame: usize, time: f64) -> MotionPicture {
-        let until = |path: &Path| {
+        let until = |path: &TimedPath| {
             path.iter().filter(|(at, _)| *at <= time).map(|(_, point)| *point).collect()
         };
         let picture = self.base.clone().snapshot(self.snapshots[frame].clone());
@@ -109,13 +111,13 @@ fn write_animation(call: &mut Call) -> Result<Dynamic, ScriptError> {
         return Err(call
             .error(told)
             .hint("an animation is a PNG file: \"motion.png\"")
-            .at(Place::Argument(1)));
+            .at(CallPart::Argument(1)));
     }
     let simulations = simulations(call)?;
     let options = call.options_or_defaults("options")?;
     let times = times(call, &simulations, &options)?;
     let traced =
-        stations(call, &options.array("trace").unwrap_or_default(), Place::Key("trace".into()))?;
+        stations(call, &options.array("trace").unwrap_or_default(), CallPart::Key("trace".into()))?;
     let title = options.text("title").map(|title| title.to_string());
     let title = title.unwrap_or_else(|_| simulations[0].name().to_owned());
     let shown = symbols(&options);
@@ -169,18 +171,20 @@ fn reel(
     of: &SimulationHandle,
     times: &[f64],
     traced: &[StationHandle],
-    shown: Shown,
-    limits: Limits,
-) -> Result<Reel, ScriptError> {
+    shown: Visibility,
+    limits: AxisLimits,
+) -> Result<FrameSource, ScriptError> {
     let simulation = of.simulation();
     let has_dots = has_room_for_dots(&simulation);
     let (mut snapshots, mut symbols) = (Vec::new(), Vec::new());
     for time in times {
         let Some(configuration) = simulation.configuration_near(*time)? else { continue };
         symbols.push(match shown {
-            Shown::Yes => placed(&simulation, configuration.time, None)?,
-            Shown::WhereThereIsRoom => uncrowded(placed(&simulation, configuration.time, None)?),
-            Shown::No => Vec::new(),
+            Visibility::Yes => placed(&simulation, configuration.time, None)?,
+            Visibility::WhereThereIsRoom => {
+                uncrowded(placed(&simulation, configuration.time, None)?)
+            }
+            Visibility::No => Vec::new(),
         });
         let mut snapshot = snapshot(&configuration);
         if !has_dots {
@@ -196,7 +200,7 @@ fn reel(
         Ok((format!("path of {}", station.show()), points))
     };
     let names = simulation.scene().beams.iter().map(|beam| beam.name.clone());
-    Ok(Reel {
+    Ok(FrameSource {
         base: MotionPicture::new(of.name()).beams(names).limits(limits),
         snapshots,
         symbols,
@@ -205,10 +209,10 @@ fn reel(
 }
 
 /// The reels with the same view of all that is ever seen.
-fn framed(reels: Vec<Reel>) -> Vec<Reel> {
-    let all: Vec<MotionPicture> = reels.iter().map(Reel::whole).collect();
+fn framed(reels: Vec<FrameSource>) -> Vec<FrameSource> {
+    let all: Vec<MotionPicture> = reels.iter().map(FrameSource::whole).collect();
     let limits = MotionPicture::shared_limits(&all);
-    reels.into_iter().map(|reel| Reel { base: reel.base.limits(limits), ..reel }).collect()
+    reels.into_iter().map(|reel| FrameSource { base: reel.base.limits(limits), ..reel }).collect()
 }
 
 /// A picture so wide, and so high that its plot has the form that suits it: what is written around it takes as much room in a small one as in a large.

@@ -3,15 +3,15 @@
 use rhai::{Array, Dynamic};
 
 use crate::elementary::{exp, ln};
-use crate::script::rows::call::Call;
-use crate::script::rows::lifting::{where_largest_changes, where_smallest_changes};
-use crate::script::rows::parameter::{Parameter, number, numbers, whole};
-use crate::script::rows::returns::Returns;
-use crate::script::rows::table::{Table, function};
-use crate::script::words::error::{Place, ScriptError};
+use crate::script::bindings::call::Call;
+use crate::script::bindings::parameter::{Parameter, number, numbers, whole};
+use crate::script::bindings::parameter_variants::{where_largest_changes, where_smallest_changes};
+use crate::script::bindings::returns::Returns;
+use crate::script::bindings::table::{BindingTable, function};
+use crate::script::messages::error::{CallPart, ScriptError};
 
 /// The domain of helpers on arrays of numbers.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "arrays",
     doc: "Arrays of numbers. Indices count from 0, and -1 is the last.",
     types: &[],
@@ -96,7 +96,7 @@ fn extreme(call: &Call, choose: fn(f64, f64) -> f64) -> Result<Dynamic, ScriptEr
 fn filled(call: &Call) -> Result<Vec<f64>, ScriptError> {
     let values = call.numbers("values")?;
     match values.is_empty() {
-        true => Err(call.error("the array is empty").at(Place::Argument(0))),
+        true => Err(call.error("the array is empty").at(CallPart::Argument(0))),
         false => Ok(values),
     }
 }

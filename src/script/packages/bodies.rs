@@ -4,22 +4,22 @@ use rhai::{Dynamic, Map};
 
 use super::scenes::{SCENE, START_ABOUT, START_SPIN, START_VELOCITY, STATION, start_motion};
 use crate::geometry::Vec2;
-use crate::model::{ModelError, RigidBodyDefinition};
-use crate::script::handles::rigid_body::RigidBodyHandle;
-use crate::script::handles::scene::SceneHandle;
-use crate::script::rows::accept::as_point;
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::Type;
-use crate::script::rows::options::Options;
-use crate::script::rows::parameter::{
+use crate::script::bindings::accept::as_point;
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::Type;
+use crate::script::bindings::options::Options;
+use crate::script::bindings::parameter::{
     Parameter, Presence, anything, name, number, options, point, points, text,
 };
-use crate::script::rows::returns::Returns;
-use crate::script::rows::table::{Table, method, property};
-use crate::script::words::error::{Place, ScriptError};
+use crate::script::bindings::returns::Returns;
+use crate::script::bindings::table::{BindingTable, method, property};
+use crate::script::handles::rigid_body::RigidBodyHandle;
+use crate::script::handles::scene::SceneHandle;
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::system::{RigidBodyDefinition, SystemError};
 
 /// Rigid bodies.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "rigid bodies",
     doc: "A rigid body is a centre of mass with mass and inertia, and points that keep their places around it. Its centre and its points are stations: \
           they take hinges, clamps, rigid joints, springs, loads, masses, sensors, and slide along beams, as places of beams do; where a station is asked for, the body itself stands for its centre. Energy and momenta \
@@ -108,13 +108,13 @@ fn body(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let added = scene.scene().borrow_mut().add_rigid_body(definition, mass, inertia);
     let index = added.map_err(|error| {
         let key = match &error {
-            ModelError::Value { name: "rotary inertia", .. } => "inertia",
-            ModelError::Value { .. } => "mass",
-            ModelError::Unnamed { kind: "point", .. } => "points",
-            ModelError::Outline { .. } => "outline",
+            SystemError::Value { name: "rotary inertia", .. } => "inertia",
+            SystemError::Value { .. } => "mass",
+            SystemError::Unnamed { kind: "point", .. } => "points",
+            SystemError::Outline { .. } => "outline",
             _ => "name",
         };
-        ScriptError::from(error).at(Place::Key(key.into()))
+        ScriptError::from(error).at(CallPart::Key(key.into()))
     })?;
     Ok(Dynamic::from(RigidBodyHandle { scene, index }))
 }
@@ -126,7 +126,7 @@ fn points_of(options: &Options) -> Result<Vec<(String, Vec2)>, ScriptError> {
     }
     let wrong = |told: String| {
         ScriptError::new(told)
-            .at(Place::Key("points".into()))
+            .at(CallPart::Key("points".into()))
             .hint("write points: #{ pin: [0.1, 0] }: names, and places from the centre of mass")
     };
     let value = options.value("points")?;

@@ -2,20 +2,20 @@
 
 use rhai::Dynamic;
 
-use crate::script::looks::details;
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::{Details, Scripted, Type};
-use crate::script::rows::parameter::{Parameter, boolean, number, text};
-use crate::script::rows::returns::Returns;
-use crate::script::rows::table::{Table, function, property};
-use crate::script::state::settings::Mode;
-use crate::script::words::brief::brief;
-use crate::script::words::checks::FailedCheck;
-use crate::script::words::error::{Failure, ScriptError};
-use crate::script::words::numbers::format_number;
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::{Details, Scripted, Type};
+use crate::script::bindings::parameter::{Parameter, boolean, number, text};
+use crate::script::bindings::returns::Returns;
+use crate::script::bindings::table::{BindingTable, function, property};
+use crate::script::messages::brief::brief;
+use crate::script::messages::checks::FailedCheck;
+use crate::script::messages::error::{Failure, ScriptError};
+use crate::script::messages::numbers::format_number;
+use crate::script::presentation::details;
+use crate::script::state::settings::RunMode;
 
 /// The domain of checks, and of what `catch` receives.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "checks",
     doc: "Checks are recorded and the script goes on. If one fails, `withy run` ends with exit code 1.",
     types: &[PROBLEM],
@@ -91,7 +91,7 @@ fn check_close(call: &mut Call) -> Result<Dynamic, ScriptError> {
 }
 
 fn record(call: &Call, holds: bool, detail: &str) {
-    if call.context().mode() == Mode::DryBuild {
+    if call.context().mode() == RunMode::DryBuild {
         return;
     }
     if holds {

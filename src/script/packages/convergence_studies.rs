@@ -7,19 +7,19 @@ use rhai::{Array, Dynamic};
 use super::integrators::INTEGRATOR;
 use crate::analysis::{Convergence, Ladder};
 use crate::integrators::Method;
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::{Details, Scripted, Type};
-use crate::script::rows::parameter::{Parameter, object, options, text};
-use crate::script::rows::returns::{Returns, ValueKind};
-use crate::script::rows::table::{Table, function, method, property};
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::{Details, Scripted, Type};
+use crate::script::bindings::parameter::{Parameter, object, options, text};
+use crate::script::bindings::returns::{Returns, ValueKind};
+use crate::script::bindings::table::{BindingTable, function, method, property};
+use crate::script::messages::error::ScriptError;
 use crate::script::studies::convergence::{expect_quantity, find, map_of, study};
 use crate::script::studies::convergence_chart::chart;
 use crate::script::studies::convergence_table::table;
 use crate::script::studies::options::ErrorOptions;
-use crate::script::words::error::ScriptError;
 
 /// The domain of studies of convergence.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "convergence",
     doc: "How errors fall when the step size or the mesh is refined, for every quantity, and at which order.",
     types: &[CONVERGENCE],

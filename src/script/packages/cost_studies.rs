@@ -2,22 +2,22 @@
 
 use rhai::{Array, Dynamic};
 
-use crate::analysis::{Outcome, Patience, StepCost, step_costs};
+use crate::analysis::{CaseOutcome, RunLimits, StepCost, step_costs};
 use crate::output::Panel;
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::{Scripted, Type};
-use crate::script::rows::parameter::options;
-use crate::script::rows::returns::{Returns, ValueKind};
-use crate::script::rows::table::{Table, function, property};
-use crate::script::state::settings::Mode;
-use crate::script::studies::cost::{CostTable, Way, cases};
-use crate::script::studies::desk::print_table;
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::{Scripted, Type};
+use crate::script::bindings::parameter::options;
+use crate::script::bindings::returns::{Returns, ValueKind};
+use crate::script::bindings::table::{BindingTable, function, property};
+use crate::script::messages::error::ScriptError;
+use crate::script::state::settings::RunMode;
+use crate::script::studies::case_runner::print_table;
+use crate::script::studies::cost::{CostStepping, CostTable, cases};
 use crate::script::studies::options::CostOptions;
 use crate::script::studies::plan::{patience, study_name};
-use crate::script::words::error::ScriptError;
 
 /// The domain of studies of what the features of a scene cost.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "costs",
     doc: "What a step costs, and what each feature of a scene adds.",
     types: &[COST_TABLE],
@@ -74,18 +74,18 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let options = CostOptions::of(&call.options("options")?)?;
     let context = call.context();
     let method = options.integrator.unwrap_or_default();
-    let way = Way { method, dt: options.dt, steps: options.steps };
+    let way = CostStepping { method, dt: options.dt, steps: options.steps };
     let cases = cases(call, &options, way)?;
     let name = study_name(call, &options.name)?;
     let repeats = match context.mode() {
-        Mode::DryBuild => {
-            let pretended = |case| StepCost::unmeasured(case, Outcome::Finished);
+        RunMode::DryBuild => {
+            let pretended = |case| StepCost::unmeasured(case, CaseOutcome::Finished);
             let costs = cases.iter().map(pretended).collect();
             return Ok(Dynamic::from(CostTable::new(name, costs)));
         }
-        Mode::Run => context.studies().repeats.unwrap_or(options.repeats),
+        RunMode::Run => context.studies().repeats.unwrap_or(options.repeats),
     };
-    let patience = patience(call, Patience::default().wall.as_secs_f64());
+    let patience = patience(call, RunLimits::default().wall.as_secs_f64());
     let costs = step_costs(&cases, patience, repeats, &mut || context.stopped_by().is_none());
     let Some(costs) = costs else {
         return Err(context.why_stopped("a study of costs"));

@@ -4,19 +4,19 @@ use rhai::Dynamic;
 
 use super::scenes::SCENE;
 use crate::geometry::Vec2;
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::Type;
+use crate::script::bindings::parameter::{Parameter, anything, name, number, options, text};
+use crate::script::bindings::parameter_variants::VariantValue;
+use crate::script::bindings::returns::Returns;
+use crate::script::bindings::table::{BindingTable, function, method};
 use crate::script::handles::scene::SceneHandle;
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::Type;
-use crate::script::rows::lifting::Varied;
-use crate::script::rows::parameter::{Parameter, anything, name, number, options, text};
-use crate::script::rows::returns::Returns;
-use crate::script::rows::table::{Table, function, method};
-use crate::script::words::error::{Place, ScriptError};
-use crate::script::words::numbers::format_number;
-use crate::script::words::suggest::nearest;
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::messages::numbers::format_number;
+use crate::script::messages::suggest::nearest;
 
 /// The domain of parameters and derivatives.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "derivatives",
     doc: "How a run changes with numbers of its scene: parameters are given names and used as numbers; what depends on them knows its derivatives.",
     types: &[VARIED],
@@ -68,7 +68,7 @@ pub const TABLE: Table = Table {
 const KEYS: &[Parameter] = &[number("distance").positive().doc(
     "how far from its value those lie on both sides by which derivatives are taken; 1e-5 of its magnitude (1e-5 for 0) unless given",
 ).optional()];
-const VARIED: Type = Type::of::<Varied>();
+const VARIED: Type = Type::of::<VariantValue>();
 const X: Parameter = anything("x");
 /// The least part of a value that its variants are away, so that a derivative has digits.
 const LEAST_DISTANCE: f64 = 1e-10;
@@ -81,7 +81,7 @@ fn declare(call: &mut Call) -> Result<Dynamic, ScriptError> {
         let told = format!("{value} with a distance of {distance} cannot be told from {value}");
         let hint =
             "1e-5 of the value is the usual distance, 1e-7 to 1e-3 of it are good for something";
-        return Err(call.error(told).hint(hint).at(Place::Key("distance".into())));
+        return Err(call.error(told).hint(hint).at(CallPart::Key("distance".into())));
     }
     let scene = call.receiver::<SceneHandle>()?;
     Ok(Dynamic::from(scene.declare(&name, value, distance)?))
@@ -93,7 +93,7 @@ fn derivative_by(call: &mut Call) -> Result<Dynamic, ScriptError> {
 }
 
 fn derivative(call: &Call, value: &Dynamic, name: &str) -> Result<Dynamic, ScriptError> {
-    if let Some(varied) = value.read_lock::<Varied>() {
+    if let Some(varied) = value.read_lock::<VariantValue>() {
         let family = varied.family();
         let Some(number) = family.number_of(name) else {
             let names: Vec<String> =
@@ -102,7 +102,7 @@ fn derivative(call: &Call, value: &Dynamic, name: &str) -> Result<Dynamic, Scrip
             let meant = meant.map(|name| format!("did you mean \"{name}\"? ")).unwrap_or_default();
             let told = format!("there is no parameter '{name}'");
             let hint = format!("{meant}parameters: {}", names.join(", "));
-            return Err(call.error(told).hint(hint).at(Place::Argument(1)));
+            return Err(call.error(told).hint(hint).at(CallPart::Argument(1)));
         };
         return varied.derivative(number);
     }
@@ -120,12 +120,12 @@ fn derivative(call: &Call, value: &Dynamic, name: &str) -> Result<Dynamic, Scrip
             Err(call
                 .error(told)
                 .hint("numbers, vectors and arrays of them have")
-                .at(Place::Argument(0)))
+                .at(CallPart::Argument(0)))
         }
     }
 }
 
 /// A value without its derivatives.
 fn plain(value: &Dynamic) -> Dynamic {
-    Varied::project(value, 0)
+    VariantValue::project(value, 0)
 }

@@ -4,19 +4,19 @@ use rhai::Dynamic;
 
 use super::scenes::{BEAM, SCENE, STATION};
 use crate::geometry::Vec2;
-use crate::model::{Drag, Dragged, ModelError, SpeedLaw};
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::{Kind, NumberRange};
+use crate::script::bindings::options::Options;
+use crate::script::bindings::parameter::{Parameter, either, number, options, point, text};
+use crate::script::bindings::table::{BindingTable, method};
 use crate::script::handles::beam::BeamHandle;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::station::StationHandle;
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::{Kind, Range};
-use crate::script::rows::options::Options;
-use crate::script::rows::parameter::{Parameter, either, number, options, point, text};
-use crate::script::rows::table::{Table, method};
-use crate::script::words::error::{Place, ScriptError};
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::system::{Drag, Dragged, SpeedLaw, SystemError};
 
 /// Drag.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "drag",
     doc: "What air or water takes from all that moves through it. It is kept in the ledger: E - W + D stays constant to rounding with \
           energy_momentum() and fourth_order(), at any step, and its impulse counts as that of a load.",
@@ -47,7 +47,7 @@ const DRAG_KEYS: &[Parameter] = &[
     number("normal").non_negative().unit("force·time/length²").doc("of a beam, across its axis").optional(),
     number("tangent").non_negative().unit("force·time/length²").doc("of a beam, along its axis").optional(),
     number("linear").non_negative().unit("force·time/length").doc("of a particle or a station").optional(),
-    either("quadratic", &[Kind::Number(Range::NonNegative), Kind::Options(QUADRATIC_KEYS)])
+    either("quadratic", &[Kind::Number(NumberRange::NonNegative), Kind::Options(QUADRATIC_KEYS)])
         .doc("of a particle or a station a number [force·time²/length²], of a beam #{ normal: …, tangent: … } [force·time²/length³]")
         .optional(),
     point("wind").unit("length/time").doc("the velocity of the medium; still unless given").optional(),
@@ -71,10 +71,10 @@ fn drag(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let added = scene.scene().borrow_mut().add_drag(Drag { name, on, wind });
     added.map_err(|error| {
         let place = match &error {
-            ModelError::Unnamed { .. } | ModelError::DuplicateName { .. } => {
-                Place::Key("name".into())
+            SystemError::Unnamed { .. } | SystemError::DuplicateName { .. } => {
+                CallPart::Key("name".into())
             }
-            _ => Place::Argument(1),
+            _ => CallPart::Argument(1),
         };
         ScriptError::from(error).at(place)
     })?;
@@ -94,7 +94,7 @@ fn of_beam(call: &Call, beam: usize, options: &Options) -> Result<Dragged, Scrip
     if call_number(options, "quadratic").is_some() {
         let told = "quadratic is a number, and a beam is dragged across and along its axis";
         let hint = "give quadratic: #{ normal: …, tangent: … }";
-        return Err(call.error(told).hint(hint).at(Place::Key("quadratic".into())));
+        return Err(call.error(told).hint(hint).at(CallPart::Key("quadratic".into())));
     }
     let quadratic = options.get_if::<Options>("quadratic");
     let along = |name: &str| SpeedLaw {
@@ -111,7 +111,7 @@ fn of_point(call: &Call, scene: &SceneHandle, options: &Options) -> Result<Dragg
     if options.get_if::<Options>("quadratic").is_some() {
         let told = "quadratic is given by directions, and a point has none";
         let hint = "give quadratic: a number";
-        return Err(call.error(told).hint(hint).at(Place::Key("quadratic".into())));
+        return Err(call.error(told).hint(hint).at(CallPart::Key("quadratic".into())));
     }
     let station = scene.own(&call.get::<StationHandle>("on")?)?;
     let law = SpeedLaw {
@@ -137,7 +137,7 @@ fn expect_one(
         return Ok(());
     }
     let told = "how strongly it is dragged is missing";
-    Err(call.error(told).hint(hint).at(Place::Argument(1)))
+    Err(call.error(told).hint(hint).at(CallPart::Argument(1)))
 }
 
 /// Refuses options that mean nothing for what is dragged.
@@ -145,7 +145,7 @@ fn refuse(call: &Call, options: &Options, odd: &[&str], advice: &str) -> Result<
     match odd.iter().find(|key| options.has(key)) {
         Some(key) => {
             let told = format!("'{key}' says nothing here");
-            Err(call.error(told).hint(advice).at(Place::Key((*key).into())))
+            Err(call.error(told).hint(advice).at(CallPart::Key((*key).into())))
         }
         None => Ok(()),
     }

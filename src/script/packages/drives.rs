@@ -8,18 +8,20 @@ use super::schedules::{
 };
 use crate::joints::{Component, Components, JointKind, Partner};
 use crate::loads::{LoadKind, PrescribedMotion, Schedule};
-use crate::model::{Drive, DriveKind, ModelError};
+use crate::script::bindings::call::Call;
+use crate::script::bindings::options::Options;
+use crate::script::bindings::parameter::{
+    Parameter, boolean, either, object, options, point, text,
+};
+use crate::script::bindings::returns::Returns;
+use crate::script::bindings::table::{BindingTable, method};
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::station::here;
-use crate::script::rows::call::Call;
-use crate::script::rows::options::Options;
-use crate::script::rows::parameter::{Parameter, boolean, either, object, options, point, text};
-use crate::script::rows::returns::Returns;
-use crate::script::rows::table::{Table, method};
-use crate::script::words::error::{Place, ScriptError};
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::system::{Drive, DriveKind, SystemError};
 
 /// The domain of supports and drives.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "supports and drives",
     doc: "A support holds movements of a station, a drive gives them as functions of time. What is given is no unknown: place and angle are \
           exact at the end of every step, however long, and what it takes is the reaction. A drive does work: E - W + D, p - ∫F dt and L - ∫M dt stay at \
@@ -112,12 +114,12 @@ fn support(call: &mut Call) -> Result<Dynamic, ScriptError> {
             if let Some(odd) = ["x", "y"].into_iter().find(|key| options.has(key)) {
                 let told =
                     format!("along says which of x and y is held, and {odd} is given besides");
-                return Err(call.error(told).at(Place::Key(odd.into())));
+                return Err(call.error(told).at(CallPart::Key(odd.into())));
             }
             let kind = if is_held("angle") { JointKind::guide } else { JointKind::roller };
             let told = "along has no direction: it is [0, 0]";
             let hint = "write along: [1, 1], or the direction of the line on which it may move";
-            let refused = || call.error(told).hint(hint).at(Place::Key("along".into()));
+            let refused = || call.error(told).hint(hint).at(CallPart::Key("along".into()));
             Some(kind(options.point("along")?).ok_or_else(refused)?)
         }
         false => Components::among(|at| is_held(at.name())).map(JointKind::Support),
@@ -126,7 +128,7 @@ fn support(call: &mut Call) -> Result<Dynamic, ScriptError> {
         return Err(call
             .error("it holds nothing")
             .hint("write #{ y: true }, or some of x, y and angle")
-            .at(Place::Argument(1)));
+            .at(CallPart::Argument(1)));
     };
     scene.borrow_mut().join(held, station, Partner::Ground)?;
     newest_joint(call)
@@ -151,7 +153,7 @@ fn drive(call: &mut Call) -> Result<Dynamic, ScriptError> {
             let place = key.trim_end_matches("_speed");
             let told = format!("{place} says where it is, and {key} is given besides");
             let hint = format!("leave out {place} or {key}");
-            return Err(call.error(told).hint(hint).at(Place::Key(key.into())));
+            return Err(call.error(told).hint(hint).at(CallPart::Key(key.into())));
         }
         let scene = call.receiver::<SceneHandle>()?;
         let rate = controlled_schedule_of(call, &options, key, &scene, beat)?;
@@ -161,7 +163,7 @@ fn drive(call: &mut Call) -> Result<Dynamic, ScriptError> {
         return Err(call
             .error("it moves nothing")
             .hint("write #{ y: |t| 0.1 * t }, or some of x, y and angle")
-            .at(Place::Argument(1)));
+            .at(CallPart::Argument(1)));
     }
     expect_controller(call, beat, motions.iter().flatten().map(PrescribedMotion::schedule))?;
     add(call, DriveKind::Move, motions, &options)
@@ -178,7 +180,7 @@ fn place_of(
     if function.is_some_and(|function| call.arguments_of(&function) == Some(2)) {
         let told = format!("{key} is a place, which would jump wherever a controller speaks");
         let hint = format!("let it give a rate, {rate}");
-        return Err(call.error(told).hint(hint).at(Place::Key(key.into())));
+        return Err(call.error(told).hint(hint).at(CallPart::Key(key.into())));
     }
     schedule_of(call, options, key)
 }
@@ -189,11 +191,14 @@ fn motor(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let Some(key) = given.next() else {
         let told = "how it turns is missing";
         let hint = "give one of angle, speed and torque: #{ angle: |t| 3 * t * t }";
-        return Err(call.error(told).hint(hint).at(Place::Argument(1)));
+        return Err(call.error(told).hint(hint).at(CallPart::Argument(1)));
     };
     if let Some(odd) = given.next() {
         let told = format!("its {key} says how it turns, and {odd} is given besides");
-        return Err(call.error(told).hint(format!("leave out {odd}")).at(Place::Key(odd.into())));
+        return Err(call
+            .error(told)
+            .hint(format!("leave out {odd}"))
+            .at(CallPart::Key(odd.into())));
     }
     let beat = beat_of(&options)?;
     let schedule = match key {
@@ -222,7 +227,7 @@ fn motor(call: &mut Call) -> Result<Dynamic, ScriptError> {
                 return Err(call
                     .error(told)
                     .hint("use scene.hinge in place of scene.clamp")
-                    .at(Place::Argument(0)));
+                    .at(CallPart::Argument(0)));
             }
             let name = name_of(&options).unwrap_or_else(|| scene.borrow().free_name("motor"));
             let kind = LoadKind::Moment { station, moment: 1.0 };
@@ -250,13 +255,15 @@ fn add(
 }
 
 /// Points at what is wrong in the call.
-pub(super) fn blame(error: ModelError) -> ScriptError {
+pub(super) fn blame(error: SystemError) -> ScriptError {
     let place = match &error {
-        ModelError::Unnamed { .. } | ModelError::DuplicateName { .. } => Place::Key("name".into()),
-        ModelError::AlreadyDriven { component, .. }
-        | ModelError::DriveStart { component, .. }
-        | ModelError::DriveJump { component, .. } => Place::Key((*component).into()),
-        _ => Place::Argument(0),
+        SystemError::Unnamed { .. } | SystemError::DuplicateName { .. } => {
+            CallPart::Key("name".into())
+        }
+        SystemError::AlreadyDriven { component, .. }
+        | SystemError::DriveStart { component, .. }
+        | SystemError::DriveJump { component, .. } => CallPart::Key((*component).into()),
+        _ => CallPart::Argument(0),
     };
     ScriptError::from(error).at(place)
 }

@@ -9,24 +9,26 @@ use super::simulations::SIMULATION;
 use super::simulations::{START, begin, followed};
 use super::sliding::{SliderHandle, WHICH};
 use super::vectors::VECTOR;
-use crate::beams::Place;
-use crate::model::Model;
+use crate::beams::BodyPoint;
 use crate::output::significant;
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::{Scripted, Type};
+use crate::script::bindings::parameter::{Parameter, Presence, number, object, options, whole};
+use crate::script::bindings::returns::{Returns, ValueKind};
+use crate::script::bindings::table::{
+    BindingTable, FunctionBinding, NativeFunction, function, method, property,
+};
 use crate::script::handles::equilibrium::EquilibriumHandle;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::station::StationHandle;
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::{Scripted, Type};
-use crate::script::rows::parameter::{Parameter, Presence, number, object, options, whole};
-use crate::script::rows::returns::{Returns, ValueKind};
-use crate::script::rows::table::{Body, Row, Table, function, method, property};
-use crate::script::state::settings::Mode;
-use crate::script::words::error::ScriptError;
+use crate::script::messages::error::ScriptError;
+use crate::script::state::settings::RunMode;
 use crate::simulation::Simulation;
 use crate::statics::{ArcLength, Control, Equilibrium, Loading, Stability, StaticsError};
+use crate::system::System;
 
 /// The domain of equilibria: scenes at rest under their loads.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "equilibrium",
     doc: "Where a scene rests under its loads. Loads are put on together, in steps from nothing to the whole; what happens over \
           time plays no part. Loads that turn with a beam are followed. The elements are those of simulations.",
@@ -258,7 +260,7 @@ impl Scripted for Control {
     }
 }
 
-const fn told(name: &'static str, returns: Returns, body: Body) -> Row {
+const fn told(name: &'static str, returns: Returns, body: NativeFunction) -> FunctionBinding {
     property(EQUILIBRIUM, name, body).returns(returns)
 }
 
@@ -279,8 +281,8 @@ fn find(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let description = scene.scene().borrow().clone();
     let context = call.context();
     let found = match context.mode() {
-        Mode::DryBuild => Equilibrium::pretend(description, loading),
-        Mode::Run => {
+        RunMode::DryBuild => Equilibrium::pretend(description, loading),
+        RunMode::Run => {
             let name = description.name.clone();
             context.progress().begin(&name, 0.0, loading.factor);
             let found = Equilibrium::find(description, loading, &mut |reached| {
@@ -300,7 +302,7 @@ fn find(call: &mut Call) -> Result<Dynamic, ScriptError> {
     };
     let is_unstable =
         |rest: &Equilibrium| rest.stability(&mut || !context.is_stopped()) == Stability::Unstable;
-    if context.mode() == Mode::Run && is_unstable(&rest) {
+    if context.mode() == RunMode::Run && is_unstable(&rest) {
         let name = &rest.scene().name;
         context.tell(&format!("note: the equilibrium of '{name}' is not stable"));
     }
@@ -332,7 +334,7 @@ fn is_stable(call: &mut Call) -> Result<Dynamic, ScriptError> {
 }
 
 /// Asks the model at rest about the slider of a call.
-fn asked(call: &Call, ask: impl FnOnce(&Model, usize) -> Dynamic) -> Result<Dynamic, ScriptError> {
+fn asked(call: &Call, ask: impl FnOnce(&System, usize) -> Dynamic) -> Result<Dynamic, ScriptError> {
     let handle = call.receiver::<EquilibriumHandle>()?;
     let rest = handle.rest();
     let slider = call.get::<SliderHandle>("slider")?.among(handle.scene(), rest.scene())?;
@@ -340,7 +342,7 @@ fn asked(call: &Call, ask: impl FnOnce(&Model, usize) -> Dynamic) -> Result<Dyna
 }
 
 /// The equilibrium that is called, and a place of it.
-fn place(call: &Call) -> Result<(EquilibriumHandle, Place), ScriptError> {
+fn place(call: &Call) -> Result<(EquilibriumHandle, BodyPoint), ScriptError> {
     let handle = call.receiver::<EquilibriumHandle>()?;
     let place = handle.place(&call.get::<StationHandle>("station")?)?;
     Ok((handle, place))

@@ -5,20 +5,20 @@ use rhai::Dynamic;
 use super::language;
 use super::scenes::SCENE;
 use super::simulations::{SIMULATION, SPINNING};
-use crate::model::{Part, Usage};
-use crate::output::Table as TextTable;
+use crate::output::TextTable;
+use crate::script::bindings::parameter::{anything, object};
+use crate::script::bindings::returns::Returns;
+use crate::script::bindings::table::{BindingTable, function, method};
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::simulation::SimulationHandle;
-use crate::script::looks::present::present;
-use crate::script::rows::parameter::{anything, object};
-use crate::script::rows::returns::Returns;
-use crate::script::rows::table::{Table, function, method};
+use crate::script::presentation::present::present;
+use crate::system::{SystemFeature, Usage};
 
 /// Characters in a line of a description.
 const WIDTH: usize = 100;
 
 /// The domain of explanations: looking closely at what a simulation uses.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "looking closely",
     doc: "What a scene makes its simulation do, and what a value is.",
     types: &[],
@@ -71,9 +71,9 @@ pub const TABLE: Table = Table {
 };
 
 /// The parts as a table.
-fn written(parts: &[Part]) -> Dynamic {
+fn written(parts: &[SystemFeature]) -> Dynamic {
     let mut table = TextTable::new(&["part", "used", "how much, or what is left out"]);
-    for Part { name, usage } in parts {
+    for SystemFeature { name, usage } in parts {
         table.row(match usage {
             Usage::Used(how) => [name, "yes", how],
             Usage::LeftOut(saved) => [name, "no", saved],

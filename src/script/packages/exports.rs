@@ -6,24 +6,24 @@ use super::recording::{Missing, expect_near, tell_another_run};
 use super::simulations::{SIMULATION, SPINNING};
 use super::sweeps::SWEEP_TABLE;
 use super::tables::{TABULAR, table};
-use crate::output::{Heading, vtk_collection};
-use crate::script::handles::simulation::{SimulationHandle, Visited};
-use crate::script::looks::arrays::archive;
-use crate::script::looks::grids::Grids;
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::Kind;
-use crate::script::rows::options::Options;
-use crate::script::rows::parameter::{
+use crate::output::{TableHeading, vtk_collection};
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::Kind;
+use crate::script::bindings::options::Options;
+use crate::script::bindings::parameter::{
     Parameter, boolean, choice, either, number, object, options, text, whole,
 };
-use crate::script::rows::table::{Table, function};
-use crate::script::state::settings::Mode;
+use crate::script::bindings::table::{BindingTable, function};
+use crate::script::handles::simulation::{SimulationHandle, Visited};
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::messages::numbers::format_number;
+use crate::script::presentation::arrays::archive;
+use crate::script::presentation::grids::Grids;
+use crate::script::state::settings::RunMode;
 use crate::script::studies::sweeps::table::SweepTable;
-use crate::script::words::error::{Place, ScriptError};
-use crate::script::words::numbers::format_number;
 
 /// Exports.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "exports",
     doc: "What a simulation was, for other programs: ParaView, NumPy, tables. Each file is whole or not there. `withy convert` makes the same of a saved \
           simulation, without its script.",
@@ -110,14 +110,14 @@ fn named(call: &Call, ending: &str) -> Result<String, ScriptError> {
     if file.strip_suffix(ending).is_none_or(|stem| stem.is_empty() || stem.ends_with('/')) {
         let told = format!("\"{file}\" does not end in {ending}, with a name before it");
         let hint = format!("for example \"run{ending}\"");
-        return Err(call.error(told).hint(hint).at(Place::Argument(1)));
+        return Err(call.error(told).hint(hint).at(CallPart::Argument(1)));
     }
-    call.context().output().path_of(&file).map_err(|error| error.at(Place::Argument(1)))?;
+    call.context().output().path_of(&file).map_err(|error| error.at(CallPart::Argument(1)))?;
     Ok(file.to_string())
 }
 
 /// Files of an export to VTK, by the name of the collection.
-struct Files {
+struct VtkFiles {
     /// The name of the collection without its ending.
     stem: String,
     /// That without its folder.
@@ -126,7 +126,7 @@ struct Files {
     digits: usize,
 }
 
-impl Files {
+impl VtkFiles {
     fn of(collection: &str, frames: usize) -> Self {
         let stem = collection.trim_end_matches(".pvd").to_owned();
         let base = stem.rsplit('/').next().unwrap_or_default().to_owned();
@@ -148,10 +148,10 @@ fn write_vtk(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let of = call.get::<SimulationHandle>("of")?;
     let options = call.options_or_defaults("options")?;
     let frames = frames(call, &of, &options)?;
-    if call.context().mode() == Mode::DryBuild {
+    if call.context().mode() == RunMode::DryBuild {
         return Ok(Dynamic::UNIT);
     }
-    let files = Files::of(&collection, frames.len());
+    let files = VtkFiles::of(&collection, frames.len());
     let grids = Grids::of(&of.simulation())?;
     let wish = options.text("fields").ok();
     let another = match wish.as_deref() {
@@ -183,7 +183,7 @@ fn write_states(
     call: &Call,
     of: &SimulationHandle,
     frames: &[usize],
-    (grids, files): (&Grids, &Files),
+    (grids, files): (&Grids, &VtkFiles),
 ) -> Result<Visited, ScriptError> {
     let times: Vec<f64> = {
         let simulation = of.simulation();
@@ -221,7 +221,7 @@ fn frames(
             return Err(call
                 .error("`every` and `frames` both say how many frames there are")
                 .hint("give one of them")
-                .at(Place::Key("frames".into())));
+                .at(CallPart::Key("frames".into())));
         }
         (Some(every), false) => (every, (span / every + 1e-9).floor()),
         (None, is_given) => {
@@ -236,7 +236,7 @@ fn frames(
         return Err(call
             .error(format!("{count} frames are too many"))
             .hint("choose a larger `every`")
-            .at(Place::Key("every".into())));
+            .at(CallPart::Key("every".into())));
     }
     let mut frames = Vec::new();
     let wanted = (0..=count as usize).map(|number| at(first) + number as f64 * every);
@@ -265,7 +265,7 @@ fn write_npz(call: &mut Call) -> Result<Dynamic, ScriptError> {
 fn write_csv(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let file = named(call, ".csv")?;
     let has_units = call.options_or_defaults("options")?.boolean("units").unwrap_or(false);
-    let heading = if has_units { Heading::NamesAndUnits } else { Heading::Names };
+    let heading = if has_units { TableHeading::NamesAndUnits } else { TableHeading::Names };
     call.context().write_file(&file, table(call)?.to_csv(heading)?.as_bytes())?;
     Ok(Dynamic::UNIT)
 }

@@ -6,28 +6,30 @@ use std::time::Duration;
 use rhai::{Array, Dynamic, FnPtr, Map};
 
 use crate::fitting::RELATIVE_STEP;
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::{Scripted, Type};
-use crate::script::rows::option_set::option_set;
-use crate::script::rows::options::Options;
-use crate::script::rows::parameter::{
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::{Scripted, Type};
+use crate::script::bindings::option_set::option_set;
+use crate::script::bindings::options::Options;
+use crate::script::bindings::parameter::{
     Parameter, Presence, anything, callback, choice, name, number, numbers, options, text, whole,
 };
-use crate::script::rows::returns::{Returns, ValueKind};
-use crate::script::rows::table::{Body, Row, Table, function, method, property};
-use crate::script::state::settings::Mode;
+use crate::script::bindings::returns::{Returns, ValueKind};
+use crate::script::bindings::table::{
+    BindingTable, FunctionBinding, NativeFunction, function, method, property,
+};
+use crate::script::messages::error::ScriptError;
+use crate::script::messages::numbers::format_number;
+use crate::script::state::settings::RunMode;
 use crate::script::studies::calls::function::RunFunction;
-use crate::script::studies::desk::print_table;
-use crate::script::studies::fits::design::{BestDesign, DesignOrder, Goal, Limit};
-use crate::script::studies::fits::fit::{Compared, Derivatives, Fit, FitOrder};
+use crate::script::studies::case_runner::print_table;
+use crate::script::studies::fits::design::{BestDesign, DesignRequest, Limit, Objective};
+use crate::script::studies::fits::fit::{Compared, Derivatives, Fit, FitRequest};
 use crate::script::studies::fits::ranges::Ranges;
 use crate::script::studies::fits::root::find_root;
 use crate::script::studies::plan::{at_key, study_name};
-use crate::script::words::error::ScriptError;
-use crate::script::words::numbers::format_number;
 
 /// The domain of fits.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "fits",
     doc: "Parameters that are found by runs. The functions of fit and minimise are called on all cores, as those of sweeps are: they may use from outside what \
           is data, and each run begins with it as it was.",
@@ -249,11 +251,11 @@ impl Scripted for DesignHandle {
     }
 }
 
-const fn of_fit(name: &'static str, body: Body) -> Row {
+const fn of_fit(name: &'static str, body: NativeFunction) -> FunctionBinding {
     property(FIT, name, body)
 }
 
-const fn of_design(name: &'static str, body: Body) -> Row {
+const fn of_design(name: &'static str, body: NativeFunction) -> FunctionBinding {
     property(DESIGN, name, body)
 }
 
@@ -329,7 +331,7 @@ fn make_fit(call: &mut Call) -> Result<Dynamic, ScriptError> {
     }
     let name = study_name(call, &options.name)?;
     call.context().output().path_of(&format!("{name}-fit.svg"))?;
-    let order = FitOrder {
+    let order = FitRequest {
         name,
         ranges,
         key,
@@ -343,8 +345,8 @@ fn make_fit(call: &mut Call) -> Result<Dynamic, ScriptError> {
         wall: wall(options.patience),
     };
     let fit = match call.context().mode() {
-        Mode::Run => order.make(call)?,
-        Mode::DryBuild => order.pretend(call)?,
+        RunMode::Run => order.make(call)?,
+        RunMode::DryBuild => order.pretend(call)?,
     };
     print_table(call.context(), &fit.text());
     Ok(Dynamic::from(FitHandle(Rc::new(fit))))
@@ -354,8 +356,8 @@ fn minimise(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let given: Options = call.options("options")?;
     let options = DesignOptions::of(&given)?;
     let goal = match (options.least, options.largest) {
-        (Some(name), None) => Goal::Least(name),
-        (None, Some(name)) => Goal::Largest(name),
+        (Some(name), None) => Objective::Least(name),
+        (None, Some(name)) => Objective::Largest(name),
         _ => {
             let hint = "write least: \"mass\", or largest: \"speed\", the name of a result";
             return Err(call.error("one result must be wanted least, or largest").hint(hint));
@@ -367,7 +369,7 @@ fn minimise(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let ranges = Ranges::read(call, &options.parameters)?;
     let names = ranges.names.iter().map(String::as_str);
     RunFunction::expect_read(call, ("run", &options.run), names)?;
-    let order = DesignOrder {
+    let order = DesignRequest {
         ranges,
         function: &options.run,
         goal,
@@ -381,8 +383,8 @@ fn minimise(call: &mut Call) -> Result<Dynamic, ScriptError> {
         wall: wall(options.patience),
     };
     let design = match call.context().mode() {
-        Mode::Run => order.make(call)?,
-        Mode::DryBuild => order.pretend(call)?,
+        RunMode::Run => order.make(call)?,
+        RunMode::DryBuild => order.pretend(call)?,
     };
     print_table(call.context(), &design.text());
     Ok(Dynamic::from(DesignHandle(Rc::new(design))))

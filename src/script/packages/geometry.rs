@@ -10,10 +10,10 @@ pub mod quadrature;
 use rhai::{Array, Dynamic};
 
 use crate::geometry::{Basis, GeometryError, MAX_DEGREE, Vec2};
-use crate::script::rows::call::Call;
-use crate::script::rows::parameter::{Parameter, Presence, number, whole};
-use crate::script::words::error::{Place, ScriptError};
-use crate::script::words::numbers::format_number;
+use crate::script::bindings::call::Call;
+use crate::script::bindings::parameter::{Parameter, Presence, number, whole};
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::messages::numbers::format_number;
 
 pub use curves::CURVE;
 pub use knots::KNOTS;
@@ -64,7 +64,7 @@ fn count(n: usize) -> Dynamic {
 
 /// Puts a refusal of the geometry at the argument that caused it.
 fn blame<T>(argument: usize, result: Result<T, GeometryError>) -> Result<T, ScriptError> {
-    result.map_err(|error| ScriptError::from(error).at(Place::Argument(argument)))
+    result.map_err(|error| ScriptError::from(error).at(CallPart::Argument(argument)))
 }
 
 /// `x` to six digits, as it is printed inside a description.

@@ -3,14 +3,14 @@
 use rhai::Dynamic;
 
 use super::language;
-use crate::script::pages::help::{WIDTH, page};
-use crate::script::rows::call::Call;
-use crate::script::rows::parameter::anything;
-use crate::script::rows::table::{Table, function};
-use crate::script::words::error::{Place, ScriptError};
+use crate::script::bindings::call::Call;
+use crate::script::bindings::parameter::anything;
+use crate::script::bindings::table::{BindingTable, function};
+use crate::script::help::lookup::{WIDTH, page};
+use crate::script::messages::error::{CallPart, ScriptError};
 
 /// The domain of `help`, which explains any name of the language.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "help",
     doc: "What there is, and how it is written. The same is in docs/language.md, and shown by withy docs NAME.",
     types: &[],
@@ -30,7 +30,7 @@ fn help(call: &mut Call) -> Result<Dynamic, ScriptError> {
         Ok(value) => call.type_of(&value),
     };
     let page = page(&language(), &name)
-        .map_err(|unknown| call.error(&unknown).hint(unknown.hint()).at(Place::Argument(0)))?;
+        .map_err(|unknown| call.error(&unknown).hint(unknown.hint()).at(CallPart::Argument(0)))?;
     call.context().print(page.plain(WIDTH).trim_end());
     Ok(Dynamic::UNIT)
 }

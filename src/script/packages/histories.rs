@@ -5,18 +5,18 @@ use rhai::{Array, Dynamic, INT};
 use super::recording::expect_all_rows;
 use super::simulations::SPINNING;
 use crate::geometry::{larger, smaller};
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::Type;
+use crate::script::bindings::parameter::{Parameter, choice, number, text};
+use crate::script::bindings::returns::Returns;
+use crate::script::bindings::table::{BindingTable, FunctionBinding, method, property};
 use crate::script::handles::history::HistoryHandle;
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::Type;
-use crate::script::rows::parameter::{Parameter, choice, number, text};
-use crate::script::rows::returns::Returns;
-use crate::script::rows::table::{Row, Table, method, property};
-use crate::script::words::error::ScriptError;
-use crate::script::words::numbers::format_number;
+use crate::script::messages::error::ScriptError;
+use crate::script::messages::numbers::format_number;
 use crate::simulation::{History, Invariant};
 
 /// The domain of histories.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "histories",
     doc: "A row for each step, or as the option record says. Columns: t, kinetic, strain, potential, energy, work, momentum_x, momentum_y, impulse_x, \
           impulse_y, angular_momentum, angular_impulse, gap, dt, newton_iterations, retries. Each slider adds \
@@ -97,8 +97,8 @@ const COLUMN: Parameter = text("column").doc("the name of a column of this histo
 const fn statistic(
     name: &'static str,
     summary: &'static str,
-    body: crate::script::rows::table::Body,
-) -> Row {
+    body: crate::script::bindings::table::NativeFunction,
+) -> FunctionBinding {
     method(HISTORY, name, &[COLUMN], body)
         .returns(Returns::NUMBER)
         .summary(summary)

@@ -3,14 +3,14 @@
 use rhai::Dynamic;
 
 use crate::integrators::Method;
-use crate::script::looks::details;
-use crate::script::rows::kind::{Details, Scripted, Type};
-use crate::script::rows::parameter::{Parameter, Presence, number, options};
-use crate::script::rows::returns::Returns;
-use crate::script::rows::table::{Table, function};
+use crate::script::bindings::kind::{Details, Scripted, Type};
+use crate::script::bindings::parameter::{Parameter, Presence, number, options};
+use crate::script::bindings::returns::Returns;
+use crate::script::bindings::table::{BindingTable, function};
+use crate::script::presentation::details;
 
 /// The domain of integrators.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "integrators",
     doc: "Ways to take a step. A scene is started with one: scene.start(#{ integrator: energy_momentum(), dt: 0.1 }).",
     types: &[INTEGRATOR],
@@ -101,7 +101,7 @@ impl Scripted for Method {
 mod tests {
     use super::*;
     use crate::integrators::INTEGRATORS;
-    use crate::script::rows::kind::Kind;
+    use crate::script::bindings::kind::Kind;
 
     #[test]
     fn every_integrator_of_the_registry_has_a_row_that_cites_its_source() {

@@ -1,7 +1,7 @@
 //! The language that the domains make together.
 
 use super::TABLES;
-use crate::script::rows::catalog::Catalog;
+use crate::script::bindings::catalog::Catalog;
 
 /// The language of withy: all its domains.
 pub fn language() -> Catalog {

@@ -9,20 +9,20 @@ use super::scenes::{BEAM, SCENE, STATION};
 use super::schedules::{
     DELAY, SAMPLE, SCHEDULE_KINDS, beat_of, controlled_schedule_of, expect_controller,
 };
-use crate::loads::{Frame, LoadKind, Schedule};
-use crate::model::Scene;
+use crate::loads::{LoadFrame, LoadKind, Schedule};
+use crate::script::bindings::call::Call;
+use crate::script::bindings::parameter::{
+    Parameter, Presence, choice, either, number, object, options, point, text,
+};
+use crate::script::bindings::table::{BindingTable, method};
 use crate::script::handles::beam::BeamHandle;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::station::here;
-use crate::script::rows::call::Call;
-use crate::script::rows::parameter::{
-    Parameter, Presence, choice, either, number, object, options, point, text,
-};
-use crate::script::rows::table::{Table, method};
-use crate::script::words::error::ScriptError;
+use crate::script::messages::error::ScriptError;
+use crate::system::Scene;
 
 /// The domain of loads.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "loads",
     doc: "A load is where, what and when. Without a schedule it acts always; a number or a function of time will do too.",
     types: &[],
@@ -105,10 +105,10 @@ fn add(
     Ok(Dynamic::UNIT)
 }
 
-fn frame(call: &Call) -> Result<Frame, ScriptError> {
+fn frame(call: &Call) -> Result<LoadFrame, ScriptError> {
     if !call.has("options") {
-        return Ok(Frame::Dead);
+        return Ok(LoadFrame::Dead);
     }
     let options = call.options("options")?;
-    Ok(if options.text("frame")? == "follower" { Frame::Follower } else { Frame::Dead })
+    Ok(if options.text("frame")? == "follower" { LoadFrame::Follower } else { LoadFrame::Dead })
 }

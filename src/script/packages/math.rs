@@ -3,19 +3,21 @@
 use rhai::{Dynamic, INT};
 
 use crate::elementary;
-use crate::script::rows::call::Call;
-use crate::script::rows::lifting::{
+use crate::script::bindings::call::Call;
+use crate::script::bindings::parameter::{Parameter, number, numeric, whole};
+use crate::script::bindings::parameter_variants::{
     at_cut, at_origin, at_whole_numbers, at_zero, near_ends_of_logarithm, near_one, near_quarters,
     near_zero, where_equal, where_rounded_differs,
 };
-use crate::script::rows::parameter::{Parameter, number, numeric, whole};
-use crate::script::rows::returns::Returns;
-use crate::script::rows::table::{Body, Constant, Row, Table, function};
-use crate::script::words::error::ScriptError;
-use crate::script::words::numbers::as_number;
+use crate::script::bindings::returns::Returns;
+use crate::script::bindings::table::{
+    BindingTable, Constant, FunctionBinding, NativeFunction, function,
+};
+use crate::script::messages::error::ScriptError;
+use crate::script::messages::numbers::as_number;
 
 /// The domain of functions and constants of numbers.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "numbers",
     doc: "Elementary functions. Whole numbers are welcome everywhere, angles are in radians, and infinite or undefined \
           numbers pass through as in IEEE 754. Results have the same bits on every machine.",
@@ -258,7 +260,12 @@ const ANY_X: Parameter = number("x").any_number();
 const ANY_Y: Parameter = number("y").any_number();
 
 /// A function of one number `x`.
-const fn of_x(name: &'static str, body: Body, summary: &'static str, example: &'static str) -> Row {
+const fn of_x(
+    name: &'static str,
+    body: NativeFunction,
+    summary: &'static str,
+    example: &'static str,
+) -> FunctionBinding {
     function(name, &[ANY_X], body).returns(Returns::NUMBER).summary(summary).example(example)
 }
 

@@ -2,15 +2,15 @@
 
 use rhai::{Array, Dynamic, Map};
 
-use crate::analysis::Sheet;
-use crate::script::rows::call::Call;
-use crate::script::rows::parameter::text;
-use crate::script::rows::returns::Returns;
-use crate::script::rows::table::{Table, function};
-use crate::script::words::error::{Place, ScriptError};
+use crate::analysis::ParsedCsv;
+use crate::script::bindings::call::Call;
+use crate::script::bindings::parameter::text;
+use crate::script::bindings::returns::Returns;
+use crate::script::bindings::table::{BindingTable, function};
+use crate::script::messages::error::{CallPart, ScriptError};
 
 /// The domain of tables that others have written.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "measurements",
     doc: "Tables from other programs, as arrays of numbers.",
     types: &[],
@@ -30,11 +30,11 @@ pub const TABLE: Table = Table {
 
 fn read_csv(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let file = call.text("file")?;
-    let at = |error: ScriptError| error.at(Place::Argument(0));
+    let at = |error: ScriptError| error.at(CallPart::Argument(0));
     let bytes = call.context().read_file(&file).map_err(at)?;
-    let told = |why: String| call.error(format!("\"{file}\": {why}")).at(Place::Argument(0));
+    let told = |why: String| call.error(format!("\"{file}\": {why}")).at(CallPart::Argument(0));
     let text = String::from_utf8(bytes).map_err(|_| told("it is not UTF-8 text".into()))?;
-    let sheet = Sheet::parse(&text).map_err(|error| told(error.to_string()))?;
+    let sheet = ParsedCsv::parse(&text).map_err(|error| told(error.to_string()))?;
     if sheet.is_empty() {
         return Err(told("it has no rows".into()));
     }

@@ -51,11 +51,11 @@ mod tracks;
 mod vectors;
 mod viewers;
 
-use crate::script::rows::table::Table;
+use crate::script::bindings::table::BindingTable;
 pub use language::language;
 
 /// The domains of the language, in the order of the reference.
-pub const TABLES: &[&Table] = &[
+pub const TABLES: &[&BindingTable] = &[
     &math::TABLE,
     &vectors::TABLE,
     &geometry::knots::TABLE,

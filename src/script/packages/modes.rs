@@ -8,21 +8,23 @@ use super::scenes::{SCENE, STATION};
 use super::simulations::SIMULATION;
 use super::vectors::VECTOR;
 use crate::geometry::Vec2;
-use crate::model::{Model, Scene};
-use crate::output::{Cell, Table as TextTable, significant};
+use crate::output::{Cell, TextTable, significant};
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::{Scripted, Type};
+use crate::script::bindings::parameter::{Parameter, Presence, object, whole};
+use crate::script::bindings::returns::Returns;
+use crate::script::bindings::table::{
+    BindingTable, FunctionBinding, NativeFunction, method, property,
+};
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::simulation::SimulationHandle;
 use crate::script::handles::station::StationHandle;
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::{Scripted, Type};
-use crate::script::rows::parameter::{Parameter, Presence, object, whole};
-use crate::script::rows::returns::Returns;
-use crate::script::rows::table::{Body, Row, Table, method, property};
-use crate::script::words::error::{Place, ScriptError};
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::system::{Scene, System};
 use crate::vibration::{DampedMode, Mode, Modes, VibrationError};
 
 /// The domain of natural modes.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "modes",
     doc: "How a scene vibrates by little about a configuration: natural frequencies and their shapes, the lowest first. A \
           movement that meets no resistance has frequency 0.",
@@ -33,7 +35,7 @@ pub const TABLE: Table = Table {
         method(SCENE, "modes", &[COUNT], |call| {
             let handle = call.receiver::<SceneHandle>()?;
             let scene = handle.scene().borrow().clone();
-            let model = Model::assemble(&scene)?;
+            let model = System::assemble(&scene)?;
             expect_room(call, &model)?;
             let modes = look(call, |count, goes_on| Modes::of(&model, count, goes_on))?;
             Ok(Dynamic::from(ModesHandle::drawn(handle, &scene, modes)))
@@ -62,7 +64,7 @@ pub const TABLE: Table = Table {
         .example("let sim = scene.start(#{ dt: 0.1 });\nlet drawn = scene.modes(1).angular_frequencies;\ncheck(sim.modes(1).angular_frequencies == drawn);"),
         method(SCENE, "damped_modes", &[COUNT], |call| {
             let handle = call.receiver::<SceneHandle>()?;
-            let model = Model::assemble(&handle.scene().borrow())?;
+            let model = System::assemble(&handle.scene().borrow())?;
             look_for_damped(call, &model)
         })
         .returns(Returns::ARRAY)
@@ -125,7 +127,7 @@ pub const TABLE: Table = Table {
             let (mode, count) = (call.count("mode")?, handle.0.modes.all().len());
             if mode >= count {
                 let told = format!("mode {mode} was asked for, but there are {count}, counted from 0");
-                return Err(call.error(told).hint(format!("give 0 to {}", count - 1)).at(Place::Argument(0)));
+                return Err(call.error(told).hint(format!("give 0 to {}", count - 1)).at(CallPart::Argument(0)));
             }
             let station = call.get::<StationHandle>("station")?;
             let place = station.within(&handle.0.of, &handle.0.scene, handle.0.modes.meshes())?;
@@ -151,18 +153,18 @@ pub const MODES: Type = Type::of::<ModesHandle>();
 
 /// A handle on modes that a script holds, with the scene that has them.
 #[derive(Clone)]
-pub struct ModesHandle(Rc<Held>);
+pub struct ModesHandle(Rc<ModesData>);
 
-struct Held {
+struct ModesData {
     of: SceneHandle,
     scene: Scene,
     modes: Modes,
-    about: About,
+    about: ModesReference,
 }
 
 /// The configuration about which something vibrates.
 #[derive(Clone, Copy, PartialEq)]
-enum About {
+enum ModesReference {
     /// That of the scene as drawn, in which no load has done anything yet.
     Drawn,
     /// One in which loads act, at rest or in motion.
@@ -172,12 +174,12 @@ enum About {
 impl ModesHandle {
     /// A handle on modes about an equilibrium or a present configuration of a scene as it was built.
     pub fn new(of: SceneHandle, scene: &Scene, modes: Modes) -> Self {
-        Self(Rc::new(Held { of, scene: scene.clone(), modes, about: About::Loaded }))
+        Self(Rc::new(ModesData { of, scene: scene.clone(), modes, about: ModesReference::Loaded }))
     }
 
     /// A handle on modes of a scene as drawn.
     fn drawn(of: SceneHandle, scene: &Scene, modes: Modes) -> Self {
-        Self(Rc::new(Held { of, scene: scene.clone(), modes, about: About::Drawn }))
+        Self(Rc::new(ModesData { of, scene: scene.clone(), modes, about: ModesReference::Drawn }))
     }
 
     /// The scene that has the modes, as it was built, and the modes of the handle.
@@ -216,9 +218,9 @@ impl Scripted for ModesHandle {
             table.row([number, shown(mode.angular_frequency()), period, Cell::Text(remark)]);
         }
         let mut shown = table.to_string().trim_end().to_owned();
-        let Held { scene, about, .. } = &*self.0;
+        let ModesData { scene, about, .. } = &*self.0;
         let acts = scene.loads().next().is_some() || scene.gravity != Vec2::zeros();
-        if *about == About::Drawn && acts {
+        if *about == ModesReference::Drawn && acts {
             shown += "\nof the scene as drawn: what its loads and its weight change, as of a pendulum, is in scene.equilibrium().modes(n)";
         }
         shown
@@ -226,7 +228,7 @@ impl Scripted for ModesHandle {
 }
 
 /// Checks that there is memory for as many modes as the call asks for.
-pub(super) fn expect_room(call: &Call, model: &Model) -> Result<(), ScriptError> {
+pub(super) fn expect_room(call: &Call, model: &System) -> Result<(), ScriptError> {
     let needed = Modes::memory(model, call.count("count")?);
     call.context().expect_room("so many modes of so large a scene", needed)
 }
@@ -244,7 +246,7 @@ pub(super) fn look(
 }
 
 /// Looks for as many damped vibrations of a model as the call asks for, until the run is stopped.
-pub(super) fn look_for_damped(call: &Call, model: &Model) -> Result<Dynamic, ScriptError> {
+pub(super) fn look_for_damped(call: &Call, model: &System) -> Result<Dynamic, ScriptError> {
     let context = call.context();
     let found = match DampedMode::of(model, call.count("count")?, &mut || !context.is_stopped()) {
         Err(VibrationError::Interrupted) => {
@@ -264,7 +266,7 @@ pub(super) fn look_for_damped(call: &Call, model: &Model) -> Result<Dynamic, Scr
     Ok(found.iter().map(told).collect::<Array>().into())
 }
 
-const fn told(name: &'static str, returns: Returns, body: Body) -> Row {
+const fn told(name: &'static str, returns: Returns, body: NativeFunction) -> FunctionBinding {
     property(MODES, name, body).returns(returns)
 }
 

@@ -3,13 +3,13 @@
 use rhai::{Array, Dynamic};
 
 use super::simulations::{SIMULATION, SPINNING};
+use crate::script::bindings::returns::{Returns, ValueKind};
+use crate::script::bindings::table::{BindingTable, property};
 use crate::script::handles::notes::Printing;
 use crate::script::handles::simulation::SimulationHandle;
-use crate::script::rows::returns::{Returns, ValueKind};
-use crate::script::rows::table::{Table, property};
 
 /// The domain of notes on what steps do not resolve.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "notes",
     doc: "Steps may keep energy and momenta to rounding and be too long to mean anything. While a simulation runs, it measures how well its \
           steps resolve what happens: vibration that they do not follow, sections that turn far in a step, sliders that pass many \

@@ -17,12 +17,12 @@ use subjects::{MOVING, RECORDED};
 use tables::{write_history, write_states};
 
 use super::simulations::{SIMULATION, SPINNING};
-use crate::script::rows::kind::Kind;
-use crate::script::rows::parameter::{either, options};
-use crate::script::rows::table::{Table, function};
+use crate::script::bindings::kind::Kind;
+use crate::script::bindings::parameter::{either, options};
+use crate::script::bindings::table::{BindingTable, function};
 
 /// The domain of pictures and files.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "pictures",
     doc: "Pictures are SVG or PNG by the ending of the file name, tables are CSV; all go into the output folder. Given an \
           array of simulations, a picture shows them side by side.",

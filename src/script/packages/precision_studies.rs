@@ -5,22 +5,22 @@ use std::rc::Rc;
 use rhai::{Array, Dynamic};
 
 use crate::analysis::Precision;
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::{Details, Kind, Range, Scripted, Type};
-use crate::script::rows::parameter::{Parameter, either, number, options};
-use crate::script::rows::returns::{Returns, ValueKind};
-use crate::script::rows::table::{Row, Table, function, method, property};
-use crate::script::state::settings::Mode;
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::{Details, Kind, NumberRange, Scripted, Type};
+use crate::script::bindings::parameter::{Parameter, either, number, options};
+use crate::script::bindings::returns::{Returns, ValueKind};
+use crate::script::bindings::table::{BindingTable, FunctionBinding, function, method, property};
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::messages::numbers::{as_number, format_number};
+use crate::script::state::settings::RunMode;
 use crate::script::studies::options::{ErrorOptions, FinestOptions, PRECISION_KEYS, TimedOptions};
 use crate::script::studies::precision::study;
 use crate::script::studies::precision_comparison::comparison;
 use crate::script::studies::precision_rows::{map_of, table};
 use crate::script::studies::reference::FinestRun;
-use crate::script::words::error::{Place, ScriptError};
-use crate::script::words::numbers::{as_number, format_number};
 
 /// The domain of studies of error against run time.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "error against run time",
     doc: "A study runs a scene in many ways and says what they say together. withy study FILE keeps what is finished when it is \
           interrupted, and goes on there the next time.",
@@ -116,12 +116,15 @@ const SETUP: &str = "let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho
     let study = study_work_precision(#{ name: \"first\", scene: spinning, meshes: [bspline(2)], \
     integrators: [energy_momentum()], dts: [0.1], times: [1], repeats: 1 });";
 
-const ERRORS: Parameter =
-    either("error", &[Kind::Number(Range::Positive), Kind::Numbers]).doc("an error, or several");
+const ERRORS: Parameter = either("error", &[Kind::Number(NumberRange::Positive), Kind::Numbers])
+    .doc("an error, or several");
 
 const ERROR: Parameter = number("error").positive().doc("an error");
 
-const fn of_study(name: &'static str, body: crate::script::rows::table::Body) -> Row {
+const fn of_study(
+    name: &'static str,
+    body: crate::script::bindings::table::NativeFunction,
+) -> FunctionBinding {
     property(PRECISION, name, body)
 }
 
@@ -162,12 +165,12 @@ fn cheapest(call: &mut Call) -> Result<Dynamic, ScriptError> {
             Some(wrong) => Err(call
                 .error(format!("error holds {}", format_number(*wrong)))
                 .hint("errors are positive numbers")
-                .at(Place::Argument(0))),
+                .at(CallPart::Argument(0))),
             None => Ok(comparison(&study, &errors).into()),
         };
     };
     // A check of a script needs some row, for it has none that ran.
-    let pretended = study.rows.first().filter(|_| call.context().mode() == Mode::DryBuild);
+    let pretended = study.rows.first().filter(|_| call.context().mode() == RunMode::DryBuild);
     let row = pretended.or_else(|| study.cheapest(error));
     Ok(row.map_or(Dynamic::UNIT, |row| map_of(&study, row).into()))
 }

@@ -3,17 +3,17 @@
 use rhai::{Array, Dynamic, Map};
 
 use crate::geometry::Vec2;
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::{Kind, Range};
-use crate::script::rows::parameter::{anything, text};
-use crate::script::rows::returns::Returns;
-use crate::script::rows::table::{Table, function};
-use crate::script::words::error::{Place, ScriptError};
-use crate::script::words::nouns::with_article;
-use crate::script::words::suggest::nearest;
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::{Kind, NumberRange};
+use crate::script::bindings::parameter::{anything, text};
+use crate::script::bindings::returns::Returns;
+use crate::script::bindings::table::{BindingTable, function};
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::messages::nouns::with_article;
+use crate::script::messages::suggest::nearest;
 
 /// The domain of options and arguments of a script's own functions.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "options of functions",
     doc: "What a function of a script needs to take options and arguments as the functions of withy do.",
     types: &[],
@@ -72,13 +72,13 @@ pub const TABLE: Table = Table {
 /// The words for kinds; all other words are names of types.
 const KINDS: &[(&str, Kind)] = &[
     ("a value", Kind::Anything),
-    ("a number", Kind::Number(Range::Finite)),
-    ("a positive number", Kind::Number(Range::Positive)),
-    ("a number of zero or more", Kind::Number(Range::NonNegative)),
-    ("any number", Kind::Number(Range::Unlimited)),
-    ("a whole number", Kind::Whole(Range::Finite)),
-    ("a positive whole number", Kind::Whole(Range::Positive)),
-    ("a whole number of zero or more", Kind::Whole(Range::NonNegative)),
+    ("a number", Kind::Number(NumberRange::Finite)),
+    ("a positive number", Kind::Number(NumberRange::Positive)),
+    ("a number of zero or more", Kind::Number(NumberRange::NonNegative)),
+    ("any number", Kind::Number(NumberRange::Unlimited)),
+    ("a whole number", Kind::Whole(NumberRange::Finite)),
+    ("a positive whole number", Kind::Whole(NumberRange::Positive)),
+    ("a whole number of zero or more", Kind::Whole(NumberRange::NonNegative)),
     ("a text", Kind::Text),
     ("true or false", Kind::Boolean),
     ("a point", Kind::Point),
@@ -90,7 +90,7 @@ const KINDS: &[(&str, Kind)] = &[
 ];
 
 /// An option as a script describes it.
-struct Known {
+struct OptionInfo {
     name: String,
     wanted: String,
     /// What holds when it is left out; without it, the option must be given.
@@ -102,16 +102,16 @@ fn read_options(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let mut given = map(call, "options", &owner)?;
     let known = map(call, "known", "read_options")?;
     let known = known.into_iter().map(|(name, told)| described(call, name.to_string(), &told));
-    let known: Vec<Known> = known.collect::<Result<_, _>>()?;
+    let known: Vec<OptionInfo> = known.collect::<Result<_, _>>()?;
     if let Some(unknown) = given.keys().find(|name| !known.iter().any(|key| key.name == **name)) {
         return Err(unknown_option(&owner, unknown, &known));
     }
     let mut options = Map::new();
-    for Known { name, wanted, default } in known {
+    for OptionInfo { name, wanted, default } in known {
         let value = match (given.remove(name.as_str()), default) {
             (Some(value), Some(default)) if value.is_unit() && default.is_unit() => value,
             (Some(value), _) => accept(call, &owner, &name, &wanted, value)
-                .map_err(|error| error.at(Place::Key(name.clone())))?,
+                .map_err(|error| error.at(CallPart::Key(name.clone())))?,
             (None, Some(default)) => default,
             (None, None) => {
                 let told = format!("{owner}: the option '{name}' is missing");
@@ -129,7 +129,7 @@ fn read_argument(call: &mut Call) -> Result<Dynamic, ScriptError> {
 }
 
 /// Reads `"a number"` and `["a number", default]`.
-fn described(call: &Call, name: String, told: &Dynamic) -> Result<Known, ScriptError> {
+fn described(call: &Call, name: String, told: &Dynamic) -> Result<OptionInfo, ScriptError> {
     let parts = told.read_lock::<Array>();
     let (wanted, default) = match parts.as_deref().map(Vec::as_slice) {
         Some([wanted, default]) => (wanted, Some(default.clone())),
@@ -139,10 +139,10 @@ fn described(call: &Call, name: String, told: &Dynamic) -> Result<Known, ScriptE
         let got = call.describe(told);
         call.error(format!("'{name}' must be told in words or as [words, default], got {got}"))
     })?;
-    Ok(Known { name, wanted: wanted.to_string(), default })
+    Ok(OptionInfo { name, wanted: wanted.to_string(), default })
 }
 
-fn unknown_option(owner: &str, unknown: &str, known: &[Known]) -> ScriptError {
+fn unknown_option(owner: &str, unknown: &str, known: &[OptionInfo]) -> ScriptError {
     let meant = nearest(unknown, known.iter().map(|key| key.name.as_str()));
     let meant = meant.map(|name| format!("did you mean '{name}'? ")).unwrap_or_default();
     let names = known.iter().map(|key| match key.default {
@@ -151,7 +151,7 @@ fn unknown_option(owner: &str, unknown: &str, known: &[Known]) -> ScriptError {
     });
     ScriptError::new(format!("{owner}: unknown option '{unknown}'"))
         .hint(format!("{meant}known options: {}", names.collect::<Vec<_>>().join(", ")))
-        .at(Place::Key(unknown.to_owned()))
+        .at(CallPart::Key(unknown.to_owned()))
 }
 
 /// The value in the form that scripts use, if it is what was `wanted`.

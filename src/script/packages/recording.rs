@@ -5,18 +5,18 @@ use std::num::NonZeroUsize;
 use rhai::Dynamic;
 
 use super::simulations::SPINNING;
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::{Scripted, Type};
+use crate::script::bindings::parameter::whole;
+use crate::script::bindings::returns::Returns;
+use crate::script::bindings::table::{BindingTable, function};
 use crate::script::handles::simulation::SimulationHandle;
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::{Scripted, Type};
-use crate::script::rows::parameter::whole;
-use crate::script::rows::returns::Returns;
-use crate::script::rows::table::{Table, function};
-use crate::script::words::error::{Place, ScriptError};
-use crate::script::words::numbers::format_number;
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::messages::numbers::format_number;
 use crate::simulation::Recording;
 
 /// The domain of recording: which states of a run get a row.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "recording",
     doc: "A simulation records every step: a row in its history, a configuration for pictures. A long run need not: \
           scene.start(#{ …, record: every(100) }). Its start, the end of every run_to, the times of sim.at and the arrivals of \
@@ -104,7 +104,7 @@ pub(super) fn tell_another_run(
     let more = "start it with the option snapshots: 1000 to keep more states";
     if is_asked {
         let hint = format!("{more}, or write #{{ {} }}", missing.instead);
-        return Err(call.error(told).hint(hint).at(Place::Key("fields".into())));
+        return Err(call.error(told).hint(hint).at(CallPart::Key("fields".into())));
     }
     call.context().tell(&format!("note: {told}: {} are not written; {more}", missing.what));
     Ok(())

@@ -6,22 +6,22 @@ use super::scenes::{JOINT, SCENE};
 use super::simulations::SIMULATION;
 use super::sliding::{SLIDER, SliderHandle};
 use super::springs::{SPRING, SpringHandle};
-use crate::joints::{Hold, Release, Trigger};
-use crate::model::ModelError;
+use crate::joints::{Releasable, Release, Trigger};
+use crate::script::bindings::call::Call;
+use crate::script::bindings::key_sets::{KeySet, KeySets};
+use crate::script::bindings::kind::Kind;
+use crate::script::bindings::parameter::{Parameter, callback, either, number, options};
+use crate::script::bindings::returns::{Returns, ValueKind};
+use crate::script::bindings::table::{BindingTable, method, property};
 use crate::script::handles::joint::JointHandle;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::simulation::SimulationHandle;
-use crate::script::rows::call::Call;
-use crate::script::rows::key_sets::{KeySet, KeySets};
-use crate::script::rows::kind::Kind;
-use crate::script::rows::parameter::{Parameter, callback, either, number, options};
-use crate::script::rows::returns::{Returns, ValueKind};
-use crate::script::rows::table::{Table, method, property};
-use crate::script::words::error::{Place, ScriptError};
-use crate::script::words::suggest::nearest;
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::messages::suggest::nearest;
+use crate::system::SystemError;
 
 /// The domain of releases.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "releases",
     doc: "A joint, a slider, a spring or a drive lets go in the course of a run. Places and velocities go on as they are, so that energy and momenta of the \
           bodies stay to the last bit; accelerations jump. What a spring stores when it lets go counts as dissipated, as when it snaps. At rest, in \
@@ -62,17 +62,22 @@ const RELEASE_KEYS: &[Parameter] = &[
 
 /// How it is said when something lets go.
 #[derive(Clone, Copy)]
-enum Said {
+enum ReleaseWording {
     At,
     When,
 }
 
-const SAID: KeySets<Said> = KeySets {
+const SAID: KeySets<ReleaseWording> = KeySets {
     told: "give at, a time, or when, a condition |q| …",
     besides: &[],
     sets: &[
-        KeySet { meaning: Said::At, told: "a time", keys: &["at"], chosen_by: None },
-        KeySet { meaning: Said::When, told: "a condition", keys: &["when"], chosen_by: None },
+        KeySet { meaning: ReleaseWording::At, told: "a time", keys: &["at"], chosen_by: None },
+        KeySet {
+            meaning: ReleaseWording::When,
+            told: "a condition",
+            keys: &["when"],
+            chosen_by: None,
+        },
     ],
 };
 
@@ -81,8 +86,8 @@ fn release(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let hold = hold(call, &handle)?;
     let options = call.options("options")?;
     let (trigger, condition) = match SAID.choose("release", &options)? {
-        Said::At => (Trigger::Time(options.number("at")?), None),
-        Said::When => {
+        ReleaseWording::At => (Trigger::Time(options.number("at")?), None),
+        ReleaseWording::When => {
             let function = options.callback("when")?;
             let shape = "when: |q| q.t > 0.5, q being the simulation";
             call.expect_arguments(&function, 1, shape)?;
@@ -91,8 +96,8 @@ fn release(call: &mut Call) -> Result<Dynamic, ScriptError> {
     };
     handle.shared().borrow_mut().add_release(Release { hold, trigger }).map_err(|error| {
         let place = match error {
-            ModelError::Value { .. } => Place::Key("at".into()),
-            _ => Place::Argument(0),
+            SystemError::Value { .. } => CallPart::Key("at".into()),
+            _ => CallPart::Argument(0),
         };
         ScriptError::from(error).at(place)
     })?;
@@ -103,16 +108,16 @@ fn release(call: &mut Call) -> Result<Dynamic, ScriptError> {
 }
 
 /// What is to let go: it is given itself, or by its name.
-fn hold(call: &Call, handle: &SceneHandle) -> Result<Hold, ScriptError> {
+fn hold(call: &Call, handle: &SceneHandle) -> Result<Releasable, ScriptError> {
     if let Some(joint) = call.get_if::<JointHandle>("what") {
         handle.expect_same(&joint.scene, "joint")?;
-        return Ok(Hold::Joint(joint.index));
+        return Ok(Releasable::Joint(joint.index));
     }
     if let Some(slider) = call.get_if::<SliderHandle>("what") {
-        return Ok(Hold::Slider(slider.within(handle)?));
+        return Ok(Releasable::Slider(slider.within(handle)?));
     }
     if let Some(spring) = call.get_if::<SpringHandle>("what") {
-        return Ok(Hold::Spring(spring.within(handle)?));
+        return Ok(Releasable::Spring(spring.within(handle)?));
     }
     let (name, holds) = (call.text("what")?, handle.scene().borrow().holds());
     if let Some((_, hold)) = holds.iter().find(|(known, _)| *known == name.as_str()) {
@@ -128,7 +133,7 @@ fn hold(call: &Call, handle: &SceneHandle) -> Result<Hold, ScriptError> {
         return Err(call
             .error(told)
             .hint("a force or torque ends by its schedule: hold_for(0.5)")
-            .at(Place::Argument(0)));
+            .at(CallPart::Argument(0)));
     }
     let hint = match nearest(&name, holds.iter().map(|(known, _)| known.as_str())) {
         Some(meant) => format!("did you mean \"{meant}\"?"),
@@ -139,7 +144,7 @@ fn hold(call: &Call, handle: &SceneHandle) -> Result<Hold, ScriptError> {
         }
     };
     let told = format!("there is no joint, slider, spring or drive '{name}'");
-    Err(call.error(told).hint(hint).at(Place::Argument(0)))
+    Err(call.error(told).hint(hint).at(CallPart::Argument(0)))
 }
 
 fn releases(call: &mut Call) -> Result<Dynamic, ScriptError> {

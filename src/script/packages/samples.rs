@@ -3,17 +3,17 @@
 use rhai::Dynamic;
 
 use crate::sampling::Distribution;
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::{Scripted, Type};
-use crate::script::rows::parameter::{Parameter, Presence, number, whole};
-use crate::script::rows::returns::Returns;
-use crate::script::rows::table::{Body, Row, Table, function};
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::{Scripted, Type};
+use crate::script::bindings::parameter::{Parameter, Presence, number, whole};
+use crate::script::bindings::returns::Returns;
+use crate::script::bindings::table::{BindingTable, FunctionBinding, NativeFunction, function};
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::messages::numbers::format_number;
 use crate::script::studies::sweeps::design::{SampleKind, Samples};
-use crate::script::words::error::{Place, ScriptError};
-use crate::script::words::numbers::format_number;
 
 /// The domain of distributions and samples.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "samples",
     doc: "Distributions of parameters, and points at which they are taken together. Random numbers are those of ChaCha with twelve rounds, started by the \
           seed: equal seeds give equal points on every machine.",
@@ -53,7 +53,7 @@ pub const TABLE: Table = Table {
                 false => {
                     let [mode, from, to] = [mode, from, to].map(format_number);
                     let told = format!("the likeliest number {mode} is not between {from} and {to}");
-                    Err(call.error(told).hint("write triangular(from, likeliest, to)").at(Place::Argument(1)))
+                    Err(call.error(told).hint("write triangular(from, likeliest, to)").at(CallPart::Argument(1)))
                 }
             }
         })
@@ -91,11 +91,19 @@ const DEVIATION: Parameter = number("deviation").positive();
 const COUNT: Parameter = whole("count").positive();
 const SEED: Parameter = whole("seed").non_negative().or(Presence::Whole(0));
 
-const fn spread(name: &'static str, parameters: &'static [Parameter], body: Body) -> Row {
+const fn spread(
+    name: &'static str,
+    parameters: &'static [Parameter],
+    body: NativeFunction,
+) -> FunctionBinding {
     function(name, parameters, body).returns(Returns::object(DISTRIBUTION)).see(&["study_sweep"])
 }
 
-const fn points(name: &'static str, parameters: &'static [Parameter], body: Body) -> Row {
+const fn points(
+    name: &'static str,
+    parameters: &'static [Parameter],
+    body: NativeFunction,
+) -> FunctionBinding {
     function(name, parameters, body).returns(Returns::object(SAMPLES))
 }
 
@@ -132,7 +140,7 @@ fn ends(call: &Call) -> Result<(f64, f64), ScriptError> {
         true => Ok((from, to)),
         false => {
             let told = format!("it goes from {} to {}", format_number(from), format_number(to));
-            Err(call.error(told).hint("give the smaller number first").at(Place::Argument(0)))
+            Err(call.error(told).hint("give the smaller number first").at(CallPart::Argument(0)))
         }
     }
 }

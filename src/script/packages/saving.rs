@@ -11,6 +11,10 @@ use super::sliding::SLIDER;
 use super::sliding::SliderHandle;
 use super::tracks::TRACK;
 use crate::beams::Station;
+use crate::script::bindings::call::Call;
+use crate::script::bindings::parameter::{Parameter, array, text};
+use crate::script::bindings::returns::{Returns, ValueKind};
+use crate::script::bindings::table::{BindingTable, function, method, property};
 use crate::script::handles::beam::BeamHandle;
 use crate::script::handles::notes::Notes;
 use crate::script::handles::rigid_body::RigidBodyHandle;
@@ -18,16 +22,12 @@ use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::simulation::SimulationHandle;
 use crate::script::handles::station::StationHandle;
 use crate::script::handles::track::TrackHandle;
-use crate::script::rows::call::Call;
-use crate::script::rows::parameter::{Parameter, array, text};
-use crate::script::rows::returns::{Returns, ValueKind};
-use crate::script::rows::table::{Table, function, method, property};
-use crate::script::words::error::{Place, ScriptError};
-use crate::script::words::suggest::nearest;
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::messages::suggest::nearest;
 use crate::simulation::Simulation;
 
 /// The domain of saving and loading simulations.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "saving",
     doc: "A simulation can be saved and loaded, also by another script, and goes on bit for bit. What a loaded scene holds is found by name.",
     types: &[],
@@ -140,7 +140,7 @@ fn save(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let file =
         file.map_err(|error| call.error(format!("'{}': {error}", handle.name())).advised(&error))?;
     let written = call.context().write_to_read(&call.text("file")?, file);
-    written.map_err(|error| error.at(Place::Argument(0)))?;
+    written.map_err(|error| error.at(CallPart::Argument(0)))?;
     let waiting = handle.events_waiting();
     if waiting > 0 {
         call.context().tell(&format!(
@@ -159,11 +159,11 @@ fn save(call: &mut Call) -> Result<Dynamic, ScriptError> {
 
 fn load(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let name = call.text("file")?;
-    let file = call.context().read_file(&name).map_err(|error| error.at(Place::Argument(0)))?;
+    let file = call.context().read_file(&name).map_err(|error| error.at(CallPart::Argument(0)))?;
     let loaded = Simulation::from_bytes(&file);
     let (name, mut simulation) = loaded.map_err(|error| {
         let refused = call.error(format!("cannot load \"{name}\": {error}"));
-        refused.advised(&error).at(Place::Argument(0))
+        refused.advised(&error).at(CallPart::Argument(0))
     })?;
     simulation.keep_snapshots(call.context().snapshots());
     let scene = SceneHandle::new(simulation.scene().clone());
@@ -180,7 +180,7 @@ fn load(call: &mut Call) -> Result<Dynamic, ScriptError> {
 fn find(
     call: &Call,
     kind: &str,
-    names: fn(&crate::model::Scene) -> Vec<&String>,
+    names: fn(&crate::system::Scene) -> Vec<&String>,
 ) -> Result<usize, ScriptError> {
     let name = call.text("name")?;
     let handle = call.receiver::<SceneHandle>()?;
@@ -196,6 +196,6 @@ fn find(
         };
         call.error(format!("the scene '{}' has no {kind} \"{name}\"", scene.name))
             .hint(format!("{suggestion}{known}"))
-            .at(Place::Argument(0))
+            .at(CallPart::Argument(0))
     })
 }

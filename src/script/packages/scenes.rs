@@ -6,31 +6,31 @@ use rhai::Dynamic;
 
 use super::geometry::CURVE;
 use super::sections::{MESH_KINDS, SECTION, mesh_of};
-use crate::beams::{Mesh, TaperSeen};
+use crate::beams::{Mesh, TaperQuadrature};
 use crate::geometry::{Curve, Vec2};
 use crate::joints::{JointKind, Partner};
-use crate::model::{
-    BeamDefinition, ModelError, ParticleDefinition, PointMass, Scene, StartMotion, StationVelocity,
-};
 use crate::output::significant;
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::Type;
+use crate::script::bindings::options::Options;
+use crate::script::bindings::parameter::{
+    Parameter, Presence, either, name, number, object, options, point, text,
+};
+use crate::script::bindings::returns::Returns;
+use crate::script::bindings::table::{BindingTable, function, method, property};
 use crate::script::handles::beam::BeamHandle;
 use crate::script::handles::joint::JointHandle;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::section::SectionHandle;
 use crate::script::handles::station::{StationHandle, here};
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::Type;
-use crate::script::rows::options::Options;
-use crate::script::rows::parameter::{
-    Parameter, Presence, either, name, number, object, options, point, text,
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::messages::numbers::format_number;
+use crate::system::{
+    BeamDefinition, ParticleDefinition, PointMass, Scene, StartMotion, StationVelocity, SystemError,
 };
-use crate::script::rows::returns::Returns;
-use crate::script::rows::table::{Table, function, method, property};
-use crate::script::words::error::{Place, ScriptError};
-use crate::script::words::numbers::format_number;
 
 /// The domain of scenes and what stands in them.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "scenes",
     doc: "A scene is a description: beams, particles, joints, masses and loads. scene.start(…) makes a simulation of it.",
     types: &[SCENE, BEAM, STATION, JOINT],
@@ -239,13 +239,13 @@ fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
         motion,
     };
     let added = scene.scene().borrow_mut().add_beam(definition);
-    let index = added.map_err(|error| ScriptError::from(error).at(Place::Key("name".into())))?;
+    let index = added.map_err(|error| ScriptError::from(error).at(CallPart::Key("name".into())))?;
     if let Some(relaxation) = relaxation {
         scene.scene().borrow_mut().add_damping(index, relaxation)?;
     }
     tell_of_taper(call, &scene, index)?;
     // The call for the scene itself comes last: those beside have their beams.
-    scene.expect_length_beside(index).map_err(|error| error.at(Place::Key("axis".into())))?;
+    scene.expect_length_beside(index).map_err(|error| error.at(CallPart::Key("axis".into())))?;
     Ok(Dynamic::from(BeamHandle { scene, index }))
 }
 
@@ -253,7 +253,7 @@ fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
 fn tell_of_taper(call: &Call, scene: &SceneHandle, index: usize) -> Result<(), ScriptError> {
     let scene = scene.scene().borrow();
     let BeamDefinition { name, section, mesh, .. } = &scene.beams[index];
-    let seen = TaperSeen::of(section, mesh)?;
+    let seen = TaperQuadrature::of(section, mesh)?;
     if seen.largest() < MISSED {
         return Ok(());
     }
@@ -282,8 +282,8 @@ fn particle(call: &mut Call) -> Result<Dynamic, ScriptError> {
     };
     let added = scene.scene().borrow_mut().add_particle(definition, call.number("mass")?);
     let station = added.map_err(|error| match error {
-        ModelError::Value { .. } => ScriptError::from(error).at(Place::Argument(1)),
-        _ => ScriptError::from(error).at(Place::Key("name".into())),
+        SystemError::Value { .. } => ScriptError::from(error).at(CallPart::Argument(1)),
+        _ => ScriptError::from(error).at(CallPart::Key("name".into())),
     })?;
     if options.has("velocity") {
         let velocity = options.point("velocity")?;

@@ -4,28 +4,28 @@ use std::rc::Rc;
 
 use rhai::{Dynamic, EvalAltResult, FnPtr};
 
-use crate::loads::{Beat, FunctionError, Operation, Schedule, Side};
-use crate::script::diagnose::Explainer;
-use crate::script::handles::scene::SceneHandle;
-use crate::script::looks::details;
-use crate::script::rows::arguments::Arguments;
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::{Details, Kind, Range, Scripted, Type};
-use crate::script::rows::parameter::{
+use crate::loads::{FunctionError, LimitSide, Operation, SampleClock, Schedule};
+use crate::script::bindings::arguments::Arguments;
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::{Details, Kind, NumberRange, Scripted, Type};
+use crate::script::bindings::parameter::{
     Parameter, Presence, array, callback, number, numbers, object,
 };
-use crate::script::rows::returns::Returns;
-use crate::script::rows::sources::Sources;
-use crate::script::rows::stored::NoNumber;
-use crate::script::rows::table::{Table, function, method, operator};
+use crate::script::bindings::returns::Returns;
+use crate::script::bindings::sources::Sources;
+use crate::script::bindings::stored::NoNumber;
+use crate::script::bindings::table::{BindingTable, function, method, operator};
+use crate::script::diagnose::Explainer;
+use crate::script::handles::scene::SceneHandle;
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::messages::numbers::as_number;
+use crate::script::messages::raised::Raised;
+use crate::script::presentation::details;
 use crate::script::source::program::Program;
 use crate::script::state::context::Context;
-use crate::script::words::error::{Place, ScriptError};
-use crate::script::words::numbers::as_number;
-use crate::script::words::raised::Raised;
 
 /// The domain of schedules: factors of loads over time.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "schedules",
     doc: "A schedule is a factor over time that multiplies a load. Steps end where a schedule jumps or bends.",
     types: &[SCHEDULE],
@@ -82,7 +82,7 @@ pub const TABLE: Table = Table {
             .doc("It is called two or three times a step, never inside the iteration. A jump that is not declared costs accuracy.")
             .example("let load = schedule(|t| exp(-t) * sin(3 * t));\ncheck(load.at(0) == 0);"),
         method(SCHEDULE, "at", &[number("t").unit("time")], |call| {
-            Ok(call.receiver::<Schedule>()?.value(call.number("t")?, Side::After)?.into())
+            Ok(call.receiver::<Schedule>()?.value(call.number("t")?, LimitSide::After)?.into())
         })
         .returns(Returns::NUMBER)
         .summary("The factor at a time, just after it where it jumps.")
@@ -135,7 +135,7 @@ pub const TABLE: Table = Table {
 pub const SCHEDULE: Type = Type::of::<Schedule>();
 /// The kinds of value that may stand for a schedule: one, a number that is constant, or a function of time.
 pub const SCHEDULE_KINDS: &[Kind] =
-    &[Kind::Object(SCHEDULE), Kind::Number(Range::Finite), Kind::Function];
+    &[Kind::Object(SCHEDULE), Kind::Number(NumberRange::Finite), Kind::Function];
 
 /// How often a controller is asked, among the options of a load or a drive.
 pub(super) const SAMPLE: Parameter = number("sample").positive().unit("time").doc(
@@ -245,7 +245,7 @@ pub(super) fn controlled_schedule_of(
     arguments: &Arguments,
     name: &str,
     scene: &SceneHandle,
-    beat: Option<Beat>,
+    beat: Option<SampleClock>,
 ) -> Result<Schedule, ScriptError> {
     let Some(function) = arguments.get_if::<FnPtr>(name) else {
         return schedule_of(call, arguments, name);
@@ -264,16 +264,16 @@ pub(super) fn controlled_schedule_of(
 }
 
 /// The beat of controllers among the options of a load or a drive, if one is given.
-pub(super) fn beat_of(options: &Arguments) -> Result<Option<Beat>, ScriptError> {
+pub(super) fn beat_of(options: &Arguments) -> Result<Option<SampleClock>, ScriptError> {
     let delay = options.number_if_given("delay").unwrap_or(0.0);
-    let beat = options.number_if_given("sample").map(|period| Beat::new(period, delay));
+    let beat = options.number_if_given("sample").map(|period| SampleClock::new(period, delay));
     Ok(beat.transpose()?)
 }
 
 /// Refuses a beat where none of these schedules is a controller.
 pub(super) fn expect_controller<'a>(
     call: &Call,
-    beat: Option<Beat>,
+    beat: Option<SampleClock>,
     mut schedules: impl Iterator<Item = &'a Schedule>,
 ) -> Result<(), ScriptError> {
     if beat.is_none() || schedules.any(Schedule::is_sampled) {
@@ -281,5 +281,5 @@ pub(super) fn expect_controller<'a>(
     }
     let told = "sample is how often a controller is asked, and there is none";
     let hint = "give a function of time and simulation, |t, q| …, or leave out sample";
-    Err(call.error(told).hint(hint).at(Place::Key("sample".into())))
+    Err(call.error(told).hint(hint).at(CallPart::Key("sample".into())))
 }

@@ -7,23 +7,25 @@ use rhai::{Dynamic, INT};
 use super::geometry::KNOTS;
 
 use crate::beams::{
-    BeamError, Mesh, Quadrature, Relaxation, Section, SectionVariation, Shape, Solid,
+    BeamError, Mesh, Quadrature, Relaxation, Section, SectionShape, SectionVariation, Solid,
 };
 use crate::geometry::{Basis, KnotVector};
+use crate::script::bindings::arguments::Arguments;
+use crate::script::bindings::call::Call;
+use crate::script::bindings::key_sets::{KeySet, KeySets};
+use crate::script::bindings::kind::{Details, Kind, NumberRange, Scripted, Type};
+use crate::script::bindings::options::Options;
+use crate::script::bindings::parameter::{
+    Parameter, Presence, choice, either, number, options, whole,
+};
+use crate::script::bindings::returns::Returns;
+use crate::script::bindings::table::{BindingTable, function, property};
 use crate::script::handles::section::SectionHandle;
-use crate::script::looks::details;
-use crate::script::rows::arguments::Arguments;
-use crate::script::rows::call::Call;
-use crate::script::rows::key_sets::{KeySet, KeySets};
-use crate::script::rows::kind::{Details, Kind, Range, Scripted, Type};
-use crate::script::rows::options::Options;
-use crate::script::rows::parameter::{Parameter, Presence, choice, either, number, options, whole};
-use crate::script::rows::returns::Returns;
-use crate::script::rows::table::{Table, function, property};
-use crate::script::words::error::{Place, ScriptError};
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::presentation::details;
 
 /// The domain of sections and meshes.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "sections",
     doc: "What a beam is made of and how it is discretised. Any consistent set of units will do.",
     types: &[SECTION, MESH],
@@ -107,7 +109,7 @@ pub const SECTION: Type = Type::of::<SectionHandle>();
 /// The mesh type of the language, for rows of other domains.
 pub const MESH: Type = Type::of::<Mesh>();
 
-const COUNT: Kind = Kind::Whole(Range::Positive);
+const COUNT: Kind = Kind::Whole(NumberRange::Positive);
 const SECTION_OPTIONS: Parameter = options("options", SECTION_KEYS);
 const SECTION_KEYS: &[Parameter] = &[
     number("EA").unit("force").doc("axial stiffness").optional(),
@@ -244,10 +246,10 @@ fn section_of(options: &Options) -> Result<(Section, Option<Solid>), ScriptError
     let shape = match GIVEN_BY.choose("section", options)? {
         GivenBy::Stiffness => return Ok((from_stiffness(options)?, None)),
         GivenBy::Rectangle => {
-            Shape::Rectangle { width: number("width")?, height: number("height")? }
+            SectionShape::Rectangle { width: number("width")?, height: number("height")? }
         }
-        GivenBy::Circle => Shape::Circle { radius: number("radius")? },
-        GivenBy::Tube => Shape::Tube { outer: number("outer")?, inner: number("inner")? },
+        GivenBy::Circle => SectionShape::Circle { radius: number("radius")? },
+        GivenBy::Tube => SectionShape::Tube { outer: number("outer")?, inner: number("inner")? },
     };
     let (young, poisson, density) = (number("E")?, number("nu")?, number("density")?);
     let solid = Solid { young, poisson, density, shape };
@@ -275,7 +277,7 @@ fn blamed(error: BeamError) -> ScriptError {
     };
     let error = ScriptError::from(error);
     match key {
-        Some(key) => error.at(Place::Key(key.to_owned())),
+        Some(key) => error.at(CallPart::Key(key.to_owned())),
         None => error,
     }
 }
@@ -307,7 +309,7 @@ fn with_quadrature(mesh: Mesh, options: &Options) -> Result<Dynamic, ScriptError
     };
     let mesh = mesh.with_quadrature(quadrature);
     Ok(Dynamic::from(
-        mesh.map_err(|error| ScriptError::from(error).at(Place::Key("quadrature".into())))?,
+        mesh.map_err(|error| ScriptError::from(error).at(CallPart::Key("quadrature".into())))?,
     ))
 }
 

@@ -10,24 +10,24 @@ use super::statistics::map;
 use super::vectors::VECTOR;
 use crate::beams::{SectionForces, Station};
 use crate::geometry::{Vec2, is_on_length};
-use crate::model::{Given, ModelError, Scene, SectionSample};
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::{Kind, Scripted};
+use crate::script::bindings::parameter::{Parameter, callback, either, number, object, text};
+use crate::script::bindings::returns::{Returns, ValueKind};
+use crate::script::bindings::table::{BindingTable, method};
 use crate::script::handles::beam::BeamHandle;
 use crate::script::handles::equilibrium::EquilibriumHandle;
 use crate::script::handles::joint::JointHandle;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::simulation::SimulationHandle;
 use crate::script::handles::station::StationHandle;
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::{Kind, Scripted};
-use crate::script::rows::parameter::{Parameter, callback, either, number, object, text};
-use crate::script::rows::returns::{Returns, ValueKind};
-use crate::script::rows::table::{Table, method};
-use crate::script::words::error::{Place, ScriptError};
-use crate::script::words::suggest::nearest;
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::messages::suggest::nearest;
 use crate::simulation::History;
+use crate::system::{Reactions, Scene, SectionSample, SystemError};
 
 /// Sensors.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "sensors",
     doc: "A scene records what it is asked to: scene.record(\"rod.end.x\") makes a column of the history, which is told, drawn, saved and counted like every other. \
           A ready sensor is an object, a place and a quantity. Places of a beam: rod.start, rod.end, rod[0.5] (arc length as drawn); with x, y, vx, vy, speed, ax, ay, angle, spin, \
@@ -98,7 +98,7 @@ pub const TABLE: Table = Table {
             let place = station.on(&handle)?;
             let reaction = handle.look(|simulation| {
                 let now = simulation.instant()?;
-                Ok::<_, ModelError>(simulation.model().reaction(now.given(), &place))
+                Ok::<_, SystemError>(simulation.model().reaction(now.given(), &place))
             })?;
             reaction.map(force_and_moment).ok_or_else(|| holds_nothing(call, &station))
         })
@@ -171,7 +171,7 @@ pub const TABLE: Table = Table {
             let place = station.on(&handle)?;
             let acceleration = handle.look(|simulation| {
                 let now = simulation.instant()?;
-                Ok::<_, ModelError>(simulation.model().acceleration(&now, &place))
+                Ok::<_, SystemError>(simulation.model().acceleration(&now, &place))
             })?;
             Ok(Dynamic::from(acceleration))
         })
@@ -239,8 +239,8 @@ const S: Parameter = number("s")
 fn record(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (scene, column) = (call.receiver::<SceneHandle>()?, call.text("column")?);
     if History::COLUMNS.iter().any(|own| own.name == column.as_str()) {
-        let taken = ModelError::DuplicateSensor { name: column.to_string() };
-        return Err(ScriptError::from(taken).at(Place::Argument(0)));
+        let taken = SystemError::DuplicateSensor { name: column.to_string() };
+        return Err(ScriptError::from(taken).at(CallPart::Argument(0)));
     }
     if let Some(function) = call.get_if::<FnPtr>("function") {
         call.expect_arguments(&function, 1, "|q| …, a function of the simulation")?;
@@ -253,7 +253,7 @@ fn record(call: &mut Call) -> Result<Dynamic, ScriptError> {
     recorded.map_err(|error| {
         let names = scene.scene().borrow().sensor_names();
         let meant = nearest(&column, names.iter().map(String::as_str));
-        let told = ScriptError::from(error).at(Place::Argument(0));
+        let told = ScriptError::from(error).at(CallPart::Argument(0));
         match meant {
             Some(meant) => told.hint(format!("did you mean \"{meant}\"?")),
             None => told.hint(format!(
@@ -268,7 +268,7 @@ fn joint_force(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (handle, joint) = (call.receiver::<SimulationHandle>()?, joint_index(call)?);
     let (now, joint) = handle.look(|simulation| {
         let joint = simulation.model().transmission(simulation.scene(), joint)?;
-        Ok::<_, ModelError>((simulation.instant()?, joint))
+        Ok::<_, SystemError>((simulation.instant()?, joint))
     })?;
     Ok(force_and_moment(joint.read(now.given())))
 }
@@ -289,7 +289,7 @@ fn joint_index(call: &mut Call) -> Result<usize, ScriptError> {
 }
 
 /// What joints and supports gave in the mean of the last step, if that is summed up.
-fn given_in_step(call: &Call, handle: &SimulationHandle) -> Result<Given, ScriptError> {
+fn given_in_step(call: &Call, handle: &SimulationHandle) -> Result<Reactions, ScriptError> {
     handle.simulation().model().given_in_step().ok_or_else(|| {
         let names = handle.simulation().scene().joint_names();
         let joint = names.first().map_or("hinge1", String::as_str);
@@ -315,7 +315,7 @@ fn unknown<'a>(
         (None, []) => format!("the scene has no {what}s"),
         (None, all) => format!("there are: {}", all.join(", ")),
     };
-    call.error(format!("there is no {what} '{name}'")).hint(hint).at(Place::Argument(0))
+    call.error(format!("there is no {what} '{name}'")).hint(hint).at(CallPart::Argument(0))
 }
 
 /// Refuses a beam that was added later.
@@ -333,8 +333,8 @@ fn wanted(call: &Call, scene: &Scene, beam: usize) -> Result<Option<Station>, Sc
     let length = scene.beams[beam].axis.length();
     if !is_on_length(station, length) {
         let beam = scene.beams[beam].name.clone();
-        let refused = ScriptError::from(ModelError::StationOutside { beam, station, length });
-        return Err(refused.at(Place::Argument(1)));
+        let refused = ScriptError::from(SystemError::StationOutside { beam, station, length });
+        return Err(refused.at(CallPart::Argument(1)));
     }
     Ok(Some(Station::on_beam(beam, station.clamp(0.0, length))))
 }

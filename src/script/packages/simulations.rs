@@ -11,29 +11,29 @@ use super::sliding::meant;
 use super::step_sizes::STEP_CONTROL;
 use super::time_travel::bytes;
 use super::vectors::VECTOR;
-use crate::beams::Place;
+use crate::beams::BodyPoint;
 use crate::integrators::Method;
-use crate::model::Measures;
 use crate::newton::Tolerance;
-use crate::output::{Cell, Table as TextTable, scientific};
+use crate::output::{Cell, TextTable, scientific};
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::{Kind, NumberRange, Scripted, Type};
+use crate::script::bindings::parameter::{
+    Parameter, Presence, callback, choice, either, name, number, object, options, whole,
+};
+use crate::script::bindings::returns::Returns;
+use crate::script::bindings::table::{BindingTable, FunctionBinding, method, property};
 use crate::script::handles::history::HistoryHandle;
 use crate::script::handles::notes::Notes;
 use crate::script::handles::scene::SceneHandle;
-use crate::script::handles::simulation::{Goal, SimulationHandle};
+use crate::script::handles::simulation::{RunTarget, SimulationHandle};
 use crate::script::handles::station::StationHandle;
 use crate::script::handles::step_size::step_size;
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::{Kind, Range, Scripted, Type};
-use crate::script::rows::parameter::{
-    Parameter, Presence, callback, choice, either, name, number, object, options, whole,
-};
-use crate::script::rows::returns::Returns;
-use crate::script::rows::table::{Row, Table, method, property};
-use crate::script::words::error::ScriptError;
-use crate::simulation::{Invariant, Recording, Settings, Simulation, SimulationError};
+use crate::script::messages::error::ScriptError;
+use crate::simulation::{Invariant, Recording, Simulation, SimulationError, SimulationSettings};
+use crate::system::Measures;
 
 /// The domain of simulations.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "simulations",
     doc: "A simulation is live: step it, look, step on. Everything it went through is in its history.",
     types: &[SIMULATION, INVARIANTS],
@@ -47,14 +47,14 @@ pub const TABLE: Table = Table {
             .example("let again = scene.start(#{ integrator: trapezoidal(), dt: 0.05 });\nprint(again);")
             .see(&["energy_momentum", "trapezoidal", "every", "step", "run_to", "back"]),
         method(SIMULATION, "step", &[whole("count").non_negative().or(Presence::Whole(1))], |call| {
-            call.receiver::<SimulationHandle>()?.go_on(call, &Goal::Steps(call.count("count")?))?;
+            call.receiver::<SimulationHandle>()?.go_on(call, &RunTarget::Steps(call.count("count")?))?;
             Ok(Dynamic::UNIT)
         })
         .summary("Takes a step, or so many; a step is shorter where a schedule cuts the time grid.")
         .example("sim.step();\nsim.step(3);\ncheck(sim.steps == 4);")
         .see(&["run_to"]),
         method(SIMULATION, "run_to", &[number("t").any_number().unit("time")], |call| {
-            call.receiver::<SimulationHandle>()?.go_on(call, &Goal::Time(call.number("t")?))?;
+            call.receiver::<SimulationHandle>()?.go_on(call, &RunTarget::Time(call.number("t")?))?;
             Ok(Dynamic::UNIT)
         })
         .summary("Steps until a time, which ends the last step.")
@@ -166,7 +166,7 @@ const INVARIANTS: Type = Type::of::<Invariants>();
 
 const AT: Parameter = object("station", STATION);
 pub(super) const START: &[Parameter] = &[
-    either("dt", &[Kind::Number(Range::Positive), Kind::Object(STEP_CONTROL)])
+    either("dt", &[Kind::Number(NumberRange::Positive), Kind::Object(STEP_CONTROL)])
         .unit("time")
         .doc("the step size, or adaptive(#{ tolerance: 1e-4 })"),
     object("integrator", INTEGRATOR).doc("energy_momentum() unless given").optional(),
@@ -225,18 +225,24 @@ impl Scripted for Invariants {
 const fn measure(
     name: &'static str,
     summary: &'static str,
-    body: crate::script::rows::table::Body,
-) -> Row {
+    body: crate::script::bindings::table::NativeFunction,
+) -> FunctionBinding {
     property(SIMULATION, name, body).returns(Returns::NUMBER).summary(summary)
 }
 
-const fn invariant(name: &'static str, body: crate::script::rows::table::Body) -> Row {
+const fn invariant(
+    name: &'static str,
+    body: crate::script::bindings::table::NativeFunction,
+) -> FunctionBinding {
     property(INVARIANTS, name, body)
         .returns(Returns::NUMBER)
         .example("sim.run_to(0.5);\nlet kept = sim.invariants();\ncheck(kept.energy < 1e-12 && kept.momentum < 1e-12);\ncheck(kept.angular_momentum < 1e-12 && kept.gap == 0);")
 }
 
-const fn count(name: &'static str, body: crate::script::rows::table::Body) -> Row {
+const fn count(
+    name: &'static str,
+    body: crate::script::bindings::table::NativeFunction,
+) -> FunctionBinding {
     property(SIMULATION, name, body)
         .returns(Returns::WHOLE)
         .example("sim.step(2);\ncheck(sim.steps == 2 && sim.newton_iterations <= 8 && sim.retries == 0 && sim.rejected == 0 && sim.unknowns == 21);")
@@ -256,10 +262,10 @@ fn start(call: &mut Call) -> Result<Dynamic, ScriptError> {
 pub(super) fn begin(
     call: &Call,
     of: SceneHandle,
-    start: impl FnOnce(Settings) -> Result<Simulation, SimulationError>,
+    start: impl FnOnce(SimulationSettings) -> Result<Simulation, SimulationError>,
 ) -> Result<Dynamic, ScriptError> {
     let options = call.options("options")?;
-    let settings = Settings {
+    let settings = SimulationSettings {
         method: options.get_if::<Method>("integrator").unwrap_or_default(),
         dt: step_size(&options.value("dt")?)
             .ok_or_else(|| ScriptError::bug("a step size is neither a number nor adaptive"))?,
@@ -298,7 +304,7 @@ fn counted(call: &Call, read: fn(&Simulation) -> usize) -> Result<Dynamic, Scrip
 }
 
 /// The simulation that is called, and a place of it.
-fn place(call: &Call) -> Result<(SimulationHandle, Place), ScriptError> {
+fn place(call: &Call) -> Result<(SimulationHandle, BodyPoint), ScriptError> {
     let handle = call.receiver::<SimulationHandle>()?;
     let station = call.get::<StationHandle>("station")?;
     let place = station.on(&handle)?;

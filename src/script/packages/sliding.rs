@@ -4,27 +4,27 @@ use rhai::{Array, Dynamic, Map};
 
 use super::scenes::{BEAM, SCENE, STATION};
 use super::simulations::SIMULATION;
-use super::tracks::{Guide, TRACK};
+use super::tracks::{SliderGuide, TRACK};
 use super::vectors::VECTOR;
 use crate::joints::{EndAction, Slider, SlidingRule, StartVelocities};
-use crate::model::{Model, ModelError, Scene, SliderError};
 use crate::output::significant;
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::{Details, Kind, Scripted, Type};
+use crate::script::bindings::parameter::{
+    Parameter, Presence, choice, either, number, object, options, text,
+};
+use crate::script::bindings::returns::{Returns, ValueKind};
+use crate::script::bindings::table::{BindingTable, FunctionBinding, function, method, property};
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::simulation::SimulationHandle;
 use crate::script::handles::station::here;
-use crate::script::looks::details;
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::{Details, Kind, Scripted, Type};
-use crate::script::rows::parameter::{
-    Parameter, Presence, choice, either, number, object, options, text,
-};
-use crate::script::rows::returns::{Returns, ValueKind};
-use crate::script::rows::table::{Row, Table, function, method, property};
-use crate::script::words::error::{Place, ScriptError};
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::presentation::details;
 use crate::simulation::Arrival;
+use crate::system::{Scene, SliderError, System, SystemError};
 
 /// The domain of sliding joints.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "sliding joints",
     doc: "A slider keeps a station, the end of a beam or a particle, on the axis of another beam, along which it slides without \
           friction. Its rule says how a step does that; its history has NAME.position (from 0 to 1 along the beam), NAME.speed (length/time), NAME.force, \
@@ -236,7 +236,9 @@ impl Scripted for SliderHandle {
         details::of_slider(&self.scene.scene().borrow(), self.index)
     }
 
-    fn family(&self) -> Option<std::rc::Rc<crate::script::rows::lifting::Family>> {
+    fn family(
+        &self,
+    ) -> Option<std::rc::Rc<crate::script::bindings::parameter_variants::ParameterSet>> {
         self.scene.family()
     }
 }
@@ -255,7 +257,10 @@ impl Scripted for SlidingRule {
     }
 }
 
-const fn rule(name: &'static str, body: crate::script::rows::table::Body) -> Row {
+const fn rule(
+    name: &'static str,
+    body: crate::script::bindings::table::NativeFunction,
+) -> FunctionBinding {
     function(name, &[], body)
         .returns(Returns::object(RULE))
         .example("for rule in [conserving(), exact(), relaxed()] {\n    print(rule);\n}")
@@ -264,7 +269,7 @@ const fn rule(name: &'static str, body: crate::script::rows::table::Body) -> Row
 fn slider(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (slave, scene) = here(call, "station")?;
     let handle = call.receiver::<SceneHandle>()?;
-    let guide = Guide::of(call, "beam", &handle)?;
+    let guide = SliderGuide::of(call, "beam", &handle)?;
     let options = call.options_or_defaults("options")?;
     let at = options.number_if_given("at");
     let name = options.text_if_given("name")?;
@@ -272,7 +277,7 @@ fn slider(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let restitution = options.number_if_given("restitution");
     if restitution.is_some() && ends != EndAction::Bounce {
         let told = "slider: 'restitution' is of sliders that bounce, with ends: \"bounce\"";
-        return Err(ScriptError::new(told).at(Place::Key("restitution".into())));
+        return Err(ScriptError::new(told).at(CallPart::Key("restitution".into())));
     }
     let restitution = restitution.unwrap_or(1.0);
     let (master, arc_length) = guide.start(&scene.borrow(), slave, at)?;
@@ -299,21 +304,23 @@ pub(super) fn meant<T: Copy + Default>(words: &[(&str, T)], word: &str) -> T {
 }
 
 /// Points at what is wrong in the call.
-fn blame(error: ModelError, is_placed: bool) -> ScriptError {
+fn blame(error: SystemError, is_placed: bool) -> ScriptError {
     let place = match &error {
-        ModelError::Unnamed { .. } | ModelError::DuplicateName { .. } => Place::Key("name".into()),
-        ModelError::Slider(error) => match **error {
-            SliderError::Open { .. } if is_placed => Place::Key("at".into()),
-            SliderError::OnItself(_) => Place::Argument(1),
-            _ => Place::Argument(0),
+        SystemError::Unnamed { .. } | SystemError::DuplicateName { .. } => {
+            CallPart::Key("name".into())
+        }
+        SystemError::Slider(error) => match **error {
+            SliderError::Open { .. } if is_placed => CallPart::Key("at".into()),
+            SliderError::OnItself(_) => CallPart::Argument(1),
+            _ => CallPart::Argument(0),
         },
-        _ => Place::Argument(0),
+        _ => CallPart::Argument(0),
     };
     ScriptError::from(error).at(place)
 }
 
 /// Asks a model about the slider of a call.
-fn asked(call: &Call, ask: impl FnOnce(&Model, usize) -> Dynamic) -> Result<Dynamic, ScriptError> {
+fn asked(call: &Call, ask: impl FnOnce(&System, usize) -> Dynamic) -> Result<Dynamic, ScriptError> {
     let handle = call.receiver::<SimulationHandle>()?;
     let slider = call.get::<SliderHandle>("slider")?.on(&handle)?;
     let simulation = handle.simulation();

@@ -4,12 +4,12 @@ use rhai::{Dynamic, FnPtr};
 
 use super::sliding::meant;
 use crate::geometry::Vec2;
-use crate::model::{DampingLaw, Origin, RestoringLaw, SpringKind};
 use crate::output::significant;
-use crate::script::rows::call::Call;
-use crate::script::rows::options::Options;
-use crate::script::words::error::{Place, ScriptError};
-use crate::script::words::numbers::as_number;
+use crate::script::bindings::call::Call;
+use crate::script::bindings::options::Options;
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::messages::numbers::as_number;
+use crate::system::{DampingLaw, Origin, SpringKind, SpringLaw};
 
 /// Which ways a spring may act, by name.
 pub(super) const ACTS: [(&str, Acts); 3] =
@@ -25,10 +25,14 @@ pub(super) enum Acts {
 }
 
 /// A law, and what its elongations are counted from.
-pub(super) type Law = (Option<RestoringLaw>, Origin);
+pub(super) type ParsedLaw = (Option<SpringLaw>, Origin);
 
 /// The law that options describe; none where there is a damper alone.
-pub(super) fn law(call: &Call, options: &Options, kind: &SpringKind) -> Result<Law, ScriptError> {
+pub(super) fn law(
+    call: &Call,
+    options: &Options,
+    kind: &SpringKind,
+) -> Result<ParsedLaw, ScriptError> {
     let (ease, acts) = match kind {
         SpringKind::Torsion(_) => ("angle", Acts::Both),
         SpringKind::Way(_) => ("length", meant(&ACTS, &options.text("acts")?)),
@@ -44,10 +48,10 @@ pub(super) fn law(call: &Call, options: &Options, kind: &SpringKind) -> Result<L
         if let Some(odd) = odd {
             let told = format!("a table says all about the force, and {odd} is given besides");
             let hint = format!("leave out {odd}, or the table");
-            return Err(call.error(told).hint(hint).at(Place::Key(odd.into())));
+            return Err(call.error(told).hint(hint).at(CallPart::Key(odd.into())));
         }
         let points = options.points("table")?.iter().map(|at: &Vec2| (at.x, at.y)).collect();
-        return Ok((Some(RestoringLaw::Table { points }), Origin::Zero));
+        return Ok((Some(SpringLaw::Table { points }), Origin::Zero));
     }
     let Some(stiffness) = options.number_if_given("stiffness") else {
         if damping(call, options)?.acts() && !options.has(ease) {
@@ -60,11 +64,11 @@ pub(super) fn law(call: &Call, options: &Options, kind: &SpringKind) -> Result<L
         Some(natural) => (natural, Origin::Zero),
         None => (0.0, Origin::AsBuilt),
     };
-    let side = |before: f64, after: f64| RestoringLaw::Table {
+    let side = |before: f64, after: f64| SpringLaw::Table {
         points: vec![(natural - 1.0, before), (natural, 0.0), (natural + 1.0, after)],
     };
     let law = match acts {
-        Acts::Both => RestoringLaw::Linear { stiffness, natural },
+        Acts::Both => SpringLaw::Linear { stiffness, natural },
         Acts::Pull => side(0.0, stiffness),
         Acts::Push => side(-stiffness, 0.0),
     };
@@ -76,12 +80,12 @@ pub(super) fn damping(call: &Call, options: &Options) -> Result<DampingLaw, Scri
     let Some(function) = options.get_if::<FnPtr>("damping") else {
         if options.has("rates") {
             let told = "rates are those for which a function is asked, and damping is none";
-            return Err(call.error(told).hint("leave out rates").at(Place::Key("rates".into())));
+            return Err(call.error(told).hint("leave out rates").at(CallPart::Key("rates".into())));
         }
         return Ok(match options.get_if::<Vec<Vec2>>("damping") {
             Some(points) => {
                 let points = points.iter().map(|at| (at.x, at.y)).collect();
-                DampingLaw::Curve(RestoringLaw::Table { points })
+                DampingLaw::Curve(SpringLaw::Table { points })
             }
             None => DampingLaw::Linear(options.number("damping")?),
         });
@@ -90,13 +94,13 @@ pub(super) fn damping(call: &Call, options: &Options) -> Result<DampingLaw, Scri
     if !options.has("rates") {
         let told = "for which rates the damping is asked is missing";
         let hint = "give rates: [-10, 10], from the fastest approach to the fastest parting";
-        return Err(call.error(told).hint(hint).at(Place::Key("damping".into())));
+        return Err(call.error(told).hint(hint).at(CallPart::Key("damping".into())));
     }
     let rates = options.point("rates")?;
     if !(rates.x < 0.0 && rates.y > 0.0) {
         let told = format!("the rates [{}, {}] do not have rest between them", rates.x, rates.y);
         let hint = "give a negative and a positive one: [-10, 10]";
-        return Err(call.error(told).hint(hint).at(Place::Key("rates".into())));
+        return Err(call.error(told).hint(hint).at(CallPart::Key("rates".into())));
     }
     let force = force_of(call, &function, ("damping", "rate"));
     let law = DampingLaw::sampled((rates.x, rates.y), force)?;
@@ -108,28 +112,28 @@ pub(super) fn damping(call: &Call, options: &Options) -> Result<DampingLaw, Scri
 }
 
 /// The law of a function, which is asked over a range of elongations now and never again.
-fn sampled(call: &Call, options: &Options, ease: &str) -> Result<Law, ScriptError> {
+fn sampled(call: &Call, options: &Options, ease: &str) -> Result<ParsedLaw, ScriptError> {
     let function = options.callback("law")?;
     call.expect_arguments(&function, 1, "law: |e| 100 * e, e being the elongation")?;
     let odd = options.given().find(|key| ["stiffness", "table"].contains(key));
     if let Some(odd) = odd {
         let told = format!("a law says all about the force, and {odd} is given besides");
         let hint = format!("leave out {odd}, or the law");
-        return Err(call.error(told).hint(hint).at(Place::Key(odd.into())));
+        return Err(call.error(told).hint(hint).at(CallPart::Key(odd.into())));
     }
     if !options.has("range") {
         let told = "for which elongations the law is asked is missing";
         let hint = "give range: [-0.1, 0.1], from the shortest to the longest";
-        return Err(call.error(told).hint(hint).at(Place::Key("law".into())));
+        return Err(call.error(told).hint(hint).at(CallPart::Key("law".into())));
     }
     let range = options.point("range")?;
     if range.x >= range.y {
         let told = format!("the range [{}, {}] does not rise", range.x, range.y);
         let hint = "give the smaller elongation first";
-        return Err(call.error(told).hint(hint).at(Place::Key("range".into())));
+        return Err(call.error(told).hint(hint).at(CallPart::Key("range".into())));
     }
     let force = force_of(call, &function, ("law", "elongation"));
-    let law = RestoringLaw::sampled((range.x, range.y), force)?;
+    let law = SpringLaw::sampled((range.x, range.y), force)?;
     expect_smooth(call, &law, ("law", "make a jump a short ramp"))?;
     Ok(match options.number_if_given(ease) {
         Some(natural) => (Some(law.shifted(natural)), Origin::Zero),
@@ -147,7 +151,7 @@ fn force_of<'a>(
         let value = call.invoke(function, [Dynamic::from(at)])?;
         as_number(&value).filter(|force| force.is_finite()).ok_or_else(|| {
             let told = format!("the {key} gives no finite number at the {over} {at}");
-            call.error(told).at(Place::Key(key.into()))
+            call.error(told).at(CallPart::Key(key.into()))
         })
     }
 }
@@ -155,7 +159,7 @@ fn force_of<'a>(
 /// Refuses a function that its finest polygon does not follow; the hint says what to write instead.
 fn expect_smooth(
     call: &Call,
-    polygon: &RestoringLaw,
+    polygon: &SpringLaw,
     (key, hint): (&'static str, &'static str),
 ) -> Result<(), ScriptError> {
     let Some((error, largest)) = polygon.missed() else { return Ok(()) };
@@ -163,5 +167,5 @@ fn expect_smooth(
     let told = format!(
         "the {key} jumps or swings too fast: the finest polygon is off by {error}, its largest force being {largest}"
     );
-    Err(call.error(told).hint(hint).at(Place::Key(key.into())))
+    Err(call.error(told).hint(hint).at(CallPart::Key(key.into())))
 }

@@ -4,28 +4,28 @@ use rhai::{Dynamic, ImmutableString};
 
 use super::scenes::{SCENE, STATION};
 use super::simulations::SIMULATION;
-use super::spring_laws::{ACTS, Law, damping, law};
+use super::spring_laws::{ACTS, ParsedLaw, damping, law};
 use crate::geometry::Vec2;
-use crate::model::{
-    Anchor, DampingLaw, ModelError, Origin, RestoringLaw, Spring, SpringKind, SpringState,
-};
 use crate::output::significant;
-use crate::script::handles::scene::SceneHandle;
-use crate::script::handles::simulation::SimulationHandle;
-use crate::script::handles::station::StationHandle;
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::{Details, Kind, Range, Scripted, Type};
-use crate::script::rows::options::Options;
-use crate::script::rows::parameter::{
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::{Details, Kind, NumberRange, Scripted, Type};
+use crate::script::bindings::options::Options;
+use crate::script::bindings::parameter::{
     Parameter, Presence, array, callback, choice, either, number, object, options, point, points,
     text,
 };
-use crate::script::rows::returns::Returns;
-use crate::script::rows::table::{Table, method, property};
-use crate::script::words::error::{Place, ScriptError};
+use crate::script::bindings::returns::Returns;
+use crate::script::bindings::table::{BindingTable, method, property};
+use crate::script::handles::scene::SceneHandle;
+use crate::script::handles::simulation::SimulationHandle;
+use crate::script::handles::station::StationHandle;
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::system::{
+    Anchor, DampingLaw, Origin, Spring, SpringKind, SpringLaw, SpringState, SystemError,
+};
 
 /// Springs and dampers.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "springs and dampers",
     doc: "What stores energy and gives it back, and what takes it. The energies of springs are a part of the energy of the scene, and \
           what dampers take is kept in the ledger: E - W + D stays constant to rounding with energy_momentum() and fourth_order(), at any \
@@ -121,8 +121,8 @@ const TO: Parameter = either("to", PLACE);
 const TURNED: &[Kind] = &[Kind::Object(STATION), Kind::Options(TORSION_KEYS)];
 
 const STIFFNESS: Parameter = number("stiffness").positive().unit("force/length").optional();
-const DAMPING_KINDS: &[Kind] = &[Kind::Number(Range::Finite), Kind::Function, Kind::Points];
-const DAMPER_KINDS: &[Kind] = &[Kind::Number(Range::Positive), Kind::Function, Kind::Points];
+const DAMPING_KINDS: &[Kind] = &[Kind::Number(NumberRange::Finite), Kind::Function, Kind::Points];
+const DAMPER_KINDS: &[Kind] = &[Kind::Number(NumberRange::Positive), Kind::Function, Kind::Points];
 const DAMPING_DOC: &str =
     "a constant, or a law: the force over the rate, |rate| …, or points [rate, force]";
 const DAMPING: Parameter = either("damping", DAMPING_KINDS)
@@ -224,7 +224,7 @@ impl Scripted for SpringHandle {
 
     fn details(&self) -> Details {
         let of = |spring: &Spring| {
-            let law = spring.law.as_ref().map(RestoringLaw::describe);
+            let law = spring.law.as_ref().map(SpringLaw::describe);
             let damping = match &spring.damping {
                 DampingLaw::Linear(constant) => {
                     (*constant > 0.0).then(|| significant(*constant, 6))
@@ -240,7 +240,9 @@ impl Scripted for SpringHandle {
         self.described(of).unwrap_or_default()
     }
 
-    fn family(&self) -> Option<std::rc::Rc<crate::script::rows::lifting::Family>> {
+    fn family(
+        &self,
+    ) -> Option<std::rc::Rc<crate::script::bindings::parameter_variants::ParameterSet>> {
         self.scene.family()
     }
 }
@@ -262,7 +264,7 @@ fn resist(call: &Call, kind: SpringKind, options: &Options) -> Result<Dynamic, S
 fn add(
     call: &Call,
     kind: SpringKind,
-    (law, origin): Law,
+    (law, origin): ParsedLaw,
     options: &Options,
 ) -> Result<Dynamic, ScriptError> {
     let handle = call.receiver::<SceneHandle>()?;
@@ -294,7 +296,7 @@ fn tendon(call: &mut Call) -> Result<Dynamic, ScriptError> {
         return Err(call
             .error(told)
             .hint("between two places, use scene.spring")
-            .at(Place::Argument(0)));
+            .at(CallPart::Argument(0)));
     }
     resist(call, SpringKind::Way(anchors), &call.options("options")?)
 }
@@ -316,16 +318,18 @@ fn torsion(call: &mut Call) -> Result<Dynamic, ScriptError> {
 }
 
 /// Points at what is wrong in the call.
-fn blame(error: ModelError) -> ScriptError {
+fn blame(error: SystemError) -> ScriptError {
     let place = match &error {
-        ModelError::Unnamed { .. } | ModelError::DuplicateName { .. } => Place::Key("name".into()),
-        ModelError::FeedingDamper { .. } => Place::Key("damping".into()),
-        ModelError::Value { name, .. }
+        SystemError::Unnamed { .. } | SystemError::DuplicateName { .. } => {
+            CallPart::Key("name".into())
+        }
+        SystemError::FeedingDamper { .. } => CallPart::Key("damping".into()),
+        SystemError::Value { name, .. }
             if ["length", "damping", "stiffness", "table"].contains(name) =>
         {
-            Place::Key((*name).into())
+            CallPart::Key((*name).into())
         }
-        _ => Place::Argument(0),
+        _ => CallPart::Argument(0),
     };
     ScriptError::from(error).at(place)
 }

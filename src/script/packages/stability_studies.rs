@@ -2,22 +2,22 @@
 
 use rhai::{Array, Dynamic};
 
-use crate::analysis::{Case, Outcome, Verdict};
+use crate::analysis::{Case, CaseOutcome, StabilityVerdict};
 use crate::output::Panel;
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::{Scripted, Type};
-use crate::script::rows::parameter::options;
-use crate::script::rows::returns::{Returns, ValueKind};
-use crate::script::rows::table::{Table, function, property};
-use crate::script::state::settings::Mode;
-use crate::script::studies::desk::{Desk, Task, print_table};
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::{Scripted, Type};
+use crate::script::bindings::parameter::options;
+use crate::script::bindings::returns::{Returns, ValueKind};
+use crate::script::bindings::table::{BindingTable, function, property};
+use crate::script::messages::error::ScriptError;
+use crate::script::state::settings::RunMode;
+use crate::script::studies::case_runner::{CaseRunner, CaseTask, print_table};
 use crate::script::studies::options::StabilityOptions;
 use crate::script::studies::plan::patience;
-use crate::script::studies::stability::{Shown, StabilityMap, StabilityPlan};
-use crate::script::words::error::ScriptError;
+use crate::script::studies::stability::{MapColouring, StabilityMap, StabilityPlan};
 
 /// The domain of stability maps.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "stability maps",
     doc: "What becomes of a simulation on the edge: a run for every combination of parameters, on all cores.",
     types: &[STABILITY_MAP],
@@ -81,25 +81,31 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let made = plan.cases(call, &options)?;
     let context = call.context();
     let patience = patience(call, options.patience);
-    let shown = Shown::ALL.iter().find(|(name, _)| *name == options.show);
-    let shown = shown.map_or(Shown::EnergyGrowth, |(_, shown)| *shown);
-    let desk = Desk::open(context, &plan.name)?;
+    let shown = MapColouring::ALL.iter().find(|(name, _)| *name == options.show);
+    let shown = shown.map_or(MapColouring::EnergyGrowth, |(_, shown)| *shown);
+    let desk = CaseRunner::open(context, &plan.name)?;
     let verdicts = match context.mode() {
-        Mode::DryBuild => vec![Verdict::without_a_run(Outcome::Finished); made.len()],
-        Mode::Run => {
-            let task = Task { name: "cells", parts: &[] };
-            let work = |case: &_, stop: &_| Verdict::of(case, patience, stop);
+        RunMode::DryBuild => {
+            vec![StabilityVerdict::without_a_run(CaseOutcome::Finished); made.len()]
+        }
+        RunMode::Run => {
+            let task = CaseTask { name: "cells", parts: &[] };
+            let work = |case: &_, stop: &_| StabilityVerdict::of(case, patience, stop);
             let cases: Vec<Case> = made.iter().flatten().cloned().collect();
             let verdicts =
-                desk.in_parallel(task, &cases, |verdict: &Verdict| verdict.steps, work)?;
+                desk.in_parallel(task, &cases, |verdict: &StabilityVerdict| verdict.steps, work)?;
             // The others are made elsewhere.
-            let pretended = || vec![Ok(Verdict::without_a_run(Outcome::Finished)); cases.len()];
+            let pretended =
+                || vec![Ok(StabilityVerdict::without_a_run(CaseOutcome::Finished)); cases.len()];
             let verdicts = verdicts.unwrap_or_else(pretended);
-            let panicked = |message| Verdict::without_a_run(Outcome::Panicked { message });
+            let panicked =
+                |message| StabilityVerdict::without_a_run(CaseOutcome::Panicked { message });
             let mut ran = verdicts.into_iter().map(|verdict| verdict.unwrap_or_else(panicked));
             let of = |made: Result<Case, String>| match made {
                 Ok(_) => ran.next(),
-                Err(reason) => Some(Verdict::without_a_run(Outcome::Failed { time: 0.0, reason })),
+                Err(reason) => {
+                    Some(StabilityVerdict::without_a_run(CaseOutcome::Failed { time: 0.0, reason }))
+                }
             };
             made.into_iter().filter_map(of).collect()
         }

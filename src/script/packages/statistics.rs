@@ -4,16 +4,16 @@ use rhai::{Array, Dynamic, Map};
 
 use super::histories::{HISTORY, column};
 use super::simulations::SPINNING;
+use crate::script::bindings::call::Call;
+use crate::script::bindings::parameter::{Parameter, Presence, number, text, whole};
+use crate::script::bindings::returns::{Returns, ValueKind};
+use crate::script::bindings::table::{BindingTable, method};
 use crate::script::handles::history::HistoryHandle;
-use crate::script::rows::call::Call;
-use crate::script::rows::parameter::{Parameter, Presence, number, text, whole};
-use crate::script::rows::returns::{Returns, ValueKind};
-use crate::script::rows::table::{Table, method};
-use crate::script::words::error::ScriptError;
-use crate::simulation::{History, Peak, Series};
+use crate::script::messages::error::ScriptError;
+use crate::simulation::{History, SpectrumPeak, TimeSeries};
 
 /// Statistics.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "statistics",
     doc: "What a column of a history tells as a whole. Between rows it is taken as straight. Windows narrow it: sim.history.after(2).statistics(\"energy\").",
     types: &[],
@@ -65,13 +65,13 @@ pub const TABLE: Table = Table {
 
 const COLUMN: Parameter = text("column").doc("the name of a column of this history");
 
-fn series(call: &Call) -> Result<Series, ScriptError> {
+fn series(call: &Call) -> Result<TimeSeries, ScriptError> {
     let values = column(call, History::column)?;
     let history = call.receiver::<HistoryHandle>()?;
     let times = history.read(|history| history.column("t")).unwrap_or_default();
     match values.is_empty() {
         true => Err(history.no_rows(call)),
-        false => Ok(Series { times, values }),
+        false => Ok(TimeSeries { times, values }),
     }
 }
 
@@ -95,7 +95,8 @@ fn spectrum(call: &mut Call) -> Result<Dynamic, ScriptError> {
         let hint = "take sim.history.between(t1, t2) with steps of one size: a fixed dt, record: every(n), no cut inside";
         call.error(error).hint(hint)
     })?;
-    let told = |peak: Peak| map(&[("frequency", peak.frequency), ("amplitude", peak.amplitude)]);
+    let told =
+        |peak: SpectrumPeak| map(&[("frequency", peak.frequency), ("amplitude", peak.amplitude)]);
     Ok(peaks.into_iter().map(told).collect::<Array>().into())
 }
 

@@ -2,16 +2,16 @@
 
 use rhai::Dynamic;
 
-use crate::script::looks::details;
-use crate::script::rows::kind::{Details, Scripted, Type};
-use crate::script::rows::parameter::{Parameter, Presence, number, options};
-use crate::script::rows::returns::Returns;
-use crate::script::rows::table::{Table, function};
-use crate::script::words::error::{Place, ScriptError};
+use crate::script::bindings::kind::{Details, Scripted, Type};
+use crate::script::bindings::parameter::{Parameter, Presence, number, options};
+use crate::script::bindings::returns::Returns;
+use crate::script::bindings::table::{BindingTable, function};
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::presentation::details;
 use crate::simulation::{StepControl, StepSize};
 
 /// The domain of step sizes.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "step sizes",
     doc: "A scene is started with a step size, dt: 0.1, or with a tolerance, dt: adaptive(#{ tolerance: 1e-4 }).",
     types: &[STEP_CONTROL],
@@ -27,7 +27,7 @@ pub const TABLE: Table = Table {
             largest: bound("largest"),
         };
         let checked = StepSize::from(control).check();
-        checked.map_err(|error| ScriptError::from(error).at(Place::Argument(0)))?;
+        checked.map_err(|error| ScriptError::from(error).at(CallPart::Argument(0)))?;
         Ok(Dynamic::from(control))
     })
     .returns(Returns::object(STEP_CONTROL))

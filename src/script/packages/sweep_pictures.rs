@@ -5,17 +5,17 @@ use rhai::Dynamic;
 use super::sweeps::{SETUP, SWEEP, SWEEP_TABLE, SweepHandle, no_column};
 use crate::analysis::{SweepColumn, SweptValues};
 use crate::output::Panel;
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::Type;
-use crate::script::rows::parameter::{Parameter, text};
-use crate::script::rows::table::{Row, Table, method};
-use crate::script::state::settings::Mode;
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::Type;
+use crate::script::bindings::parameter::{Parameter, text};
+use crate::script::bindings::table::{BindingTable, FunctionBinding, method};
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::state::settings::RunMode;
 use crate::script::studies::sweeps::pictures::{MOST_COLUMNS, Picture};
 use crate::script::studies::sweeps::table::SweepTable;
-use crate::script::words::error::{Place, ScriptError};
 
 /// The domain of pictures of sweeps.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "pictures of sweeps",
     doc: "Each is written into a file that is named by the sweep and its columns: NAME-speed-mass-peak.svg. Rows that failed are not drawn. What sweeps have, \
           their tables have too, so that some rows can be drawn: sweep.table.where(|row| row.mass < 2).plot(\"speed\", \"peak\"). Pictures of some rows \
@@ -33,7 +33,7 @@ pub const TABLE: Table = Table {
     ],
 };
 
-const fn plot(of: Type) -> Row {
+const fn plot(of: Type) -> FunctionBinding {
     const PARAMETERS: &[Parameter] = &[
         text("x").doc("a parameter or result"),
         text("y").doc("a parameter or result"),
@@ -52,7 +52,7 @@ const fn plot(of: Type) -> Row {
         .see(&["plot_matrix", "plot_histogram", "sensitivity"])
 }
 
-const fn matrix(of: Type) -> Row {
+const fn matrix(of: Type) -> FunctionBinding {
     method(of, "plot_matrix", &[], draw_matrix)
         .summary(
             "Draws all columns of numbers, six at most, over all others, with their histograms.",
@@ -62,7 +62,7 @@ const fn matrix(of: Type) -> Row {
         .see(&["plot"])
 }
 
-const fn histogram(of: Type) -> Row {
+const fn histogram(of: Type) -> FunctionBinding {
     const COLUMN: &[Parameter] = &[text("column").doc("a parameter or result")];
     method(of, "plot_histogram", COLUMN, draw_histogram)
         .summary("Draws how many runs have which values of a column.")
@@ -110,7 +110,7 @@ fn numbered(call: &Call, name: &str) -> Result<String, ScriptError> {
 /// Rows that can be drawn are expected of a run that has made all of them.
 fn expect_rows(call: &Call, picture: &Picture, names: &[&str]) -> Result<(), ScriptError> {
     let context = call.context();
-    let is_whole = context.mode() == Mode::Run && context.studies().part.is_none();
+    let is_whole = context.mode() == RunMode::Run && context.studies().part.is_none();
     if !is_whole || picture.has_rows(names) {
         return Ok(());
     }
@@ -145,7 +145,7 @@ fn expect_columns(call: &Call, table: &SweepTable, names: &[&str]) -> Result<(),
         .hint(format!(
             "over a parameter of numbers there is a curve for each of them; where(|row| row.{name} == …) has the rows of one"
         ))
-        .at(Place::Argument(at)))
+        .at(CallPart::Argument(at)))
 }
 
 fn draw(call: &mut Call) -> Result<Dynamic, ScriptError> {

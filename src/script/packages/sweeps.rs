@@ -6,31 +6,31 @@ use std::time::Duration;
 use rhai::{Array, Dynamic, FnPtr, Map};
 
 use super::samples::SAMPLES;
-use crate::analysis::{Arrangement, Sweep, SweepResults};
-use crate::sampling::Share;
-use crate::script::rows::arguments::Arguments;
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::{Details, Scripted, Type};
-use crate::script::rows::option_set::{Field, option_set};
-use crate::script::rows::options::Options;
-use crate::script::rows::parameter::{
+use crate::analysis::{RowLayout, Sweep, SweepResults};
+use crate::sampling::VarianceShare;
+use crate::script::bindings::arguments::Arguments;
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::{Details, Scripted, Type};
+use crate::script::bindings::option_set::{FromOption, option_set};
+use crate::script::bindings::options::Options;
+use crate::script::bindings::parameter::{
     Parameter, Presence, anything, callback, name, number, object, options, text,
 };
-use crate::script::rows::returns::{Returns, ValueKind};
-use crate::script::rows::table::{Table, function, method, property};
-use crate::script::state::settings::Mode;
+use crate::script::bindings::returns::{Returns, ValueKind};
+use crate::script::bindings::table::{BindingTable, function, method, property};
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::messages::suggest::nearest;
+use crate::script::state::settings::RunMode;
 use crate::script::studies::calls::function::RunFunction;
-use crate::script::studies::desk::print_table;
+use crate::script::studies::case_runner::print_table;
 use crate::script::studies::plan::{at_key, study_name};
 use crate::script::studies::sweeps::design::{Samples, SweepPlan};
-use crate::script::studies::sweeps::rows::{Row, found};
-use crate::script::studies::sweeps::run::Order;
-use crate::script::studies::sweeps::table::{FAILURE, SweepTable, Swept};
-use crate::script::words::error::{Place, ScriptError};
-use crate::script::words::suggest::nearest;
+use crate::script::studies::sweeps::rows::{RowOutcome, found};
+use crate::script::studies::sweeps::run::SweepRequest;
+use crate::script::studies::sweeps::table::{FAILURE, FinishedSweep, SweepTable};
 
 /// The domain of sweeps.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "sweeps",
     doc: "A function of parameters, called with all of their values on all cores: what a thousand runs say together. withy study FILE keeps what is finished \
           when it is interrupted, and goes on there the next time.",
@@ -134,7 +134,7 @@ option_set! {
     }
 }
 
-impl Field for Samples {
+impl FromOption for Samples {
     fn read(options: &Arguments, key: &str) -> Result<Self, ScriptError> {
         options.get(key)
     }
@@ -142,7 +142,7 @@ impl Field for Samples {
 
 /// A finished sweep.
 #[derive(Clone)]
-pub(super) struct SweepHandle(Rc<Swept>);
+pub(super) struct SweepHandle(Rc<FinishedSweep>);
 
 impl SweepHandle {
     /// The table of all rows.
@@ -196,7 +196,7 @@ pub(super) fn no_column(
     let names: Vec<&str> = sweep.names().collect();
     call.error(format!("the sweep '{}' has no column \"{name}\"", sweep.name))
         .hint(format!("{meant}it has {}", names.join(", ")))
-        .at(Place::Argument(argument))
+        .at(CallPart::Argument(argument))
 }
 
 fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
@@ -231,10 +231,10 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let name = study_name(call, &options.name)?;
     context.output().path_of(&format!("{name}.csv"))?;
     let wall = Duration::from_secs_f64(options.patience.min(1e9));
-    let order = Order { name, plan, function: &options.run, wall };
+    let order = SweepRequest { name, plan, function: &options.run, wall };
     let swept = match context.mode() {
-        Mode::DryBuild => pretended(call, order)?,
-        Mode::Run => order.make(call)?,
+        RunMode::DryBuild => pretended(call, order)?,
+        RunMode::Run => order.make(call)?,
     };
     expect_other_names(call, &swept.sweep)?;
     print_table(context, &swept.summary());
@@ -255,32 +255,32 @@ fn expect_other_names(call: &Call, sweep: &Sweep) -> Result<(), ScriptError> {
 }
 
 /// A sweep that a dry build pretends to have made: the function is called with the first row, whose results all rows have.
-fn pretended(call: &Call, order: Order) -> Result<Swept, ScriptError> {
+fn pretended(call: &Call, order: SweepRequest) -> Result<FinishedSweep, ScriptError> {
     RunFunction::read(call, "run", order.function)?;
     let given = order.invoked(call, 0)?;
     let (names, values) = match found(&given) {
-        Row::Found(names, values) => (names.to_vec(), values),
+        RowOutcome::Found(names, values) => (names.to_vec(), values),
         // A simulation that is not run may find nothing.
-        Row::Failed(_) => (
+        RowOutcome::Failed(_) => (
             given
                 .read_lock::<Map>()
                 .map(|map| map.keys().map(ToString::to_string).collect())
                 .unwrap_or_default(),
             Vec::new(),
         ),
-        Row::Wrong(told) => {
+        RowOutcome::Wrong(told) => {
             let hint = "its last expression is a map of numbers: #{ peak: peak }";
             return Err(at_key(call, "run", format!("run: {told}"), hint));
         }
     };
-    let Order { name, plan, .. } = order;
+    let SweepRequest { name, plan, .. } = order;
     let rows = plan.design.rows;
     let mut results = SweepResults::default();
     let values = if values.is_empty() { vec![0.0; names.len()] } else { values };
     results.begin(names, rows);
     (0..rows).for_each(|row| results.find(row, &values));
     let sweep = Sweep { name, design: plan.design.clone(), results };
-    Ok(Swept { sweep, plan })
+    Ok(FinishedSweep { sweep, plan })
 }
 
 fn sensitivity(call: &mut Call) -> Result<Dynamic, ScriptError> {
@@ -289,7 +289,7 @@ fn sensitivity(call: &mut Call) -> Result<Dynamic, ScriptError> {
     if sweep.results.column(&result).is_none() {
         return Err(no_column(call, sweep, (&result, 0)));
     }
-    let of = |(name, share): (&str, Share)| -> Dynamic {
+    let of = |(name, share): (&str, VarianceShare)| -> Dynamic {
         let total = share.total.map_or(Dynamic::UNIT, Dynamic::from);
         let pairs = [("parameter", name.into()), ("first", share.first.into()), ("total", total)];
         pairs.into_iter().map(|(name, value)| (name.into(), value)).collect::<Map>().into()
@@ -297,38 +297,38 @@ fn sensitivity(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let names = sweep.design.parameters.iter().map(|of| of.name.as_str());
     let Some(shares) = sweep.shares(&result) else {
         // A dry build has made no runs.
-        if call.context().mode() == Mode::DryBuild {
-            let none = Share { first: 0.0, total: Some(0.0) };
+        if call.context().mode() == RunMode::DryBuild {
+            let none = VarianceShare { first: 0.0, total: Some(0.0) };
             return Ok(names.map(|name| of((name, none))).collect::<Array>().into());
         }
         let (failed, rows) = (sweep.results.failures().len(), sweep.design.rows);
-        if failed > 0 && matches!(sweep.design.arrangement, Arrangement::Grid) {
+        if failed > 0 && matches!(sweep.design.arrangement, RowLayout::Grid) {
             let told = format!(
                 "{failed} of {rows} runs failed: of a grid all must have come to their end"
             );
             let hint =
                 "leave out the values at which they fail, or take points: samples: saltelli(1024)";
-            return Err(call.error(told).hint(hint).at(Place::Argument(0)));
+            return Err(call.error(told).hint(hint).at(CallPart::Argument(0)));
         }
         return Err(call
             .error(format!("the runs do not tell what '{result}' depends on"))
             .hint("it must vary; a grid must have no failed rows; points, or blocks of saltelli(…) without failed rows, must be at least 30; saltelli(1024) gives the best")
-            .at(Place::Argument(0)));
+            .at(CallPart::Argument(0)));
     };
     let (used, rows) = (sweep.telling_rows(&result), sweep.design.rows);
-    if used < rows && call.context().mode() == Mode::Run {
+    if used < rows && call.context().mode() == RunMode::Run {
         let failed = sweep.results.failures().len();
         let told = format!(
             "note: the sensitivity of '{result}' is told by {used} of {rows} rows: {failed} failed"
         );
         let blocks = match sweep.design.arrangement {
-            Arrangement::Saltelli => ", and with them their blocks are left out",
-            Arrangement::Grid | Arrangement::Points => "",
+            RowLayout::Saltelli => ", and with them their blocks are left out",
+            RowLayout::Grid | RowLayout::Points => "",
         };
         call.context().tell(&(told + blocks));
     }
-    let mut shares: Vec<(&str, Share)> = names.zip(shares).collect();
-    let size = |share: &Share| share.total.unwrap_or(share.first);
+    let mut shares: Vec<(&str, VarianceShare)> = names.zip(shares).collect();
+    let size = |share: &VarianceShare| share.total.unwrap_or(share.first);
     shares.sort_by(|a, b| size(&b.1).total_cmp(&size(&a.1)));
     Ok(shares.into_iter().map(of).collect::<Array>().into())
 }
@@ -347,7 +347,7 @@ fn rows_where(call: &mut Call) -> Result<Dynamic, ScriptError> {
                 return Err(call
                     .error(told)
                     .hint("it says true or false: |row| row.peak > 1")
-                    .at(Place::Argument(0)));
+                    .at(CallPart::Argument(0)));
             }
         }
     }

@@ -8,15 +8,15 @@ use super::histories::HISTORY;
 use super::simulations::SIMULATION;
 use super::sweeps::SWEEP_TABLE;
 use crate::output::{DataColumn, DataTable, DataValues};
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::Kind;
+use crate::script::bindings::parameter::{Parameter, either};
 use crate::script::handles::history::HistoryHandle;
 use crate::script::handles::simulation::SimulationHandle;
-use crate::script::looks::arrays;
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::Kind;
-use crate::script::rows::parameter::{Parameter, either};
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::messages::numbers::as_number;
+use crate::script::presentation::arrays;
 use crate::script::studies::sweeps::table::SweepTable;
-use crate::script::words::error::{Place, ScriptError};
-use crate::script::words::numbers::as_number;
 
 /// What a table can be made of.
 pub(super) const TABULAR: Parameter =
@@ -45,7 +45,7 @@ pub(super) fn table(call: &Call) -> Result<DataTable, ScriptError> {
             .hint(
                 "for example map.cells, or [#{ mesh: 8, error: 0.1 }, #{ mesh: 16, error: 0.02 }]",
             )
-            .at(Place::Argument(0))
+            .at(CallPart::Argument(0))
     })?;
     let names: BTreeSet<&str> = rows.iter().flat_map(|row| row.keys()).map(|key| &**key).collect();
     let column = |name: &str| DataColumn {

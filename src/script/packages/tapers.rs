@@ -4,16 +4,16 @@ use rhai::{Array, Dynamic};
 
 use super::sections::SECTION;
 use crate::beams::{BeamError, Section, SectionVariation, Solid};
+use crate::script::bindings::call::Call;
+use crate::script::bindings::parameter::array;
+use crate::script::bindings::parameter::number;
+use crate::script::bindings::returns::Returns;
+use crate::script::bindings::table::{BindingTable, function, method};
 use crate::script::handles::section::SectionHandle;
-use crate::script::rows::call::Call;
-use crate::script::rows::parameter::array;
-use crate::script::rows::parameter::number;
-use crate::script::rows::returns::Returns;
-use crate::script::rows::table::{Table, function, method};
-use crate::script::words::error::{Place, ScriptError};
+use crate::script::messages::error::{CallPart, ScriptError};
 
 /// The domain of tapers.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "tapers",
     doc: "Sections that vary along a beam: blades, whips, fly rods.",
     types: &[],
@@ -56,13 +56,13 @@ fn taper(call: &mut Call) -> Result<Dynamic, ScriptError> {
     if let Some((place, _)) = all.iter().find(|(_, section)| section.relaxation != relaxation) {
         let told = format!("the section at {place} has another damping than that at the start");
         let hint = "give the sections of a taper the same damping";
-        return Err(call.error(told).hint(hint).at(Place::Argument(0)));
+        return Err(call.error(told).hint(hint).at(CallPart::Argument(0)));
     }
     let variation = variation(&all).validated().map_err(|error| match error {
         BeamError::SectionValue { .. } => ScriptError::from(error),
         _ => ScriptError::from(error).hint("write taper([[0, thick], [1, thin]])"),
     });
-    let variation = variation.map_err(|error| error.at(Place::Argument(0)))?;
+    let variation = variation.map_err(|error| error.at(CallPart::Argument(0)))?;
     Ok(Dynamic::from(SectionHandle { variation, solid: None, relaxation }))
 }
 
@@ -93,6 +93,8 @@ fn place(call: &Call, index: usize, given: Dynamic) -> Result<(f64, SectionHandl
     };
     read(given).ok_or_else(|| {
         let told = format!("place {} is not a part of the length and a section", index + 1);
-        call.error(told).hint("write [0.5, section], 0.5 being the middle").at(Place::Argument(0))
+        call.error(told)
+            .hint("write [0.5, section], 0.5 being the middle")
+            .at(CallPart::Argument(0))
     })
 }

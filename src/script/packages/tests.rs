@@ -3,14 +3,14 @@
 use std::collections::HashSet;
 
 use super::{TABLES, language};
+use crate::script::bindings::kind::Kind;
+use crate::script::bindings::parameter::Parameter;
+use crate::script::bindings::table::{CallSyntax, FunctionBinding};
 use crate::script::engine::runner::{Ending, run};
-use crate::script::rows::kind::Kind;
-use crate::script::rows::parameter::Parameter;
-use crate::script::rows::table::{Form, Row};
 use crate::script::source::program::Program;
-use crate::script::state::settings::{Mode, Settings};
+use crate::script::state::settings::{RunMode, RunSettings};
 
-fn rows() -> impl Iterator<Item = &'static Row> {
+fn rows() -> impl Iterator<Item = &'static FunctionBinding> {
     TABLES.iter().flat_map(|table| table.rows)
 }
 
@@ -29,7 +29,7 @@ fn every_example_runs() {
     {
         let program =
             Program::named(&row.signature(), &format!("{}\n{}", table.setup, row.example));
-        let outcome = run(&program, &language(), Settings::silent(Mode::Run));
+        let outcome = run(&program, &language(), RunSettings::silent(RunMode::Run));
         assert!(matches!(outcome.ending, Ending::Finished), "{:?}", outcome.ending);
         assert_eq!(outcome.checks.failed(), [], "{}", row.signature());
     }
@@ -47,9 +47,9 @@ fn optional_parameters_stand_last() {
 #[test]
 fn no_two_rows_can_be_meant_by_the_same_call() {
     let mut seen = HashSet::new();
-    for row in rows().filter(|row| !matches!(row.form, Form::Operator)) {
+    for row in rows().filter(|row| !matches!(row.form, CallSyntax::Operator)) {
         for count in row.required()..=row.parameters.len() {
-            let property = matches!(row.form, Form::Property(_));
+            let property = matches!(row.form, CallSyntax::Property(_));
             let owner = row.receiver().map(|of| of.name());
             assert!(seen.insert((row.name, owner, count, property)), "{}", row.signature());
         }
@@ -68,7 +68,7 @@ fn related_names_exist() {
 
 #[test]
 fn no_name_is_reserved() {
-    for row in rows().filter(|row| !matches!(row.form, Form::Operator)) {
+    for row in rows().filter(|row| !matches!(row.form, CallSyntax::Operator)) {
         assert!(can_be_written(row.name), "{}", row.signature());
         for parameter in row.parameters {
             check_keys(parameter);
@@ -112,7 +112,7 @@ fn reserved_words_are_recognised() {
 
 #[test]
 fn domains_that_follow_parameters_are_there() {
-    for name in crate::script::rows::lifting::NAMED.into_iter().flatten() {
+    for name in crate::script::bindings::parameter_variants::NAMED.into_iter().flatten() {
         assert!(TABLES.iter().any(|table| table.name == *name), "{name}");
     }
 }

@@ -2,16 +2,16 @@
 
 use rhai::{Array, Dynamic};
 
-use crate::output::{Cell, Table as TextTable};
-use crate::script::rows::call::Call;
-use crate::script::rows::parameter::{Parameter, Presence, array, number, whole};
-use crate::script::rows::returns::Returns;
-use crate::script::rows::table::{Table, function};
-use crate::script::words::error::{Place, ScriptError};
-use crate::script::words::numbers::{format_fixed, format_scientific};
+use crate::output::{Cell, TextTable};
+use crate::script::bindings::call::Call;
+use crate::script::bindings::parameter::{Parameter, Presence, array, number, whole};
+use crate::script::bindings::returns::Returns;
+use crate::script::bindings::table::{BindingTable, function};
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::messages::numbers::{format_fixed, format_scientific};
 
 /// The domain of formats for numbers.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "text",
     doc: "Numbers print with as many digits as they need: 0.05, 3, 1e-12. These functions choose the digits, and \
           set tables.",
@@ -57,7 +57,7 @@ fn tabulate(call: &mut Call) -> Result<Dynamic, ScriptError> {
         let row = row.try_cast::<Array>().filter(|row| row.len() == headings.len());
         let row = row.ok_or_else(|| {
             let told = format!("row {number} is not an array of {} cells", headings.len());
-            call.error(told).hint("a row has one cell for each heading").at(Place::Argument(1))
+            call.error(told).hint("a row has one cell for each heading").at(CallPart::Argument(1))
         })?;
         table.row(row.iter().map(|cell| {
             let text = words(cell);

@@ -3,15 +3,15 @@
 use rhai::Dynamic;
 
 use super::simulations::{SIMULATION, SPINNING};
-use crate::script::handles::simulation::{Goal, SimulationHandle};
-use crate::script::rows::call::Call;
-use crate::script::rows::parameter::{Presence, name, number, whole};
-use crate::script::rows::returns::Returns;
-use crate::script::rows::table::{Table, method};
-use crate::script::words::error::ScriptError;
+use crate::script::bindings::call::Call;
+use crate::script::bindings::parameter::{Presence, name, number, whole};
+use crate::script::bindings::returns::Returns;
+use crate::script::bindings::table::{BindingTable, method};
+use crate::script::handles::simulation::{RunTarget, SimulationHandle};
+use crate::script::messages::error::ScriptError;
 
 /// The domain of going back in a simulation.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "going back",
     doc: "A simulation can go back to states that it was in, bit for bit, as long as these fit into the memory set aside for them. \
           That is 256 MB for each simulation of a script that says back or rewind or imports a file somewhere (the library does not count), and none else; \
@@ -21,7 +21,7 @@ pub const TABLE: Table = Table {
     constants: &[],
     rows: &[
         method(SIMULATION, "back", &[whole("count").non_negative().or(Presence::Whole(1))], |call| {
-            go_back(call, Goal::Steps(call.count("count")?))
+            go_back(call, RunTarget::Steps(call.count("count")?))
         })
         .summary("Goes back a step, or so many.")
         .doc(
@@ -32,7 +32,7 @@ pub const TABLE: Table = Table {
         .example("sim.step(10);\nlet energy = sim.energy;\nsim.step(5);\nsim.back(5);\ncheck(sim.steps == 10 && sim.energy == energy);\nsim.back();\ncheck(sim.steps == 9);")
         .see(&["rewind", "fork", "keep_snapshots"]),
         method(SIMULATION, "rewind", &[number("t").any_number().unit("time")], |call| {
-            go_back(call, Goal::Time(call.number("t")?))
+            go_back(call, RunTarget::Time(call.number("t")?))
         })
         .summary("Goes back to a time: to the end of the last step at or before it.")
         .doc("sim.rewind(0) leads to the start, whenever that was, which is kept whatever else was forgotten.")
@@ -65,7 +65,7 @@ pub(super) fn bytes(megabytes: f64) -> usize {
     (megabytes * 1e6) as usize
 }
 
-fn go_back(call: &Call, goal: Goal) -> Result<Dynamic, ScriptError> {
+fn go_back(call: &Call, goal: RunTarget) -> Result<Dynamic, ScriptError> {
     call.receiver::<SimulationHandle>()?.go_back(call, &goal)?;
     Ok(Dynamic::UNIT)
 }

@@ -4,20 +4,20 @@ use rhai::Dynamic;
 
 use super::scenes::{BEAM, SCENE};
 use crate::beams::Station;
-use crate::joints::Course;
-use crate::model::{ModelError, Scene, TrackError};
+use crate::joints::TrackEnd;
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::{Kind, Type};
+use crate::script::bindings::parameter::{Parameter, array, boolean, options, text};
+use crate::script::bindings::returns::Returns;
+use crate::script::bindings::table::{BindingTable, method, property};
 use crate::script::handles::beam::BeamHandle;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::track::TrackHandle;
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::{Kind, Type};
-use crate::script::rows::parameter::{Parameter, array, boolean, options, text};
-use crate::script::rows::returns::Returns;
-use crate::script::rows::table::{Table, method, property};
-use crate::script::words::error::{Place, ScriptError};
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::system::{Scene, SystemError, TrackError};
 
 /// The domain of tracks.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "tracks",
     doc: "Beams that meet end to end are a track, along which a slider passes from one to the next: scene.slider(bead, track). Its position counts along the whole track, and \
           round a closed one turn after turn.",
@@ -80,12 +80,12 @@ const TRACK_KEYS: &[Parameter] = &[
 
 /// What a slider slides on, by its index.
 #[derive(Clone, Copy)]
-pub(super) enum Guide {
+pub(super) enum SliderGuide {
     Beam(usize),
     Track(usize),
 }
 
-impl Guide {
+impl SliderGuide {
     /// That which an argument of a call is, in a scene.
     pub(super) fn of(call: &Call, name: &str, scene: &SceneHandle) -> Result<Self, ScriptError> {
         match call.get_if::<TrackHandle>(name) {
@@ -107,7 +107,7 @@ impl Guide {
         scene: &Scene,
         slave: Station,
         at: Option<f64>,
-    ) -> Result<(usize, f64), ModelError> {
+    ) -> Result<(usize, f64), SystemError> {
         match (self, at) {
             (Self::Beam(beam), Some(part)) => Ok((beam, part * scene.beams[beam].axis.length())),
             (Self::Beam(beam), None) => Ok((beam, scene.nearest_arc_length(beam, &slave)?)),
@@ -129,17 +129,17 @@ fn track(call: &mut Call) -> Result<Dynamic, ScriptError> {
     }
     let options = call.options_or_defaults("options")?;
     let is_closed = options.get_if("closed").unwrap_or(false);
-    let course = if is_closed { Course::Closed } else { Course::Open };
+    let course = if is_closed { TrackEnd::Closed } else { TrackEnd::Open };
     let name = options.text_if_given("name")?;
     let name = name.unwrap_or_else(|| scene.scene().borrow().free_name("track"));
     let added = scene.scene().borrow_mut().add_track(name, &beams, course);
     let index = added.map_err(|error| {
         let place = match &error {
-            ModelError::Track(error) if matches!(**error, TrackError::Open { .. }) => {
-                Place::Key("closed".into())
+            SystemError::Track(error) if matches!(**error, TrackError::Open { .. }) => {
+                CallPart::Key("closed".into())
             }
-            ModelError::Track(_) => Place::Argument(0),
-            _ => Place::Key("name".into()),
+            SystemError::Track(_) => CallPart::Argument(0),
+            _ => CallPart::Key("name".into()),
         };
         ScriptError::from(error).at(place)
     })?;

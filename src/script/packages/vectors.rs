@@ -5,19 +5,19 @@ use rhai::Dynamic;
 use crate::elementary::atan2;
 use crate::geometry::{Vec2, cross, unit};
 use crate::output::significant;
-use crate::script::looks::details;
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::{Details, Scripted, Type};
-use crate::script::rows::lifting::{
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::{Details, Scripted, Type};
+use crate::script::bindings::parameter::{Parameter, number, object, point};
+use crate::script::bindings::parameter_variants::{
     at_cut_of_vector, at_zero_vector, near_zero_divisor, where_points_meet,
 };
-use crate::script::rows::parameter::{Parameter, number, object, point};
-use crate::script::rows::returns::Returns;
-use crate::script::rows::table::{Table, function, operator, property};
-use crate::script::words::error::ScriptError;
+use crate::script::bindings::returns::Returns;
+use crate::script::bindings::table::{BindingTable, function, operator, property};
+use crate::script::messages::error::ScriptError;
+use crate::script::presentation::details;
 
 /// The domain of vectors and their arithmetic.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "vectors",
     doc: "Points and vectors of the plane, with components x and y.",
     types: &[VECTOR],

@@ -7,22 +7,24 @@ use super::pictures::subjects::{MOVING, simulations, stations};
 use super::recording::{Missing, tell_another_run};
 use super::simulations::SPINNING;
 use crate::beams::Station;
-use crate::output::viewer::{Field, Viewer};
+use crate::output::viewer::{ColourField, Viewer};
+use crate::script::bindings::call::Call;
+use crate::script::bindings::options::Options;
+use crate::script::bindings::parameter::{
+    Parameter, Presence, array, number, options, text, whole,
+};
+use crate::script::bindings::table::{BindingTable, function};
 use crate::script::handles::simulation::{SimulationHandle, Visited};
 use crate::script::handles::station::StationHandle;
-use crate::script::looks::film::{FIELDS, Inside, Wishes, film};
-use crate::script::looks::sight::column_hint;
-use crate::script::rows::call::Call;
-use crate::script::rows::options::Options;
-use crate::script::rows::parameter::{Parameter, Presence, array, number, options, text, whole};
-use crate::script::rows::table::{Table, function};
-use crate::script::state::settings::Mode;
-use crate::script::words::error::{Place, ScriptError};
-use crate::script::words::numbers::format_number;
-use crate::script::words::suggest::nearest;
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::messages::numbers::format_number;
+use crate::script::messages::suggest::nearest;
+use crate::script::presentation::plots::column_hint;
+use crate::script::presentation::viewer_data::{FIELDS, FieldReader, ViewerOptions, film};
+use crate::script::state::settings::RunMode;
 
 /// Viewers.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "viewers",
     doc: "A viewer is one HTML file that plays simulations in any browser, without network and without withy: to look at, to send, to keep. \
           `withy view FILE` makes one of a saved simulation, or of those that a script leaves in its variables, and opens it; `:view` does at the prompt.",
@@ -87,13 +89,13 @@ fn write_viewer(call: &mut Call) -> Result<Dynamic, ScriptError> {
         return Err(call
             .error(told)
             .hint("a viewer is a page: \"run.html\"")
-            .at(Place::Argument(1)));
+            .at(CallPart::Argument(1)));
     }
     let simulations = simulations(call)?;
     let options = call.options_or_defaults("options")?;
     let labels = labels(call, &simulations, &options)?;
     let trails = match options.has("trails") {
-        true => Some(stations(call, &options.array("trails")?, Place::Key("trails".into()))?),
+        true => Some(stations(call, &options.array("trails")?, CallPart::Key("trails".into()))?),
         false => None,
     };
     let trails = trails.map(|trails| assigned(&trails, &simulations)).transpose()?;
@@ -105,7 +107,7 @@ fn write_viewer(call: &mut Call) -> Result<Dynamic, ScriptError> {
         let span = span(call, of, &options)?;
         let most = options.count("frames")?;
         let frames = of.simulation().frames_between(span.0, span.1, most);
-        let wishes = Wishes {
+        let wishes = ViewerOptions {
             span,
             inside: inside(call, of, &frames, (&fields, options.has("fields")))?,
             frames,
@@ -130,9 +132,9 @@ fn inside(
     of: &SimulationHandle,
     frames: &[usize],
     (names, is_asked): (&[&str], bool),
-) -> Result<Vec<Field>, ScriptError> {
-    let taken = Inside::of(&of.simulation(), frames.len(), names)?;
-    let Some(mut taken) = taken.filter(|_| call.context().mode() != Mode::DryBuild) else {
+) -> Result<Vec<ColourField>, ScriptError> {
+    let taken = FieldReader::of(&of.simulation(), frames.len(), names)?;
+    let Some(mut taken) = taken.filter(|_| call.context().mode() != RunMode::DryBuild) else {
         return Ok(Vec::new());
     };
     let times = of.simulation().trajectory().times().to_vec();
@@ -166,7 +168,7 @@ fn labels(
         return Err(call
             .error(told)
             .hint("give one label for each simulation")
-            .at(Place::Key("labels".into())));
+            .at(CallPart::Key("labels".into())));
     }
     Ok(given.iter().map(Dynamic::to_string).collect())
 }
@@ -222,7 +224,7 @@ fn columns(
         }
         let told = format!("the history of '{}' has no column {}", of.name(), call.show(value));
         let hint = column_hint(simulation.history(), &name);
-        Err(call.error(told).hint(hint).at(Place::Key("columns".into())))
+        Err(call.error(told).hint(hint).at(CallPart::Key("columns".into())))
     };
     given.iter().map(column).collect()
 }
@@ -241,7 +243,7 @@ fn fields(call: &Call, options: &Options) -> Result<Vec<String>, ScriptError> {
         let suggestion = meant.map(|name| format!("did you mean \"{name}\"? ")).unwrap_or_default();
         let told = format!("there is no field {}", call.show(value));
         let hint = format!("{suggestion}fields: {}", FIELDS.join(", "));
-        Err(call.error(told).hint(hint).at(Place::Key("fields".into())))
+        Err(call.error(told).hint(hint).at(CallPart::Key("fields".into())))
     };
     given.iter().map(field).collect()
 }

@@ -7,7 +7,7 @@ use super::text::{Lexeme, Source, name_of};
 
 /// The outline of a script: the names that it declares.
 #[derive(Debug, Default)]
-pub struct Outline {
+pub struct ScriptOutline {
     /// Variables and constants declared outside functions and blocks, with their lines.
     pub top_level: Vec<(String, usize)>,
     /// The names of all variables, loop variables and parameters of the script.
@@ -20,7 +20,7 @@ pub struct Outline {
     pub imports: Vec<(String, String)>,
 }
 
-impl Outline {
+impl ScriptOutline {
     /// The outline of `source`, which need not be correct.
     pub fn of(source: &Source) -> Self {
         let tokens = source.tokens();
@@ -77,8 +77,8 @@ impl Outline {
 mod tests {
     use super::*;
 
-    fn outline(text: &str) -> Outline {
-        Outline::of(&Source::from(text))
+    fn outline(text: &str) -> ScriptOutline {
+        ScriptOutline::of(&Source::from(text))
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::text::Source;
-use crate::folders::read_file;
+use crate::sandbox_fs::read_file;
 
 /// The largest script, or file that one imports [bytes]: more is data, and takes a lot of memory to be read as a script.
 pub const LARGEST_SCRIPT: u64 = 16 << 20;

@@ -7,7 +7,7 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Token {
     /// The kind of the token.
-    pub kind: Kind,
+    pub kind: TokenKind,
     /// Where the token begins in the input [bytes].
     pub start: usize,
     /// Where the token ends in the input [bytes].
@@ -16,7 +16,7 @@ pub struct Token {
 
 /// The kind of a token.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum TokenKind {
     /// The token is spaces and line ends.
     Space,
     /// The token is a comment: one to the end of its line, or a block comment that ends.
@@ -76,7 +76,7 @@ impl Token {
 
     /// Whether the token means something: it is neither spaces nor a comment.
     pub fn is_significant(&self) -> bool {
-        !matches!(self.kind, Kind::Space | Kind::Comment | Kind::OpenComment)
+        !matches!(self.kind, TokenKind::Space | TokenKind::Comment | TokenKind::OpenComment)
     }
 }
 
@@ -104,8 +104,8 @@ pub fn pair(tokens: &[Token]) -> (Vec<Option<usize>>, Vec<usize>) {
     let mut open: Vec<(usize, Bracket)> = Vec::new();
     for (index, token) in tokens.iter().enumerate() {
         match token.kind {
-            Kind::Open(bracket) => open.push((index, bracket)),
-            Kind::Close(bracket) => {
+            TokenKind::Open(bracket) => open.push((index, bracket)),
+            TokenKind::Close(bracket) => {
                 if open.last().is_some_and(|(_, opened)| opened.is_closed_by(bracket))
                     && let Some((opener, _)) = open.pop()
                 {
@@ -137,18 +137,18 @@ impl Scanner<'_> {
     }
 
     /// Reads one token, of one character at least.
-    fn next(&mut self) -> Kind {
+    fn next(&mut self) -> TokenKind {
         let rest = self.rest();
         let first = rest.chars().next().unwrap_or(' ');
         match first {
             _ if self.is_within_text => self.piece(0),
             _ if first.is_whitespace() => {
                 self.skip(char::is_whitespace);
-                Kind::Space
+                TokenKind::Space
             }
             _ if rest.starts_with("//") => {
                 self.skip(|letter| letter != '\n');
-                Kind::Comment
+                TokenKind::Comment
             }
             _ if rest.starts_with("/*") => self.block_comment(),
             '"' | '\'' => self.quoted(first),
@@ -165,40 +165,40 @@ impl Scanner<'_> {
             '0'..='9' => self.number(),
             _ if is_name(first) => {
                 self.skip(is_name);
-                Kind::Word
+                TokenKind::Word
             }
             _ => {
                 let sign = SIGNS.iter().find(|sign| rest.starts_with(**sign));
                 self.at += sign.map_or(first.len_utf8(), |sign| sign.len());
-                Kind::Symbol
+                TokenKind::Symbol
             }
         }
     }
 
-    fn opened(&mut self, bracket: Bracket) -> Kind {
+    fn opened(&mut self, bracket: Bracket) -> TokenKind {
         let is_wide = matches!(self.rest().as_bytes(), [b'#' | b'?' | b'$', ..]);
         self.at += if is_wide { 2 } else { 1 };
         self.open.push(bracket);
-        Kind::Open(bracket)
+        TokenKind::Open(bracket)
     }
 
     /// A closing bracket; after that of an interpolation the text goes on.
-    fn closed(&mut self, bracket: Bracket) -> Kind {
+    fn closed(&mut self, bracket: Bracket) -> TokenKind {
         self.at += 1;
         let opened = self.open.last().copied();
         if bracket == Bracket::Curly && opened == Some(Bracket::Interpolation) {
             self.open.pop();
             self.is_within_text = true;
-            return Kind::Close(Bracket::Interpolation);
+            return TokenKind::Close(Bracket::Interpolation);
         }
         if opened.is_some_and(|open| open.is_closed_by(bracket)) {
             self.open.pop();
         }
-        Kind::Close(bracket)
+        TokenKind::Close(bracket)
     }
 
     /// A text in backticks, whose first `known` bytes are read, up to its end or its next interpolation.
-    fn piece(&mut self, known: usize) -> Kind {
+    fn piece(&mut self, known: usize) -> TokenKind {
         let rest = &self.rest()[known..];
         let (end, interpolation) = (rest.find('`'), rest.find("${"));
         self.is_within_text = false;
@@ -206,22 +206,22 @@ impl Scanner<'_> {
             (_, Some(0)) if known == 0 => self.opened(Bracket::Interpolation),
             (Some(end), interpolation) if interpolation.is_none_or(|other| end < other) => {
                 self.at += known + end + 1;
-                Kind::Piece
+                TokenKind::Piece
             }
             (_, Some(interpolation)) => {
                 self.at += known + interpolation;
                 self.is_within_text = true;
-                Kind::Piece
+                TokenKind::Piece
             }
             _ => {
                 self.at = self.text.len();
-                Kind::OpenPiece
+                TokenKind::OpenPiece
             }
         }
     }
 
     /// A text in quotes: it ends in its line, unless that ends in a backslash.
-    fn quoted(&mut self, quote: char) -> Kind {
+    fn quoted(&mut self, quote: char) -> TokenKind {
         let mut is_escaped = false;
         for (at, letter) in self.rest().char_indices().skip(1) {
             match letter {
@@ -229,37 +229,37 @@ impl Scanner<'_> {
                 '\\' => is_escaped = true,
                 '\n' => {
                     self.at += at;
-                    return Kind::OpenText;
+                    return TokenKind::OpenText;
                 }
                 _ if letter == quote => {
                     self.at += at + 1;
-                    return Kind::Text;
+                    return TokenKind::Text;
                 }
                 _ => (),
             }
         }
         self.at = self.text.len();
-        Kind::OpenText
+        TokenKind::OpenText
     }
 
     /// A text in marks, `#"…"#`, of any number of marks.
-    fn marked(&mut self) -> Kind {
+    fn marked(&mut self) -> TokenKind {
         let rest = self.rest();
         let marks = rest.len() - rest.trim_start_matches('#').len();
         let closing = format!("\"{}", "#".repeat(marks));
         match rest[marks + 1..].find(&closing) {
             Some(end) => {
                 self.at += marks + 1 + end + closing.len();
-                Kind::Text
+                TokenKind::Text
             }
             None => {
                 self.at = self.text.len();
-                Kind::OpenPiece
+                TokenKind::OpenPiece
             }
         }
     }
 
-    fn block_comment(&mut self) -> Kind {
+    fn block_comment(&mut self) -> TokenKind {
         let mut depth = 0_usize;
         let bytes = self.text.as_bytes();
         while self.at < bytes.len() {
@@ -272,23 +272,25 @@ impl Scanner<'_> {
                     depth -= 1;
                     self.at += 2;
                     if depth == 0 {
-                        return Kind::Comment;
+                        return TokenKind::Comment;
                     }
                 }
                 _ => self.at += 1,
             }
         }
-        Kind::OpenComment
+        TokenKind::OpenComment
     }
 
     /// A number; the dots of `0..3` and `1.abs()` do not belong to it.
-    fn number(&mut self) -> Kind {
+    fn number(&mut self) -> TokenKind {
         let is_decimal = !self.rest().starts_with("0x");
         self.skip(is_name);
         if is_decimal && let Some(fraction) = self.rest().strip_prefix('.') {
             match fraction.chars().next() {
-                Some('.') => return Kind::Number,
-                Some(letter) if is_name(letter) && !letter.is_ascii_digit() => return Kind::Number,
+                Some('.') => return TokenKind::Number,
+                Some(letter) if is_name(letter) && !letter.is_ascii_digit() => {
+                    return TokenKind::Number;
+                }
                 _ => self.at += 1,
             }
             self.skip(is_name);
@@ -298,7 +300,7 @@ impl Scanner<'_> {
             self.at += 1;
             self.skip(is_name);
         }
-        Kind::Number
+        TokenKind::Number
     }
 }
 
@@ -355,12 +357,12 @@ mod tests {
     #[test]
     fn what_is_not_finished_says_so() {
         let last = |text: &str| scan(text).last().map(|token| token.kind);
-        assert_eq!(last("\"abc"), Some(Kind::OpenText));
-        assert_eq!(last("`abc"), Some(Kind::OpenPiece));
-        assert_eq!(last("`"), Some(Kind::OpenPiece));
-        assert_eq!(last("`${a} b"), Some(Kind::OpenPiece));
-        assert_eq!(last("/* /* */"), Some(Kind::OpenComment));
-        assert_eq!(last("`${a}"), Some(Kind::Close(Bracket::Interpolation)));
+        assert_eq!(last("\"abc"), Some(TokenKind::OpenText));
+        assert_eq!(last("`abc"), Some(TokenKind::OpenPiece));
+        assert_eq!(last("`"), Some(TokenKind::OpenPiece));
+        assert_eq!(last("`${a} b"), Some(TokenKind::OpenPiece));
+        assert_eq!(last("/* /* */"), Some(TokenKind::OpenComment));
+        assert_eq!(last("`${a}"), Some(TokenKind::Close(Bracket::Interpolation)));
     }
 
     proptest! {

@@ -18,8 +18,8 @@ use std::rc::Rc;
 use rhai::{Dynamic, Engine, LexError, Position, Token};
 
 use super::text::Source;
-use super::{choices, rounds};
-use crate::script::words::stop::Stop;
+use super::{loop_scoping, switch_rewrite};
+use crate::script::messages::stop::Stop;
 
 /// The prefix of the names of operators that stand in for Rhai's own.
 pub const OWN: &str = "num";
@@ -53,7 +53,7 @@ const OPERAND: &str = "\u{E002}";
 
 /// The right-hand side of `x /= y`: a type of its own, so that Rhai's built-in whole-number `/=` does not apply.
 #[derive(Clone)]
-pub struct Operand(pub Dynamic);
+pub struct DivisionOperand(pub Dynamic);
 
 /// The operator that stands for the power at place `chain` of a chain of powers.
 pub fn power_name(chain: u8) -> String {
@@ -62,14 +62,14 @@ pub fn power_name(chain: u8) -> String {
 
 /// What the engine's hook for tokens remembers of the text that is being read.
 #[derive(Clone, Default)]
-pub struct Reader {
+pub struct TokenReader {
     nesting: Rc<RefCell<Nesting>>,
     stopped: Rc<Cell<Option<Stop>>>,
     /// Whether nothing may stop it.
     is_undisturbed: Rc<Cell<bool>>,
 }
 
-impl Reader {
+impl TokenReader {
     /// Forgets the text before, which may have ended in the middle of an expression.
     pub fn begin(&self) {
         *self.nesting.borrow_mut() = Nesting::default();
@@ -97,7 +97,7 @@ const PULSE: u32 = 64;
 pub fn install(
     engine: &mut Engine,
     stop: impl Fn() -> Option<Stop> + 'static,
-) -> Result<Reader, String> {
+) -> Result<TokenReader, String> {
     for (symbol, precedence) in REPLACED {
         engine.register_custom_operator(format!("{OWN}{symbol}"), precedence)?;
     }
@@ -109,15 +109,15 @@ pub fn install(
         |symbols, _, _| Ok((symbols.len() == 1).then(|| "$expr$".into())),
         false,
         |context, inputs, _| match inputs.first() {
-            Some(expression) => {
-                context.eval_expression_tree(expression).map(|value| Dynamic::from(Operand(value)))
-            }
+            Some(expression) => context
+                .eval_expression_tree(expression)
+                .map(|value| Dynamic::from(DivisionOperand(value))),
             None => Ok(Dynamic::UNIT),
         },
     );
-    rounds::install(engine);
-    let reader = Reader::default();
-    let Reader { nesting, stopped, is_undisturbed } = reader.clone();
+    loop_scoping::install(engine);
+    let reader = TokenReader::default();
+    let TokenReader { nesting, stopped, is_undisturbed } = reader.clone();
     let count = Cell::new(0_u32);
     // "Deprecated" marks the hook as volatile, not as going away.
     #[allow(deprecated)]
@@ -150,12 +150,16 @@ pub fn mark(source: &Source) -> Cow<'_, str> {
             _ => &[],
         }
     };
-    let mut marks: Vec<(Position, Mark)> =
-        rounds::bodies(tokens).into_iter().map(|(at, letter)| (at, Mark::Round(letter))).collect();
-    marks.extend(choices::words(tokens).map(|at| (at, Mark::Choice)));
+    let mut marks: Vec<(Position, InsertedMark)> = loop_scoping::bodies(tokens)
+        .into_iter()
+        .map(|(at, letter)| (at, InsertedMark::Round(letter)))
+        .collect();
+    marks.extend(switch_rewrite::words(tokens).map(|at| (at, InsertedMark::Choice)));
     let assignments = tokens.iter().map(|(token, at)| (*at, halves(token)));
     marks.extend(
-        assignments.filter(|(_, halves)| !halves.is_empty()).map(|(at, h)| (at, Mark::Assign(h))),
+        assignments
+            .filter(|(_, halves)| !halves.is_empty())
+            .map(|(at, h)| (at, InsertedMark::Assign(h))),
     );
     if marks.is_empty() {
         return Cow::Borrowed(source);
@@ -167,9 +171,9 @@ pub fn mark(source: &Source) -> Cow<'_, str> {
         let (Some(line), Some(column)) = (at.line(), at.position()) else { continue };
         let Some(line) = lines.get_mut(line - 1) else { continue };
         match mark {
-            Mark::Round(letter) => rounds::put(line, column - 1, letter),
-            Mark::Choice => choices::put(line, column - 1),
-            Mark::Assign(halves) => {
+            InsertedMark::Round(letter) => loop_scoping::put(line, column - 1, letter),
+            InsertedMark::Choice => switch_rewrite::put(line, column - 1),
+            InsertedMark::Assign(halves) => {
                 if let Some(target) = line.get_mut(column - 1..column - 1 + halves.len()) {
                     target.copy_from_slice(halves);
                 }
@@ -181,7 +185,7 @@ pub fn mark(source: &Source) -> Cow<'_, str> {
 }
 
 /// What is put into a text.
-enum Mark<'m> {
+enum InsertedMark<'m> {
     /// In the place of an operator that assigns.
     Assign(&'m [char]),
     /// Behind the brace that opens the body of a loop.
@@ -303,9 +307,9 @@ fn half(error: &LexError) -> Option<Token> {
         UP_HALF => Some(Token::LeftShiftAssign),
         DOWN_HALF => Some(Token::RightShiftAssign),
         OPERAND_HALF => Some(custom(OPERAND)),
-        rounds::ONE => Some(custom(rounds::ONE_NAME)),
-        rounds::TWO => Some(custom(rounds::TWO_NAME)),
-        choices::CHOICE => Some(custom(choices::CHOICE_NAME)),
+        loop_scoping::ONE => Some(custom(loop_scoping::ONE_NAME)),
+        loop_scoping::TWO => Some(custom(loop_scoping::TWO_NAME)),
+        switch_rewrite::CHOICE => Some(custom(switch_rewrite::CHOICE_NAME)),
         _ => None,
     }
 }

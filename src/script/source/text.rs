@@ -16,9 +16,9 @@ pub type Lexeme = (Token, Position);
 
 /// A text of the language. Its copies are one text, and share its tokens, which are found when somebody asks for them first.
 #[derive(Clone)]
-pub struct Source(Arc<Held>);
+pub struct Source(Arc<SourceData>);
 
-struct Held {
+struct SourceData {
     text: Box<str>,
     lexed: OnceLock<Lexed>,
 }
@@ -115,7 +115,7 @@ impl Deref for Source {
 
 impl<T: Into<Box<str>>> From<T> for Source {
     fn from(text: T) -> Self {
-        Self(Arc::new(Held { text: text.into(), lexed: OnceLock::new() }))
+        Self(Arc::new(SourceData { text: text.into(), lexed: OnceLock::new() }))
     }
 }
 

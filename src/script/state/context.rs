@@ -15,30 +15,30 @@ use rhai::{Dynamic, Engine};
 use super::files::OutputFolder;
 use super::journals::Journals;
 use super::limits::{INTERRUPT_HEARD, Meter};
-use super::settings::{Mode, Settings, StudyWishes};
+use super::settings::{RunMode, RunSettings, StudyPreferences};
+use crate::script::messages::checks::Checks;
+use crate::script::messages::error::ScriptError;
+use crate::script::messages::progress::Progress;
+use crate::script::messages::reports::{Reporter, Reports};
+use crate::script::messages::stop::{MEGABYTE, Stop};
 use crate::script::source::program::Program;
-use crate::script::words::checks::Checks;
-use crate::script::words::error::ScriptError;
-use crate::script::words::progress::Progress;
-use crate::script::words::reports::{Reporter, Reports};
-use crate::script::words::stop::{MEGABYTE, Stop};
 
 /// A function that tells why a value of a native type cannot be used now, if the value is busy.
-pub type Busy = fn(&Dynamic) -> Option<String>;
+pub type BusyCheck = fn(&Dynamic) -> Option<String>;
 
 /// A cheap handle on the state of one run.
 #[derive(Clone)]
-pub struct Context(Rc<Shared>);
+pub struct Context(Rc<ContextData>);
 
-struct Shared {
-    mode: Mode,
+struct ContextData {
+    mode: RunMode,
     interrupt: Arc<AtomicBool>,
     meter: Meter,
     printed: RefCell<Box<dyn Write + Send>>,
     told: RefCell<Box<dyn Write + Send>>,
     pipe_closed: Cell<bool>,
     progress: Box<dyn Progress + Send>,
-    studies: StudyWishes,
+    studies: StudyPreferences,
     journals: Journals,
     output: OutputFolder,
     program: Option<Program>,
@@ -54,15 +54,15 @@ struct Shared {
     level: Cell<usize>,
     is_calling_back: Cell<bool>,
     is_silent: Cell<bool>,
-    busy: RefCell<Vec<Busy>>,
+    busy: RefCell<Vec<BusyCheck>>,
 }
 
 impl Context {
     /// The state at the start of a run with these settings.
-    pub fn new(settings: Settings) -> Self {
+    pub fn new(settings: RunSettings) -> Self {
         // Who makes a part of studies writes down nothing else.
-        let writing = settings.studies.part.map_or(settings.mode, |_| Mode::DryBuild);
-        Self(Rc::new(Shared {
+        let writing = settings.studies.part.map_or(settings.mode, |_| RunMode::DryBuild);
+        Self(Rc::new(ContextData {
             mode: settings.mode,
             interrupt: settings.interrupt,
             meter: Meter::guarded(settings.limits, settings.last_resort),
@@ -89,7 +89,7 @@ impl Context {
     }
 
     /// Whether simulations of the run really run.
-    pub fn mode(&self) -> Mode {
+    pub fn mode(&self) -> RunMode {
         self.0.mode
     }
 
@@ -109,7 +109,7 @@ impl Context {
     }
 
     /// How the studies of the run are made.
-    pub fn studies(&self) -> &StudyWishes {
+    pub fn studies(&self) -> &StudyPreferences {
         &self.0.studies
     }
 
@@ -308,7 +308,7 @@ impl Context {
     }
 
     /// Keeps a function that tells whether values of a native type are busy.
-    pub fn know(&self, busy: Busy) {
+    pub fn know(&self, busy: BusyCheck) {
         self.0.busy.borrow_mut().push(busy);
     }
 

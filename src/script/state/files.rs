@@ -6,10 +6,10 @@ use std::collections::HashMap;
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-use super::settings::Mode;
-use crate::folders::{Folder, Imprinting, Record, is_plain};
+use super::settings::RunMode;
 use crate::output::OutputError;
-use crate::script::words::error::ScriptError;
+use crate::sandbox_fs::{ChecksumWriter, Folder, WrittenFiles, is_plain};
+use crate::script::messages::error::ScriptError;
 
 /// Most bytes of a file that a script reads.
 const LARGEST_INPUT: u64 = 1 << 30;
@@ -19,17 +19,17 @@ pub struct OutputFolder {
     folder: PathBuf,
     /// The folder of the script, where it may read.
     beside: PathBuf,
-    mode: Mode,
+    mode: RunMode,
     written: RefCell<Vec<PathBuf>>,
     /// What earlier runs have written into the folder, read before the first file of this one.
-    record: OnceCell<RefCell<Record>>,
+    record: OnceCell<RefCell<WrittenFiles>>,
     /// What a dry build would have written to read it again.
     pretended: RefCell<HashMap<PathBuf, Vec<u8>>>,
 }
 
 /// A file that was written.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Written {
+pub struct WrittenFile {
     /// The path of the file that was written.
     pub path: PathBuf,
     /// The path of an older file of the same name, which is kept because it was not written by this program, or was changed since.
@@ -37,7 +37,7 @@ pub struct Written {
 }
 
 impl OutputFolder {
-    pub(super) fn new(folder: PathBuf, beside: PathBuf, mode: Mode) -> Self {
+    pub(super) fn new(folder: PathBuf, beside: PathBuf, mode: RunMode) -> Self {
         Self {
             folder,
             beside,
@@ -52,7 +52,7 @@ impl OutputFolder {
     ///
     /// # Errors
     /// When the name leads out of the folder, or something cannot be written.
-    pub fn write(&self, name: &str, content: &[u8]) -> Result<Written, ScriptError> {
+    pub fn write(&self, name: &str, content: &[u8]) -> Result<WrittenFile, ScriptError> {
         self.write_by(name, |file| file.write_all(content))
     }
 
@@ -64,10 +64,10 @@ impl OutputFolder {
         &self,
         name: &str,
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-    ) -> Result<Written, ScriptError> {
+    ) -> Result<WrittenFile, ScriptError> {
         let path = self.path_of(name)?;
-        if self.mode == Mode::DryBuild {
-            return Ok(Written { path, kept: None });
+        if self.mode == RunMode::DryBuild {
+            return Ok(WrittenFile { path, kept: None });
         }
         let kept = self.put(name, write).map_err(|source| {
             self.refused(match source.kind() {
@@ -79,7 +79,7 @@ impl OutputFolder {
         if !written.contains(&path) {
             written.push(path.clone());
         }
-        Ok(Written { path, kept })
+        Ok(WrittenFile { path, kept })
     }
 
     /// Opens the folder anew for each file: somebody may have moved it away while a session waited.
@@ -89,7 +89,7 @@ impl OutputFolder {
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> io::Result<Option<PathBuf>> {
         let folder = Folder::make(&self.folder)?;
-        let record = self.record.get_or_init(|| RefCell::new(Record::of(&folder)));
+        let record = self.record.get_or_init(|| RefCell::new(WrittenFiles::of(&folder)));
         let mut record = record.borrow_mut();
         let path = Path::new(name);
         let kept = match record.may_replace(&folder, name) {
@@ -98,7 +98,7 @@ impl OutputFolder {
         };
         let mut written = None;
         folder.write_whole_by(path, |file| {
-            let mut file = Imprinting::new(BufWriter::new(file));
+            let mut file = ChecksumWriter::new(BufWriter::new(file));
             write(&mut file)?;
             file.flush()?;
             written = Some(file.imprint());
@@ -112,9 +112,9 @@ impl OutputFolder {
     ///
     /// # Errors
     /// When the name leads out of the folder, or something cannot be written.
-    pub fn write_to_read(&self, name: &str, content: Vec<u8>) -> Result<Written, ScriptError> {
+    pub fn write_to_read(&self, name: &str, content: Vec<u8>) -> Result<WrittenFile, ScriptError> {
         let written = self.write(name, &content)?;
-        if self.mode == Mode::DryBuild {
+        if self.mode == RunMode::DryBuild {
             self.pretended.borrow_mut().insert(written.path.clone(), content);
         }
         Ok(written)
@@ -134,8 +134,8 @@ impl OutputFolder {
         ];
         let most = most.unwrap_or(LARGEST_INPUT).min(LARGEST_INPUT);
         InputFolders::new(folders).read(name, most).map_err(|error| match self.mode {
-            Mode::Run => error,
-            Mode::DryBuild => {
+            RunMode::Run => error,
+            RunMode::DryBuild => {
                 error.hint("run the script that writes it first; a check writes nothing")
             }
         })
@@ -271,7 +271,7 @@ mod tests {
         for name in ["way/secret.txt", "file.txt"] {
             assert!(inputs.read(name, 100).is_err(), "{name}");
         }
-        let output = OutputFolder::new(own.clone(), PathBuf::from("."), Mode::Run);
+        let output = OutputFolder::new(own.clone(), PathBuf::from("."), RunMode::Run);
         assert!(output.write("way/a.txt", b"x").is_err());
         assert!(output.write("way/deep/a.txt", b"x").is_err());
         let written = output.write("nowhere.txt", b"x").expect("the link is put aside");
@@ -303,7 +303,7 @@ mod tests {
     #[test]
     fn only_names_inside_the_folder_are_written() {
         let folder = tempfile::tempdir().expect("a temporary folder");
-        let output = OutputFolder::new(folder.path().join("out"), PathBuf::from("."), Mode::Run);
+        let output = OutputFolder::new(folder.path().join("out"), PathBuf::from("."), RunMode::Run);
         for name in ["", "/etc/motion.svg", "../motion.svg", "a/../../b"] {
             assert!(output.write(name, b"x").is_err(), "{name}");
         }
@@ -316,7 +316,7 @@ mod tests {
     #[test]
     fn a_folder_that_cannot_be_made_is_named() {
         let file = tempfile::NamedTempFile::new().expect("a temporary file");
-        let output = OutputFolder::new(file.path().join("out"), PathBuf::from("."), Mode::Run);
+        let output = OutputFolder::new(file.path().join("out"), PathBuf::from("."), RunMode::Run);
         let Err(ScriptError::Failure(failure)) = output.write("a.csv", b"") else {
             panic!("must be refused")
         };
@@ -328,7 +328,7 @@ mod tests {
         let out = tempfile::tempdir().expect("a temporary folder");
         let file = out.path().join("a.svg");
         fs::write(&file, "theirs").expect("a file");
-        let run = || OutputFolder::new(out.path().into(), PathBuf::from("."), Mode::Run);
+        let run = || OutputFolder::new(out.path().into(), PathBuf::from("."), RunMode::Run);
         let kept = |content: &[u8]| run().write("a.svg", content).expect("a plain name").kept;
         assert_eq!(kept(b"one"), Some(out.path().join("a.svg.kept")));
         assert_eq!(kept(b"two"), None, "it was ours");
@@ -349,7 +349,7 @@ mod tests {
         fs::create_dir(&other).expect("a folder");
         fs::write(other.join("secret"), "x").expect("a file");
         std::os::unix::fs::symlink(&other, &out).expect("a link");
-        let output = OutputFolder::new(out, home.path().join("own"), Mode::Run);
+        let output = OutputFolder::new(out, home.path().join("own"), RunMode::Run);
         for refused in
             [output.write("a.csv", b"x").map(drop), output.read("secret", None).map(drop)]
         {

@@ -8,14 +8,14 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::settings::JournalWish;
+use super::settings::JournalPreference;
 use crate::analysis::{Journal, JournalError, RowEntry, RowJournal, read_rows, remove_rows};
-use crate::script::words::error::ScriptError;
+use crate::script::messages::error::ScriptError;
 
 /// The journals of a run: what is kept of its studies.
 #[derive(Default)]
 pub struct Journals {
-    open: RefCell<Vec<(Journal, Lasting)>>,
+    open: RefCell<Vec<(Journal, JournalLifetime)>>,
     /// Journals of sweeps, which are kept open by these.
     of_rows: RefCell<Vec<PathBuf>>,
     /// Whether parts are made, which stay.
@@ -26,7 +26,7 @@ pub struct Journals {
 
 /// How long a journal lasts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Lasting {
+pub enum JournalLifetime {
     /// It is removed when the script has come to its end.
     UntilTheEnd,
     /// It stays, for it is a part that will be joined with others.
@@ -45,16 +45,16 @@ impl Journals {
     pub fn open(
         &self,
         path: PathBuf,
-        (wish, lasting): (JournalWish, Lasting),
+        (wish, lasting): (JournalPreference, JournalLifetime),
     ) -> Result<Option<JournalNumber>, ScriptError> {
-        if wish == JournalWish::Without {
+        if wish == JournalPreference::Without {
             return Ok(None);
         }
         let mut journal = Journal::open(path).map_err(refused)?;
-        if wish == JournalWish::Anew {
+        if wish == JournalPreference::Anew {
             journal.clear().map_err(refused)?;
         }
-        if lasting == Lasting::Longer {
+        if lasting == JournalLifetime::Longer {
             journal.begin().map_err(refused)?;
             self.has_parts.set(true);
         }
@@ -69,10 +69,10 @@ impl Journals {
         &self,
         paths: impl IntoIterator<Item = PathBuf>,
     ) -> Result<JournalNumber, ScriptError> {
-        Ok(self.keep(Journal::of_files(paths).map_err(refused)?, Lasting::Longer))
+        Ok(self.keep(Journal::of_files(paths).map_err(refused)?, JournalLifetime::Longer))
     }
 
-    fn keep(&self, journal: Journal, lasting: Lasting) -> JournalNumber {
+    fn keep(&self, journal: Journal, lasting: JournalLifetime) -> JournalNumber {
         let mut open = self.open.borrow_mut();
         open.push((journal, lasting));
         JournalNumber(open.len() - 1)
@@ -110,15 +110,15 @@ impl Journals {
     pub fn open_rows(
         &self,
         path: PathBuf,
-        (wish, lasting): (JournalWish, Lasting),
+        (wish, lasting): (JournalPreference, JournalLifetime),
         about: RowEntry,
         mut recall: impl FnMut(RowEntry),
     ) -> Result<Option<RowKeeper>, ScriptError> {
         let (mut is_same, mut known) = (false, 0);
         let whole = match wish {
-            JournalWish::Without => return Ok(None),
-            JournalWish::Anew => 0,
-            JournalWish::GoOn => read_rows::<io::Error>(&path, |entry| {
+            JournalPreference::Without => return Ok(None),
+            JournalPreference::Anew => 0,
+            JournalPreference::GoOn => read_rows::<io::Error>(&path, |entry| {
                 is_same = is_same || entry == about;
                 if is_same {
                     known +=
@@ -133,8 +133,8 @@ impl Journals {
         let opened = RowJournal::append(&path, whole);
         let journal = opened.map_err(|error| refused_rows(&path, &error))?;
         match lasting {
-            Lasting::UntilTheEnd => self.of_rows.borrow_mut().push(path.clone()),
-            Lasting::Longer => self.has_parts.set(true),
+            JournalLifetime::UntilTheEnd => self.of_rows.borrow_mut().push(path.clone()),
+            JournalLifetime::Longer => self.has_parts.set(true),
         }
         self.kept.set(self.kept.get() + known);
         let mut keeper = RowKeeper { path, journal };
@@ -161,7 +161,7 @@ impl Journals {
             remove_rows(&path).map_err(|error| refused_rows(&path, &error))?;
         }
         let ended = self.open.take().into_iter();
-        let mut ended = ended.filter(|(_, lasting)| *lasting == Lasting::UntilTheEnd);
+        let mut ended = ended.filter(|(_, lasting)| *lasting == JournalLifetime::UntilTheEnd);
         ended.try_for_each(|(journal, _)| journal.finish()).map_err(refused)
     }
 }
@@ -231,18 +231,19 @@ mod tests {
         let path = |name: &str| home.path().join(format!("{name}.journal"));
         let begin = |wish| {
             let journals = Journals::default();
-            let numbers = ["a", "b"]
-                .map(|name| journals.open(path(name), (wish, Lasting::UntilTheEnd)).unwrap());
+            let numbers = ["a", "b"].map(|name| {
+                journals.open(path(name), (wish, JournalLifetime::UntilTheEnd)).unwrap()
+            });
             (journals, numbers)
         };
-        let (first, [a, b]) = begin(JournalWish::GoOn);
+        let (first, [a, b]) = begin(JournalPreference::GoOn);
         let bytes = first.write(a.unwrap(), 1, &0.5).unwrap();
         assert_eq!(bytes, std::fs::metadata(path("a")).unwrap().len());
         first.write(b.unwrap(), 1, &0.25).unwrap();
         assert_eq!(first.kept(), 2);
         drop(first);
 
-        let (second, [a, b]) = begin(JournalWish::GoOn);
+        let (second, [a, b]) = begin(JournalPreference::GoOn);
         assert_eq!(second.kept(), 0, "nothing of it is known to be of use yet");
         assert_eq!(second.find::<f64>(a.unwrap(), 1), Some(0.5));
         assert_eq!(second.find::<f64>(b.unwrap(), 1), Some(0.25));
@@ -251,8 +252,8 @@ mod tests {
         second.finish().unwrap();
         assert!(!path("a").exists() && !path("b").exists() && second.kept() == 0);
 
-        let (third, [a, _]) = begin(JournalWish::Anew);
+        let (third, [a, _]) = begin(JournalPreference::Anew);
         assert_eq!(third.find::<f64>(a.unwrap(), 1), None);
-        assert!(begin(JournalWish::Without).1.iter().all(Option::is_none));
+        assert!(begin(JournalPreference::Without).1.iter().all(Option::is_none));
     }
 }

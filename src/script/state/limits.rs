@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
 use std::time::Duration;
 
 use super::watchdog::Watchdog;
-use crate::script::words::stop::{MEGABYTE, Stop};
+use crate::script::messages::stop::{MEGABYTE, Stop};
 
 /// The default limit of memory, in megabytes.
 pub const DEFAULT_MEGABYTES: u64 = 4096;
@@ -42,7 +42,7 @@ pub struct Limits {
 }
 
 /// Ends the whole program: a limit was passed, and what runs did not hear of it or grows too fast.
-pub type LastResort = Arc<dyn Fn(Stop) + Send + Sync>;
+pub type HardAbort = Arc<dyn Fn(Stop) + Send + Sync>;
 
 impl Limits {
     /// Address space for a stack that a script within these limits cannot exhaust [bytes].
@@ -73,7 +73,7 @@ impl Default for Limits {
 pub struct Meter {
     limits: Limits,
     alarm: Arc<AtomicU8>,
-    resort: Option<LastResort>,
+    resort: Option<HardAbort>,
     steps: Cell<u64>,
     wants_too_many_steps: Cell<bool>,
     written: Cell<u64>,
@@ -102,7 +102,7 @@ impl Meter {
     }
 
     /// The meter of a run of which nothing is used yet, with code that ends the program when a limit is passed and nothing hears of it.
-    pub fn guarded(limits: Limits, resort: Option<LastResort>) -> Self {
+    pub fn guarded(limits: Limits, resort: Option<HardAbort>) -> Self {
         Self {
             limits,
             resort,
@@ -282,7 +282,7 @@ mod tests {
     #[test]
     fn who_does_not_hear_of_a_limit_is_ended() {
         let (send, ended) = std::sync::mpsc::channel();
-        let resort: LastResort = Arc::new(move |stop| _ = send.send(stop));
+        let resort: HardAbort = Arc::new(move |stop| _ = send.send(stop));
         let limit = Duration::from_millis(20);
         let begun = Instant::now();
         let meter = Meter::guarded(Limits { time: Some(limit), ..without_limits() }, Some(resort));

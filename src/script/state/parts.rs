@@ -4,12 +4,12 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use crate::folders::Folder;
-use crate::script::words::error::ScriptError;
+use crate::sandbox_fs::Folder;
+use crate::script::messages::error::ScriptError;
 
 /// A part of all studies of a script: every so manieth case of each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Part {
+pub struct StudyPart {
     /// How many parts there are.
     pub of: u32,
     /// The number of the part, from 1.
@@ -19,19 +19,22 @@ pub struct Part {
 /// A text that names no part.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("a part is written as 3/16: its number, from 1, and how many there are")]
-pub struct NoPart;
+pub struct InvalidStudyPart;
 
-impl FromStr for Part {
-    type Err = NoPart;
+impl FromStr for StudyPart {
+    type Err = InvalidStudyPart;
 
-    fn from_str(text: &str) -> Result<Self, NoPart> {
-        let (number, of) = text.split_once('/').ok_or(NoPart)?;
-        let (number, of) = (number.parse().map_err(|_| NoPart)?, of.parse().map_err(|_| NoPart)?);
-        if (1..=of).contains(&number) { Ok(Self { of, number }) } else { Err(NoPart) }
+    fn from_str(text: &str) -> Result<Self, InvalidStudyPart> {
+        let (number, of) = text.split_once('/').ok_or(InvalidStudyPart)?;
+        let (number, of) = (
+            number.parse().map_err(|_| InvalidStudyPart)?,
+            of.parse().map_err(|_| InvalidStudyPart)?,
+        );
+        if (1..=of).contains(&number) { Ok(Self { of, number }) } else { Err(InvalidStudyPart) }
     }
 }
 
-impl Part {
+impl StudyPart {
     /// All of a study.
     pub const WHOLE: Self = Self { of: 1, number: 1 };
 
@@ -57,8 +60,11 @@ impl Part {
 ///
 /// # Errors
 /// When there are none, some are missing, one is there twice, or they are parts of different numbers; or a folder cannot be read.
-pub fn find_parts(study: &str, folders: &[PathBuf]) -> Result<Vec<(Part, PathBuf)>, ScriptError> {
-    let mut found: Vec<(Part, PathBuf)> = Vec::new();
+pub fn find_parts(
+    study: &str,
+    folders: &[PathBuf],
+) -> Result<Vec<(StudyPart, PathBuf)>, ScriptError> {
+    let mut found: Vec<(StudyPart, PathBuf)> = Vec::new();
     for folder in folders {
         let names = file_names(&folder.join(study)).map_err(|error| {
             ScriptError::new(format!("cannot read the folder '{}': {error}", folder.display()))
@@ -66,13 +72,13 @@ pub fn find_parts(study: &str, folders: &[PathBuf]) -> Result<Vec<(Part, PathBuf
         })?;
         let base = Path::new(study).file_name().unwrap_or_default().to_string_lossy().into_owned();
         for name in names {
-            if let Some(part) = Part::of_file(&base, &name) {
+            if let Some(part) = StudyPart::of_file(&base, &name) {
                 found.push((part, folder.join(study).with_file_name(name)));
             }
         }
     }
     found.sort();
-    let Some((Part { of, .. }, _)) = found.first().cloned() else {
+    let Some((StudyPart { of, .. }, _)) = found.first().cloned() else {
         let told = format!("there is no part of the study '{study}' in the folders to be merged");
         return Err(ScriptError::new(told)
             .hint("make them with withy study FILE --part 1/4 --out DIR, and so on"));
@@ -123,13 +129,13 @@ mod tests {
 
     #[test]
     fn every_case_belongs_to_one_part() {
-        let parts: Vec<Part> = (1..=3).map(|number| Part { of: 3, number }).collect();
+        let parts: Vec<StudyPart> = (1..=3).map(|number| StudyPart { of: 3, number }).collect();
         for case in 0..10 {
             assert_eq!(parts.iter().filter(|part| part.has(case)).count(), 1);
         }
-        assert_eq!("3/16".parse(), Ok(Part { of: 16, number: 3 }));
+        assert_eq!("3/16".parse(), Ok(StudyPart { of: 16, number: 3 }));
         for wrong in ["0/3", "4/3", "3", "a/b", "1/0", ""] {
-            assert_eq!(wrong.parse::<Part>(), Err(NoPart), "{wrong}");
+            assert_eq!(wrong.parse::<StudyPart>(), Err(InvalidStudyPart), "{wrong}");
         }
     }
 
@@ -139,7 +145,7 @@ mod tests {
         let folder = |name: &str| home.path().join(name);
         let lay = |place: &str, number, of| {
             std::fs::create_dir_all(folder(place)).unwrap();
-            std::fs::write(folder(place).join(Part { of, number }.file("crane")), "").unwrap();
+            std::fs::write(folder(place).join(StudyPart { of, number }.file("crane")), "").unwrap();
         };
         let told = |places: &[&str]| {
             let folders: Vec<PathBuf> = places.iter().map(|place| folder(place)).collect();

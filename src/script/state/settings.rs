@@ -5,14 +5,14 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use super::limits::{LastResort, Limits};
-use super::parts::Part;
+use super::limits::{HardAbort, Limits};
+use super::parts::StudyPart;
+use crate::script::messages::progress::{NoProgress, Progress};
 use crate::script::source::program::Program;
-use crate::script::words::progress::{NoProgress, Progress};
 
 /// Whether simulations of a run really run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mode {
+pub enum RunMode {
     /// Everything of the run really runs.
     Run,
     /// Scenes are built and checked; nothing is stepped, printed, judged or written.
@@ -20,9 +20,9 @@ pub enum Mode {
 }
 
 /// How a run talks to the world outside. Made by the command line, the prompt or a test.
-pub struct Settings {
+pub struct RunSettings {
     /// Whether simulations of the run really run.
-    pub mode: Mode,
+    pub mode: RunMode,
     /// The folder for files of the script; made when the first one is written.
     pub out: PathBuf,
     /// The folder of the script, beside which it may read files.
@@ -40,9 +40,9 @@ pub struct Settings {
     /// What shows how far a simulation of the run is.
     pub progress: Box<dyn Progress + Send>,
     /// How the studies of the run are made.
-    pub studies: StudyWishes,
+    pub studies: StudyPreferences,
     /// What ends the whole program when a limit of the run is passed and nothing hears of it.
-    pub last_resort: Option<LastResort>,
+    pub last_resort: Option<HardAbort>,
     /// The script of the run, which engines of other threads read too; none where there is no whole one, as at the prompt.
     pub program: Option<Program>,
     /// Why the run may write no files, if it may not.
@@ -51,20 +51,20 @@ pub struct Settings {
 
 /// How the studies of a run are made.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct StudyWishes {
+pub struct StudyPreferences {
     /// Whether the studies can go on where an earlier run of them was interrupted.
-    pub journal: JournalWish,
+    pub journal: JournalPreference,
     /// How often cases of the studies are timed, whatever the script says.
     pub repeats: Option<usize>,
     /// The part of each study that is made; then nothing is written but that.
-    pub part: Option<Part>,
+    pub part: Option<StudyPart>,
     /// The folders of parts that are joined into whole studies, in the place of making them.
     pub merge: Vec<PathBuf>,
 }
 
 /// What becomes of finished cases when a study is interrupted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum JournalWish {
+pub enum JournalPreference {
     /// Finished cases are lost.
     #[default]
     Without,
@@ -74,9 +74,9 @@ pub enum JournalWish {
     Anew,
 }
 
-impl Settings {
+impl RunSettings {
     /// The settings of a run that writes to nowhere, for dry builds and as a start for others.
-    pub fn silent(mode: Mode) -> Self {
+    pub fn silent(mode: RunMode) -> Self {
         Self {
             mode,
             out: PathBuf::from("out"),
@@ -87,7 +87,7 @@ impl Settings {
             printed: Box::new(io::sink()),
             told: Box::new(io::sink()),
             progress: Box::new(NoProgress),
-            studies: StudyWishes::default(),
+            studies: StudyPreferences::default(),
             last_resort: None,
             program: None,
             refuses_files: None,

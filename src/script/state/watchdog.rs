@@ -7,8 +7,8 @@ use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-use super::limits::{LastResort, Limits, TOO_LARGE, TOO_LATE};
-use crate::script::words::stop::Stop;
+use super::limits::{HardAbort, Limits, TOO_LARGE, TOO_LATE};
+use crate::script::messages::stop::Stop;
 
 /// How often the watchdog looks.
 const INTERVAL: Duration = Duration::from_millis(10);
@@ -30,7 +30,7 @@ impl Watchdog {
     pub(super) fn start(
         limits: Limits,
         alarm: Arc<AtomicU8>,
-        resort: Option<LastResort>,
+        resort: Option<HardAbort>,
     ) -> io::Result<Self> {
         if limits.time.is_none() && limits.memory.is_none() {
             return Ok(Self { leash: None, thread: None });

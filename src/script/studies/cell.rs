@@ -7,13 +7,13 @@ use super::parameters::label;
 use crate::analysis::Case;
 use crate::integrators::Method;
 use crate::newton::Tolerance;
+use crate::script::bindings::call::Call;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::step_size::{STEP_SIZE, step_size};
-use crate::script::rows::call::Call;
-use crate::script::words::error::{Failure, Place, ScriptError};
-use crate::script::words::numbers::as_number;
-use crate::script::words::suggest::nearest;
-use crate::simulation::Settings;
+use crate::script::messages::error::{CallPart, Failure, ScriptError};
+use crate::script::messages::numbers::as_number;
+use crate::script::messages::suggest::nearest;
+use crate::simulation::SimulationSettings;
 
 /// What a function may say of a cell.
 const KEYS: [&str; 4] = ["scene", "dt", "end", "integrator"];
@@ -47,7 +47,7 @@ pub fn case(
         let got = call.describe(&given);
         call.error(format!("the function gives {got} instead of a scene"))
             .hint("its last expression is the scene, or a map: #{ scene: scene, dt: 0.1, end: 5 }")
-            .at(Place::Key("scene".into()))
+            .at(CallPart::Key("scene".into()))
     })?;
     scene.expect_unasked()?;
     let missing = |name: &str| {
@@ -77,7 +77,7 @@ pub fn case(
             .ok_or_else(|| wrong("end", &value, "give a positive number"))?,
         None => options.end.ok_or_else(|| missing("end"))?,
     };
-    let settings = Settings { method, dt, tolerance: Tolerance::default() };
+    let settings = SimulationSettings { method, dt, tolerance: Tolerance::default() };
     let stops = vec![end];
     let scene = scene.scene().borrow().clone();
     Ok(Case { scene, settings, stops })
@@ -105,7 +105,7 @@ fn expect_no_other_value(call: &Call, own: &Map, values: &Map) -> Result<(), Scr
     let hint = format!(
         "leave '{name}' out of what it gives, or give the values of the cells another name"
     );
-    Err(call.error(told).hint(hint).at(Place::Key("scene".into())))
+    Err(call.error(told).hint(hint).at(CallPart::Key("scene".into())))
 }
 
 /// Whether the map that a function gives says nothing that has no meaning.
@@ -118,5 +118,5 @@ fn expect_known_keys(call: &Call, given: &Map) -> Result<(), ScriptError> {
     Err(call
         .error(format!("the function gives a map with the unknown key '{unknown}'"))
         .hint(format!("{suggestion}known keys: {}", KEYS.join(", ")))
-        .at(Place::Key("scene".into())))
+        .at(CallPart::Key("scene".into())))
 }

@@ -2,50 +2,52 @@
 
 use rhai::{Dynamic, Map};
 
+use super::case_runner::{CaseRunner, print_table};
 use super::convergence_chart::chart;
 use super::convergence_table::{head, summary};
-use super::desk::{Desk, print_table};
 use super::labels;
 use super::options::ErrorOptions;
-use super::plan::{Plan, at_key};
+use super::plan::{ErrorStudyPlan, at_key};
 use super::reference::{self, Reference};
-use crate::analysis::{ALL_POSITIONS, Case, Convergence, Ladder, Refined, Trial, all_combinations};
+use crate::analysis::{
+    ALL_POSITIONS, Case, Convergence, Ladder, RefinedParameter, RunResult, all_combinations,
+};
 use crate::integrators::Method;
 use crate::output::{CsvRecords, Panel, format_number};
-use crate::script::rows::call::Call;
-use crate::script::state::settings::Mode;
-use crate::script::words::error::ScriptError;
-use crate::simulation::{Settings, StepSize};
+use crate::script::bindings::call::Call;
+use crate::script::messages::error::ScriptError;
+use crate::script::state::settings::RunMode;
+use crate::simulation::{SimulationSettings, StepSize};
 
 /// Makes the study that the options ask for; in a dry build nothing runs.
 pub fn study(call: &Call, options: &ErrorOptions) -> Result<Convergence, ScriptError> {
-    let mut plan = Plan::read(call, options)?;
+    let mut plan = ErrorStudyPlan::read(call, options)?;
     let refined = refined(call, &plan)?;
     let reference = Reference::read(call, options, &mut plan)?;
     if plan.subjects.len() > 1 {
         reference::expect_finer_than_all_meshes(call, options.reference.as_ref())?;
     }
-    let desk = Desk::open(call.context(), &plan.name)?;
+    let desk = CaseRunner::open(call.context(), &plan.name)?;
     let combinations = all_combinations(&plan.subjects, &plan.all_settings());
     let cases: Vec<Case> =
         combinations.iter().map(|of| of.case(&plan.subjects, &plan.times)).collect();
     let found = match call.context().mode() {
-        Mode::DryBuild => None,
-        Mode::Run => reference.trials(call, &desk, &plan, &cases)?,
+        RunMode::DryBuild => None,
+        RunMode::Run => reference.trials(call, &desk, &plan, &cases)?,
     };
     let (trials, truth) = found.unwrap_or_else(|| Reference::no_trials(&cases));
-    let size = |subject: usize, settings: &Settings| match refined {
-        Refined::Step => match settings.dt {
+    let size = |subject: usize, settings: &SimulationSettings| match refined {
+        RefinedParameter::Step => match settings.dt {
             StepSize::Fixed(dt) => dt,
             StepSize::Adaptive(control) => control.tolerance,
         },
-        Refined::Mesh => 1.0 / plan.subjects[subject].spans().max(1) as f64,
+        RefinedParameter::Mesh => 1.0 / plan.subjects[subject].spans().max(1) as f64,
     };
     let (mut ladders, mut failures) = (Vec::new(), Vec::new());
     for method in &plan.methods {
         let of_method =
             combinations.iter().zip(&trials).filter(|(of, _)| of.settings.method == *method);
-        let mut rungs: Vec<(f64, Trial)> =
+        let mut rungs: Vec<(f64, RunResult)> =
             of_method.map(|(of, trial)| (size(of.subject, &of.settings), trial.clone())).collect();
         rungs.sort_by(|a, b| b.0.total_cmp(&a.0));
         for (size, trial) in rungs.iter().filter(|(_, trial)| !trial.outcome.is_finished()) {
@@ -55,8 +57,8 @@ pub fn study(call: &Call, options: &ErrorOptions) -> Result<Convergence, ScriptE
         ladders.extend(Convergence::ladders_of(*method, &rungs, by));
     }
     let fixed = match refined {
-        Refined::Step => plan.subjects[0].mesh.clone(),
-        Refined::Mesh => format!("dt = {}", labels::step_size(&plan.all_settings()[0])),
+        RefinedParameter::Step => plan.subjects[0].mesh.clone(),
+        RefinedParameter::Mesh => format!("dt = {}", labels::step_size(&plan.all_settings()[0])),
     };
     let (name, times, length) = (plan.name, plan.times, plan.length);
     let study = Convergence { name, refined, fixed, times, length, truth, ladders, failures };
@@ -66,15 +68,15 @@ pub fn study(call: &Call, options: &ErrorOptions) -> Result<Convergence, ScriptE
 }
 
 /// What is refined: there are several of it, and one of the other.
-fn refined(call: &Call, plan: &Plan) -> Result<Refined, ScriptError> {
+fn refined(call: &Call, plan: &ErrorStudyPlan) -> Result<RefinedParameter, ScriptError> {
     let is_adaptive = |dt: &StepSize| matches!(dt, StepSize::Adaptive(_));
     if plan.dts.len() > 1 && plan.dts.iter().any(is_adaptive) {
         let hint = "orders are told of numbers; study_work_precision takes adaptive steps too";
         return Err(at_key(call, "dts", "adaptive steps have no size to refine", hint));
     }
     match (plan.subjects.len(), plan.dts.len()) {
-        (1, 2..) => Ok(Refined::Step),
-        (2.., 1) => Ok(Refined::Mesh),
+        (1, 2..) => Ok(RefinedParameter::Step),
+        (2.., 1) => Ok(RefinedParameter::Mesh),
         (meshes, dts) => {
             let told = format!("{meshes} mesh(es) and {dts} step size(s) are given");
             let hint = "give several step sizes and one mesh, or several meshes and one step size";
@@ -95,8 +97,8 @@ fn write(call: &Call, study: &Convergence) -> Result<(), ScriptError> {
 /// What the sizes of the study are sizes of: steps or meshes.
 pub(super) fn size_name(study: &Convergence) -> &'static str {
     match study.refined {
-        Refined::Step => "dt",
-        Refined::Mesh => "1 / spans",
+        RefinedParameter::Step => "dt",
+        RefinedParameter::Mesh => "1 / spans",
     }
 }
 
@@ -155,7 +157,7 @@ pub fn expect_quantity(
     quantity: &str,
 ) -> Result<(), ScriptError> {
     let known = study.quantities();
-    if known.contains(&quantity) || call.context().mode() == Mode::DryBuild {
+    if known.contains(&quantity) || call.context().mode() == RunMode::DryBuild {
         return Ok(());
     }
     let told = format!("the study '{}' has no quantity \"{quantity}\"", study.name);

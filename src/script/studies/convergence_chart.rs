@@ -1,9 +1,9 @@
 //! The picture of a convergence study.
 
 use super::labels;
-use crate::analysis::{Convergence, Ladder, Refined};
+use crate::analysis::{Convergence, Ladder, RefinedParameter};
 use crate::elementary::{ln, power};
-use crate::output::{Ink, LineChart, Marker, Scale, Series, Stroke};
+use crate::output::{AxisScale, LineChart, Marker, Series, SeriesColour, Stroke};
 
 /// Orders between neighbours that differ by less are the same one.
 const SAME_ORDER: f64 = 0.3;
@@ -28,12 +28,12 @@ pub fn chart(study: &Convergence, quantity: &str) -> LineChart {
     .caption(study.fixed.clone())
     .caption(format!("reference: {}", study.truth.source))
     .x_label(match study.refined {
-        Refined::Step => "dt",
-        Refined::Mesh => "mesh size 1 / spans",
+        RefinedParameter::Step => "dt",
+        RefinedParameter::Mesh => "mesh size 1 / spans",
     })
     .y_label(format!("error{relative}"))
-    .x_scale(Scale::Logarithmic)
-    .y_scale(Scale::Logarithmic)
+    .x_scale(AxisScale::Logarithmic)
+    .y_scale(AxisScale::Logarithmic)
     .sized(900.0, 640.0);
     let mut noted: Vec<(String, f64)> = Vec::new();
     for (number, ladder) in study.ladders_with(quantity).enumerate() {
@@ -44,7 +44,7 @@ pub fn chart(study: &Convergence, quantity: &str) -> LineChart {
             Some(order) => claimed(ladder, order, &points),
             None => seen(ladder),
         };
-        let (ink, marker) = (Ink::OfSeries(number), Marker::of_index(number));
+        let (ink, marker) = (SeriesColour::OfSeries(number), Marker::of_index(number));
         let name = labels::method(&ladder.method);
         chart =
             chart.series(Series::new(name, points).ink(ink).marker(marker).stroke(Stroke::Marked));

@@ -2,8 +2,8 @@
 
 use super::convergence::size_name;
 use super::labels;
-use crate::analysis::{ALL_POSITIONS, Convergence, Ladder, Refined};
-use crate::output::{Cell, Table, significant};
+use crate::analysis::{ALL_POSITIONS, Convergence, Ladder, RefinedParameter};
+use crate::output::{Cell, TextTable, significant};
 
 /// A table for every quantity of the study as text: errors and orders of all integrators side by side, the order of all rungs together below.
 pub fn table(study: &Convergence) -> String {
@@ -33,11 +33,11 @@ fn table_of(study: &Convergence, quantity: &str) -> String {
     let names = ladders.iter().flat_map(|ladder| [labels::method(&ladder.method), "order".into()]);
     let heads: Vec<String> = std::iter::once(size_name(study).to_owned()).chain(names).collect();
     let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
-    let mut table = Table::new(&heads).title(quantity);
+    let mut table = TextTable::new(&heads).title(quantity);
     for (rung, size) in ladders[0].sizes.iter().enumerate() {
         let shown = match study.refined {
-            Refined::Step => significant(*size, 6),
-            Refined::Mesh => format!("1/{}", significant(1.0 / size, 6)),
+            RefinedParameter::Step => significant(*size, 6),
+            RefinedParameter::Mesh => format!("1/{}", significant(1.0 / size, 6)),
         };
         let cells = ladders.iter().flat_map(|ladder| {
             let error = labels::deviation(ladder.deviations[rung]);
@@ -63,7 +63,7 @@ fn other_orders(study: &Convergence) -> String {
     let methods: Vec<(String, Option<f64>)> = of(ALL_POSITIONS);
     let heads: Vec<&str> =
         std::iter::once("order of").chain(methods.iter().map(|(name, _)| name.as_str())).collect();
-    let mut table = Table::new(&heads);
+    let mut table = TextTable::new(&heads);
     let quantities = study.quantities();
     let others: Vec<&str> = quantities.into_iter().filter(|of| *of != ALL_POSITIONS).collect();
     for quantity in &others {

@@ -6,13 +6,13 @@ use super::labels;
 use super::options::CostOptions;
 use crate::analysis::{Case, CostCase, FEATURES, StepCost};
 use crate::integrators::{INTEGRATORS, Method};
-use crate::model::Scene;
 use crate::newton::Tolerance;
-use crate::output::{BarChart, Cell, CsvRecords, Table, format_number, significant};
+use crate::output::{BarChart, Cell, CsvRecords, TextTable, format_number, significant};
+use crate::script::bindings::call::Call;
 use crate::script::handles::scene::SceneHandle;
-use crate::script::rows::call::Call;
-use crate::script::words::error::{Place, ScriptError};
-use crate::simulation::{Recording, Settings};
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::simulation::{Recording, SimulationSettings};
+use crate::system::Scene;
 
 /// The memory for snapshots in the row that has some [bytes].
 const SNAPSHOTS: usize = 256_000_000;
@@ -25,7 +25,7 @@ const TRUSTED_RATIO: f64 = 1.1;
 
 /// How the steps of all rows of a study of costs are taken, unless a row is about that.
 #[derive(Clone, Copy)]
-pub struct Way {
+pub struct CostStepping {
     /// The integrator of the study's steps.
     pub method: Method,
     /// The step size of the study [time].
@@ -42,17 +42,24 @@ pub struct CostTable {
     costs: Vec<StepCost>,
 }
 
-impl Way {
+impl CostStepping {
     fn case(&self, name: impl Into<String>, scene: Scene) -> CostCase {
-        let settings =
-            Settings { method: self.method, dt: self.dt.into(), tolerance: Tolerance::default() };
+        let settings = SimulationSettings {
+            method: self.method,
+            dt: self.dt.into(),
+            tolerance: Tolerance::default(),
+        };
         let case = Case { scene, settings, stops: vec![self.dt * self.steps as f64] };
         CostCase { name: name.into(), case, recording: Recording::default(), snapshots: 0 }
     }
 }
 
 /// The rows of a study: the scene alone, twice; with each feature; and in each other way.
-pub fn cases(call: &Call, options: &CostOptions, way: Way) -> Result<Vec<CostCase>, ScriptError> {
+pub fn cases(
+    call: &Call,
+    options: &CostOptions,
+    way: CostStepping,
+) -> Result<Vec<CostCase>, ScriptError> {
     let make = &options.scene;
     call.expect_arguments(make, 0, "|| …, a function that makes the scene")?;
     let handle = || {
@@ -61,7 +68,7 @@ pub fn cases(call: &Call, options: &CostOptions, way: Way) -> Result<Vec<CostCas
             let got = call.describe(&given);
             call.error(format!("the function gives {got} instead of a scene"))
                 .hint("its last expression is the scene")
-                .at(Place::Key("scene".into()))
+                .at(CallPart::Key("scene".into()))
         })
     };
     let fresh = || {
@@ -78,14 +85,14 @@ pub fn cases(call: &Call, options: &CostOptions, way: Way) -> Result<Vec<CostCas
             let features: Map = features.clone().try_cast().ok_or_else(|| {
                 call.error("features must be a map of names and functions")
                     .hint("for example #{ gravity: |scene| scene.gravity([0, -9.81]) }")
-                    .at(Place::Key("features".into()))
+                    .at(CallPart::Key("features".into()))
             })?;
             for (name, add) in features {
                 let handle = handle()?;
                 let add: FnPtr = add.try_cast().ok_or_else(|| {
                     call.error(format!("the feature '{name}' is no function"))
                         .hint("write |scene| …, a function that adds it")
-                        .at(Place::Key("features".into()))
+                        .at(CallPart::Key("features".into()))
                 })?;
                 call.expect_arguments(&add, 1, "|scene| …, a function that adds the feature")?;
                 // What it gives has no meaning.
@@ -110,7 +117,8 @@ pub fn cases(call: &Call, options: &CostOptions, way: Way) -> Result<Vec<CostCas
     cases.push(CostCase { snapshots: SNAPSHOTS, ..way.case("snapshots", fresh()?) });
     for entry in INTEGRATORS.iter().filter(|entry| entry.method != way.method) {
         cases.push(
-            Way { method: entry.method, ..way }.case(labels::method(&entry.method), fresh()?),
+            CostStepping { method: entry.method, ..way }
+                .case(labels::method(&entry.method), fresh()?),
         );
     }
     Ok(cases)
@@ -168,7 +176,7 @@ impl CostTable {
             "border",
             "columns",
         ];
-        let mut table = Table::new(&heads).title(format!("{}: cost of a step", self.name));
+        let mut table = TextTable::new(&heads).title(format!("{}: cost of a step", self.name));
         for cost in &self.costs {
             if !cost.outcome.is_finished() {
                 table.row([Cell::Text(cost.name.clone()), Cell::Number("-".to_owned())]);
@@ -270,12 +278,12 @@ mod tests {
     use std::time::Duration;
 
     use super::*;
-    use crate::analysis::Outcome;
+    use crate::analysis::CaseOutcome;
 
     fn table(times: [u64; 2]) -> CostTable {
         let cost = |(name, micros): (&str, u64)| StepCost {
             name: name.to_owned(),
-            outcome: Outcome::Finished,
+            outcome: CaseOutcome::Finished,
             unknowns: 9,
             half_bandwidth: 8,
             border: 0,
@@ -294,7 +302,7 @@ mod tests {
         let mut costs = table([100, 100]).costs;
         let reason =
             "a reason that is a good deal longer than any column of the table is wide".to_owned();
-        let outcome = Outcome::Failed { time: 0.5, reason: reason.clone() };
+        let outcome = CaseOutcome::Failed { time: 0.5, reason: reason.clone() };
         costs.push(StepCost { name: "slider".into(), outcome, ..costs[0].clone() });
         let text = CostTable::new("cost".to_owned(), costs).text();
         let (rows, below) = text.split_once("\n\n1 of 3 did not finish:\n").unwrap();

@@ -3,7 +3,7 @@
 use crate::analysis::Deviation;
 use crate::integrators::Method;
 use crate::output::{Cell, format_number, scientific, significant};
-use crate::simulation::{Settings, StepSize};
+use crate::simulation::{SimulationSettings, StepSize};
 
 /// The most digits of a step size.
 const STEP_DIGITS: usize = 6;
@@ -19,7 +19,7 @@ pub fn method(method: &Method) -> String {
 }
 
 /// The label of a step size: `0.05`, or `tolerance 1e-4`.
-pub fn step_size(settings: &Settings) -> String {
+pub fn step_size(settings: &SimulationSettings) -> String {
     match settings.dt {
         StepSize::Fixed(dt) => significant(dt, STEP_DIGITS),
         StepSize::Adaptive(control) => format!("tolerance {}", format_number(control.tolerance)),

@@ -1,12 +1,12 @@
 //! Studies as scripts ask for them: from options to cases, and from results to tables, files and pictures.
 
 pub mod calls;
+pub mod case_runner;
 pub mod cell;
 pub mod convergence;
 pub mod convergence_chart;
 pub mod convergence_table;
 pub mod cost;
-pub mod desk;
 pub mod fits;
 pub mod labels;
 pub mod options;

@@ -4,14 +4,14 @@ use rhai::{Array, Dynamic, FnPtr};
 
 use super::reference::FinestRun;
 use crate::integrators::Method;
-use crate::script::rows::arguments::Arguments;
-use crate::script::rows::kind::{Kind, Type};
-use crate::script::rows::option_set::{Field, both, option_set};
-use crate::script::rows::parameter::{
+use crate::script::bindings::arguments::Arguments;
+use crate::script::bindings::kind::{Kind, Type};
+use crate::script::bindings::option_set::{FromOption, both, option_set};
+use crate::script::bindings::parameter::{
     Parameter, Presence, anything, array, callback, choice, either, name, number, numbers, object,
     text, whole,
 };
-use crate::script::words::error::ScriptError;
+use crate::script::messages::error::ScriptError;
 
 const INTEGRATOR: Type = Type::of::<Method>();
 const FINEST_RUN: Type = Type::of::<FinestRun>();
@@ -95,7 +95,7 @@ option_set! {
         times: Vec<f64> =
             numbers("times").unit("time").doc("when results are compared; the last one ends a run"),
         /// What results are compared with.
-        reference: Option<Wanted> = either("reference", &[Kind::Text, Kind::Object(FINEST_RUN)])
+        reference: Option<ReferenceOption> = either("reference", &[Kind::Text, Kind::Object(FINEST_RUN)])
             .doc("the name of a table, or finest_run(…), which holds unless given")
             .optional(),
         /// A map of columns of the reference and what they are here.
@@ -146,14 +146,14 @@ option_set! {
 
 /// What a script wants results to be compared with.
 #[derive(Clone)]
-pub enum Wanted {
+pub enum ReferenceOption {
     /// The table of this name.
     Table(String),
     /// A run of our own.
     Run(FinestRun),
 }
 
-impl Field for Wanted {
+impl FromOption for ReferenceOption {
     fn read(options: &Arguments, key: &str) -> Result<Self, ScriptError> {
         match options.get_if::<FinestRun>(key) {
             Some(run) => Ok(Self::Run(run)),

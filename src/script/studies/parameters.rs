@@ -5,17 +5,17 @@ use rhai::{Array, Dynamic, Map};
 use super::labels;
 use crate::integrators::Method;
 use crate::output::significant;
-use crate::script::rows::accept::readable;
-use crate::script::rows::call::Call;
-use crate::script::words::error::{Place, ScriptError};
-use crate::script::words::numbers::{as_number, format_number};
+use crate::script::bindings::accept::readable;
+use crate::script::bindings::call::Call;
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::messages::numbers::{as_number, format_number};
 
 /// The most significant digits of a number in a label.
 const DIGITS: usize = 6;
 
 /// A swept parameter of a study: a name and its values.
 #[derive(Clone, Debug)]
-pub struct Swept {
+pub struct StudyParameter {
     /// The key under which a cell of the study finds its value.
     pub name: String,
     /// The values of the swept parameter.
@@ -24,13 +24,13 @@ pub struct Swept {
     pub labels: Vec<String>,
 }
 
-impl Swept {
+impl StudyParameter {
     /// Reads the value of the option `key`, which is a map of one name, such as `#{ dt: [0.1, 0.2] }`.
     pub fn read(call: &Call, key: &str, given: &Dynamic) -> Result<Self, ScriptError> {
         let wrong = |told: String| {
             call.error(told)
                 .hint(format!("write {key}: #{{ dt: [0.1, 0.2] }}, a name and its values"))
-                .at(Place::Key(key.to_owned()))
+                .at(CallPart::Key(key.to_owned()))
         };
         let got = call.describe(given);
         let given =
@@ -38,7 +38,7 @@ impl Swept {
         let (1, Some((name, values))) = (given.len(), given.iter().next()) else {
             return Err(wrong(format!("{key} has {} names, but one is expected", given.len())));
         };
-        let name = readable(key, name).map_err(|error| error.at(Place::Key(key.to_owned())))?;
+        let name = readable(key, name).map_err(|error| error.at(CallPart::Key(key.to_owned())))?;
         let values = values.clone().try_cast::<Array>().filter(|values| !values.is_empty());
         let values = values.ok_or_else(|| wrong(format!("{key}: '{name}' has no values")))?;
         let labels = values.iter().map(|value| label(call, value)).collect();

@@ -4,26 +4,26 @@ use rhai::{Dynamic, FnPtr, Map};
 
 use super::labels;
 use super::options::ErrorOptions;
-use crate::analysis::{Case, Observable, Patience, SYMBOLS, Sheet, Subject};
+use crate::analysis::{Case, Observable, ObservedScene, ParsedCsv, RunLimits, SYMBOLS};
 use crate::beams::{Mesh, Station};
 use crate::integrators::Method;
-use crate::model::Scene;
 use crate::newton::Tolerance;
+use crate::script::bindings::accept::readable;
+use crate::script::bindings::call::Call;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::station::StationHandle;
 use crate::script::handles::step_size::{STEP_SIZE, step_size};
-use crate::script::rows::accept::readable;
-use crate::script::rows::call::Call;
-use crate::script::words::error::{Place, ScriptError};
-use crate::script::words::numbers::{as_number, format_number};
-use crate::simulation::{History, Settings, StepSize};
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::messages::numbers::{as_number, format_number};
+use crate::simulation::{History, SimulationSettings, StepSize};
+use crate::system::Scene;
 
 /// The plan of a study of errors: everything that it needs but its reference.
-pub struct Plan {
+pub struct ErrorStudyPlan {
     /// The name of the study and of its files.
     pub name: String,
     /// A scene for each mesh of the study.
-    pub subjects: Vec<Subject>,
+    pub subjects: Vec<ObservedScene>,
     /// The integrators of the study.
     pub methods: Vec<Method>,
     /// The step sizes of the study.
@@ -33,10 +33,10 @@ pub struct Plan {
     /// The length that errors of positions are relative to [length].
     pub length: f64,
     /// How much a case of the study may take.
-    pub patience: Patience,
+    pub patience: RunLimits,
 }
 
-impl Plan {
+impl ErrorStudyPlan {
     /// Reads the options that all studies of errors have into a plan. Every scene is made, and the first is built, so that mistakes show
     /// before anything runs.
     pub fn read(call: &Call, options: &ErrorOptions) -> Result<Self, ScriptError> {
@@ -61,7 +61,7 @@ impl Plan {
         };
         let named: Vec<(String, Option<Mesh>)> = meshes.iter().map(named).collect();
         expect_all_different(call, "meshes", &named, |(label, _)| label.clone())?;
-        let subjects: Vec<Subject> =
+        let subjects: Vec<ObservedScene> =
             meshes.iter().map(|mesh| subject_on(call, scene_of, mesh)).collect::<Result<_, _>>()?;
         expect_same_observables(call, &subjects[0], &subjects[1..])?;
         let length = options.length.unwrap_or_else(|| size_of(&subjects[0].scene));
@@ -70,12 +70,12 @@ impl Plan {
     }
 
     /// The settings of a run with an integrator and a step size.
-    pub fn settings(method: Method, dt: StepSize) -> Settings {
-        Settings { method, dt, tolerance: Tolerance::default() }
+    pub fn settings(method: Method, dt: StepSize) -> SimulationSettings {
+        SimulationSettings { method, dt, tolerance: Tolerance::default() }
     }
 
     /// The settings of all integrators of the study with all its step sizes.
-    pub fn all_settings(&self) -> Vec<Settings> {
+    pub fn all_settings(&self) -> Vec<SimulationSettings> {
         let with = |method: &Method| {
             let method = *method;
             self.dts.iter().map(move |dt| Self::settings(method, *dt))
@@ -103,7 +103,7 @@ impl Plan {
         &mut self,
         call: &Call,
         given: Option<Map>,
-        table: Option<&Sheet>,
+        table: Option<&ParsedCsv>,
     ) -> Result<(), ScriptError> {
         let history = self.history()?;
         let mut columns: Vec<Observable> = match table {
@@ -134,7 +134,7 @@ fn column_of(
     history: &History,
 ) -> Result<Observable, ScriptError> {
     let name =
-        &readable("columns", name).map_err(|error| error.at(Place::Key("columns".into())))?;
+        &readable("columns", name).map_err(|error| error.at(CallPart::Key("columns".into())))?;
     // What is no array is a name alone.
     let parts = meant.clone().into_array().unwrap_or_else(|_| vec![meant.clone()]);
     let text = |value: &Dynamic| value.clone().into_string().ok();
@@ -192,7 +192,7 @@ pub fn at_key(
     told: impl std::fmt::Display,
     hint: impl Into<String>,
 ) -> ScriptError {
-    call.error(told).hint(hint).at(Place::Key(key.to_owned()))
+    call.error(told).hint(hint).at(CallPart::Key(key.to_owned()))
 }
 
 /// The values of an array that must all be of one type, at least one.
@@ -215,9 +215,9 @@ fn all_of<T: Clone + 'static>(
 }
 
 /// How much a case of a study may take: so many seconds, and no more steps than the whole run may take.
-pub fn patience(call: &Call, seconds: f64) -> Patience {
+pub fn patience(call: &Call, seconds: f64) -> RunLimits {
     let steps = call.context().meter().limits().steps;
-    Patience {
+    RunLimits {
         steps: steps.map_or(usize::MAX, |limit| usize::try_from(limit).unwrap_or(usize::MAX)),
         wall: std::time::Duration::from_secs_f64(seconds.min(1e9)),
     }
@@ -256,13 +256,17 @@ fn label_of(call: &Call, mesh: &Dynamic) -> String {
 }
 
 /// The scene on a mesh, from the function of the study.
-pub fn subject_on(call: &Call, scene_of: &FnPtr, mesh: &Dynamic) -> Result<Subject, ScriptError> {
+pub fn subject_on(
+    call: &Call,
+    scene_of: &FnPtr,
+    mesh: &Dynamic,
+) -> Result<ObservedScene, ScriptError> {
     let made = call.invoke(scene_of, [mesh.clone()])?;
     subject(call, label_of(call, mesh), &made)
 }
 
 /// What the function of a study gave for a mesh: a scene, or a map with it and its stations.
-fn subject(call: &Call, mesh: String, made: &Dynamic) -> Result<Subject, ScriptError> {
+fn subject(call: &Call, mesh: String, made: &Dynamic) -> Result<ObservedScene, ScriptError> {
     let hint = "it gives the scene, or #{ scene: scene, stations: #{ tip: rod.end } }";
     let refused = || {
         let told = format!("the function `scene` gives {}", call.describe(made));
@@ -292,7 +296,7 @@ fn subject(call: &Call, mesh: String, made: &Dynamic) -> Result<Subject, ScriptE
                     at_key(call, "scene", told, hint)
                 })?;
                 let name = readable("stations", name)
-                    .map_err(|error| error.at(Place::Key("scene".into())))?;
+                    .map_err(|error| error.at(CallPart::Key("scene".into())))?;
                 Ok((name, handle.own(&station)?))
             };
             stations.iter().map(own).collect::<Result<_, ScriptError>>()?
@@ -305,7 +309,7 @@ fn subject(call: &Call, mesh: String, made: &Dynamic) -> Result<Subject, ScriptE
         named.iter().flat_map(|(name, station)| Observable::of_station(name, *station));
     let observables = observables.collect();
     let scene = handle.scene().borrow().clone();
-    Ok(Subject { mesh, scene, observables })
+    Ok(ObservedScene { mesh, scene, observables })
 }
 
 /// The ends of all beams, and all particles.
@@ -325,8 +329,8 @@ fn usual_stations(scene: &Scene) -> Vec<(String, Station)> {
 /// Refuses other scenes of a study without the stations of the first one; their columns are not looked for yet.
 pub fn expect_same_observables(
     call: &Call,
-    first: &Subject,
-    others: &[Subject],
+    first: &ObservedScene,
+    others: &[ObservedScene],
 ) -> Result<(), ScriptError> {
     let other = others.iter().find(|of| of.observables != first.observables);
     other.map_or(Ok(()), |other| {

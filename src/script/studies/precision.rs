@@ -1,17 +1,18 @@
 //! Error against run time: the study made, and written into the output folder.
 
-use super::desk::{Desk, Task, print_table};
+use super::case_runner::{CaseRunner, CaseTask, print_table};
 use super::options::{ErrorOptions, TimedOptions};
-use super::plan::{Plan, at_key};
+use super::plan::{ErrorStudyPlan, at_key};
 use super::precision_chart::chart;
 use super::precision_rows::{records, table};
 use super::reference::{Reference, read_sheet};
 use crate::analysis::{
-    Case, Precision, PrecisionRow, Rival, Timing, Trial, Truth, all_combinations,
+    Case, ExternalResult, Precision, PrecisionRow, ReferenceSolution, RunResult, Timing,
+    all_combinations,
 };
-use crate::script::rows::call::Call;
-use crate::script::state::settings::Mode;
-use crate::script::words::error::ScriptError;
+use crate::script::bindings::call::Call;
+use crate::script::messages::error::ScriptError;
+use crate::script::state::settings::RunMode;
 
 /// Makes the study that the options ask for; in a dry build nothing runs.
 pub fn study(
@@ -19,30 +20,30 @@ pub fn study(
     options: &ErrorOptions,
     timed: &TimedOptions,
 ) -> Result<Precision, ScriptError> {
-    let mut plan = Plan::read(call, options)?;
+    let mut plan = ErrorStudyPlan::read(call, options)?;
     let reference = Reference::read(call, options, &mut plan)?;
     let rivals = match &timed.rivals {
         Some(file) => Some((read_sheet(call, "rivals", file)?, file)),
         None => None,
     };
-    let compared = |truth: &Truth| {
+    let compared = |truth: &ReferenceSolution| {
         let Some((sheet, file)) = &rivals else { return Ok(Vec::new()) };
         let by = (plan.times.as_slice(), plan.length);
-        Rival::of_sheet(sheet, plan.observables(), truth, by).map_err(|error| {
+        ExternalResult::of_sheet(sheet, plan.observables(), truth, by).map_err(|error| {
             let hint = "rivals are compared at one time, at stations named as in the reference";
             at_key(call, "rivals", format!("\"{file}\": {error}"), hint)
         })
     };
     // Wrong rivals are told of before anything runs.
     compared(&reference.foreseen(call, &plan)?)?;
-    let desk = Desk::open(call.context(), &plan.name)?;
+    let desk = CaseRunner::open(call.context(), &plan.name)?;
     let combinations = all_combinations(&plan.subjects, &plan.all_settings());
     let cases: Vec<Case> =
         combinations.iter().map(|of| of.case(&plan.subjects, &plan.times)).collect();
     let repeats = call.context().studies().repeats.unwrap_or(timed.repeats);
     let found = match call.context().mode() {
-        Mode::DryBuild => None,
-        Mode::Run => reference.trials(call, &desk, &plan, &cases)?,
+        RunMode::DryBuild => None,
+        RunMode::Run => reference.trials(call, &desk, &plan, &cases)?,
     };
     let is_found = found.is_some();
     let (trials, truth) = found.unwrap_or_else(|| Reference::no_trials(&cases));
@@ -75,20 +76,20 @@ pub fn study(
 
 /// The run times of those that came to their end.
 fn timings(
-    desk: &Desk,
-    plan: &Plan,
-    (cases, trials): (&[Case], &[Trial]),
+    desk: &CaseRunner,
+    plan: &ErrorStudyPlan,
+    (cases, trials): (&[Case], &[RunResult]),
     repeats: usize,
 ) -> Result<Vec<Option<Timing>>, ScriptError> {
-    let is_finished = |trial: &Trial| trial.outcome.is_finished();
+    let is_finished = |trial: &RunResult| trial.outcome.is_finished();
     let both = cases.iter().zip(trials).filter(|(_, trial)| is_finished(trial));
     let finished: Vec<Case> = both.map(|(case, _)| case.clone()).collect();
-    let task = Task { name: "run times", parts: &repeats.to_le_bytes() };
+    let task = CaseTask { name: "run times", parts: &repeats.to_le_bytes() };
     let timed = desk.one_by_one(task, &finished, |case, may_go_on| {
         Timing::of(case, plan.patience, repeats, may_go_on)
     })?;
     let mut timed = timed.into_iter();
-    let of = |trial: &Trial| if is_finished(trial) { timed.next().flatten() } else { None };
+    let of = |trial: &RunResult| if is_finished(trial) { timed.next().flatten() } else { None };
     Ok(trials.iter().map(of).collect())
 }
 

@@ -2,7 +2,7 @@
 
 use super::labels;
 use crate::analysis::{Precision, PrecisionRow, machines};
-use crate::output::{Ink, LineChart, Marker, Scale, Series, Stroke};
+use crate::output::{AxisScale, LineChart, Marker, Series, SeriesColour, Stroke};
 use crate::simulation::StepSize;
 
 /// The series that a row belongs to: runs with adaptive steps follow a tolerance and no size, and make a line of their own.
@@ -24,8 +24,8 @@ pub fn chart(study: &Precision) -> LineChart {
     .caption(format!("reference: {}", study.truth.source))
     .x_label("run time [s], set-up apart")
     .y_label("error / length")
-    .x_scale(Scale::Logarithmic)
-    .y_scale(Scale::Logarithmic)
+    .x_scale(AxisScale::Logarithmic)
+    .y_scale(AxisScale::Logarithmic)
     .sized(900.0, 640.0);
     for machine in machines(&study.rivals) {
         chart = chart.caption(format!("rivals measured on {machine}"));
@@ -40,8 +40,9 @@ pub fn chart(study: &Precision) -> LineChart {
     }
     for (number, name) in methods.iter().enumerate() {
         let own = study.rows.iter().filter(|row| series_of(row) == *name);
-        let look =
-            |series: Series| series.ink(Ink::OfSeries(number)).marker(Marker::of_index(number));
+        let look = |series: Series| {
+            series.ink(SeriesColour::OfSeries(number)).marker(Marker::of_index(number))
+        };
         let mut of_mesh: Vec<(&str, Vec<(f64, f64)>)> = Vec::new();
         for row in own.clone() {
             match of_mesh.last_mut() {
@@ -69,7 +70,9 @@ pub fn chart(study: &Precision) -> LineChart {
         let is_best = crate::analysis::pareto_front(&points);
         let number = methods.len() + number;
         let look = |points: Vec<(f64, f64)>, name: &str| {
-            Series::new(name, points).ink(Ink::OfSeries(number)).marker(Marker::of_index(number))
+            Series::new(name, points)
+                .ink(SeriesColour::OfSeries(number))
+                .marker(Marker::of_index(number))
         };
         let mut best: Vec<(f64, f64)> =
             points.iter().zip(is_best).filter(|(_, is_best)| *is_best).map(|(at, _)| *at).collect();
@@ -80,5 +83,7 @@ pub fn chart(study: &Precision) -> LineChart {
             .series(look(best, "").stroke(Stroke::Dashed).thin());
     }
     let front = study.front().into_iter().map(PrecisionRow::price_and_error).collect();
-    chart.series(Series::new("our front", front).ink(Ink::Black).stroke(Stroke::Solid).thin())
+    chart.series(
+        Series::new("our front", front).ink(SeriesColour::Black).stroke(Stroke::Solid).thin(),
+    )
 }

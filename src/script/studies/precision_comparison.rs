@@ -3,7 +3,7 @@
 use super::labels;
 use super::precision_rows::with;
 use crate::analysis::{Precision, machines};
-use crate::output::{Cell, Table, format_number, scientific};
+use crate::output::{Cell, TextTable, format_number, scientific};
 
 /// A table as text of the fastest of ours and of every rival for each of some errors.
 pub fn comparison(study: &Precision, errors: &[f64]) -> String {
@@ -20,7 +20,7 @@ pub fn comparison(study: &Precision, errors: &[f64]) -> String {
         "with",
         "times slower",
     ];
-    let mut table = Table::new(if study.rivals.is_empty() { &heads[..5] } else { &heads });
+    let mut table = TextTable::new(if study.rivals.is_empty() { &heads[..5] } else { &heads });
     let none = || labels::number("-".to_owned());
     let number = |text: String| labels::number(text);
     let pairs = errors

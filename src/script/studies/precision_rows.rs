@@ -4,7 +4,7 @@ use rhai::{Dynamic, INT, Map};
 
 use super::labels;
 use crate::analysis::{Precision, PrecisionRow, Timing};
-use crate::output::{Cell, CsvRecords, Table, format_number};
+use crate::output::{Cell, CsvRecords, TextTable, format_number};
 use crate::simulation::StepSize;
 
 /// All combinations of the study as text, a table for each mesh, those on the front marked; below, why some failed.
@@ -28,11 +28,11 @@ pub fn table(study: &Precision) -> String {
     text
 }
 
-fn table_of_mesh(rows: &[PrecisionRow]) -> Table {
+fn table_of_mesh(rows: &[PrecisionRow]) -> TextTable {
     let heads =
         ["", "integrator", "dt", "error", "run [ms]", "set-up", "steps", "iterations", "drift E"];
     let unknowns = rows.iter().map(|row| row.trial.unknowns).max().unwrap_or(0);
-    let mut table = Table::new(&heads).title(format!("{}: {unknowns} unknowns", rows[0].mesh));
+    let mut table = TextTable::new(&heads).title(format!("{}: {unknowns} unknowns", rows[0].mesh));
     for row in rows {
         let time = |read: fn(&Timing) -> f64| {
             let time = row.timing.map(|timing| labels::milliseconds(read(&timing)));

@@ -2,20 +2,21 @@
 
 use rhai::{Dynamic, Map};
 
-use super::desk::{Desk, Task};
+use super::case_runner::{CaseRunner, CaseTask};
 use super::labels;
-use super::options::{ErrorOptions, Wanted};
-use super::plan::{Plan, at_key, expect_same_observables, subject_on};
+use super::options::{ErrorOptions, ReferenceOption};
+use super::plan::{ErrorStudyPlan, at_key, expect_same_observables, subject_on};
 use crate::analysis::{
-    Case, Outcome, PART_OF_THE_SMALLEST_STEP, Sheet, Trial, Truth, finest_mesh, highest_order,
+    Case, CaseOutcome, PART_OF_THE_SMALLEST_STEP, ParsedCsv, ReferenceSolution, RunResult,
+    finest_mesh, highest_order,
 };
 use crate::elementary::square;
 use crate::geometry::Vec2;
 use crate::integrators::Method;
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::Scripted;
-use crate::script::words::error::ScriptError;
-use crate::script::words::numbers::format_number;
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::Scripted;
+use crate::script::messages::error::ScriptError;
+use crate::script::messages::numbers::format_number;
 use crate::simulation::{StepControl, StepSize};
 
 /// A reference that is a run of our own, as far as the script says how it is made.
@@ -74,17 +75,17 @@ fn doubled(dt: StepSize) -> StepSize {
 /// The reference of a study, before anything runs.
 pub enum Reference {
     /// The reference is a table of an independent solution, from a file of this name.
-    Table(String, Sheet),
+    Table(String, ParsedCsv),
     /// The reference is a run of our own: what is told of it, its case, and the same with twice the step, which shows how well it is known.
     /// Where all runs of the study have its very settings, errors in time are common to all, and there is no second one.
     OwnRun(String, Vec<Case>),
 }
 
 /// Reads a table of the script's folder or the output folder.
-pub fn read_sheet(call: &Call, key: &str, file: &str) -> Result<Sheet, ScriptError> {
+pub fn read_sheet(call: &Call, key: &str, file: &str) -> Result<ParsedCsv, ScriptError> {
     let bytes = call.context().read_file(file)?;
     let text = String::from_utf8_lossy(&bytes);
-    Sheet::parse(&text).map_err(|error| {
+    ParsedCsv::parse(&text).map_err(|error| {
         at_key(call, key, format!("\"{file}\": {error}"), "a table is CSV, with # before comments")
     })
 }
@@ -92,11 +93,11 @@ pub fn read_sheet(call: &Call, key: &str, file: &str) -> Result<Sheet, ScriptErr
 /// Refuses to judge meshes by a run on one of them, whose own error would be taken for none.
 pub fn expect_finer_than_all_meshes(
     call: &Call,
-    reference: Option<&Wanted>,
+    reference: Option<&ReferenceOption>,
 ) -> Result<(), ScriptError> {
     match reference {
-        Some(Wanted::Table(_)) => return Ok(()),
-        Some(Wanted::Run(run)) if run.mesh.is_some() => return Ok(()),
+        Some(ReferenceOption::Table(_)) => return Ok(()),
+        Some(ReferenceOption::Run(run)) if run.mesh.is_some() => return Ok(()),
         _ => (),
     }
     let told = "the errors of meshes cannot be told from a run on the finest of them";
@@ -109,7 +110,7 @@ pub fn expect_finer_than_all_meshes(
 /// of the study. Adaptive steps have no size to compare.
 fn expect_finer_steps(
     call: &Call,
-    plan: &Plan,
+    plan: &ErrorStudyPlan,
     finest: &Case,
     is_of_a_mesh: bool,
 ) -> Result<(), ScriptError> {
@@ -166,10 +167,14 @@ fn columns_of(call: &Call, options: &ErrorOptions) -> Result<Option<Map>, Script
 
 impl Reference {
     /// Reads the option `reference`, and looks in the plan at what it can be compared with.
-    pub fn read(call: &Call, options: &ErrorOptions, plan: &mut Plan) -> Result<Self, ScriptError> {
+    pub fn read(
+        call: &Call,
+        options: &ErrorOptions,
+        plan: &mut ErrorStudyPlan,
+    ) -> Result<Self, ScriptError> {
         let columns = columns_of(call, options)?;
         let run = match &options.reference {
-            Some(Wanted::Table(file)) => {
+            Some(ReferenceOption::Table(file)) => {
                 let sheet = read_sheet(call, "reference", file)?;
                 plan.add_columns(call, columns, Some(&sheet))?;
                 let reference = Self::Table(file.clone(), sheet);
@@ -177,7 +182,7 @@ impl Reference {
                 reference.truth(call, plan, &[])?;
                 return Ok(reference);
             }
-            Some(Wanted::Run(run)) => run.clone(),
+            Some(ReferenceOption::Run(run)) => run.clone(),
             None => FinestRun::default(),
         };
         let dt = run.dt.map_or_else(|| finer(&plan.dts), StepSize::from);
@@ -196,7 +201,7 @@ impl Reference {
         let (method_name, mesh) = (labels::method(&method), subject.mesh.clone());
         let told = format!("own finest run ({mesh}, {method_name}, {dt}), no independent solution");
         let case = |dt| {
-            let settings = Plan::settings(method, dt);
+            let settings = ErrorStudyPlan::settings(method, dt);
             Case { scene: subject.scene.clone(), settings, stops: plan.times.clone() }
         };
         let finest = case(dt);
@@ -219,14 +224,21 @@ impl Reference {
     }
 
     /// What the observables should be; `own` is what its own runs showed.
-    fn truth(&self, call: &Call, plan: &Plan, own: &[Trial]) -> Result<Truth, ScriptError> {
+    fn truth(
+        &self,
+        call: &Call,
+        plan: &ErrorStudyPlan,
+        own: &[RunResult],
+    ) -> Result<ReferenceSolution, ScriptError> {
         match (self, own) {
             (Self::Table(file, sheet), _) => {
                 let source = format!("{file}, an independent solution");
-                Truth::of_sheet(source, sheet, plan.observables(), &plan.times).map_err(|error| {
-                    let hint = "give times and stations that the table has";
-                    at_key(call, "reference", format!("\"{file}\": {error}"), hint)
-                })
+                ReferenceSolution::of_sheet(source, sheet, plan.observables(), &plan.times).map_err(
+                    |error| {
+                        let hint = "give times and stations that the table has";
+                        at_key(call, "reference", format!("\"{file}\": {error}"), hint)
+                    },
+                )
             }
             (Self::OwnRun(told, _), [finest, coarser @ ..]) => {
                 if let Some(failed) = own.iter().find(|trial| !trial.outcome.is_finished()) {
@@ -235,7 +247,7 @@ impl Reference {
                     let told = format!("the reference failed: {told}: {why}");
                     return Err(at_key(call, "reference", told, hint));
                 }
-                let truth = Truth::of_run(told, &finest.readings);
+                let truth = ReferenceSolution::of_run(told, &finest.readings);
                 Ok(coarser.iter().fold(truth, |truth, other| truth.as_far_as(&other.readings)))
             }
             (Self::OwnRun(..), []) => Err(ScriptError::bug("a study has lost its reference")),
@@ -243,12 +255,16 @@ impl Reference {
     }
 
     /// A truth whose numbers mean nothing, but that knows what the one of the run will know: for what can be checked before.
-    pub fn foreseen(&self, call: &Call, plan: &Plan) -> Result<Truth, ScriptError> {
+    pub fn foreseen(
+        &self,
+        call: &Call,
+        plan: &ErrorStudyPlan,
+    ) -> Result<ReferenceSolution, ScriptError> {
         match self {
             Self::Table(..) => self.truth(call, plan, &[]),
             Self::OwnRun(told, _) => {
                 let nothing = vec![vec![Vec2::zeros(); plan.observables().len()]; plan.times.len()];
-                Ok(Truth::of_run(told, &nothing))
+                Ok(ReferenceSolution::of_run(told, &nothing))
             }
         }
     }
@@ -258,19 +274,19 @@ impl Reference {
     pub fn trials(
         &self,
         call: &Call,
-        desk: &Desk,
-        plan: &Plan,
+        desk: &CaseRunner,
+        plan: &ErrorStudyPlan,
         cases: &[Case],
-    ) -> Result<Option<(Vec<Trial>, Truth)>, ScriptError> {
+    ) -> Result<Option<(Vec<RunResult>, ReferenceSolution)>, ScriptError> {
         let all: Vec<Case> = self.cases().iter().chain(cases).cloned().collect();
         let (observables, patience) = (plan.observables(), plan.patience);
         let parts = postcard::to_stdvec(observables).unwrap_or_default();
-        let task = Task { name: "runs", parts: &parts };
-        let work = |case: &Case, stop: &_| Trial::of(case, observables, patience, stop);
-        let steps_of = |trial: &Trial| trial.steps + trial.retries;
+        let task = CaseTask { name: "runs", parts: &parts };
+        let work = |case: &Case, stop: &_| RunResult::of(case, observables, patience, stop);
+        let steps_of = |trial: &RunResult| trial.steps + trial.retries;
         let Some(results) = desk.in_parallel(task, &all, steps_of, work)? else { return Ok(None) };
-        let panicked = |message| Trial::without_a_run(Outcome::Panicked { message });
-        let mut own: Vec<Trial> =
+        let panicked = |message| RunResult::without_a_run(CaseOutcome::Panicked { message });
+        let mut own: Vec<RunResult> =
             results.into_iter().map(|result| result.unwrap_or_else(panicked)).collect();
         let trials = own.split_off(self.cases().len());
         let truth = self.truth(call, plan, &own)?;
@@ -278,9 +294,9 @@ impl Reference {
     }
 
     /// What there is of trials where none is made.
-    pub fn no_trials(cases: &[Case]) -> (Vec<Trial>, Truth) {
+    pub fn no_trials(cases: &[Case]) -> (Vec<RunResult>, ReferenceSolution) {
         let reason = "nothing is run here".to_owned();
-        let trial = Trial::without_a_run(Outcome::Failed { time: 0.0, reason });
-        (vec![trial; cases.len()], Truth::of_run("none", &Vec::new()))
+        let trial = RunResult::without_a_run(CaseOutcome::Failed { time: 0.0, reason });
+        (vec![trial; cases.len()], ReferenceSolution::of_run("none", &Vec::new()))
     }
 }

@@ -5,15 +5,15 @@ use rhai::{Dynamic, INT, Map};
 use super::cell::{case, thrown};
 use super::labels;
 use super::options::StabilityOptions;
-use super::parameters::Swept;
+use super::parameters::StudyParameter;
 use super::plan::{at_key, study_name};
-use crate::analysis::{Case, Outcome, Verdict};
+use crate::analysis::{Case, CaseOutcome, StabilityVerdict};
 use crate::output::{
-    Colours, CsvRecords, Glyphs, HeatCell, HeatMap, Page, Style, Table, format_number, scientific,
-    significant,
+    Colours, CsvRecords, Glyphs, HeatCell, HeatMap, Page, TerminalStyle, TextTable, format_number,
+    scientific, significant,
 };
-use crate::script::rows::call::Call;
-use crate::script::words::error::ScriptError;
+use crate::script::bindings::call::Call;
+use crate::script::messages::error::ScriptError;
 
 /// Columns of text that a map on a terminal may take.
 const WIDTH: usize = 160;
@@ -25,7 +25,7 @@ const ABREAST: usize = 2;
 
 /// What colours the cells of a stability map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shown {
+pub enum MapColouring {
     /// The largest relative growth of the energy colours the cells.
     EnergyGrowth,
     /// The Newton iterations of a step, on average, colour the cells.
@@ -34,7 +34,7 @@ pub enum Shown {
     Retries,
 }
 
-impl Shown {
+impl MapColouring {
     /// All that may colour the cells, by their names in scripts.
     pub const ALL: [(&'static str, Self); 3] = [
         ("energy growth", Self::EnergyGrowth),
@@ -43,7 +43,7 @@ impl Shown {
     ];
 
     /// The number that is shown.
-    fn of(self, verdict: &Verdict) -> f64 {
+    fn of(self, verdict: &StabilityVerdict) -> f64 {
         match self {
             Self::EnergyGrowth => verdict.energy_growth,
             Self::Iterations => verdict.mean_iterations,
@@ -67,31 +67,31 @@ pub struct StabilityPlan {
     /// The name of the study and of its files.
     pub name: String,
     /// The swept parameter with one map for each value.
-    pub maps: Swept,
+    pub maps: StudyParameter,
     /// The swept parameter of the rows of a map, from above.
-    pub rows: Swept,
+    pub rows: StudyParameter,
     /// The swept parameter of the columns of a map, from the left.
-    pub columns: Swept,
+    pub columns: StudyParameter,
 }
 
 /// A stability map: a plan with what became of its cells.
 #[derive(Clone, Debug)]
 pub struct StabilityMap {
     plan: StabilityPlan,
-    shown: Shown,
+    shown: MapColouring,
     /// Map by map, row by row.
-    verdicts: Vec<Verdict>,
+    verdicts: Vec<StabilityVerdict>,
 }
 
 impl StabilityPlan {
     /// Reads the options of a study.
     pub fn read(call: &Call, options: &StabilityOptions) -> Result<Self, ScriptError> {
         let maps = match &options.maps {
-            Some(maps) => Swept::read(call, "maps", maps)?,
-            None => Swept::none(),
+            Some(maps) => StudyParameter::read(call, "maps", maps)?,
+            None => StudyParameter::none(),
         };
-        let rows = Swept::read(call, "rows", &options.rows)?;
-        let columns = Swept::read(call, "columns", &options.columns)?;
+        let rows = StudyParameter::read(call, "rows", &options.rows)?;
+        let columns = StudyParameter::read(call, "columns", &options.columns)?;
         let axes = [("maps", &maps), ("rows", &rows), ("columns", &columns)];
         for (at, (key, axis)) in axes.iter().enumerate() {
             let name = &axis.name;
@@ -125,7 +125,10 @@ impl StabilityPlan {
     }
 
     /// The parameters that have a name, and which of their values a cell has.
-    fn axes(&self, [map, row, column]: [usize; 3]) -> impl Iterator<Item = (&Swept, usize)> {
+    fn axes(
+        &self,
+        [map, row, column]: [usize; 3],
+    ) -> impl Iterator<Item = (&StudyParameter, usize)> {
         let all = [(&self.maps, map), (&self.rows, row), (&self.columns, column)];
         all.into_iter().filter(|(of, _)| !of.name.is_empty())
     }
@@ -168,13 +171,13 @@ impl StabilityPlan {
     }
 
     /// The stability map of the plan with the verdicts on its cells.
-    pub fn judged(self, shown: Shown, verdicts: Vec<Verdict>) -> StabilityMap {
+    pub fn judged(self, shown: MapColouring, verdicts: Vec<StabilityVerdict>) -> StabilityMap {
         StabilityMap { plan: self, shown, verdicts }
     }
 }
 
 impl StabilityMap {
-    fn judged(&self) -> impl Iterator<Item = ([usize; 3], &Verdict)> {
+    fn judged(&self) -> impl Iterator<Item = ([usize; 3], &StabilityVerdict)> {
         self.plan.cells().zip(&self.verdicts)
     }
 
@@ -191,7 +194,7 @@ impl StabilityMap {
 
     /// The cells of the map as maps of a script: the values, and what became of each.
     pub fn cells(&self) -> Vec<Map> {
-        let cell = |(at, verdict): ([usize; 3], &Verdict)| {
+        let cell = |(at, verdict): ([usize; 3], &StabilityVerdict)| {
             let mut cell = self.plan.values(at);
             let whole = |count: usize| Dynamic::from(count as INT);
             let results: [Dynamic; RESULTS.len()] = [
@@ -210,11 +213,11 @@ impl StabilityMap {
     }
 
     /// A map for each value of the plan's; `words` writes what is in a finished cell.
-    fn heat_maps(&self, words: fn(&Self, &Verdict) -> String) -> Vec<HeatMap> {
+    fn heat_maps(&self, words: fn(&Self, &StabilityVerdict) -> String) -> Vec<HeatMap> {
         let StabilityPlan { name, maps, rows, columns } = &self.plan;
         let per_map = rows.values.len() * columns.values.len();
         let (shows, powers) = self.shown.scale();
-        let one = |(map, verdicts): (usize, &[Verdict])| {
+        let one = |(map, verdicts): (usize, &[StabilityVerdict])| {
             let title = match maps.labels[map].as_str() {
                 "" => name.clone(),
                 label => label.to_owned(),
@@ -231,16 +234,20 @@ impl StabilityMap {
         self.verdicts.chunks(per_map).enumerate().map(one).collect()
     }
 
-    fn heat_cell(&self, verdict: &Verdict, words: fn(&Self, &Verdict) -> String) -> HeatCell {
+    fn heat_cell(
+        &self,
+        verdict: &StabilityVerdict,
+        words: fn(&Self, &StabilityVerdict) -> String,
+    ) -> HeatCell {
         let early = |what: &str, time: f64| HeatCell {
             value: None,
             text: format!("{what}\nt = {}", significant(time, 3)),
         };
         match &verdict.outcome {
-            Outcome::Failed { time, .. } => early("failed", *time),
-            Outcome::GaveUp { time, .. } => early("gave up", *time),
-            Outcome::Panicked { .. } => HeatCell { value: None, text: "panicked".into() },
-            Outcome::Finished => {
+            CaseOutcome::Failed { time, .. } => early("failed", *time),
+            CaseOutcome::GaveUp { time, .. } => early("gave up", *time),
+            CaseOutcome::Panicked { .. } => HeatCell { value: None, text: "panicked".into() },
+            CaseOutcome::Finished => {
                 let value = Some(self.shown.of(verdict));
                 HeatCell { value, text: words(self, verdict) }
             }
@@ -248,16 +255,16 @@ impl StabilityMap {
     }
 
     /// The number that colours a finished cell.
-    fn coloured(&self, verdict: &Verdict) -> String {
+    fn coloured(&self, verdict: &StabilityVerdict) -> String {
         let value = self.shown.of(verdict);
         match self.shown {
-            Shown::EnergyGrowth => scientific(value, 1),
-            Shown::Iterations | Shown::Retries => significant(value, 3),
+            MapColouring::EnergyGrowth => scientific(value, 1),
+            MapColouring::Iterations | MapColouring::Retries => significant(value, 3),
         }
     }
 
     /// What is in a finished cell of a picture.
-    fn in_lines(&self, verdict: &Verdict) -> String {
+    fn in_lines(&self, verdict: &StabilityVerdict) -> String {
         let halved = match verdict.retries {
             0 => String::new(),
             retries => format!("\n{retries} halved"),
@@ -267,7 +274,7 @@ impl StabilityMap {
     }
 
     /// The same in a few characters, for a table.
-    fn in_short(&self, verdict: &Verdict) -> String {
+    fn in_short(&self, verdict: &StabilityVerdict) -> String {
         let halved = match verdict.retries {
             0 => String::new(),
             retries => format!(" {retries}h"),
@@ -287,8 +294,12 @@ impl StabilityMap {
 
     /// The maps of the study as text, and why cells did not come to their end.
     pub fn text(&self) -> String {
-        let style =
-            Style { glyphs: Glyphs::Braille, colours: Colours::None, width: WIDTH, height: 1 };
+        let style = TerminalStyle {
+            glyphs: Glyphs::Braille,
+            colours: Colours::None,
+            width: WIDTH,
+            height: 1,
+        };
         let maps =
             self.heat_maps(Self::in_short).iter().map(|map| map.text(&style)).collect::<Vec<_>>();
         let early: Vec<_> =
@@ -303,7 +314,7 @@ impl StabilityMap {
                 "{missing} of {all} cells did not come to their end; all that is known of it is in {file}"
             );
             text.push_str(&format!("\n\n{told}"));
-            let mut table = Table::new(&["cell", "what happened"]);
+            let mut table = TextTable::new(&["cell", "what happened"]);
             for (at, verdict) in early {
                 let labels = self.plan.labels(at);
                 let labels = labels.iter().map(|(name, label)| format!("{name} {label}"));
@@ -321,7 +332,7 @@ impl StabilityMap {
         let first = self.plan.labels([0; 3]);
         let own = first.iter().map(|(name, _)| (*name).to_owned());
         let names = own.chain(["outcome".to_owned()]).chain(numbers.map(str::to_owned));
-        let row = |(at, verdict): ([usize; 3], &Verdict)| {
+        let row = |(at, verdict): ([usize; 3], &StabilityVerdict)| {
             let own = self.plan.axes(at).map(|(of, at)| of.exact(at));
             let found = [
                 verdict.outcome.describe(),

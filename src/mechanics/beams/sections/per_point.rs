@@ -7,8 +7,8 @@ use pulp::Simd;
 use super::{Interpolated, Interpolation, MassIntegral, SectionIntegral};
 use crate::beams::Section;
 use crate::beams::force_points::Stiffness;
-use crate::beams::lanes::{LANES, Lanes, Part, Vector};
 use crate::beams::pair::Pair;
+use crate::beams::simd::{LANES, LaneChunk, Lanes, Vector};
 
 /// The sections of the quadrature points of neighbouring spans, a type for each way in which they are known: the points of a uniform beam share one and
 /// nothing is looked up.
@@ -32,7 +32,7 @@ pub(in crate::beams) trait Sections: Clone + Debug + Send + Sync {
         &self,
         uniform: &Section,
         points: usize,
-        part: Part<V>,
+        part: LaneChunk<V>,
     ) -> Stiffness<V>;
 
     /// The stiffness `EI` of points for `κ` side by side, by their number.
@@ -40,7 +40,7 @@ pub(in crate::beams) trait Sections: Clone + Debug + Send + Sync {
         &self,
         uniform: &Section,
         points: usize,
-        part: Part<V>,
+        part: LaneChunk<V>,
     ) -> Vector<V>;
 
     /// The masses of control points, from their lengths where the section is the same, or as they were weighed.
@@ -74,7 +74,7 @@ impl Sections for Uniform {
         &self,
         uniform: &Section,
         _points: usize,
-        part: Part<V>,
+        part: LaneChunk<V>,
     ) -> Stiffness<V> {
         Pair { x: part.splat(uniform.axial_stiffness), y: part.splat(uniform.shear_stiffness) }
     }
@@ -84,7 +84,7 @@ impl Sections for Uniform {
         &self,
         uniform: &Section,
         _points: usize,
-        part: Part<V>,
+        part: LaneChunk<V>,
     ) -> Vector<V> {
         part.splat(uniform.bending_stiffness)
     }
@@ -148,7 +148,7 @@ impl Sections for PerPoint {
         &self,
         _uniform: &Section,
         points: usize,
-        part: Part<V>,
+        part: LaneChunk<V>,
     ) -> Stiffness<V> {
         self.force_stiffness[points].get(part)
     }
@@ -158,7 +158,7 @@ impl Sections for PerPoint {
         &self,
         _uniform: &Section,
         points: usize,
-        part: Part<V>,
+        part: LaneChunk<V>,
     ) -> Vector<V> {
         self.bending_stiffness[points].get(part)
     }

@@ -1,6 +1,6 @@
 //! The rule that keeps energy, both momenta and the gap.
 
-use super::contact::{AXES, WayVector};
+use super::contact::{AXES, PathVector};
 use super::{CONTACT_UNKNOWNS, Contact, ContactUnknowns, Equation, SlidingLaw, Unit};
 use crate::elementary::square;
 use crate::geometry::{cross, perpendicular};
@@ -27,7 +27,7 @@ impl SlidingLaw for Conserving {
 }
 
 /// `(|τ|² η + (d × λ) Jτ)/ℓ² = 0`: `d × λ + τ × η = 0` with the smallest `η`.
-fn balanced_moment(contact: &Contact<'_>, tangent: WayVector, swing: WayVector) -> [Equation; 2] {
+fn balanced_moment(contact: &Contact<'_>, tangent: PathVector, swing: PathVector) -> [Equation; 2] {
     let ContactUnknowns { force, couple, .. } = contact.unknowns;
     let scale = 1.0 / square(contact.length);
     let (square, moment) = (tangent.value.norm_squared(), cross(swing.value, force));
@@ -48,7 +48,7 @@ fn balanced_moment(contact: &Contact<'_>, tangent: WayVector, swing: WayVector) 
 }
 
 /// `(λ·τ + 4 η·d)/ℓ = 0`: the contact does no work.
-fn kept_energy(contact: &Contact<'_>, tangent: WayVector, swing: WayVector) -> Equation {
+fn kept_energy(contact: &Contact<'_>, tangent: PathVector, swing: PathVector) -> Equation {
     let ContactUnknowns { force, couple, .. } = contact.unknowns;
     let scale = 1.0 / contact.length;
     let mut equation = contact.frictionless(tangent);

@@ -1,7 +1,7 @@
 //! The contact of a slider in one step: where the master passes, and the forces on both.
 
 use super::{Equation, Unit};
-use crate::geometry::{AlongWay, Passage, Vec2};
+use crate::geometry::{ContactPath, FunctionOnPath, Vec2};
 
 /// The number of unknowns of a contact: `λ` and `η` with two components each, and `Δξ`.
 pub const CONTACT_UNKNOWNS: usize = 5;
@@ -43,7 +43,7 @@ impl ContactUnknowns {
 
 /// A place or direction on the way of a slave along its master, with its derivative by the end `ξ1` of the way [length].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct WayVector {
+pub struct PathVector {
     /// The place or direction itself [length].
     pub value: Vec2,
     /// The derivative of the place or direction by the end `ξ1` of the way [length].
@@ -55,7 +55,7 @@ pub struct WayVector {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Kink {
     /// The kink length `g` of the master along the way of the slave [length].
-    pub along: AlongWay,
+    pub along: FunctionOnPath,
     /// The compliance `1/GA` of the master [1/force].
     pub compliance: f64,
     /// The jump of the tangent at the start of the step, as the force `p0 = GA a0` that makes it where the kink does not move [force].
@@ -77,7 +77,7 @@ pub struct KinkState {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct KinkMotion {
     /// The arc length `s` of the undeformed master along the way of the slave [length].
-    pub arc: AlongWay,
+    pub arc: FunctionOnPath,
     /// The speed `v0` at the start of the step [length/time].
     pub speed: f64,
     /// `μ ρA/GA`, one over the square of the speed of shear waves but for what the mesh misses of the motion [time²/length²].
@@ -92,7 +92,7 @@ pub struct KinkMotion {
 #[derive(Debug, Clone, Copy)]
 pub struct Contact<'a> {
     /// The way of the slave along the master.
-    pub passage: &'a Passage,
+    pub passage: &'a ContactPath,
     /// The control points of the master in the window of the passage, counted from the slave, and how they move in the step
     /// [length].
     pub master: (&'a [Vec2], &'a [Vec2]),
@@ -128,16 +128,16 @@ impl Contact<'_> {
     }
 
     /// The mean tangent `Σ D_i x_i0` of the way on the master as it is at the start of the step [length].
-    pub fn start_tangent(&self) -> WayVector {
+    pub fn start_tangent(&self) -> PathVector {
         let value = self.sum(self.passage.difference(), 0.0);
-        WayVector { value, by_way: self.sum(self.passage.change(), 0.0) }
+        PathVector { value, by_way: self.sum(self.passage.change(), 0.0) }
     }
 
     /// The place `Σ B_i(ξ1) x_i1` on the master at the end of the way and of the step [length].
     #[inline]
-    pub fn end_point(&self) -> WayVector {
+    pub fn end_point(&self) -> PathVector {
         let value = self.sum(self.passage.end(), 1.0);
-        WayVector { value, by_way: self.sum(self.passage.slope(), 1.0) }
+        PathVector { value, by_way: self.sum(self.passage.slope(), 1.0) }
     }
 
     /// How much the slave pushes outwards at the end of the step, `λ·x'(ξ1)` times the sign of `dξ` with which it reaches an end [force·length].
@@ -151,23 +151,23 @@ impl Contact<'_> {
     }
 
     /// The mean place `Σ B̄_i x̄_i` of way and step on the master [length].
-    pub fn mean_point(&self) -> WayVector {
+    pub fn mean_point(&self) -> PathVector {
         let value = self.sum(self.passage.mean(), 0.5);
-        WayVector { value, by_way: self.sum(self.passage.slope(), 0.5) * 0.5 }
+        PathVector { value, by_way: self.sum(self.passage.slope(), 0.5) * 0.5 }
     }
 
     /// The mean tangent `τ = Σ D_i x̄_i` of the way on the master in its mean configuration [length].
     #[inline]
-    pub fn tangent(&self) -> WayVector {
+    pub fn tangent(&self) -> PathVector {
         let value = self.sum(self.passage.difference(), 0.5);
-        WayVector { value, by_way: self.sum(self.passage.change(), 0.5) }
+        PathVector { value, by_way: self.sum(self.passage.change(), 0.5) }
     }
 
     /// The swing `d = ¼ Σ D_i Δx_i` of the master along the way: a quarter of the change of its tangent [length].
     #[inline]
-    pub fn swing(&self) -> WayVector {
+    pub fn swing(&self) -> PathVector {
         let value = self.movement(self.passage.difference()) * 0.25;
-        WayVector { value, by_way: self.movement(self.passage.change()) * 0.25 }
+        PathVector { value, by_way: self.movement(self.passage.change()) * 0.25 }
     }
 
     /// The index of the first control point of the master in the window of the way.
@@ -263,7 +263,7 @@ impl Contact<'_> {
     }
 
     /// The equation `λ·direction/ℓ = 0` of a contact without friction, for a direction that does not move with the master.
-    pub(super) fn frictionless(&self, direction: WayVector) -> Equation {
+    pub(super) fn frictionless(&self, direction: PathVector) -> Equation {
         let (force, scale) = (self.unknowns.force, 1.0 / self.length);
         let way = force.dot(&direction.by_way) * scale;
         Equation {

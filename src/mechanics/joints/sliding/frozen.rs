@@ -1,7 +1,7 @@
 //! The rule of a slider whose kink stays as it is for a step.
 
-use super::jet::{ContactJets, Jet, JetVector, NO_SLOPES};
-use super::kink_on_way::{KinkOnWay, vanish};
+use super::dual::{ContactDuals, Dual, DualVector, NO_SLOPES};
+use super::kink_on_path::{KinkOnPath, vanish};
 use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, KinkState, SlidingLaw};
 
 /// The law of a slider on a master whose kink turns with the master and otherwise stays as it is, whatever the contact force: energy, linear and angular
@@ -20,7 +20,7 @@ pub struct Frozen;
 impl SlidingLaw for Frozen {
     fn equations(&self, contact: &Contact<'_>) -> [Equation; CONTACT_UNKNOWNS] {
         let Some(kink) = &contact.kink else { return Conserving.equations(contact) };
-        let jets = ContactJets::of(contact);
+        let jets = ContactDuals::of(contact);
         let step = FrozenInStep::of(&jets, kink);
         let balance = (jets.force - step.inertia).dot(&step.direction) - step.rise;
         vanish(step.on_way.imbalances((contact, kink), &jets, step.jump, balance))
@@ -28,33 +28,34 @@ impl SlidingLaw for Frozen {
 
     fn kink_at_end(&self, contact: &Contact<'_>) -> KinkState {
         let Some(kink) = &contact.kink else { return KinkState::default() };
-        let step = FrozenInStep::<NO_SLOPES>::of(&ContactJets::of(contact), kink);
+        let step = FrozenInStep::<NO_SLOPES>::of(&ContactDuals::of(contact), kink);
         KinkState { jump: step.jump.value(), speed: step.speed.value }
     }
 }
 
 /// A kink that stays as it is, in an iterate of a step.
 struct FrozenInStep<const SLOPES: usize> {
-    on_way: KinkOnWay<SLOPES>,
+    on_way: KinkOnPath<SLOPES>,
     /// The direction `w` of the way [length].
-    direction: JetVector<SLOPES>,
+    direction: DualVector<SLOPES>,
     /// The speed `v1` of the kink along the master at the end of the step [length/time].
-    speed: Jet<SLOPES>,
+    speed: Dual<SLOPES>,
     /// The force `p1 = GA a1` that stands for the jump of the tangent at the end of the step [force].
-    jump: JetVector<SLOPES>,
+    jump: DualVector<SLOPES>,
     /// What sets the kink in motion, `(Δπ/Δt) e` [force].
-    inertia: JetVector<SLOPES>,
+    inertia: DualVector<SLOPES>,
     /// What the energy of the kink grows by on a unit of way [force·length].
-    rise: Jet<SLOPES>,
+    rise: Dual<SLOPES>,
 }
 
 impl<const SLOPES: usize> FrozenInStep<SLOPES> {
-    fn of(jets: &ContactJets<SLOPES>, kink: &Kink) -> Self {
-        let &ContactJets { tangent, swing, way, .. } = jets;
-        let (along, motion, before) = (&kink.along, &kink.motion, JetVector::constant(kink.before));
-        let one = Jet::constant(1.0);
-        let on_way = KinkOnWay::of(jets, kink);
-        let &KinkOnWay { length, difference, stretch, over_square, .. } = &on_way;
+    fn of(jets: &ContactDuals<SLOPES>, kink: &Kink) -> Self {
+        let &ContactDuals { tangent, swing, way, .. } = jets;
+        let (along, motion, before) =
+            (&kink.along, &kink.motion, DualVector::constant(kink.before));
+        let one = Dual::constant(1.0);
+        let on_way = KinkOnPath::of(jets, kink);
+        let &KinkOnPath { length, difference, stretch, over_square, .. } = &on_way;
 
         let turn = tangent.turned().dot(&swing) * over_square * 2.0;
         let jump = (before * (one - turn * turn) + before.turned() * (turn * 2.0))
@@ -64,9 +65,9 @@ impl<const SLOPES: usize> FrozenInStep<SLOPES> {
 
         let unit = tangent * (stretch * over_square);
         let speed =
-            unit.dot(&direction) * way * (2.0 / motion.duration) - Jet::constant(motion.speed);
+            unit.dot(&direction) * way * (2.0 / motion.duration) - Dual::constant(motion.speed);
         let energy = kink.before.norm_squared() * kink.compliance;
-        let change = (length * speed - Jet::constant(along.start * motion.speed))
+        let change = (length * speed - Dual::constant(along.start * motion.speed))
             * (energy * motion.slowness / motion.duration);
         let softening = one - speed * (motion.speed * motion.slowness);
         let rise = softening * difference * (0.5 * energy);

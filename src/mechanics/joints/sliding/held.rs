@@ -5,9 +5,9 @@ use crate::geometry::Vec2;
 
 /// The law of a slider at rest: the slave stays where it is on the master, as in a hinge: `x_s1 = Σ B_i(ξ1) x_i1`, with its kink, `Δξ = 0`, `η = 0`.
 #[derive(Debug, Clone, Copy)]
-pub struct Held;
+pub struct HeldSlider;
 
-impl SlidingLaw for Held {
+impl SlidingLaw for HeldSlider {
     fn equations(&self, contact: &Contact<'_>) -> [Equation; CONTACT_UNKNOWNS] {
         let [gap_x, gap_y] = contact.closed_on_kink(jump_at_end(contact), 2.0);
         let [couple_x, couple_y] = contact.no_couple();

@@ -1,7 +1,7 @@
 //! The rule that keeps energy, both momenta and the gap to the kinked axis.
 
-use super::jet::{ContactJets, Jet, JetVector, NO_SLOPES};
-use super::kink_on_way::{KinkOnWay, UNITS, vanish};
+use super::dual::{ContactDuals, Dual, DualVector, NO_SLOPES};
+use super::kink_on_path::{KinkOnPath, UNITS, vanish};
 use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, KinkState, SlidingLaw, Unit};
 
 /// The conserving law of sliding: the gap is closed at the end of every step, and energy, linear and angular momentum are kept, for any
@@ -35,7 +35,7 @@ impl SlidingLaw for Kinked {
 
     fn kink_at_end(&self, contact: &Contact<'_>) -> KinkState {
         let Some(kink) = &contact.kink else { return KinkState::default() };
-        let step = KinkInStep::<NO_SLOPES>::of(&ContactJets::of(contact), kink);
+        let step = KinkInStep::<NO_SLOPES>::of(&ContactDuals::of(contact), kink);
         KinkState { jump: step.jump.value(), speed: step.speed.value }
     }
 }
@@ -44,8 +44,8 @@ impl SlidingLaw for Kinked {
 fn imbalances<const SLOPES: usize>(
     contact: &Contact<'_>,
     kink: &Kink,
-) -> [Jet<SLOPES>; CONTACT_UNKNOWNS] {
-    let jets = ContactJets::of(contact);
+) -> [Dual<SLOPES>; CONTACT_UNKNOWNS] {
+    let jets = ContactDuals::of(contact);
     let step = KinkInStep::of(&jets, kink);
     let set_in_motion = step.inertia * step.on_way.stretch;
     let balance = (jets.force - step.mean_force).dot(&jets.tangent) - set_in_motion;
@@ -54,29 +54,30 @@ fn imbalances<const SLOPES: usize>(
 
 /// A kink in an iterate of a step.
 struct KinkInStep<const SLOPES: usize> {
-    on_way: KinkOnWay<SLOPES>,
+    on_way: KinkOnPath<SLOPES>,
     /// The speed `v1` of the kink along the master at the end of the step [length/time].
-    speed: Jet<SLOPES>,
+    speed: Dual<SLOPES>,
     /// The force `p1 = GA a1` that stands for the jump of the tangent at the end of the step [force].
-    jump: JetVector<SLOPES>,
+    jump: DualVector<SLOPES>,
     /// The mean force `κ ½ (p0 + p1)`, `κ = 1 - ρA v0 v1/GA`, with which the kink pushes [force].
-    mean_force: JetVector<SLOPES>,
+    mean_force: DualVector<SLOPES>,
     /// What sets the kink in motion, `Δπ/Δt` [force].
-    inertia: Jet<SLOPES>,
+    inertia: Dual<SLOPES>,
 }
 
 impl<const SLOPES: usize> KinkInStep<SLOPES> {
-    fn of(jets: &ContactJets<SLOPES>, kink: &Kink) -> Self {
-        let &ContactJets { offset, tangent, swing, force, way, .. } = jets;
-        let (along, motion, before) = (&kink.along, &kink.motion, JetVector::constant(kink.before));
-        let on_way = KinkOnWay::of(jets, kink);
-        let &KinkOnWay { length, difference, stretch, over_square, offset_before, arm } = &on_way;
+    fn of(jets: &ContactDuals<SLOPES>, kink: &Kink) -> Self {
+        let &ContactDuals { offset, tangent, swing, force, way, .. } = jets;
+        let (along, motion, before) =
+            (&kink.along, &kink.motion, DualVector::constant(kink.before));
+        let on_way = KinkOnPath::of(jets, kink);
+        let &KinkOnPath { length, difference, stretch, over_square, offset_before, arm } = &on_way;
 
         let swung = tangent.turned().dot(&swing) * over_square * 4.0;
         let moved = tangent * way + offset - offset_before - arm.turned() * swung;
         let speed = stretch * over_square * tangent.dot(&moved) * (2.0 / motion.duration)
-            - Jet::constant(motion.speed);
-        let softening = Jet::constant(1.0) - speed * (motion.speed * motion.slowness);
+            - Dual::constant(motion.speed);
+        let softening = Dual::constant(1.0) - speed * (motion.speed * motion.slowness);
 
         let normal = tangent.turned();
         let across = force.dot(&normal) * softening.inverse() * 2.0 - before.dot(&normal);
@@ -84,11 +85,11 @@ impl<const SLOPES: usize> KinkInStep<SLOPES> {
         let turned = before.turned() * swung * 0.25;
         let rises = direction * 0.5 + (before * 0.5 + turned) * difference * kink.compliance;
         let jump =
-            JetVector::with_products([normal, rises], [across, before.dot(&direction) * -0.5]);
+            DualVector::with_products([normal, rises], [across, before.dot(&direction) * -0.5]);
 
         let mass = jump.dot(&jump) * length;
         let mass_before = along.start * kink.before.norm_squared();
-        let change = mass * speed - Jet::constant(mass_before * motion.speed);
+        let change = mass * speed - Dual::constant(mass_before * motion.speed);
         let inertia = change * (motion.slowness * kink.compliance / motion.duration);
         let mean_force = (before + jump) * softening * 0.5;
         Self { on_way, speed, jump, mean_force, inertia }

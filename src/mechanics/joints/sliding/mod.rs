@@ -5,12 +5,12 @@
 
 mod conserving;
 mod contact;
+mod dual;
 mod equation;
 mod exact;
 mod frozen;
 mod held;
-mod jet;
-mod kink_on_way;
+mod kink_on_path;
 mod kinked;
 mod law;
 mod relaxed;
@@ -20,15 +20,15 @@ mod rule;
 
 pub use conserving::Conserving;
 pub use contact::{
-    CONTACT_UNKNOWNS, Contact, ContactUnknowns, Kink, KinkMotion, KinkState, WayVector,
+    CONTACT_UNKNOWNS, Contact, ContactUnknowns, Kink, KinkMotion, KinkState, PathVector,
 };
 pub use equation::{Equation, Unit};
 pub use exact::Exact;
 pub use frozen::Frozen;
-pub use held::Held;
+pub use held::HeldSlider;
 pub use kinked::Kinked;
 pub use law::SlidingLaw;
 pub use relaxed::Relaxed;
 pub use released::Released;
-pub use resting::{Leaning, Resting};
+pub use resting::{AtStop, Resting};
 pub use rule::{RuleClaims, RuleEntry, SLIDING_RULES, SlidingRule};

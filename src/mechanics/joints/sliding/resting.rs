@@ -17,7 +17,7 @@ pub struct Resting;
 
 /// The law of a slider that leans on the stop at an end of its master: `x_s = Σ B_i(ξ) x_i` at that end, with its kink.
 #[derive(Debug, Clone, Copy)]
-pub struct Leaning {
+pub struct AtStop {
     /// The way `Δξ` to the end [-].
     pub way: f64,
 }
@@ -30,7 +30,7 @@ impl SlidingLaw for Resting {
     }
 }
 
-impl SlidingLaw for Leaning {
+impl SlidingLaw for AtStop {
     fn equations(&self, contact: &Contact<'_>) -> [Equation; CONTACT_UNKNOWNS] {
         let [gap_x, gap_y] = contact.closed_on_kink(contact.unknowns.force, 1.0);
         let [couple_x, couple_y] = contact.no_couple();
@@ -44,8 +44,8 @@ impl SlidingLaw for Leaning {
 fn not_driven(contact: &Contact<'_>) -> Equation {
     let (force, scale) = (contact.unknowns.force, 1.0 / contact.length);
     let tangent = contact.end_point().by_way;
-    let mut equation =
-        contact.frictionless(super::WayVector { value: tangent, by_way: contact.end_bend() * 2.0 });
+    let mut equation = contact
+        .frictionless(super::PathVector { value: tangent, by_way: contact.end_bend() * 2.0 });
     equation.by_difference = force * scale;
     if let Some(kink) = contact.kink {
         let half = 0.5 * kink.compliance * scale;

@@ -1,7 +1,7 @@
 //! Where schedules jump or bend.
 
 use super::Schedule;
-use crate::loads::Beat;
+use crate::loads::SampleClock;
 
 impl Schedule {
     /// The times at which the schedule jumps or bends; steps should end there.
@@ -19,7 +19,7 @@ impl Schedule {
 
     /// The beat of a digital controller among the parts of the schedule, if there is one; steps should end where it is asked and where it acts. Controllers are
     /// never combined with other schedules.
-    pub fn beat(&self) -> Option<Beat> {
+    pub fn beat(&self) -> Option<SampleClock> {
         if let Self::Clocked { beat, .. } = self { Some(*beat) } else { None }
     }
 

@@ -22,12 +22,12 @@ const PROGRAM: &str = env!("CARGO_PKG_VERSION");
 const CHECKSUM: usize = 4;
 
 /// Reads from front to back.
-struct Reader<'a> {
+struct ArchiveReader<'a> {
     bytes: &'a [u8],
     at: usize,
 }
 
-impl<'a> Reader<'a> {
+impl<'a> ArchiveReader<'a> {
     fn take(&mut self, count: usize) -> Result<&'a [u8], ArchiveError> {
         let taken = self.bytes[self.at..].get(..count).ok_or(ArchiveError::Truncated {
             found: self.bytes.len(),
@@ -62,7 +62,7 @@ pub fn unwrap(file: &[u8]) -> Result<&[u8], ArchiveError> {
     if file.is_empty() || !file.starts_with(&MARK[..file.len().min(MARK.len())]) {
         return Err(ArchiveError::Foreign);
     }
-    let mut reader = Reader { bytes: file, at: 0 };
+    let mut reader = ArchiveReader { bytes: file, at: 0 };
     reader.take(MARK.len())?;
     let format = u16::from_le_bytes(reader.array()?);
     let [length] = reader.array()?;

@@ -1,13 +1,13 @@
 //! Steps as long as a tolerance allows.
 
 use super::Simulation;
-use super::landing::MOST_ARRIVALS;
+use super::event_location::MOST_ARRIVALS;
 use crate::integrators::{Interval, StepError};
-use crate::simulation::adaptive::{Adaptive, Plan};
-use crate::simulation::controller::Pace;
-use crate::simulation::doubling::{Doubled, Failed};
-use crate::simulation::halving::Halving;
+use crate::simulation::adaptive::{Adaptive, StepPlan};
+use crate::simulation::controller::StepSizeState;
+use crate::simulation::error_estimate::{DoubledStep, FailedStep};
 use crate::simulation::resampling::Resampling;
+use crate::simulation::step_retry::StepRetry;
 use crate::simulation::{Monitor, SimulationError};
 
 impl Simulation {
@@ -58,10 +58,10 @@ impl Simulation {
                     }
                 }
             };
-            let Plan { interval, is_cut, is_least } = plan;
+            let StepPlan { interval, is_cut, is_least } = plan;
             let dt = interval.duration();
             match tried {
-                Ok(Doubled { report, trial, .. }) if trial.error <= 1.0 => {
+                Ok(DoubledStep { report, trial, .. }) if trial.error <= 1.0 => {
                     let tries = pace.tries;
                     match is_cut {
                         true => controller.accept_cut(&mut pace, trial),
@@ -72,7 +72,7 @@ impl Simulation {
                     self.keep_present();
                     return self.ask(monitor);
                 }
-                Ok(Doubled { report, trial, .. }) => {
+                Ok(DoubledStep { report, trial, .. }) => {
                     adaptive.doubling.take_back(&mut self.model);
                     self.progress.count_rejection(report.iterations);
                     controller.reject(&mut pace, trial);
@@ -86,18 +86,18 @@ impl Simulation {
                         });
                     }
                 }
-                Err(Failed { source: StepError::Overshoot { iterations, .. }, before }) => {
+                Err(FailedStep { source: StepError::Overshoot { iterations, .. }, before }) => {
                     self.progress.count_try(before + iterations);
                     // Beyond an end there is nothing to compare; what comes after an arrival is not as what was.
-                    self.clock.pace = Some(Pace { error: None, tries: 0, ..pace });
+                    self.clock.pace = Some(StepSizeState { error: None, tries: 0, ..pace });
                     let start = interval.start;
-                    let half = Halving::new(Interval::between(start, start + 0.5 * dt));
+                    let half = StepRetry::new(Interval::between(start, start + 0.5 * dt));
                     return self.cover_uncompared(half, controller.first, monitor);
                 }
-                Err(Failed { source, .. }) if !source.may_be_cured_by_a_smaller_step() => {
+                Err(FailedStep { source, .. }) if !source.may_be_cured_by_a_smaller_step() => {
                     return Err(SimulationError::Load { source });
                 }
-                Err(Failed { source, before }) => {
+                Err(FailedStep { source, before }) => {
                     self.progress.count_failure(before + source.factorisations());
                     controller.fail(&mut pace, dt);
                     if is_least {
@@ -119,10 +119,14 @@ impl Simulation {
     }
 
     /// Takes a step as a whole and in halves; where a part of it has no solution, all of it with the kinks under contact forces staying as they are.
-    fn try_step(&mut self, adaptive: &mut Adaptive, plan: &Plan) -> Result<Doubled, Failed> {
+    fn try_step(
+        &mut self,
+        adaptive: &mut Adaptive,
+        plan: &StepPlan,
+    ) -> Result<DoubledStep, FailedStep> {
         self.model.let_kinks_follow();
         match self.try_step_as_it_is(adaptive, plan) {
-            Err(Failed { source, before }) if self.keeps_kinks_for(&source) => {
+            Err(FailedStep { source, before }) if self.keeps_kinks_for(&source) => {
                 self.progress.count_failure(before + source.factorisations());
                 self.try_step_as_it_is(adaptive, plan)
             }
@@ -133,8 +137,8 @@ impl Simulation {
     fn try_step_as_it_is(
         &mut self,
         adaptive: &mut Adaptive,
-        plan: &Plan,
-    ) -> Result<Doubled, Failed> {
+        plan: &StepPlan,
+    ) -> Result<DoubledStep, FailedStep> {
         let Adaptive { doubling, resampling, .. } = adaptive;
         let between = resampling.as_mut().map(Resampling::middle_mut);
         let integrator = &mut *self.stepper.integrator;
@@ -146,7 +150,7 @@ impl Simulation {
     fn end_step_half_way(
         &mut self,
         adaptive: &mut Adaptive,
-    ) -> Option<(Plan, Result<Doubled, Failed>)> {
+    ) -> Option<(StepPlan, Result<DoubledStep, FailedStep>)> {
         let Adaptive { doubling, resampling, controller, .. } = adaptive;
         let order = controller.order;
         resampling.as_mut()?.go_on(doubling, &mut *self.stepper.integrator, &mut self.model, order)
@@ -173,7 +177,7 @@ impl Simulation {
     /// Goes on to the end of a step that is compared with nothing, or until a slider arrives: what comes then is compared again.
     fn cover_uncompared(
         &mut self,
-        halving: Halving,
+        halving: StepRetry,
         first: f64,
         monitor: &mut dyn Monitor,
     ) -> Result<(), SimulationError> {

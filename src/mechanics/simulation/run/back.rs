@@ -3,10 +3,10 @@
 use std::rc::Rc;
 
 use super::Simulation;
-use crate::model::ModelState;
-use crate::simulation::clock::Clock;
+use crate::simulation::clock::StepClock;
 use crate::simulation::snapshots::Snapshot;
 use crate::simulation::{SimulationError, WorkCounts};
+use crate::system::SystemState;
 
 impl Simulation {
     /// Keeps the state of the simulation after every step from here on, as long as all of them fit into `limit` bytes; then the oldest but
@@ -161,7 +161,7 @@ impl Simulation {
     }
 
     /// A snapshot of the present, written into a state that may have held another.
-    pub(super) fn snapshot(&self, mut state: ModelState) -> Snapshot {
+    pub(super) fn snapshot(&self, mut state: SystemState) -> Snapshot {
         self.model.write_state(&mut state);
         Snapshot {
             state,
@@ -195,7 +195,7 @@ impl Simulation {
         let mut fork = Self::start(self.scene.clone(), self.settings)?;
         fork.stand_released(&self.progress.let_go)?;
         fork.model.restore(&self.model.state());
-        fork.clock = Clock { goal: f64::INFINITY, ..self.clock.clone() };
+        fork.clock = StepClock { goal: f64::INFINITY, ..self.clock.clone() };
         fork.progress = self.progress.clone();
         fork.record = self.record.clone();
         Ok(fork)

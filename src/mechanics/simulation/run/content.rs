@@ -6,13 +6,13 @@ use std::rc::Rc;
 use serde::{Deserialize, Serialize};
 
 use super::Simulation;
-use crate::model::{ModelState, Scene};
 use crate::newton::Tolerance;
 use crate::simulation::archive::{ArchiveError, unwrap, wrap};
-use crate::simulation::controller::Pace;
-use crate::simulation::halving::Halving;
+use crate::simulation::controller::StepSizeState;
 use crate::simulation::progress::StepTaken;
-use crate::simulation::{Arrival, LetGo, Recording, Sample, Settings, WorkCounts};
+use crate::simulation::step_retry::StepRetry;
+use crate::simulation::{Arrival, Recording, ReleaseEvent, Sample, SimulationSettings, WorkCounts};
+use crate::system::{Scene, SystemState};
 
 /// Counts beyond this, and grid points beyond it, cannot have been counted.
 const MOST_COUNTED: usize = 1 << 52;
@@ -25,8 +25,8 @@ const MOST_ITERATIONS: usize = 10_000;
 struct Content<'a> {
     name: Cow<'a, str>,
     scene: Cow<'a, Scene>,
-    settings: Settings,
-    state: ModelState,
+    settings: SimulationSettings,
+    state: SystemState,
     recording: Recording,
     samples: Cow<'a, [Sample]>,
     rows_kept: usize,
@@ -36,12 +36,12 @@ struct Content<'a> {
     times: Cow<'a, [f64]>,
     numbers: Cow<'a, [f64]>,
     arrivals: Cow<'a, [Arrival]>,
-    let_go: Cow<'a, [LetGo]>,
+    let_go: Cow<'a, [ReleaseEvent]>,
     counts: WorkCounts,
     cuts: Cow<'a, [f64]>,
-    /// The parts of a [`Halving`].
+    /// The parts of a [`StepRetry`].
     under_way: Option<((f64, f64), u64, u32, usize)>,
-    pace: Option<Pace>,
+    pace: Option<StepSizeState>,
 }
 
 fn refused(reason: &str) -> ArchiveError {
@@ -83,7 +83,7 @@ impl Simulation {
             let_go: self.let_go().into(),
             counts: self.progress.counts,
             cuts: self.clock.grid.cuts().into(),
-            under_way: self.clock.under_way.map(Halving::to_parts),
+            under_way: self.clock.under_way.map(StepRetry::to_parts),
             pace: self.clock.pace,
         };
         let bytes = postcard::to_stdvec(&content).map_err(|error| refused(&error.to_string()))?;
@@ -146,7 +146,7 @@ impl Content<'_> {
         if !self.arrivals.iter().all(is_arrival) {
             return Err(refused("a slider arrived that is not there"));
         }
-        let is_release = |(at, gone): (usize, &LetGo)| {
+        let is_release = |(at, gone): (usize, &ReleaseEvent)| {
             let earlier = &self.let_go[..at];
             gone.release < self.scene.releases.len()
                 && gone.time.is_finite()
@@ -181,7 +181,7 @@ impl Content<'_> {
         simulation.clock.under_way = match self.under_way {
             None => None,
             Some(parts) => {
-                let halving = Halving::from_parts(now, parts);
+                let halving = StepRetry::from_parts(now, parts);
                 Some(halving.ok_or_else(|| refused("the step under way makes no sense"))?)
             }
         };

@@ -1,11 +1,11 @@
 //! Derivatives by parameters of the scene, found with the steps.
 
-use super::{Settings, Simulation};
-use crate::model::{Model, Scene};
+use super::{Simulation, SimulationSettings};
 use crate::simulation::sensitivities::Sensitivities;
 use crate::simulation::{
-    DerivativeCounts, DerivativeError, History, Side, SimulationError, Variation,
+    DerivativeCounts, DerivativeError, History, PerturbedSide, SimulationError, Variation,
 };
+use crate::system::{Scene, System};
 
 impl Simulation {
     /// Builds a scene with those that parameters make of it, and puts the simulation at its start; the derivatives by these parameters are found with its
@@ -15,7 +15,7 @@ impl Simulation {
     /// As those of [`start`](Self::start), and when steps cannot be taken in company or the scenes differ in more than numbers.
     pub fn start_with_derivatives(
         scene: Scene,
-        settings: Settings,
+        settings: SimulationSettings,
         variations: Vec<Variation>,
     ) -> Result<Self, SimulationError> {
         let mut run = Self::start(scene, settings)?;
@@ -34,7 +34,7 @@ impl Simulation {
     ///
     /// # Errors
     /// When there are no derivatives (any more).
-    pub fn beside(&self, parameter: usize, side: Side) -> Result<&Self, DerivativeError> {
+    pub fn beside(&self, parameter: usize, side: PerturbedSide) -> Result<&Self, DerivativeError> {
         let known = self.stepper.sensitivities.as_ref().ok_or(DerivativeError::None)?;
         known.beside(parameter, side)
     }
@@ -46,7 +46,7 @@ impl Simulation {
     pub fn beside_mut(
         &mut self,
         parameter: usize,
-        side: Side,
+        side: PerturbedSide,
     ) -> Result<&mut Self, DerivativeError> {
         let known = self.stepper.sensitivities.as_mut().ok_or(DerivativeError::None)?;
         known.beside_mut(parameter, side)
@@ -60,7 +60,7 @@ impl Simulation {
     pub fn history_beside(
         &self,
         parameter: usize,
-        side: Side,
+        side: PerturbedSide,
         (from, to): (f64, f64),
     ) -> Result<History, DerivativeError> {
         let known = self.stepper.sensitivities.as_ref().ok_or(DerivativeError::None)?;
@@ -83,7 +83,8 @@ impl Simulation {
         parameter: usize,
         number: impl Fn(&Self) -> f64,
     ) -> Result<f64, DerivativeError> {
-        let [plus, minus] = [Side::Plus, Side::Minus].map(|side| self.beside(parameter, side));
+        let [plus, minus] =
+            [PerturbedSide::Plus, PerturbedSide::Minus].map(|side| self.beside(parameter, side));
         let distance = self.parameters().nth(parameter).map_or(f64::NAN, |(_, distance)| distance);
         Ok((number(plus?) - number(minus?)) / (2.0 * distance))
     }
@@ -94,7 +95,7 @@ impl Simulation {
     }
 
     /// The mechanism of the simulation, to be stepped by somebody else.
-    pub(in crate::simulation) fn model_mut(&mut self) -> &mut Model {
+    pub(in crate::simulation) fn model_mut(&mut self) -> &mut System {
         &mut self.model
     }
 

@@ -1,13 +1,13 @@
 //! What a simulation uses, and what it therefore leaves out.
 
 use super::Simulation;
-use crate::model::Part;
-use crate::simulation::controller::Controller;
+use crate::simulation::controller::StepController;
 use crate::simulation::{Recording, WorkCounts};
+use crate::system::SystemFeature;
 
 impl Simulation {
     /// What this simulation uses and what it leaves out: first of its scene, then how it takes steps.
-    pub fn explain(&self) -> Vec<Part> {
+    pub fn explain(&self) -> Vec<SystemFeature> {
         let method = self.settings().method;
         let mut parts = self.model().explain(self.scene(), &[method]);
         let entry = method.entry();
@@ -16,18 +16,18 @@ impl Simulation {
             kept => kept,
         };
         let how = format!("{}, order {}; keeps {}", entry.name, entry.claims.order, kept);
-        parts.push(Part::used("integrator", how));
+        parts.push(SystemFeature::used("integrator", how));
         let now = self.time();
         let ahead: Vec<f64> =
             self.clock.grid.cuts().iter().copied().filter(|cut| *cut > now).collect();
-        parts.push(Part::steps(&self.settings().dt.to_string(), &ahead));
+        parts.push(SystemFeature::steps(&self.settings().dt.to_string(), &ahead));
         parts.push(self.explain_tries());
         parts.extend([self.explain_recording(), self.explain_snapshots()]);
         parts.extend(self.explain_resolution());
         parts
     }
 
-    fn explain_recording(&self) -> Part {
+    fn explain_recording(&self) -> SystemFeature {
         let numbers = self.record.history.columns().count() + self.record.trajectory.stride();
         let rows = self.record.history.samples().len();
         let how = format!(
@@ -35,41 +35,44 @@ impl Simulation {
             self.record.recording.describe()
         );
         match self.record.recording {
-            Recording::Nothing => Part::left_out(
+            Recording::Nothing => SystemFeature::left_out(
                 "recording",
                 "no rows between the ends of a run; energies are measured when asked for",
             ),
-            Recording::Every(_) => Part::used("recording", how),
+            Recording::Every(_) => SystemFeature::used("recording", how),
         }
     }
 
-    fn explain_snapshots(&self) -> Part {
+    fn explain_snapshots(&self) -> SystemFeature {
         let (kept, bytes) = self.snapshots_kept();
         match self.snapshot_limit() {
-            0 => Part::left_out("snapshots", "no states to go back to, and no copies of them"),
+            0 => SystemFeature::left_out(
+                "snapshots",
+                "no states to go back to, and no copies of them",
+            ),
             limit => {
                 let (used, most) = (bytes as f64 / 1e6, limit as f64 / 1e6);
                 let how = format!("{kept} states in {used:.1} of {most} MB; one is copied a step");
-                Part::used("snapshots", how)
+                SystemFeature::used("snapshots", how)
             }
         }
     }
 
     /// What becomes of steps that fail or err, and how often they did.
-    fn explain_tries(&self) -> Part {
+    fn explain_tries(&self) -> SystemFeature {
         let WorkCounts { rejected, retries, .. } = self.counts();
         match &self.adaptive {
-            None => Part::left_out(
+            None => SystemFeature::left_out(
                 "error control",
                 "steps are as long as is said, and halved where they fail",
             ),
             Some(adaptive) => {
-                let Controller { first, smallest, .. } = adaptive.controller;
+                let StepController { first, smallest, .. } = adaptive.controller;
                 let how = format!(
                     "each step is two of the method, compared with one as long as both: 3 solves for 2; the first is {first:.3e}, \
                      none below {smallest:.1e}; rejected {rejected}, failed {retries} so far"
                 );
-                Part::used("error control", how)
+                SystemFeature::used("error control", how)
             }
         }
     }

@@ -2,8 +2,8 @@
 
 use super::Simulation;
 use crate::geometry::Vec2;
-use crate::model::ModelError;
 use crate::simulation::Outline;
+use crate::system::SystemError;
 
 impl Simulation {
     /// The recorded configurations between two times, by their index in the trajectory: all of them, or so many at most, as evenly
@@ -37,7 +37,7 @@ impl Simulation {
     ///
     /// # Errors
     /// When an axis has a point without a tangent.
-    pub fn outlines(&self) -> Result<&[Outline], ModelError> {
+    pub fn outlines(&self) -> Result<&[Outline], SystemError> {
         self.drawn.outlines(|| Outline::of_scene(&self.scene, self.model.meshes()))
     }
 }

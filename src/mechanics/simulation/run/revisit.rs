@@ -5,12 +5,12 @@ use super::Simulation;
 use crate::simulation::{Monitor, SimulationError};
 
 /// Pauses a run where it has come to a time.
-struct PauseAt<'m> {
+struct PauseTime<'m> {
     time: f64,
     monitor: &'m mut dyn Monitor,
 }
 
-impl Monitor for PauseAt<'_> {
+impl Monitor for PauseTime<'_> {
     fn goes_on(&mut self, time: f64) -> bool {
         self.monitor.goes_on(time) && time < self.time
     }
@@ -86,7 +86,7 @@ impl Simulation {
             let is_arrival = |at: &f64| of.arrivals().iter().any(|arrival| arrival.time == *at);
             let mut ends = rows[row..].iter().map(|row| row.measures.time);
             let goal = ends.find(|end| !is_arrival(end)).unwrap_or(time);
-            match self.run_to(goal, &mut PauseAt { time, monitor }) {
+            match self.run_to(goal, &mut PauseTime { time, monitor }) {
                 Err(SimulationError::Interrupted { .. }) if self.time() == time => {}
                 ran => ran?,
             }

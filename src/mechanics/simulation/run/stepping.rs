@@ -1,16 +1,16 @@
 //! A step of the time grid: taken whole or in halves, cut where sliders arrive, and recorded.
 
 use super::Simulation;
-use super::landing::MOST_ARRIVALS;
+use super::event_location::MOST_ARRIVALS;
 use crate::integrators::{Interval, StepError};
-use crate::model::MasterLimit;
 use crate::newton::NewtonReport;
-use crate::simulation::halving::Halving;
+use crate::simulation::step_retry::StepRetry;
 use crate::simulation::{Monitor, SimulationError};
+use crate::system::MasterLimit;
 
 /// How much of an interval steps have covered.
 #[derive(PartialEq, Eq)]
-pub(super) enum Covered {
+pub(super) enum IntervalProgress {
     All,
     UntilAnArrival,
 }
@@ -19,17 +19,17 @@ impl Simulation {
     /// Takes the simulation to the end of a step, cutting the way where sliders arrive at ends of their masters.
     pub(super) fn cover_with_arrivals(
         &mut self,
-        mut halving: Halving,
+        mut halving: StepRetry,
         monitor: &mut dyn Monitor,
     ) -> Result<(), SimulationError> {
         let end = halving.end();
         for _ in 0..MOST_ARRIVALS {
             let covered = self.cover(halving, monitor)?;
             let is_there = self.has_reached(end);
-            if covered == Covered::All || is_there || self.has_ended() {
+            if covered == IntervalProgress::All || is_there || self.has_ended() {
                 return Ok(());
             }
-            halving = Halving::new(Interval::between(self.time(), end));
+            halving = StepRetry::new(Interval::between(self.time(), end));
         }
         Err(self.rattles())
     }
@@ -46,9 +46,9 @@ impl Simulation {
     /// Covers an interval by one step or, where that fails, by halves of it, growing again after success.
     pub(super) fn cover(
         &mut self,
-        mut halving: Halving,
+        mut halving: StepRetry,
         monitor: &mut dyn Monitor,
-    ) -> Result<Covered, SimulationError> {
+    ) -> Result<IntervalProgress, SimulationError> {
         while !halving.is_done() {
             let interval = halving.next();
             let mut stepped = self.step_or_keep_kinks(interval);
@@ -69,7 +69,7 @@ impl Simulation {
                             self.remember();
                         }
                         arrived?;
-                        return self.ask(monitor).map(|()| Covered::UntilAnArrival);
+                        return self.ask(monitor).map(|()| IntervalProgress::UntilAnArrival);
                     }
                     Err(source) => stepped = Err(source),
                 }
@@ -95,7 +95,7 @@ impl Simulation {
             }
             self.ask(monitor)?;
         }
-        Ok(Covered::All)
+        Ok(IntervalProgress::All)
     }
 
     /// Takes a step; where none is found, one in which the kinks under contact forces stay as they are.

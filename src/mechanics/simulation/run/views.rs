@@ -1,11 +1,11 @@
 //! Looking at a simulation: places, paths and configurations to draw.
 
 use super::Simulation;
-use crate::beams::{Place, Station};
+use crate::beams::{BodyPoint, Station};
 use crate::geometry::Vec2;
-use crate::joints::Hold;
-use crate::model::ModelError;
-use crate::simulation::{Arrival, ArrivalKind, Configuration, LetGo, Outline};
+use crate::joints::Releasable;
+use crate::simulation::{Arrival, ArrivalKind, Configuration, Outline, ReleaseEvent};
+use crate::system::SystemError;
 use crate::vibration::{Modes, VibrationError};
 
 impl Simulation {
@@ -13,7 +13,7 @@ impl Simulation {
     ///
     /// # Errors
     /// When the station lies outside its beam.
-    pub fn place(&self, station: &Station) -> Result<Place, ModelError> {
+    pub fn place(&self, station: &Station) -> Result<BodyPoint, SystemError> {
         self.scene.place(station, self.model.meshes())
     }
 
@@ -33,7 +33,7 @@ impl Simulation {
     }
 
     /// The points where a place was, with the times, at all configurations of the trajectory.
-    pub fn path(&self, place: &Place) -> Vec<(f64, Vec2)> {
+    pub fn path(&self, place: &BodyPoint) -> Vec<(f64, Vec2)> {
         let counts: Vec<usize> = self.model.control_points().map(<[Vec2]>::len).collect();
         let offset = counts[..place.body].iter().sum::<usize>();
         let at = |index: usize| -> Vec2 {
@@ -58,7 +58,7 @@ impl Simulation {
     ///
     /// # Errors
     /// When an axis has a point without a tangent.
-    pub fn configuration(&self) -> Result<Configuration, ModelError> {
+    pub fn configuration(&self) -> Result<Configuration, SystemError> {
         let bodies: Vec<&[Vec2]> = self.model.control_points().collect();
         Ok(Outline::draw(self.outlines()?, self.time(), &bodies))
     }
@@ -67,7 +67,7 @@ impl Simulation {
     ///
     /// # Errors
     /// When an axis has a point without a tangent.
-    pub fn configuration_near(&self, time: f64) -> Result<Option<Configuration>, ModelError> {
+    pub fn configuration_near(&self, time: f64) -> Result<Option<Configuration>, SystemError> {
         let Some(index) = self.record.trajectory.nearest(time) else { return Ok(None) };
         let bodies = self.control_points_at(index);
         let bodies: Vec<&[Vec2]> = bodies.iter().map(Vec::as_slice).collect();
@@ -75,12 +75,13 @@ impl Simulation {
     }
 
     /// When something let go, or a slider left its master at an end, if it has [time].
-    pub fn release_of(&self, hold: Hold) -> Option<f64> {
+    pub fn release_of(&self, hold: Releasable) -> Option<f64> {
         let is_release = |arrival: &&Arrival| {
-            Hold::Slider(arrival.limit.slider) == hold && arrival.kind == ArrivalKind::Released
+            Releasable::Slider(arrival.limit.slider) == hold
+                && arrival.kind == ArrivalKind::Released
         };
         let left = self.arrivals().iter().find(is_release).map(|arrival| arrival.time);
-        let is_it = |gone: &&LetGo| self.scene.releases[gone.release].hold == hold;
+        let is_it = |gone: &&ReleaseEvent| self.scene.releases[gone.release].hold == hold;
         left.or_else(|| self.let_go().iter().find(is_it).map(|gone| gone.time))
     }
 
@@ -88,7 +89,7 @@ impl Simulation {
     ///
     /// # Errors
     /// When a station lies outside its beam.
-    pub fn stations(&self, stations: &[Station]) -> Result<Vec<Vec2>, ModelError> {
+    pub fn stations(&self, stations: &[Station]) -> Result<Vec<Vec2>, SystemError> {
         stations.iter().map(|at| Ok(self.model.position(&self.place(at)?))).collect()
     }
 
@@ -96,7 +97,7 @@ impl Simulation {
     ///
     /// # Errors
     /// When a station lies outside its beam.
-    pub fn stations_near(&self, stations: &[Station], time: f64) -> Result<Vec<Vec2>, ModelError> {
+    pub fn stations_near(&self, stations: &[Station], time: f64) -> Result<Vec<Vec2>, SystemError> {
         let Some(index) = self.record.trajectory.nearest(time) else {
             return self.stations(stations);
         };

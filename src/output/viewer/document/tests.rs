@@ -1,25 +1,26 @@
 use super::*;
 
-fn film() -> Film {
-    let place = |first: usize, weights: &[f64]| Place { first, weights: weights.to_vec() };
-    Film {
+fn film() -> ViewerData {
+    let place =
+        |first: usize, weights: &[f64]| PointCombination { first, weights: weights.to_vec() };
+    ViewerData {
         label: "swing".into(),
         times: vec![0.0, 0.5],
         points: vec![vec![(0.0, 0.0), (2.0, 0.0)], vec![(0.0, 0.0), (0.0, 2.0)]],
-        beams: vec![Beam {
+        beams: vec![BeamShape {
             name: "rod".into(),
             line: vec![place(0, &[1.0, 0.0]), place(0, &[0.0, 1.0])],
             marks: vec![0, 1],
             stations: vec![0, 1],
         }],
-        ..Film::default()
+        ..ViewerData::default()
     }
 }
 
 #[test]
 fn texts_cannot_leave_their_place() {
     let title = "</script><script>alert('{{data}}')</script> & \"so on\"";
-    let film = Film { label: title.into(), ..film() };
+    let film = ViewerData { label: title.into(), ..film() };
     let page = Viewer { title: title.into(), films: vec![film] }.to_html().unwrap();
     assert!(!page.contains("alert('{{data}}')<"), "the title is escaped");
     assert_eq!(page.matches("</script>").count(), 2, "of the data and of the program");
@@ -52,6 +53,6 @@ fn beams_of_the_same_mesh_share_their_shape() {
 
 #[test]
 fn a_film_of_nothing_is_a_page_too() {
-    let nothing = Film { times: vec![0.0], points: vec![vec![]], ..Film::default() };
+    let nothing = ViewerData { times: vec![0.0], points: vec![vec![]], ..ViewerData::default() };
     assert!(Viewer { title: String::new(), films: vec![nothing] }.to_html().is_ok());
 }

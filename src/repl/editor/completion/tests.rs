@@ -7,7 +7,7 @@ use super::*;
 use proptest::prelude::*;
 
 /// The line as it is after each candidate is taken.
-fn offered_in(line: &str, surroundings: &Surroundings) -> Vec<String> {
+fn offered_in(line: &str, surroundings: &CompletionContext) -> Vec<String> {
     let (before, after) = line.split_once('¦').unwrap_or((line, ""));
     let (start, candidates) = complete(&format!("{before}{after}"), before.len(), surroundings);
     let taken = candidates
@@ -100,7 +100,7 @@ fn files_are_completed_for_calls_imports_and_commands() {
     for name in ["rods.rhai", "spin.svg"] {
         fs::write(folder.path().join(name), "").expect("a file");
     }
-    let surroundings = Surroundings { folder: folder.path().to_owned(), ..surroundings() };
+    let surroundings = CompletionContext { folder: folder.path().to_owned(), ..surroundings() };
     let offered = |line| offered_in(line, &surroundings);
     assert_eq!(offered("import \"ro"), ["import \"rods\""]);
     assert_eq!(offered("plot_motion(sim, \"sp"), ["plot_motion(sim, \"spin.svg\""]);

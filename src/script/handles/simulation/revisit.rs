@@ -3,10 +3,10 @@
 use std::cell::{Ref, RefCell};
 use std::rc::Rc;
 
-use super::{Events, SimulationHandle, Watch, explain};
-use crate::script::rows::stored::StoredFunction;
+use super::{Events, ProgressMonitor, SimulationHandle, explain};
+use crate::script::bindings::stored::StoredFunction;
+use crate::script::messages::error::ScriptError;
 use crate::script::state::context::Context;
-use crate::script::words::error::ScriptError;
 use crate::simulation::Simulation;
 
 /// Puts a copy in the place of a simulation, as long as it lives; then all is as it was.
@@ -73,7 +73,7 @@ impl Revisit {
     pub fn run_again(&self, row: usize, context: &Context) -> Result<bool, ScriptError> {
         loop {
             self.handle.command()?;
-            let mut watch = Watch::new(context, f64::INFINITY);
+            let mut watch = ProgressMonitor::new(context, f64::INFINITY);
             watch.pauses = self.handle.is_controlled();
             let ran =
                 self.handle.0.simulation.borrow_mut().run_again(&self.original(), row, &mut watch);

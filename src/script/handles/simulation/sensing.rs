@@ -8,18 +8,18 @@ use rhai::Dynamic;
 
 use super::commands::Commands;
 use super::variants::in_words;
-use super::{SimulationHandle, Watch, explain};
-use crate::loads::{Beat, Schedule};
+use super::{ProgressMonitor, SimulationHandle, explain};
+use crate::loads::{SampleClock, Schedule};
+use crate::script::bindings::call::Call;
+use crate::script::bindings::parameter_variants::lose;
+use crate::script::bindings::stored::StoredFunction;
 use crate::script::handles::scene::{Condition, Controller};
-use crate::script::rows::call::Call;
-use crate::script::rows::lifting::lose;
-use crate::script::rows::stored::StoredFunction;
-use crate::script::words::error::ScriptError;
-use crate::script::words::numbers::{as_number, describe};
+use crate::script::messages::error::ScriptError;
+use crate::script::messages::numbers::{as_number, describe};
 use crate::simulation::{Simulation, StepSize};
 
 /// The functions that fill columns, in the order of the columns.
-pub(super) struct Sensing {
+pub(super) struct ColumnReader {
     functions: Vec<Rc<StoredFunction>>,
     /// After how many steps they looked last.
     looked: Cell<Option<usize>>,
@@ -34,7 +34,7 @@ pub(super) struct Sensing {
     is_looking: Cell<bool>,
 }
 
-impl Sensing {
+impl ColumnReader {
     pub(super) fn new(
         functions: Vec<Rc<StoredFunction>>,
         controllers: Vec<Rc<Controller>>,
@@ -100,7 +100,7 @@ impl SimulationHandle {
     /// # Errors
     /// Those of the functions; also when one gives no number.
     pub fn sense(&self) -> Result<(), ScriptError> {
-        let Sensing { functions, looked, is_looking, .. } = &self.0.sensing;
+        let ColumnReader { functions, looked, is_looking, .. } = &self.0.sensing;
         let steps = self.simulation().counts().steps;
         if functions.is_empty() || looked.replace(Some(steps)) == Some(steps) {
             return Ok(());
@@ -127,7 +127,7 @@ impl SimulationHandle {
     /// # Errors
     /// Those of the functions; also when one gives neither true nor false.
     fn let_go(&self) -> Result<(), ScriptError> {
-        let Sensing { conditions, is_looking, .. } = &self.0.sensing;
+        let ColumnReader { conditions, is_looking, .. } = &self.0.sensing;
         for Condition { function, release } in conditions {
             if !self.simulation().waits_for_release(*release) {
                 continue;
@@ -175,7 +175,7 @@ impl SimulationHandle {
         &self,
         number: usize,
         controller: &Controller,
-        beat: Beat,
+        beat: SampleClock,
     ) -> Result<f64, ScriptError> {
         let (now, slack) = (self.time(), self.simulation().slack());
         let sensing = &self.0.sensing;
@@ -226,7 +226,7 @@ impl SimulationHandle {
 
     /// Whether functions want to be asked before every step.
     pub(super) fn is_controlled(&self) -> bool {
-        let Sensing { controllers, conditions, .. } = &self.0.sensing;
+        let ColumnReader { controllers, conditions, .. } = &self.0.sensing;
         let waits = |condition: &Condition| self.simulation().waits_for_release(condition.release);
         !controllers.is_empty() || conditions.iter().any(waits)
     }
@@ -259,7 +259,7 @@ impl SimulationHandle {
         loop {
             self.command()?;
             // How many parts the step needs is not known beforehand: it is always finished.
-            let mut watch = Watch::new(call.context(), f64::NEG_INFINITY);
+            let mut watch = ProgressMonitor::new(call.context(), f64::NEG_INFINITY);
             watch.pauses = self.varies_steps() && self.is_controlled();
             let stepped = self.0.simulation.borrow_mut().step(&mut watch);
             let is_taken = stepped.is_ok() || self.simulation().counts().steps > steps;
@@ -275,7 +275,7 @@ impl SimulationHandle {
     fn run_with_pauses(&self, call: &Call, stop: f64, slack: f64) -> Result<(), ScriptError> {
         loop {
             self.command()?;
-            let mut watch = Watch::new(call.context(), stop - slack);
+            let mut watch = ProgressMonitor::new(call.context(), stop - slack);
             watch.pauses = !self.0.sensing.functions.is_empty() || self.is_controlled();
             let ran = self.0.simulation.borrow_mut().run_to(stop, &mut watch);
             if !watch.is_paused || ran.is_ok() {

@@ -3,9 +3,9 @@
 use std::cell::Ref;
 
 use super::SimulationHandle;
-use crate::script::rows::lifting::{Family, lose, present};
-use crate::script::words::numbers::format_number;
-use crate::simulation::{DerivativeError, History, Side, Simulation};
+use crate::script::bindings::parameter_variants::{ParameterSet, lose, present};
+use crate::script::messages::numbers::format_number;
+use crate::simulation::{DerivativeError, History, PerturbedSide, Simulation};
 
 /// Why there are no derivatives, with where there are some.
 pub(super) fn in_words(reason: &DerivativeError) -> String {
@@ -51,9 +51,9 @@ impl SimulationHandle {
     }
 
     /// Which run beside a simulation the present call is made for, if for one.
-    pub(super) fn present_side(run: &Simulation) -> Option<(usize, Side)> {
-        let (parameter, is_plus) = Family::beside(present()?.variant)?;
+    pub(super) fn present_side(run: &Simulation) -> Option<(usize, PerturbedSide)> {
+        let (parameter, is_plus) = ParameterSet::beside(present()?.variant)?;
         run.parameters().next()?;
-        Some((parameter, if is_plus { Side::Plus } else { Side::Minus }))
+        Some((parameter, if is_plus { PerturbedSide::Plus } else { PerturbedSide::Minus }))
     }
 }

@@ -1,8 +1,8 @@
 //! States in which a simulation was, one after another: those that are kept, or those of the run made again in a copy.
 
 use super::{Revisit, SimulationHandle};
+use crate::script::messages::error::ScriptError;
 use crate::script::state::context::Context;
-use crate::script::words::error::ScriptError;
 use crate::simulation::Simulation;
 
 /// Takes a state: the number of its time among those asked for, and the simulation as it was.

@@ -8,17 +8,17 @@ use super::super::vectors::VECTOR;
 use super::knots::{KNOTS, shared as shared_knots};
 use super::{ORDER, TIMES, XI, blame, brief, brief_point, pair, plural, vector};
 use crate::geometry::{Curve, GeometryError, KnotVector, SplineCurve, Vec2};
-use crate::script::looks::details;
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::{Details, Scripted, Type};
-use crate::script::rows::parameter::{Parameter, Presence, number, object, point, points};
-use crate::script::rows::returns::{Returns, ValueKind};
-use crate::script::rows::table::{Table, function, method, operator, property};
-use crate::script::words::error::ScriptError;
-use crate::script::words::nouns::with_article;
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::{Details, Scripted, Type};
+use crate::script::bindings::parameter::{Parameter, Presence, number, object, point, points};
+use crate::script::bindings::returns::{Returns, ValueKind};
+use crate::script::bindings::table::{BindingTable, function, method, operator, property};
+use crate::script::messages::error::ScriptError;
+use crate::script::messages::nouns::with_article;
+use crate::script::presentation::details;
 
 /// The domain of curves of the plane.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "curves",
     doc: "Curves of the plane with a parameter ξ: from 0 to 1, or over the domain of the knots. A beam is drawn along a \
           curve.",

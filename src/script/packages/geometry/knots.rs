@@ -6,17 +6,17 @@ use rhai::{Dynamic, Map};
 
 use super::{ORDER, TIMES, XI, all_functions, blame, brief, count, numbers, pair, plural};
 use crate::geometry::{Basis, KnotVector, MAX_DEGREE, MAX_SPANS};
-use crate::script::looks::details;
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::{Details, Kind, Range, Scripted, Type};
-use crate::script::rows::options::Options;
-use crate::script::rows::parameter::{self, Parameter, Presence, either, object, whole};
-use crate::script::rows::returns::Returns;
-use crate::script::rows::table::{Table, function, method, operator, property};
-use crate::script::words::error::{Place, ScriptError};
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::{Details, Kind, NumberRange, Scripted, Type};
+use crate::script::bindings::options::Options;
+use crate::script::bindings::parameter::{self, Parameter, Presence, either, object, whole};
+use crate::script::bindings::returns::Returns;
+use crate::script::bindings::table::{BindingTable, function, method, operator, property};
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::presentation::details;
 
 /// The domain of knots and basis functions.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "knots",
     doc: "Knots say where the polynomial pieces of a spline meet, and how smoothly. They are open: the first and the \
           last are repeated degree + 1 times. A spline of degree p has p - m continuous derivatives at an interior \
@@ -112,7 +112,7 @@ const DEGREE: Parameter =
     whole("degree").between(1.0, MAX_DEGREE as f64).doc("the polynomial degree");
 const VALUES: Parameter =
     parameter::numbers("values").doc("the knots in order, the first and the last degree + 1 times");
-const SPANS: Range = Range::Between(1.0, MAX_SPANS as f64);
+const SPANS: NumberRange = NumberRange::Between(1.0, MAX_SPANS as f64);
 const UNIFORM: Parameter = either("spans", &[Kind::Whole(SPANS), Kind::Options(KEYS)])
     .doc("the number of spans, or options");
 const KEYS: &[Parameter] = &[
@@ -187,7 +187,7 @@ fn uniform(call: &mut Call) -> Result<Dynamic, ScriptError> {
     };
     // Spans and degree are in range, so that only the continuity can be refused.
     let knots = KnotVector::uniform(spans, degree, continuity)
-        .map_err(|error| ScriptError::from(error).at(Place::Key("continuity".into())))?;
+        .map_err(|error| ScriptError::from(error).at(CallPart::Key("continuity".into())))?;
     Ok(shared(knots))
 }
 

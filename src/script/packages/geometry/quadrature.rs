@@ -4,14 +4,14 @@ use rhai::{Dynamic, Map};
 
 use super::{blame, numbers};
 use crate::geometry::GaussRule;
-use crate::script::rows::call::Call;
-use crate::script::rows::parameter::{Presence, number, whole};
-use crate::script::rows::returns::Returns;
-use crate::script::rows::table::{Table, function};
-use crate::script::words::error::ScriptError;
+use crate::script::bindings::call::Call;
+use crate::script::bindings::parameter::{Presence, number, whole};
+use crate::script::bindings::returns::Returns;
+use crate::script::bindings::table::{BindingTable, function};
+use crate::script::messages::error::ScriptError;
 
 /// The domain of numerical integration.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "quadrature",
     doc: "Points and weights for numerical integration.",
     types: &[],

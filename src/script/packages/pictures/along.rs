@@ -5,25 +5,25 @@ use rhai::{Array, Dynamic};
 use super::files::{FILE, write_picture};
 use super::options::{SYMBOLS, X_LIMITS, Y_LIMITS, limits, symbols};
 use crate::output::Page;
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::Kind;
+use crate::script::bindings::options::Options;
+use crate::script::bindings::parameter::{Parameter, array, choice, either, options, text};
+use crate::script::bindings::table::{BindingTable, function};
 use crate::script::handles::beam::BeamHandle;
 use crate::script::handles::equilibrium::EquilibriumHandle;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::simulation::SimulationHandle;
-use crate::script::looks::along::Inside;
-use crate::script::looks::motion::Shown;
-use crate::script::looks::quantities::{NAMES, Quantity};
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::messages::suggest::nearest;
 use crate::script::packages::equilibria::EQUILIBRIUM;
 use crate::script::packages::simulations::{SIMULATION, SPINNING};
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::Kind;
-use crate::script::rows::options::Options;
-use crate::script::rows::parameter::{Parameter, array, choice, either, options, text};
-use crate::script::rows::table::{Table, function};
-use crate::script::words::error::{Place, ScriptError};
-use crate::script::words::suggest::nearest;
+use crate::script::presentation::along::SectionForceProfile;
+use crate::script::presentation::motion::Visibility;
+use crate::script::presentation::quantities::{BeamQuantity, NAMES};
 
 /// Pictures of what is inside of beams.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "pictures along beams",
     doc: "What is inside of beams, of a simulation at the present moment or of an equilibrium. Quantities are N (axial force, positive in \
           tension), Q (shear force), M (bending moment), axial_strain, shear_strain, curvature, strain_energy (per length) and speed.",
@@ -85,42 +85,42 @@ fn plot_field(call: &mut Call) -> Result<Dynamic, ScriptError> {
     write_picture(call, &picture)
 }
 
-fn quantity(call: &Call, name: &str) -> Result<&'static Quantity, ScriptError> {
-    Quantity::named(name).ok_or_else(|| {
+fn quantity(call: &Call, name: &str) -> Result<&'static BeamQuantity, ScriptError> {
+    BeamQuantity::named(name).ok_or_else(|| {
         let meant = nearest(name, NAMES.iter().copied());
         let meant = meant.map(|name| format!("did you mean \"{name}\"? ")).unwrap_or_default();
         call.error(format!("there is no quantity \"{name}\" along beams"))
             .hint(format!("{meant}quantities: {}", NAMES.join(", ")))
-            .at(Place::Argument(1))
+            .at(CallPart::Argument(1))
     })
 }
 
 /// The quantities that are named, at least one.
-fn quantities(call: &Call) -> Result<Vec<&'static Quantity>, ScriptError> {
+fn quantities(call: &Call) -> Result<Vec<&'static BeamQuantity>, ScriptError> {
     if let Some(names) = call.get_if::<Array>("quantity") {
         if names.is_empty() || names.len() > NAMES.len() {
             let told = format!("{} quantities are named", names.len());
             let hint = format!("name one or several of {}", NAMES.join(", "));
-            return Err(call.error(told).hint(hint).at(Place::Argument(1)));
+            return Err(call.error(told).hint(hint).at(CallPart::Argument(1)));
         }
         return names.iter().map(|name| quantity(call, &name.to_string())).collect();
     }
     Ok(vec![quantity(call, &call.text("quantity")?)?])
 }
 
-fn inside(call: &Call, options: &Options) -> Result<Inside, ScriptError> {
+fn inside(call: &Call, options: &Options) -> Result<SectionForceProfile, ScriptError> {
     let mut inside = match call.get_if::<EquilibriumHandle>("of") {
         Some(handle) => {
             let rest = handle.rest();
             let beams = beams(call, options, handle.scene(), rest.scene().beams.len())?;
-            Inside::of_equilibrium(&rest, &beams)?
+            SectionForceProfile::of_equilibrium(&rest, &beams)?
         }
         None => {
             let handle = call.get::<SimulationHandle>("of")?;
             let simulation = handle.simulation();
             let count = simulation.scene().beams.len();
             let beams = beams(call, options, handle.scene(), count)?;
-            let mut inside = Inside::of_simulation(&simulation, &beams)?;
+            let mut inside = SectionForceProfile::of_simulation(&simulation, &beams)?;
             inside.title = handle.name().to_owned();
             inside
         }
@@ -129,9 +129,9 @@ fn inside(call: &Call, options: &Options) -> Result<Inside, ScriptError> {
         inside.title = title.to_string();
     }
     Ok(match symbols(options) {
-        Shown::No => inside.without_symbols(),
-        Shown::Yes => inside,
-        Shown::WhereThereIsRoom => inside.with_uncrowded_symbols(),
+        Visibility::No => inside.without_symbols(),
+        Visibility::Yes => inside,
+        Visibility::WhereThereIsRoom => inside.with_uncrowded_symbols(),
     })
 }
 
@@ -143,7 +143,7 @@ fn beams(
     count: usize,
 ) -> Result<Vec<usize>, ScriptError> {
     let Ok(given) = options.array("beams") else { return Ok(Vec::new()) };
-    let at = || Place::Key("beams".into());
+    let at = || CallPart::Key("beams".into());
     if given.is_empty() {
         return Err(call.error("no beam is given").hint("for example [rod]").at(at()));
     }

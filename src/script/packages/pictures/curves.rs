@@ -4,18 +4,18 @@ use rhai::{Dynamic, Map};
 
 use super::files::{FILE, write_picture};
 use super::options::{
-    LABELS, MARKERS, TITLE, Wrong, X_LABEL, X_LIMITS, X_LOG, Y_LABEL, Y_LIMITS, Y_LOG, curves,
-    dressed, labels, marked,
+    LABELS, MARKERS, OptionError, TITLE, X_LABEL, X_LIMITS, X_LOG, Y_LABEL, Y_LIMITS, Y_LOG,
+    curves, dressed, labels, marked,
 };
 use crate::output::{LineChart, Point, Series};
-use crate::script::rows::call::Call;
-use crate::script::rows::options::Options;
-use crate::script::rows::parameter::{Parameter, array, options};
-use crate::script::rows::table::{Table, function};
-use crate::script::words::error::{Place, ScriptError};
+use crate::script::bindings::call::Call;
+use crate::script::bindings::options::Options;
+use crate::script::bindings::parameter::{Parameter, array, options};
+use crate::script::bindings::table::{BindingTable, function};
+use crate::script::messages::error::{CallPart, ScriptError};
 
 /// Pictures of arrays.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "pictures of arrays",
     doc: "A chart of any numbers: SVG or PNG by the ending of the file name, into the output folder.",
     types: &[],
@@ -59,12 +59,12 @@ fn plot(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (x, y) = (curves(call, "x", 0)?, curves(call, "y", 1)?);
     if y.len() > MOST_CURVES {
         let told = format!("{} curves are too many for a picture: {MOST_CURVES} at most", y.len());
-        return Err(call.error(told).at(Place::Argument(1)));
+        return Err(call.error(told).at(CallPart::Argument(1)));
     }
     if x.len() != 1 && x.len() != y.len() {
         let told = format!("x holds {} arrays and y {}", x.len(), y.len());
         let hint = "give one x for all curves, or one for each";
-        return Err(call.error(told).hint(hint).at(Place::Argument(0)));
+        return Err(call.error(told).hint(hint).at(CallPart::Argument(0)));
     }
     let title = options.text_if_given("title")?.unwrap_or_default();
     let count = y.len();
@@ -75,7 +75,7 @@ fn plot(call: &mut Call) -> Result<Dynamic, ScriptError> {
             let which = if count == 1 { String::new() } else { format!("curve {index}: ") };
             let told = format!("{which}x has {} numbers and y {}", x.len(), y.len());
             let hint = "they belong together pair by pair";
-            return Err(call.error(told).hint(hint).at(Place::Argument(1)));
+            return Err(call.error(told).hint(hint).at(CallPart::Argument(1)));
         }
         let name = if count == 1 { String::new() } else { format!("curve {}", index + 1) };
         curves.push((name, x.iter().copied().zip(y).collect()));
@@ -89,7 +89,7 @@ fn chart(
     options: &Options,
     chart: LineChart,
     curves: Vec<(String, Vec<Point>)>,
-) -> Result<LineChart, Wrong> {
+) -> Result<LineChart, OptionError> {
     let labels = labels(options, curves.len())?;
     let named = curves.into_iter().enumerate().map(|(index, (name, points))| {
         let label = labels.as_ref().map(|labels| labels[index].clone());

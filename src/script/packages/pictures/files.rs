@@ -5,9 +5,9 @@ use std::path::Path;
 use rhai::Dynamic;
 
 use crate::output::{CsvTable, Panel, PictureKind};
-use crate::script::rows::call::Call;
-use crate::script::rows::parameter::{Parameter, text};
-use crate::script::words::error::ScriptError;
+use crate::script::bindings::call::Call;
+use crate::script::bindings::parameter::{Parameter, text};
+use crate::script::messages::error::ScriptError;
 
 /// The name of a file.
 pub const FILE: Parameter = text("file").doc("its name in the output folder");

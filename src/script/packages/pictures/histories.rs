@@ -7,13 +7,13 @@ use super::options::{
     MARKERS, X_LABEL, X_LIMITS, X_LOG, Y_LABEL, Y_LIMITS, Y_LOG, dressed, marked,
 };
 use super::subjects::histories_over_time;
-use crate::output::{LineChart, Page, Scale};
+use crate::output::{AxisScale, LineChart, Page};
+use crate::script::bindings::call::Call;
+use crate::script::bindings::parameter::{Parameter, Presence, array, boolean, choice, text};
 use crate::script::handles::history::HistoryHandle;
-use crate::script::looks::sight::{drift_lines, line_chart};
+use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::packages::recording::expect_all_rows;
-use crate::script::rows::call::Call;
-use crate::script::rows::parameter::{Parameter, Presence, array, boolean, choice, text};
-use crate::script::words::error::{Place, ScriptError};
+use crate::script::presentation::plots::{drift_lines, line_chart};
 use crate::simulation::History;
 
 /// What is drawn.
@@ -50,8 +50,8 @@ pub fn plot_history(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let options = call.options_or_defaults("options")?;
     let is_asked = |name: &str| options.boolean(name).unwrap_or(false);
     let (scale, shown): (_, fn(f64) -> f64) = match is_asked("logarithmic") {
-        true => (Scale::Logarithmic, f64::abs),
-        false => (Scale::Linear, |value| value),
+        true => (AxisScale::Logarithmic, f64::abs),
+        false => (AxisScale::Linear, |value| value),
     };
     let read = if is_asked("average") { History::averaged } else { History::column };
     let histories = histories_over_time(call)?;
@@ -90,7 +90,7 @@ fn columns(call: &Call, histories: &[HistoryHandle]) -> Result<Vec<String>, Scri
     match (columns.as_slice(), histories) {
         ([], [first, ..]) => {
             let hint = format!("columns: {}", first.column_names());
-            Err(call.error("no column is named").hint(hint).at(Place::Argument(1)))
+            Err(call.error("no column is named").hint(hint).at(CallPart::Argument(1)))
         }
         _ => Ok(columns.iter().map(Dynamic::to_string).collect()),
     }

@@ -5,16 +5,16 @@ use rhai::{Dynamic, Map};
 use super::files::write_picture;
 use super::options::{SYMBOLS, X_LIMITS, Y_LIMITS, limits, symbols};
 use super::subjects::{simulations, stations};
-use crate::output::{Limits, MotionPicture, Style};
+use crate::output::{AxisLimits, MotionPicture, TerminalStyle};
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::Scripted;
+use crate::script::bindings::options::Options;
+use crate::script::bindings::parameter::{Parameter, array, boolean, number, text};
 use crate::script::handles::simulation::SimulationHandle;
 use crate::script::handles::station::StationHandle;
-use crate::script::looks::motion::{Motion, Times, Wanted};
+use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::packages::recording::expect_near;
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::Scripted;
-use crate::script::rows::options::Options;
-use crate::script::rows::parameter::{Parameter, array, boolean, number, text};
-use crate::script::words::error::{Place, ScriptError};
+use crate::script::presentation::motion::{MotionOptions, MotionView, Times};
 
 /// The options of a picture of a motion.
 pub const MOTION: &[Parameter] = &[
@@ -47,11 +47,11 @@ pub fn plot_motion(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let picture = |of: &SimulationHandle| {
         call.proceed()?;
         let traced = options.array("trace").unwrap_or_default();
-        let traced = stations(call, &traced, Place::Key("trace".into()))?;
+        let traced = stations(call, &traced, CallPart::Key("trace".into()))?;
         let wanted = wanted(of, &options, &traced, limits)?;
         let every = wanted.times.every;
         let expect = |time, recorded| expect_near(call, of, (time, recorded), every);
-        let motion = Motion::of(&of.simulation(), wanted, expect);
+        let motion = MotionView::of(&of.simulation(), wanted, expect);
         let motion = motion.map_err(|error| match error {
             ScriptError::Failure(failure) if !failure.message.contains(": ") => {
                 let error = call.error(failure.message);
@@ -76,7 +76,7 @@ pub fn motion_text(
     engine: &rhai::Engine,
     of: &SimulationHandle,
     map: &Map,
-    style: &Style,
+    style: &TerminalStyle,
 ) -> Result<String, ScriptError> {
     let options = Options::read(engine, ":show", MOTION, map)?;
     let traced = options.array("trace").unwrap_or_default();
@@ -91,7 +91,7 @@ pub fn motion_text(
     if !options.has("every") && !options.has("from") {
         wanted.times.from = wanted.times.to.min(of.time());
     }
-    let motion = Motion::of(&of.simulation(), wanted, |_, _| Ok(()))?;
+    let motion = MotionView::of(&of.simulation(), wanted, |_, _| Ok(()))?;
     Ok(motion.text(title(of, &options)?, style))
 }
 
@@ -104,13 +104,13 @@ fn wanted(
     of: &SimulationHandle,
     options: &Options,
     traced: &[StationHandle],
-    limits: Limits,
-) -> Result<Wanted, ScriptError> {
+    limits: AxisLimits,
+) -> Result<MotionOptions, ScriptError> {
     let given = |name: &str| options.number_if_given(name);
     let (from, to) = (given("from").unwrap_or(0.0), given("to").unwrap_or(of.time()));
     let every = given("every").unwrap_or_else(|| ((to - from) / 20.0).max(f64::MIN_POSITIVE));
     let trace = |station: &StationHandle| Ok((station.show(), station.on(of)?));
-    Ok(Wanted {
+    Ok(MotionOptions {
         times: Times { from, to, every },
         traces: traced.iter().map(trace).collect::<Result<_, ScriptError>>()?,
         magnify: given("magnify"),

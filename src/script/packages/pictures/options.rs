@@ -2,13 +2,13 @@
 
 use rhai::{Array, Dynamic};
 
-use crate::output::{Limits, LineChart, Marker, Scale, Series, Stroke, significant};
-use crate::script::looks::motion::Shown;
-use crate::script::rows::call::Call;
-use crate::script::rows::options::Options;
-use crate::script::rows::parameter::{Parameter, array, boolean, choice, numbers, text};
-use crate::script::words::error::{Place, ScriptError};
-use crate::script::words::numbers::{as_number, format_number};
+use crate::output::{AxisLimits, AxisScale, LineChart, Marker, Series, Stroke, significant};
+use crate::script::bindings::call::Call;
+use crate::script::bindings::options::Options;
+use crate::script::bindings::parameter::{Parameter, array, boolean, choice, numbers, text};
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::messages::numbers::{as_number, format_number};
+use crate::script::presentation::motion::Visibility;
 
 /// What stands above a chart.
 pub const TITLE: Parameter = text("title").doc("what stands above it").optional();
@@ -47,16 +47,16 @@ pub const SYMBOLS: Parameter = boolean("symbols")
 const DIGITS: usize = 6;
 
 /// What is wrong with an option: a call says where it stands, the prompt of which command it is.
-pub struct Wrong {
+pub struct OptionError {
     key: String,
     told: String,
     hint: &'static str,
 }
 
-impl Wrong {
+impl OptionError {
     /// As an error of a call.
     pub fn in_call(self, call: &Call) -> ScriptError {
-        call.error(self.told).hint(self.hint).at(Place::Key(self.key))
+        call.error(self.told).hint(self.hint).at(CallPart::Key(self.key))
     }
 
     /// As an error of a command.
@@ -66,30 +66,34 @@ impl Wrong {
 }
 
 /// Whether symbols are shown.
-pub fn symbols(options: &Options) -> Shown {
+pub fn symbols(options: &Options) -> Visibility {
     match options.boolean("symbols") {
-        Ok(false) => Shown::No,
-        Ok(true) => Shown::Yes,
-        Err(_) => Shown::WhereThereIsRoom,
+        Ok(false) => Visibility::No,
+        Ok(true) => Visibility::Yes,
+        Err(_) => Visibility::WhereThereIsRoom,
     }
 }
 
 /// The ends of axes.
-pub fn limits(options: &Options) -> Result<Limits, Wrong> {
+pub fn limits(options: &Options) -> Result<AxisLimits, OptionError> {
     let ends = |name: &str| match options.numbers(name).ok().as_deref() {
         None => Ok(None),
         Some([low, high]) if low < high => Ok(Some((*low, *high))),
         Some(other) => {
             let got: Vec<String> = other.iter().map(|end| format_number(*end)).collect();
             let told = format!("'{name}' must be [low, high], got [{}]", got.join(", "));
-            Err(Wrong { key: name.to_owned(), told, hint: "two numbers, the smaller one first" })
+            Err(OptionError {
+                key: name.to_owned(),
+                told,
+                hint: "two numbers, the smaller one first",
+            })
         }
     };
-    Ok(Limits { x: ends("x_limits")?, y: ends("y_limits")? })
+    Ok(AxisLimits { x: ends("x_limits")?, y: ends("y_limits")? })
 }
 
 /// The chart with the labels, scales and limits of its options; what is not given stays as it is.
-pub fn dressed(options: &Options, mut chart: LineChart) -> Result<LineChart, Wrong> {
+pub fn dressed(options: &Options, mut chart: LineChart) -> Result<LineChart, OptionError> {
     let limits = limits(options)?;
     let is_asked = |name: &str| options.boolean(name).unwrap_or(false);
     for (axis, ends) in [("x", limits.x), ("y", limits.y)] {
@@ -98,7 +102,7 @@ pub fn dressed(options: &Options, mut chart: LineChart) -> Result<LineChart, Wro
         {
             let told = format!("a logarithmic axis cannot begin at {}", format_number(low));
             let key = format!("{axis}_limits");
-            return Err(Wrong { key, told, hint: "give limits above zero" });
+            return Err(OptionError { key, told, hint: "give limits above zero" });
         }
     }
     if let Ok(label) = options.text("x_label") {
@@ -108,10 +112,10 @@ pub fn dressed(options: &Options, mut chart: LineChart) -> Result<LineChart, Wro
         chart = chart.y_label(label.as_str());
     }
     if is_asked("x_log") {
-        chart = chart.x_scale(Scale::Logarithmic);
+        chart = chart.x_scale(AxisScale::Logarithmic);
     }
     if is_asked("y_log") {
-        chart = chart.y_scale(Scale::Logarithmic);
+        chart = chart.y_scale(AxisScale::Logarithmic);
     }
     Ok(chart.limits(limits))
 }
@@ -126,9 +130,9 @@ pub fn marked(options: &Options, index: usize, series: Series) -> Series {
 }
 
 /// The names of so many curves, where they are given.
-pub fn labels(options: &Options, count: usize) -> Result<Option<Vec<String>>, Wrong> {
+pub fn labels(options: &Options, count: usize) -> Result<Option<Vec<String>>, OptionError> {
     let Ok(given) = options.array("labels") else { return Ok(None) };
-    let wrong = |told: String, hint| Wrong { key: "labels".to_owned(), told, hint };
+    let wrong = |told: String, hint| OptionError { key: "labels".to_owned(), told, hint };
     if given.len() != count {
         let plural = if count == 1 { "" } else { "s" };
         let told = format!("there are {count} curve{plural} and {} labels", given.len());
@@ -153,7 +157,7 @@ pub fn curves(call: &Call, name: &str, at: usize) -> Result<Vec<Vec<f64>>, Scrip
                 let got = call.describe(value);
                 call.error(format!("'{name}' must hold numbers, got {got} at index {index}"))
                     .hint("an array of numbers is a curve; an array of such arrays, several")
-                    .at(Place::Argument(at))
+                    .at(CallPart::Argument(at))
             })
         };
         array.iter().enumerate().map(number).collect()

@@ -5,25 +5,25 @@ use rhai::Dynamic;
 use super::files::{FILE, write_csv, write_picture};
 use super::subjects::{plain, stations};
 use crate::geometry::Vec2;
-use crate::output::{CsvTable, LineChart, MotionPicture, Page, Series, Snapshot, significant};
+use crate::output::{CsvTable, LineChart, MotionFrame, MotionPicture, Page, Series, significant};
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::Scripted;
+use crate::script::bindings::parameter::{
+    Parameter, Presence, array, number, object, options, text, whole,
+};
+use crate::script::bindings::table::{BindingTable, function};
 use crate::script::handles::equilibrium::EquilibriumHandle;
 use crate::script::handles::station::StationHandle;
-use crate::script::looks::motion::snapshot;
-use crate::script::looks::symbols::SceneAt;
+use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::packages::equilibria::{BENT, EQUILIBRIUM};
 use crate::script::packages::modes::{MODES, ModesHandle};
 use crate::script::packages::scenes::STATION;
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::Scripted;
-use crate::script::rows::parameter::{
-    Parameter, Presence, array, number, object, options, text, whole,
-};
-use crate::script::rows::table::{Table, function};
-use crate::script::words::error::{Place, ScriptError};
+use crate::script::presentation::motion::snapshot;
+use crate::script::presentation::symbols::SceneAt;
 use crate::simulation::Outline;
 
 /// The domain of pictures of equilibria and modes.
-pub const TABLE: Table = Table {
+pub const TABLE: BindingTable = BindingTable {
     name: "pictures of equilibria and modes",
     doc: "Like pictures of simulations: SVG or PNG by the ending of the file name, tables as CSV, into the output folder.",
     types: &[],
@@ -90,11 +90,11 @@ fn plot_equilibrium(call: &mut Call) -> Result<Dynamic, ScriptError> {
     for (index, configuration) in configurations.iter().enumerate() {
         if (last - index).is_multiple_of(apart) {
             let time = if grows { factors[index] } else { index as f64 };
-            picture = picture.snapshot(Snapshot { time, ..snapshot(configuration) });
+            picture = picture.snapshot(MotionFrame { time, ..snapshot(configuration) });
         }
     }
     for station in
-        stations(call, &options.array("trace").unwrap_or_default(), Place::Key("trace".into()))?
+        stations(call, &options.array("trace").unwrap_or_default(), CallPart::Key("trace".into()))?
     {
         let path = positions(&handle, &station)?;
         picture =
@@ -132,7 +132,7 @@ fn write_load_path(call: &mut Call) -> Result<Dynamic, ScriptError> {
         .comment(format!("equilibria of {}", rest.scene().name))
         .column("load factor [-]", points.iter().map(|point| point.load_factor).collect())
         .column("strain [energy]", points.iter().map(|point| point.strain_energy).collect());
-    let stations = stations(call, &call.array("stations")?, Place::Argument(1))?;
+    let stations = stations(call, &call.array("stations")?, CallPart::Argument(1))?;
     let table = stations.iter().try_fold(table, |table, station| {
         let (name, path) = (station.show(), positions(&handle, station)?);
         Ok::<_, ScriptError>(

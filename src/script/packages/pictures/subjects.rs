@@ -3,16 +3,16 @@
 use rhai::{Array, Dynamic};
 
 use crate::geometry::Vec2;
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::{Kind, Scripted};
+use crate::script::bindings::parameter::{Parameter, either};
 use crate::script::handles::history::HistoryHandle;
 use crate::script::handles::simulation::SimulationHandle;
 use crate::script::handles::station::StationHandle;
+use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::packages::histories::HISTORY;
 use crate::script::packages::recording::expect_rows_between;
 use crate::script::packages::simulations::SIMULATION;
-use crate::script::rows::call::Call;
-use crate::script::rows::kind::{Kind, Scripted};
-use crate::script::rows::parameter::{Parameter, either};
-use crate::script::words::error::{Place, ScriptError};
 
 /// What moves.
 pub const MOVING: Parameter =
@@ -36,13 +36,13 @@ fn things<T: Scripted>(
             "{} pictures side by side are too many: {MOST_SIDE_BY_SIDE} at most",
             values.len()
         );
-        return Err(call.error(told).hint("draw some of them").at(Place::Argument(0)));
+        return Err(call.error(told).hint("draw some of them").at(CallPart::Argument(0)));
     }
     let things: Option<Vec<T>> = values.iter().map(convert).collect();
     things.filter(|things| !things.is_empty()).ok_or_else(|| {
         call.error("the array must hold simulations, at least one")
             .hint("for example [first, second]")
-            .at(Place::Argument(0))
+            .at(CallPart::Argument(0))
     })
 }
 
@@ -82,7 +82,11 @@ pub fn plain(point: &Vec2) -> (f64, f64) {
 }
 
 /// The stations in an array that stands at a place of the call.
-pub fn stations(call: &Call, array: &Array, at: Place) -> Result<Vec<StationHandle>, ScriptError> {
+pub fn stations(
+    call: &Call,
+    array: &Array,
+    at: CallPart,
+) -> Result<Vec<StationHandle>, ScriptError> {
     let stations = array.iter().map(|value| value.clone().try_cast::<StationHandle>());
     stations.collect::<Option<_>>().ok_or_else(|| {
         call.error("the array must hold stations").hint("for example [rod.end]").at(at)

@@ -5,9 +5,9 @@ use rhai::Dynamic;
 use super::files::write_csv;
 use super::subjects::{histories, simulations};
 use crate::output::CsvTable;
+use crate::script::bindings::call::Call;
 use crate::script::handles::report::history_table;
-use crate::script::rows::call::Call;
-use crate::script::words::error::ScriptError;
+use crate::script::messages::error::ScriptError;
 
 /// Writes a history.
 pub fn write_history(call: &mut Call) -> Result<Dynamic, ScriptError> {

@@ -4,21 +4,21 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 
 use super::Context;
-use crate::script::state::files::Written;
+use crate::script::messages::error::ScriptError;
+use crate::script::state::files::WrittenFile;
 use crate::script::state::limits::Meter;
-use crate::script::state::settings::Mode;
-use crate::script::words::error::ScriptError;
+use crate::script::state::settings::RunMode;
 
 /// A file that is read takes a few times its length: the bytes, and what is made of them.
 const TIMES_ITS_LENGTH: u64 = 4;
 
 /// A file in which what is written is counted, as long as the run may write.
-struct Counted<'c> {
+struct CountedFile<'c> {
     file: &'c mut dyn Write,
     meter: &'c Meter,
 }
 
-impl Write for Counted<'_> {
+impl Write for CountedFile<'_> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         match self.meter.allows_to_write(bytes.len() as u64) {
             true => self.file.write(bytes),
@@ -53,7 +53,7 @@ impl Context {
         self.account_for(&[])?;
         let written = self
             .output()
-            .write_by(name, |file| write(&mut Counted { file, meter: self.meter() }))?;
+            .write_by(name, |file| write(&mut CountedFile { file, meter: self.meter() }))?;
         self.proceed()?;
         Ok(self.tell_kept(written))
     }
@@ -80,13 +80,13 @@ impl Context {
         if let Some(refusal) = self.0.refuses_files.get() {
             return Err(ScriptError::new("no file is written here").hint(refusal));
         }
-        match self.mode() == Mode::DryBuild || self.meter().allows_a_file(content.len() as u64) {
+        match self.mode() == RunMode::DryBuild || self.meter().allows_a_file(content.len() as u64) {
             true => Ok(()),
             false => self.proceed(),
         }
     }
 
-    fn tell_kept(&self, written: Written) -> PathBuf {
+    fn tell_kept(&self, written: WrittenFile) -> PathBuf {
         if let Some(kept) = written.kept {
             self.tell(&format!(
                 "note: '{}' was there already, and not as withy has written it: it is kept as '{}'",

@@ -4,14 +4,14 @@ use rhai::{Dynamic, EvalAltResult, FnPtr, Map};
 
 use super::function::{RunFunction, changes};
 use crate::script::engine::workers::Worker;
-use crate::script::words::brief::brief;
-use crate::script::words::error::Failure;
+use crate::script::messages::brief::brief;
+use crate::script::messages::error::Failure;
 
 /// The most characters of a reason.
 const LONGEST_REASON: usize = 300;
 
 /// What came of a call.
-pub enum Called {
+pub enum CallOutcome {
     /// The function gave this.
     Given(Dynamic),
     /// The function threw something, took too long, or a check of it failed: the reason.
@@ -21,7 +21,7 @@ pub enum Called {
 }
 
 /// What was made of a call, with the steps that its simulations took.
-pub struct Made<R> {
+pub struct CallWork<R> {
     /// What was made of it.
     pub result: R,
     /// Steps of simulations and failed tries.
@@ -34,8 +34,8 @@ pub fn call<R>(
     function: &RunFunction,
     values: impl FnOnce(&dyn Fn(&str, usize) -> Option<FnPtr>) -> Map,
     wall: &str,
-    read: impl FnOnce(Called) -> R,
-) -> Made<R> {
+    read: impl FnOnce(CallOutcome) -> R,
+) -> CallWork<R> {
     let context = worker.context();
     let failed_checks = || context.with_checks(|checks| checks.failed().len());
     let (before, failed) = (context.meter().steps(), failed_checks());
@@ -44,16 +44,16 @@ pub fn call<R>(
     let told =
         context.with_checks(|checks| checks.failed().get(failed).map(|of| of.message.clone()));
     let called = match (told, called) {
-        _ if worker.is_stopped() => Called::Failed(format!("it took more than {wall}")),
-        (Some(told), Called::Given(_)) => {
-            Called::Failed(shortened(&format!("a check failed: {told}")))
+        _ if worker.is_stopped() => CallOutcome::Failed(format!("it took more than {wall}")),
+        (Some(told), CallOutcome::Given(_)) => {
+            CallOutcome::Failed(shortened(&format!("a check failed: {told}")))
         }
         (_, called) => called,
     };
     let result = read(called);
     // What a run leaves behind would fill the memory.
     context.forget_simulations();
-    Made { result, steps: context.meter().steps() - before }
+    CallWork { result, steps: context.meter().steps() - before }
 }
 
 fn called(
@@ -61,19 +61,19 @@ fn called(
     function: &RunFunction,
     function_of: &dyn Fn(&str, usize) -> Option<FnPtr>,
     values: Map,
-) -> Called {
+) -> CallOutcome {
     let Some((captured, given)) = function.arguments(values, function_of) else {
-        return Called::Wrong("a captured function is not found again".into());
+        return CallOutcome::Wrong("a captured function is not found again".into());
     };
     let arguments = captured.iter().cloned().chain(given).collect();
     match worker.call(&function.name, arguments) {
         Ok(given) => match function.changed(&captured) {
-            Some(name) => Called::Wrong(changes(name)),
-            None => Called::Given(given),
+            Some(name) => CallOutcome::Wrong(changes(name)),
+            None => CallOutcome::Given(given),
         },
         Err(error) => match thrown(&error) {
-            Some(reason) => Called::Failed(shortened(&reason)),
-            None => Called::Wrong(shortened(&worker.explain(&error).message)),
+            Some(reason) => CallOutcome::Failed(shortened(&reason)),
+            None => CallOutcome::Wrong(shortened(&worker.explain(&error).message)),
         },
     }
 }

@@ -4,20 +4,20 @@ use std::time::Duration;
 
 use rhai::{Array, Dynamic, Map};
 
-use super::calling::{Called, Made, call, thrown};
+use super::calling::{CallOutcome, CallWork, call, thrown};
 use super::function::RunFunction;
 use crate::fitting::{Evaluation, Sloped};
-use crate::script::engine::workers::{Blueprint, Crew, News, with_crew};
-use crate::script::rows::call::Call;
-use crate::script::rows::lifting::{Family, Varied};
-use crate::script::words::error::ScriptError;
-use crate::script::words::numbers::as_number;
+use crate::script::bindings::call::Call;
+use crate::script::bindings::parameter_variants::{ParameterSet, VariantValue};
+use crate::script::engine::workers::{EngineConfig, WorkerEvent, WorkerPool, with_crew};
+use crate::script::messages::error::ScriptError;
+use crate::script::messages::numbers::as_number;
 
 /// Why a function of a study writes no files.
 const NO_FILES: &str = "a run of a study writes no files: give what is to be kept as its result";
 
 /// What a function gave at a point.
-pub enum Answer {
+pub enum FunctionResult {
     /// It gave numbers.
     Numbers(Vec<f64>),
     /// It failed: the reason.
@@ -27,10 +27,10 @@ pub enum Answer {
 }
 
 /// How what a function gives is read.
-pub type Read = fn(&Dynamic) -> Answer;
+pub type Read = fn(&Dynamic) -> FunctionResult;
 
 /// A function of parameters.
-pub struct Question<'q> {
+pub struct FunctionQuery<'q> {
     /// The key of the option under which the function is given.
     pub key: &'static str,
     /// The names of its parameters.
@@ -45,7 +45,7 @@ pub struct Question<'q> {
 
 /// What is asked of a function.
 #[derive(Clone)]
-enum Point {
+enum QueryPoint {
     /// What it gives at a point.
     Value(Vec<f64>),
     /// The derivatives of what it gives at a point; with each parameter the distance that is small for it.
@@ -53,29 +53,29 @@ enum Point {
 }
 
 /// Who answers.
-enum Whom<'w> {
-    Workers(&'w Crew<'w, Point, Made<Answer>>),
+enum Executor<'w> {
+    Workers(&'w WorkerPool<'w, QueryPoint, CallWork<FunctionResult>>),
     ThisThread,
 }
 
 /// A function that can be asked.
 pub struct Evaluator<'w> {
     call: &'w Call<'w, 'w>,
-    question: &'w Question<'w>,
-    whom: Whom<'w>,
+    question: &'w FunctionQuery<'w>,
+    whom: Executor<'w>,
     has_answered: bool,
 }
 
-impl Question<'_> {
-    fn values(&self, point: &Point) -> Map {
+impl FunctionQuery<'_> {
+    fn values(&self, point: &QueryPoint) -> Map {
         let named = |(name, value): (&String, Dynamic)| (name.as_str().into(), value);
         match point {
-            Point::Value(point) => {
+            QueryPoint::Value(point) => {
                 let values = point.iter().map(|x| Dynamic::from(*x));
                 self.names.iter().zip(values).map(named).collect()
             }
-            Point::Slopes(point) => {
-                let family = Family::new();
+            QueryPoint::Slopes(point) => {
+                let family = ParameterSet::new();
                 let values = self.names.iter().zip(point).map(|(name, (x, distance))| {
                     let varied = family.declare(name, *x, Some(*distance));
                     varied.map_or(Dynamic::from(*x), Dynamic::from)
@@ -85,10 +85,10 @@ impl Question<'_> {
         }
     }
 
-    fn read(&self, point: &Point, given: &Dynamic) -> Answer {
+    fn read(&self, point: &QueryPoint, given: &Dynamic) -> FunctionResult {
         match point {
-            Point::Value(_) => (self.read)(given),
-            Point::Slopes(_) => slopes_of(given, self.names.len()),
+            QueryPoint::Value(_) => (self.read)(given),
+            QueryPoint::Slopes(_) => slopes_of(given, self.names.len()),
         }
     }
 
@@ -101,11 +101,12 @@ impl Question<'_> {
         calling: &Call,
         drive: impl FnOnce(&mut Evaluator) -> Result<T, ScriptError>,
     ) -> Result<T, ScriptError> {
-        let Some(blueprint) = Blueprint::of(calling.engine(), calling.context(), NO_FILES) else {
-            return drive(&mut Evaluator::of(calling, self, Whom::ThisThread));
+        let Some(blueprint) = EngineConfig::of(calling.engine(), calling.context(), NO_FILES)
+        else {
+            return drive(&mut Evaluator::of(calling, self, Executor::ThisThread));
         };
         let wall = format!("{} s, which is its patience", self.wall.as_secs_f64());
-        let work = |worker: &_, point: Point| {
+        let work = |worker: &_, point: QueryPoint| {
             call(
                 worker,
                 self.function,
@@ -114,20 +115,20 @@ impl Question<'_> {
                 |called| self.answer(&point, called),
             )
         };
-        let panicked = |told: String| Made {
-            result: Answer::Failed(format!("withy has made a mistake: {told}")),
+        let panicked = |told: String| CallWork {
+            result: FunctionResult::Failed(format!("withy has made a mistake: {told}")),
             steps: 0,
         };
         with_crew(&blueprint, self.wall, work, panicked, |crew| {
-            drive(&mut Evaluator::of(calling, self, Whom::Workers(crew)))
+            drive(&mut Evaluator::of(calling, self, Executor::Workers(crew)))
         })?
     }
 
-    fn answer(&self, point: &Point, called: Called) -> Answer {
+    fn answer(&self, point: &QueryPoint, called: CallOutcome) -> FunctionResult {
         match called {
-            Called::Given(given) => self.read(point, &given),
-            Called::Failed(reason) => Answer::Failed(reason),
-            Called::Wrong(reason) => Answer::Wrong(reason),
+            CallOutcome::Given(given) => self.read(point, &given),
+            CallOutcome::Failed(reason) => FunctionResult::Failed(reason),
+            CallOutcome::Wrong(reason) => FunctionResult::Wrong(reason),
         }
     }
 
@@ -136,10 +137,10 @@ impl Question<'_> {
     /// # Errors
     /// The function's own, at their places.
     pub fn here(&self, calling: &Call, point: &[f64]) -> Result<Dynamic, ScriptError> {
-        self.asked_here(calling, &Point::Value(point.to_vec()))
+        self.asked_here(calling, &QueryPoint::Value(point.to_vec()))
     }
 
-    fn asked_here(&self, calling: &Call, point: &Point) -> Result<Dynamic, ScriptError> {
+    fn asked_here(&self, calling: &Call, point: &QueryPoint) -> Result<Dynamic, ScriptError> {
         self.function.call_here(calling, self.key, self.values(point))
     }
 
@@ -151,13 +152,13 @@ impl Question<'_> {
             let at: Vec<String> = pairs.map(|(name, x)| format!("{name} = {x}")).collect();
             calling
                 .error(format!("{}: with {} {reason}", self.key, at.join(", ")))
-                .at(crate::script::words::error::Place::Key(self.key.to_owned()))
+                .at(crate::script::messages::error::CallPart::Key(self.key.to_owned()))
         })
     }
 }
 
 impl<'w> Evaluator<'w> {
-    fn of(call: &'w Call<'w, 'w>, question: &'w Question<'w>, whom: Whom<'w>) -> Self {
+    fn of(call: &'w Call<'w, 'w>, question: &'w FunctionQuery<'w>, whom: Executor<'w>) -> Self {
         Self { call, question, whom, has_answered: false }
     }
 
@@ -166,18 +167,18 @@ impl<'w> Evaluator<'w> {
     /// # Errors
     /// When the run is stopped, or the script is wrong as long as the function has given nothing.
     pub fn ask(&mut self, points: &[Vec<f64>]) -> Result<Vec<Evaluation>, ScriptError> {
-        let answers = self.answers(points.iter().cloned().map(Point::Value).collect())?;
+        let answers = self.answers(points.iter().cloned().map(QueryPoint::Value).collect())?;
         let mut found = Vec::with_capacity(points.len());
         for (answer, point) in answers.into_iter().zip(points) {
             found.push(match answer {
-                Answer::Numbers(numbers) => {
+                FunctionResult::Numbers(numbers) => {
                     self.has_answered = true;
                     Ok(numbers)
                 }
-                Answer::Wrong(reason) if !self.has_answered => {
+                FunctionResult::Wrong(reason) if !self.has_answered => {
                     return Err(self.question.blame(self.call, point, &reason));
                 }
-                Answer::Failed(reason) | Answer::Wrong(reason) => Err(reason),
+                FunctionResult::Failed(reason) | FunctionResult::Wrong(reason) => Err(reason),
             });
         }
         Ok(found)
@@ -188,57 +189,57 @@ impl<'w> Evaluator<'w> {
     /// # Errors
     /// When the run is stopped.
     pub fn slopes(&mut self, point: &[(f64, f64)]) -> Result<Sloped, ScriptError> {
-        let answers = match self.answers(vec![Point::Slopes(point.to_vec())]) {
+        let answers = match self.answers(vec![QueryPoint::Slopes(point.to_vec())]) {
             Err(error) if self.call.context().is_stopped() => return Err(error),
             Err(error) => return Ok(Err(in_words(error))),
             Ok(answers) => answers,
         };
         Ok(match answers.into_iter().next() {
-            Some(Answer::Numbers(numbers)) => {
+            Some(FunctionResult::Numbers(numbers)) => {
                 let rows = numbers.chunks(1 + point.len());
                 Ok(rows.filter_map(|row| Some((*row.first()?, row[1..].to_vec()))).collect())
             }
-            Some(Answer::Failed(reason) | Answer::Wrong(reason)) => Err(reason),
+            Some(FunctionResult::Failed(reason) | FunctionResult::Wrong(reason)) => Err(reason),
             None => Err("nothing was found".into()),
         })
     }
 
-    fn answers(&self, points: Vec<Point>) -> Result<Vec<Answer>, ScriptError> {
+    fn answers(&self, points: Vec<QueryPoint>) -> Result<Vec<FunctionResult>, ScriptError> {
         match self.whom {
-            Whom::Workers(crew) => self.ask_workers(crew, &points),
-            Whom::ThisThread => points.iter().map(|point| self.ask_here(point)).collect(),
+            Executor::Workers(crew) => self.ask_workers(crew, &points),
+            Executor::ThisThread => points.iter().map(|point| self.ask_here(point)).collect(),
         }
     }
 
     fn ask_workers(
         &self,
-        crew: &Crew<Point, Made<Answer>>,
-        points: &[Point],
-    ) -> Result<Vec<Answer>, ScriptError> {
+        crew: &WorkerPool<QueryPoint, CallWork<FunctionResult>>,
+        points: &[QueryPoint],
+    ) -> Result<Vec<FunctionResult>, ScriptError> {
         let context = self.call.context();
-        let mut answers: Vec<Option<Answer>> = points.iter().map(|_| None).collect();
+        let mut answers: Vec<Option<FunctionResult>> = points.iter().map(|_| None).collect();
         points.iter().enumerate().for_each(|(number, point)| crew.give(number, point.clone()));
         while answers.iter().any(Option::is_none) {
             match crew.hear() {
-                News::Done(number, Made { result, steps }) => {
+                WorkerEvent::Done(number, CallWork { result, steps }) => {
                     context.meter().count_steps(usize::try_from(steps).unwrap_or(usize::MAX));
                     context.meter().allows_a_step();
                     answers[number] = Some(result);
                 }
-                News::Nothing => (),
-                News::Nobody => return Err(ScriptError::new("no worker has begun")),
+                WorkerEvent::Nothing => (),
+                WorkerEvent::Nobody => return Err(ScriptError::new("no worker has begun")),
             }
             context.proceed()?;
         }
         Ok(answers.into_iter().flatten().collect())
     }
 
-    fn ask_here(&self, point: &Point) -> Result<Answer, ScriptError> {
+    fn ask_here(&self, point: &QueryPoint) -> Result<FunctionResult, ScriptError> {
         let context = self.call.context();
         match context.tracelessly(NO_FILES, || self.question.asked_here(self.call, point)) {
             Ok(given) => Ok(self.question.read(point, &given)),
             Err(ScriptError::Engine(error)) if !context.is_stopped() => match thrown(&error) {
-                Some(reason) => Ok(Answer::Failed(reason)),
+                Some(reason) => Ok(FunctionResult::Failed(reason)),
                 None => Err(ScriptError::Engine(error)),
             },
             Err(error) => Err(error),
@@ -247,34 +248,36 @@ impl<'w> Evaluator<'w> {
 }
 
 /// The numbers of an array or a map, each followed by its derivatives by so many parameters.
-fn slopes_of(given: &Dynamic, parameters: usize) -> Answer {
+fn slopes_of(given: &Dynamic, parameters: usize) -> FunctionResult {
     let (array, map) = (given.read_lock::<Array>(), given.read_lock::<Map>());
     let values = array.iter().flat_map(|array| array.iter());
     let values: Vec<&Dynamic> = values.chain(map.iter().flat_map(|map| map.values())).collect();
     if array.is_none() && map.is_none() {
-        return Answer::Wrong("it gives neither an array nor a map of numbers".into());
+        return FunctionResult::Wrong("it gives neither an array nor a map of numbers".into());
     }
     let mut slopes = Vec::with_capacity(values.len() * (1 + parameters));
     for value in values {
-        match as_number(&Varied::project(value, 0)).filter(|number| number.is_finite()) {
+        match as_number(&VariantValue::project(value, 0)).filter(|number| number.is_finite()) {
             Some(number) => slopes.push(number),
-            None => return Answer::Wrong("it gives something that is no finite number".into()),
+            None => {
+                return FunctionResult::Wrong("it gives something that is no finite number".into());
+            }
         }
-        let Some(varied) = value.read_lock::<Varied>() else {
+        let Some(varied) = value.read_lock::<VariantValue>() else {
             slopes.extend(std::iter::repeat_n(0.0, parameters));
             continue;
         };
         if varied.family().is_decided_by() {
-            return Answer::Failed("a function |t| … decides by a parameter".into());
+            return FunctionResult::Failed("a function |t| … decides by a parameter".into());
         }
         for parameter in 0..parameters {
             match varied.derivative(parameter) {
                 Ok(slope) => slopes.push(as_number(&slope).unwrap_or(f64::NAN)),
-                Err(error) => return Answer::Failed(in_words(error)),
+                Err(error) => return FunctionResult::Failed(in_words(error)),
             }
         }
     }
-    Answer::Numbers(slopes)
+    FunctionResult::Numbers(slopes)
 }
 
 fn in_words(error: ScriptError) -> String {

@@ -5,9 +5,9 @@ use std::collections::BTreeSet;
 use rhai::{AST, ASTNode, Dynamic, Expr, FnPtr, Map, Position, Stmt};
 
 use super::portable::Portable;
-use crate::script::rows::call::{Call, written_within};
-use crate::script::words::error::{Failure, Place, ScriptError};
-use crate::script::words::nouns::with_article;
+use crate::script::bindings::call::{Call, written_within};
+use crate::script::messages::error::{CallPart, Failure, ScriptError};
+use crate::script::messages::nouns::with_article;
 
 /// A function of the script in a form that can go to other threads.
 #[derive(Clone, Debug)]
@@ -28,7 +28,7 @@ pub fn changes(name: &str) -> String {
 }
 
 /// How a function reads the map that it is called with.
-struct Reading {
+struct ParameterReading {
     /// The names that it reads.
     names: BTreeSet<String>,
     /// Whether it does something else with the map, so that it may read any.
@@ -47,7 +47,7 @@ impl RunFunction {
                 function.fn_name()
             );
             let hint = format!("write {key}: |p| …, and call it there");
-            return Err(call.error(told).hint(hint).at(Place::Key(key.to_owned())));
+            return Err(call.error(told).hint(hint).at(CallPart::Key(key.to_owned())));
         };
         let parameters_of = |function: &FnPtr| call.definition(function).map(|of| of.params.len());
         let named = definition.params.iter().zip(function.curry());
@@ -65,7 +65,7 @@ impl RunFunction {
                              curves, integrators and schedules can be used from outside"
                                 .into(),
                         ),
-                        place: Place::Call,
+                        place: CallPart::Call,
                     };
                     let at = first_use(&call.body(function), name).unwrap_or(Position::NONE);
                     Err(ScriptError::Engine(ScriptError::Failure(failure).into_engine(at)))
@@ -94,7 +94,7 @@ impl RunFunction {
                 "{key} holds {kind}, which cannot go to the engines that make the runs"
             ))
             .hint("give numbers, texts, arrays and maps of them")
-            .at(Place::Key(key.to_owned()))
+            .at(CallPart::Key(key.to_owned()))
         })?;
         self.besides.push(portable);
         Ok(())
@@ -139,7 +139,7 @@ impl RunFunction {
             Some(name) => Err(call
                 .error(format!("{key}: {}", changes(name)))
                 .hint("each run begins with the values from outside")
-                .at(Place::Key(key.to_owned()))),
+                .at(CallPart::Key(key.to_owned()))),
         }
     }
 
@@ -156,7 +156,7 @@ impl RunFunction {
         let told = format!("the function of '{key}' does not use the parameter '{unread}'");
         let hint =
             format!("use p.{unread} there, or leave it out: all of its values would give the same");
-        Err(call.error(told).hint(hint).at(Place::Key(unread.to_owned())))
+        Err(call.error(told).hint(hint).at(CallPart::Key(unread.to_owned())))
     }
 
     /// The first of the names that the function does not read from the map that it is called with, as far as can be seen: one that hands the map on may
@@ -168,7 +168,7 @@ impl RunFunction {
     ) -> Option<&'n str> {
         let definition = call.definition(function)?;
         let map = definition.params.get(function.curry().len())?;
-        let reading = Reading::of(call, function, map);
+        let reading = ParameterReading::of(call, function, map);
         let mut names = names.into_iter();
         names.find(|name| !reading.is_whole && !reading.names.contains(*name))
     }
@@ -216,7 +216,7 @@ fn first_use(body: &AST, name: &str) -> Option<Position> {
     found
 }
 
-impl Reading {
+impl ParameterReading {
     fn of(call: &Call, function: &FnPtr, map: &str) -> Self {
         let mut reading = Self { names: BTreeSet::new(), is_whole: false };
         reading.read(call, function, map);

@@ -61,7 +61,7 @@ pub enum DataKind {
 
 /// A value that cannot go to another thread.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Immovable {
+pub struct NotPortable {
     /// The name of its type.
     pub kind: String,
 }
@@ -78,7 +78,7 @@ impl Portable {
         engine: &Engine,
         value: &Dynamic,
         parameters_of: &dyn Fn(&FnPtr) -> Option<usize>,
-    ) -> Result<Self, Immovable> {
+    ) -> Result<Self, NotPortable> {
         let value = value.flatten_clone();
         let inner = |value: &Dynamic| Self::of(engine, value, parameters_of);
         if value.is_unit() {
@@ -119,7 +119,7 @@ impl Portable {
         }
         data(&value)
             .map(|(kind, bytes)| Self::Data(kind, bytes))
-            .ok_or_else(|| Immovable { kind: engine.map_type_name(value.type_name()).to_owned() })
+            .ok_or_else(|| NotPortable { kind: engine.map_type_name(value.type_name()).to_owned() })
     }
 
     /// The value on this thread, where `function_of` finds functions by their names and numbers of parameters; none where it does not.

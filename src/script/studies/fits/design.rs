@@ -7,23 +7,23 @@ use rhai::{Array, Dynamic, FnPtr, Map};
 
 use super::fit::Derivatives;
 use super::ranges::Ranges;
-use super::scales::Scales;
-use crate::fitting::{Design, Range, Rating, SlopesOfRating};
-use crate::output::{Cell, Table, significant};
-use crate::script::rows::call::Call;
-use crate::script::rows::lifting::{RELATIVE_DISTANCE, Varied};
-use crate::script::studies::calls::evaluator::{Answer, Question};
+use super::scales::ResultScales;
+use crate::fitting::{Design, Rating, SearchRange, SlopesOfRating};
+use crate::output::{Cell, TextTable, significant};
+use crate::script::bindings::call::Call;
+use crate::script::bindings::parameter_variants::{RELATIVE_DISTANCE, VariantValue};
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::messages::numbers::{as_number, format_number};
+use crate::script::studies::calls::evaluator::{FunctionQuery, FunctionResult};
 use crate::script::studies::calls::function::RunFunction;
 use crate::script::studies::plan::at_key;
-use crate::script::words::error::{Place, ScriptError};
-use crate::script::words::numbers::{as_number, format_number};
 
 /// Digits of a number in the table.
 const DIGITS: usize = 6;
 
 /// What is wanted of a result.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Goal {
+pub enum Objective {
     /// The result of this name is to be least.
     Least(String),
     /// The result of this name is to be largest.
@@ -42,13 +42,13 @@ pub struct Limit {
 }
 
 /// What is asked of a design.
-pub struct DesignOrder<'o> {
+pub struct DesignRequest<'o> {
     /// The parameters.
     pub ranges: Ranges,
     /// The function, which gives a map of numbers.
     pub function: &'o FnPtr,
     /// What is wanted.
-    pub goal: Goal,
+    pub goal: Objective,
     /// What must hold.
     pub limits: Vec<Limit>,
     /// How well parameters are to be known, as a part of their ranges.
@@ -79,7 +79,7 @@ pub struct BestDesign {
 /// What to do where something is to be true.
 const TRUTH: &str = "let run give a number that is not negative where it holds, such as #{ room: limit - sag }, and write constraints: #{ room: [0, ()] }";
 
-impl Goal {
+impl Objective {
     fn name(&self) -> &str {
         match self {
             Self::Least(name) | Self::Largest(name) => name,
@@ -162,31 +162,31 @@ impl Limit {
 }
 
 /// A map of numbers, in the order of its names; names are found by [`names`].
-fn values(given: &Dynamic) -> Answer {
+fn values(given: &Dynamic) -> FunctionResult {
     let Some(map) = given.read_lock::<Map>() else {
-        return Answer::Wrong(
+        return FunctionResult::Wrong(
             "it gives no map of numbers, such as #{ mass: mass, sag: sag }".into(),
         );
     };
     let mut numbers = Vec::with_capacity(map.len());
     for (name, value) in map.iter() {
-        match Varied::number(value) {
+        match VariantValue::number(value) {
             Some(number) if number.is_finite() => numbers.push(number),
-            Some(_) => return Answer::Failed(format!("'{name}' is not a finite number")),
+            Some(_) => return FunctionResult::Failed(format!("'{name}' is not a finite number")),
             None if value.is_bool() => {
-                return Answer::Wrong(format!(
+                return FunctionResult::Wrong(format!(
                     "it gives '{name}', which is a truth value: a search needs numbers, such as how far something is from its limit"
                 ));
             }
             None if value.is::<Map>() => {
-                return Answer::Wrong(format!(
+                return FunctionResult::Wrong(format!(
                     "it gives '{name}', which is a map: of the map p that it is called with p.x is one number"
                 ));
             }
-            None => return Answer::Wrong(format!("it gives '{name}', which is no number")),
+            None => return FunctionResult::Wrong(format!("it gives '{name}', which is no number")),
         }
     }
-    Answer::Numbers(numbers)
+    FunctionResult::Numbers(numbers)
 }
 
 fn names(given: &Dynamic) -> Vec<String> {
@@ -196,14 +196,14 @@ fn names(given: &Dynamic) -> Vec<String> {
         .unwrap_or_default()
 }
 
-impl DesignOrder<'_> {
+impl DesignRequest<'_> {
     /// Finds the best design.
     ///
     /// # Errors
     /// When the function is wrong or fails at the start, a result is missing, or no run meets the constraints.
     pub fn make(self, call: &Call) -> Result<BestDesign, ScriptError> {
         let function = RunFunction::read(call, "run", self.function)?;
-        let question = Question {
+        let question = FunctionQuery {
             key: "run",
             names: &self.ranges.names,
             function: &function,
@@ -218,7 +218,7 @@ impl DesignOrder<'_> {
                 let told = format!("the function of 'run' gives no '{name}'");
                 call.error(told)
                     .hint(format!("it gives {}", results.join(", ")))
-                    .at(Place::Key("run".into()))
+                    .at(CallPart::Key("run".into()))
             })
         };
         let goal = place(self.goal.name())?;
@@ -231,7 +231,7 @@ impl DesignOrder<'_> {
             tolerance: self.tolerance,
             most_runs: self.most_runs,
         };
-        let scales = Scales::of(&self.goal, goal, &limits);
+        let scales = ResultScales::of(&self.goal, goal, &limits);
         // Why the first of the runs that failed did.
         let failure: RefCell<Option<String>> = RefCell::default();
         let found = question.with_evaluator(call, |evaluator| {
@@ -249,7 +249,8 @@ impl DesignOrder<'_> {
                 Ok((numbers.len() == results.len()).then(|| scales.rating(&numbers)))
             };
             let mut sloped = |x: &[f64]| -> Result<SlopesOfRating, ScriptError> {
-                let small = |(x, range): (&f64, &Range)| (*x, RELATIVE_DISTANCE * range.size(*x));
+                let small =
+                    |(x, range): (&f64, &SearchRange)| (*x, RELATIVE_DISTANCE * range.size(*x));
                 let point: Vec<(f64, f64)> = x.iter().zip(&self.ranges.ranges).map(small).collect();
                 let found = evaluator.borrow_mut().slopes(&point)?;
                 Ok(found.and_then(|rows| scales.with_slopes(rows, results.len())))
@@ -290,7 +291,7 @@ impl DesignOrder<'_> {
     }
 }
 
-impl DesignOrder<'_> {
+impl DesignRequest<'_> {
     /// What a dry build pretends to have found: the design is where it begins; the function is called there.
     ///
     /// # Errors
@@ -301,7 +302,7 @@ impl DesignOrder<'_> {
         let given = function.call_here(call, "run", self.ranges.named(&start))?;
         let results = given.read_lock::<Map>().map(|map| {
             map.iter()
-                .map(|(name, value)| (name.to_string(), Varied::number(value).unwrap_or(0.0)))
+                .map(|(name, value)| (name.to_string(), VariantValue::number(value).unwrap_or(0.0)))
                 .collect()
         });
         let parameters = self.ranges.names.into_iter().zip(start).collect();
@@ -319,7 +320,7 @@ impl BestDesign {
     /// The design as a table for people.
     pub fn text(&self) -> String {
         let outcome = if self.is_settled { "settled" } else { "the most runs were made" };
-        let mut table = Table::new(&["", "value"]);
+        let mut table = TextTable::new(&["", "value"]);
         for (name, value) in self.parameters.iter().chain(&self.results) {
             table.row([Cell::from(name.as_str()), Cell::Number(significant(*value, DIGITS))]);
         }

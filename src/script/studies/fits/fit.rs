@@ -6,15 +6,15 @@ use std::time::Duration;
 use rhai::{Array, Dynamic, FnPtr};
 
 use super::ranges::Ranges;
-use crate::fitting::{Estimate, Fitted, LeastSquares, Range, Settling, Sloped};
-use crate::output::{Cell, LineChart, Marker, Page, Panel, Series, Stroke, Table, significant};
-use crate::script::rows::call::Call;
-use crate::script::rows::lifting::{RELATIVE_DISTANCE, Varied};
-use crate::script::studies::calls::evaluator::{Answer, Question};
+use crate::fitting::{Estimate, Fitted, LeastSquares, SearchRange, Sloped, TerminationReason};
+use crate::output::{Cell, LineChart, Marker, Page, Panel, Series, Stroke, TextTable, significant};
+use crate::script::bindings::call::Call;
+use crate::script::bindings::parameter_variants::{RELATIVE_DISTANCE, VariantValue};
+use crate::script::messages::error::ScriptError;
+use crate::script::messages::numbers::format_number;
+use crate::script::studies::calls::evaluator::{FunctionQuery, FunctionResult};
 use crate::script::studies::calls::function::RunFunction;
 use crate::script::studies::plan::at_key;
-use crate::script::words::error::ScriptError;
-use crate::script::words::numbers::format_number;
 
 /// Digits of a parameter in the table.
 const DIGITS: usize = 7;
@@ -36,7 +36,7 @@ pub enum Compared {
 }
 
 /// What is asked of a fit.
-pub struct FitOrder<'o> {
+pub struct FitRequest<'o> {
     /// The name of the fit and of its files.
     pub name: String,
     /// The parameters.
@@ -94,7 +94,7 @@ impl Derivatives {
     }
 }
 
-impl FitOrder<'_> {
+impl FitRequest<'_> {
     /// Finds the parameters.
     ///
     /// # Errors
@@ -104,7 +104,7 @@ impl FitOrder<'_> {
         if let Some(data) = &self.data {
             function.take(call, "data", data)?;
         }
-        let question = Question {
+        let question = FunctionQuery {
             key: self.key,
             names: &self.ranges.names,
             function: &function,
@@ -135,7 +135,8 @@ impl FitOrder<'_> {
                 Ok(found.into_iter().map(of).collect())
             };
             let mut slopes = |x: &[f64]| {
-                let small = |(x, range): (&f64, &Range)| (*x, RELATIVE_DISTANCE * range.size(*x));
+                let small =
+                    |(x, range): (&f64, &SearchRange)| (*x, RELATIVE_DISTANCE * range.size(*x));
                 let point: Vec<(f64, f64)> = x.iter().zip(&self.ranges.ranges).map(small).collect();
                 let found = evaluator.borrow_mut().slopes(&point)?;
                 if let Ok(rows) = &found {
@@ -202,7 +203,7 @@ impl FitOrder<'_> {
             parameters: start,
             residuals: residuals.clone(),
             estimate: Estimate::of(&rows, 0.0, &free),
-            settling: Settling::Settled,
+            settling: TerminationReason::Settled,
             runs: 0,
             gradient_runs: 0,
             differences: None,
@@ -249,23 +250,27 @@ fn weighted(roots: Option<&[f64]>, residuals: Vec<f64>) -> Vec<f64> {
 }
 
 /// The numbers of an array, all finite.
-fn numbers(given: &Dynamic) -> Answer {
+fn numbers(given: &Dynamic) -> FunctionResult {
     let Some(array) = given.read_lock::<Array>() else {
-        return Answer::Wrong("it gives no array of numbers".into());
+        return FunctionResult::Wrong("it gives no array of numbers".into());
     };
     let mut numbers = Vec::with_capacity(array.len());
     for (at, value) in array.iter().enumerate() {
-        match Varied::number(value) {
+        match VariantValue::number(value) {
             Some(number) if number.is_finite() => numbers.push(number),
             Some(_) => {
-                return Answer::Failed(format!("number {at} of what it gives is not finite"));
+                return FunctionResult::Failed(format!(
+                    "number {at} of what it gives is not finite"
+                ));
             }
-            None => return Answer::Wrong(format!("what it gives at index {at} is no number")),
+            None => {
+                return FunctionResult::Wrong(format!("what it gives at index {at} is no number"));
+            }
         }
     }
     match numbers.is_empty() {
-        true => Answer::Wrong("it gives an empty array".into()),
-        false => Answer::Numbers(numbers),
+        true => FunctionResult::Wrong("it gives an empty array".into()),
+        false => FunctionResult::Numbers(numbers),
     }
 }
 
@@ -279,9 +284,9 @@ impl Fit {
     /// How the search ended, in words.
     pub fn outcome(&self) -> &'static str {
         match self.fitted.settling {
-            Settling::Settled => "settled",
-            Settling::Stuck => "no step is better, though the derivatives promise it",
-            Settling::Unfinished => "not settled after the most steps",
+            TerminationReason::Settled => "settled",
+            TerminationReason::Stuck => "no step is better, though the derivatives promise it",
+            TerminationReason::Unfinished => "not settled after the most steps",
         }
     }
 
@@ -298,7 +303,7 @@ impl Fit {
     pub fn text(&self) -> String {
         let Fitted { parameters, estimate, runs, .. } = &self.fitted;
         let share = format!("± at {} %", significant(100.0 * self.confidence, 3));
-        let mut table = Table::new(&["parameter", "value", "standard error", &share]);
+        let mut table = TextTable::new(&["parameter", "value", "standard error", &share]);
         for (at, name) in self.names.iter().enumerate() {
             let error = |x: Option<f64>| {
                 Cell::Number(x.map_or("-".to_owned(), |x| significant(x, ERROR_DIGITS)))

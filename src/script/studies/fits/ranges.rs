@@ -2,19 +2,19 @@
 
 use rhai::{Array, Dynamic, Map};
 
-use crate::fitting::Range;
-use crate::script::rows::accept::readable;
-use crate::script::rows::call::Call;
+use crate::fitting::SearchRange;
+use crate::script::bindings::accept::readable;
+use crate::script::bindings::call::Call;
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::messages::numbers::{as_number, format_number};
 use crate::script::studies::plan::at_key;
-use crate::script::words::error::{Place, ScriptError};
-use crate::script::words::numbers::{as_number, format_number};
 
 /// Parameters that are searched for, in the order of their names.
 pub struct Ranges {
     /// Their names.
     pub names: Vec<String>,
     /// Where each begins and stays.
-    pub ranges: Vec<Range>,
+    pub ranges: Vec<SearchRange>,
 }
 
 const SHAPE: &str = "write EI: [10, 1, 100], which is where it begins, the least and the largest value, or EI: 10 where it has no bounds";
@@ -29,7 +29,7 @@ impl Ranges {
         };
         let (mut names, mut ranges) = (Vec::new(), Vec::new());
         for (name, value) in map.iter() {
-            let at = |error: ScriptError| error.at(Place::Key(name.to_string()));
+            let at = |error: ScriptError| error.at(CallPart::Key(name.to_string()));
             names.push(readable("parameters", name).map_err(at)?);
             ranges.push(range(call, name, value).map_err(at)?);
         }
@@ -43,18 +43,18 @@ impl Ranges {
     }
 }
 
-fn range(call: &Call, name: &str, value: &Dynamic) -> Result<Range, ScriptError> {
+fn range(call: &Call, name: &str, value: &Dynamic) -> Result<SearchRange, ScriptError> {
     let wrong = |told: String| call.error(told).hint(SHAPE);
     let finite = |value: &Dynamic| as_number(value).filter(|x| x.is_finite());
     if let Some(start) = finite(value) {
-        return Ok(Range { start, low: f64::NEG_INFINITY, high: f64::INFINITY });
+        return Ok(SearchRange { start, low: f64::NEG_INFINITY, high: f64::INFINITY });
     }
     let numbers = value
         .read_lock::<Array>()
         .and_then(|array| array.iter().map(finite).collect::<Option<Vec<f64>>>());
     match numbers.as_deref() {
         Some(&[start, low, high]) if low < high && (low..=high).contains(&start) => {
-            Ok(Range { start, low, high })
+            Ok(SearchRange { start, low, high })
         }
         Some(&[start, low, high]) => {
             let [start, low, high] = [start, low, high].map(format_number);

@@ -3,11 +3,11 @@
 use rhai::Dynamic;
 
 use crate::fitting::{RootError, root};
-use crate::script::rows::call::Call;
-use crate::script::rows::lifting::Varied;
-use crate::script::state::settings::Mode;
-use crate::script::words::error::{Place, ScriptError};
-use crate::script::words::numbers::format_number;
+use crate::script::bindings::call::Call;
+use crate::script::bindings::parameter_variants::VariantValue;
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::messages::numbers::format_number;
+use crate::script::state::settings::RunMode;
 
 /// The place between `from` and `to` at which a call's `function` is zero, as well as its `tolerance` says.
 ///
@@ -20,22 +20,22 @@ pub fn find_root(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let tolerance = call.number_if_given("tolerance").unwrap_or(1e-9 * (to - from).abs());
     let value = |x: f64| {
         let given = call.invoke(&function, [Dynamic::from(x)])?;
-        Varied::number(&given).ok_or_else(|| {
+        VariantValue::number(&given).ok_or_else(|| {
             let told =
                 format!("the function gives {} at {}", call.describe(&given), format_number(x));
             let hint = match given.is_bool() {
                 true => "give the number that changes its sign there: x - 2 in the place of x > 2",
                 false => "its last expression is a number",
             };
-            call.error(told).hint(hint).at(Place::Argument(0))
+            call.error(told).hint(hint).at(CallPart::Argument(0))
         })
     };
-    if call.context().mode() == Mode::DryBuild {
+    if call.context().mode() == RunMode::DryBuild {
         // What a dry build finds has no signs.
         value(from)?;
         return Ok(from.into());
     }
-    let wrong = |told: String, hint: &str| call.error(told).hint(hint).at(Place::Argument(0));
+    let wrong = |told: String, hint: &str| call.error(told).hint(hint).at(CallPart::Argument(0));
     match root((from, to), tolerance, value) {
         Ok(found) => Ok(found.at.into()),
         Err(RootError::Function(error)) => Err(error),

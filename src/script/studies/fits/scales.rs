@@ -2,12 +2,12 @@
 
 use std::cell::Cell;
 
-use super::design::{Goal, Limit};
+use super::design::{Limit, Objective};
 use crate::fitting::{Rating, SlopedRating, SlopesOfRating};
 
 /// How results become what a search sees: numbers of about one.
-pub(super) struct Scales<'s> {
-    goal: &'s Goal,
+pub(super) struct ResultScales<'s> {
+    goal: &'s Objective,
     /// The place of the goal among the results.
     at: usize,
     limits: &'s [(usize, &'s Limit)],
@@ -15,9 +15,9 @@ pub(super) struct Scales<'s> {
     size: Cell<Option<f64>>,
 }
 
-impl<'s> Scales<'s> {
+impl<'s> ResultScales<'s> {
     /// Those of a goal, at its place among the results, and of limits at theirs.
-    pub(super) fn of(goal: &'s Goal, at: usize, limits: &'s [(usize, &'s Limit)]) -> Self {
+    pub(super) fn of(goal: &'s Objective, at: usize, limits: &'s [(usize, &'s Limit)]) -> Self {
         Self { goal, at, limits, size: Cell::new(None) }
     }
 
@@ -28,8 +28,8 @@ impl<'s> Scales<'s> {
         let size = self.size.get().unwrap_or(own);
         self.size.set(Some(size));
         match self.goal {
-            Goal::Least(_) => size,
-            Goal::Largest(_) => -size,
+            Objective::Least(_) => size,
+            Objective::Largest(_) => -size,
         }
     }
 

@@ -2,16 +2,16 @@
 
 use rhai::{Array, Dynamic, FnPtr, Map};
 
-use crate::analysis::{Arrangement, Choice, SweepDesign, SweptParameter, SweptValues};
+use crate::analysis::{Choice, RowLayout, SweepDesign, SweptParameter, SweptValues};
 use crate::output::format_number;
 use crate::sampling::{Distribution, MOST_DIMENSIONS, latin_hypercube, saltelli, sobol};
-use crate::script::rows::accept::readable;
-use crate::script::rows::call::Call;
+use crate::script::bindings::accept::readable;
+use crate::script::bindings::call::Call;
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::messages::numbers::as_number;
 use crate::script::studies::calls::portable::Portable;
 use crate::script::studies::parameters::label;
 use crate::script::studies::plan::at_key;
-use crate::script::words::error::{Place, ScriptError};
-use crate::script::words::numbers::as_number;
 
 /// The most rows of a sweep.
 const MOST_ROWS: usize = 100_000_000;
@@ -49,7 +49,7 @@ impl Samples {
 }
 
 /// A parameter as the script gives it.
-struct Given {
+struct ParameterInput {
     name: String,
     spread: Spread,
 }
@@ -80,7 +80,7 @@ impl SweepPlan {
         if parameters.is_empty() {
             return Err(wrong("there are no parameters".into(), EXAMPLE));
         }
-        let given: Vec<Given> = parameters
+        let given: Vec<ParameterInput> = parameters
             .iter()
             .map(|(name, value)| given(call, name, value))
             .collect::<Result<_, _>>()?;
@@ -88,7 +88,7 @@ impl SweepPlan {
             Some(samples) => samples.rows(given.len()),
             None => {
                 let spread = given.iter().find(|of| matches!(of.spread, Spread::Distribution(_)));
-                if let Some(Given { name, .. }) = spread {
+                if let Some(ParameterInput { name, .. }) = spread {
                     let told =
                         format!("'{name}' is a distribution, and no points are drawn from it");
                     return Err(wrong(
@@ -121,9 +121,9 @@ impl SweepPlan {
             SampleKind::Saltelli => saltelli(count, given.len(), seed),
         });
         let arrangement = match samples {
-            None => Arrangement::Grid,
-            Some(Samples { kind: SampleKind::Saltelli, .. }) => Arrangement::Saltelli,
-            Some(_) => Arrangement::Points,
+            None => RowLayout::Grid,
+            Some(Samples { kind: SampleKind::Saltelli, .. }) => RowLayout::Saltelli,
+            Some(_) => RowLayout::Points,
         };
         let by_ratios = given.iter().filter(|of| of.is_spread_by_ratios());
         let spread_by_ratios = by_ratios.map(|of| of.name.clone()).collect();
@@ -174,16 +174,16 @@ impl SweepPlan {
 
 const EXAMPLE: &str = "for example parameters: #{ speed: linspace(0.1, 2, 20), mass: [1, 2] }";
 
-fn given(call: &Call, name: &str, value: &Dynamic) -> Result<Given, ScriptError> {
-    let at = |error: ScriptError| error.at(Place::Key(name.to_owned()));
+fn given(call: &Call, name: &str, value: &Dynamic) -> Result<ParameterInput, ScriptError> {
+    let at = |error: ScriptError| error.at(CallPart::Key(name.to_owned()));
     let name = readable("parameters", name).map_err(at)?;
     if let Some(distribution) = value.read_lock::<Distribution>() {
-        return Ok(Given { name, spread: Spread::Distribution(distribution.clone()) });
+        return Ok(ParameterInput { name, spread: Spread::Distribution(distribution.clone()) });
     }
     let wrong = |told: String| {
         call.error(told)
             .hint("give an array of values, such as linspace(0.1, 2, 20), or a distribution, such as uniform(0.1, 2)")
-            .at(Place::Key(name.clone()))
+            .at(CallPart::Key(name.clone()))
     };
     let Some(array) = value.read_lock::<Array>() else {
         return Err(wrong(format!("the values of '{name}' are {}", call.describe(value))));
@@ -208,10 +208,10 @@ fn given(call: &Call, name: &str, value: &Dynamic) -> Result<Given, ScriptError>
         return Err(wrong(format!("'{name}' has the value {} twice", labels[again])));
     }
     let levels = array.iter().map(portable).collect::<Result<_, _>>()?;
-    Ok(Given { name, spread: Spread::Levels(levels, labels) })
+    Ok(ParameterInput { name, spread: Spread::Levels(levels, labels) })
 }
 
-impl Given {
+impl ParameterInput {
     fn is_spread_by_ratios(&self) -> bool {
         matches!(&self.spread, Spread::Distribution(of) if of.is_of_logarithms())
     }

@@ -2,17 +2,17 @@
 
 use std::path::PathBuf;
 
-use super::ledger::Ledger;
-use super::run::Order;
+use super::run::SweepRequest;
+use super::sweep_progress::SweepProgress;
 use crate::analysis::{Journal, RowEntry, read_rows};
-use crate::script::rows::call::Call;
-use crate::script::rows::sources::Sources;
-use crate::script::state::journals::{Lasting, RowKeeper};
-use crate::script::state::parts::{Part, find_parts};
+use crate::script::bindings::call::Call;
+use crate::script::bindings::sources::Sources;
+use crate::script::messages::error::ScriptError;
+use crate::script::state::journals::{JournalLifetime, RowKeeper};
+use crate::script::state::parts::{StudyPart, find_parts};
 use crate::script::studies::calls::function::RunFunction;
-use crate::script::words::error::ScriptError;
 
-impl Order<'_> {
+impl SweepRequest<'_> {
     /// The journal of the sweep, where the run wants one; what it knows is in the ledger then. Where parts are joined, all rows are, and nothing is kept.
     ///
     /// # Errors
@@ -21,23 +21,23 @@ impl Order<'_> {
         &self,
         call: &Call,
         function: &RunFunction,
-        ledger: &mut Ledger,
+        ledger: &mut SweepProgress,
     ) -> Result<Option<RowKeeper>, ScriptError> {
         let context = call.context();
         let (wishes, rows) = (context.studies(), ledger.rows as u64);
         let fingerprint = self.fingerprint(call, function);
         let about =
-            |part: Part| RowEntry::Sweep { fingerprint, rows, part: (part.number, part.of) };
+            |part: StudyPart| RowEntry::Sweep { fingerprint, rows, part: (part.number, part.of) };
         if wishes.part.is_none() && !wishes.merge.is_empty() {
             self.join(&wishes.merge, about, ledger)?;
             return Ok(None);
         }
         let (file, lasting) = match wishes.part {
-            Some(part) => (part.file(&self.name), Lasting::Longer),
-            None => (format!("{}.journal", self.name), Lasting::UntilTheEnd),
+            Some(part) => (part.file(&self.name), JournalLifetime::Longer),
+            None => (format!("{}.journal", self.name), JournalLifetime::UntilTheEnd),
         };
         let path = context.output().path_of(&file)?;
-        let about = about(wishes.part.unwrap_or(Part::WHOLE));
+        let about = about(wishes.part.unwrap_or(StudyPart::WHOLE));
         let kept = (wishes.journal, lasting);
         context.journals().open_rows(path, kept, about, |entry| ledger.recall(entry))
     }
@@ -46,8 +46,8 @@ impl Order<'_> {
     fn join(
         &self,
         folders: &[PathBuf],
-        about: impl Fn(Part) -> RowEntry,
-        ledger: &mut Ledger,
+        about: impl Fn(StudyPart) -> RowEntry,
+        ledger: &mut SweepProgress,
     ) -> Result<(), ScriptError> {
         for (part, file) in find_parts(&self.name, folders)? {
             let (expected, mut is_same) = (about(part), None);

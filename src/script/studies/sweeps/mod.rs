@@ -2,8 +2,8 @@
 
 pub mod design;
 pub mod keeping;
-pub mod ledger;
 pub mod pictures;
 pub mod rows;
 pub mod run;
+pub mod sweep_progress;
 pub mod table;

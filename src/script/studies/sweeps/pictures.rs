@@ -6,7 +6,7 @@ use super::table::SweepTable;
 use crate::analysis::{SweepColumn, SweptValues};
 use crate::elementary::{exp, ln};
 use crate::output::{
-    LevelAxis, LevelMap, LineChart, Marker, Page, Scale, Series, Stroke, significant,
+    AxisScale, LevelAxis, LevelMap, LineChart, Marker, Page, Series, Stroke, significant,
 };
 use crate::sampling::Random;
 
@@ -80,17 +80,17 @@ impl Picture<'_> {
     }
 
     /// How a column is laid out along an axis: by ratios if its values follow one another, or are distributed, by ratios, over a decade at least.
-    fn scale(&self, name: &str, column: SweepColumn) -> Scale {
+    fn scale(&self, name: &str, column: SweepColumn) -> AxisScale {
         let by_ratios = match levels(column) {
             Some(middles) => {
-                LevelAxis { label: String::new(), middles }.scale() == Scale::Logarithmic
+                LevelAxis { label: String::new(), middles }.scale() == AxisScale::Logarithmic
             }
             None => self.table.is_spread_by_ratios(name),
         };
         let (least, largest) = ends(self.table.rows().map(|row| column.number(row)));
         match by_ratios && largest / least >= DECADE {
-            true => Scale::Logarithmic,
-            false => Scale::Linear,
+            true => AxisScale::Logarithmic,
+            false => AxisScale::Linear,
         }
     }
 
@@ -187,8 +187,8 @@ impl Picture<'_> {
                     (0..CELLS).map(move |cell| low + (cell as f64 + 0.5) * step)
                 };
                 match self.scale(name, column) {
-                    Scale::Linear => between(low, high).collect(),
-                    Scale::Logarithmic => between(ln(low), ln(high)).map(exp).collect(),
+                    AxisScale::Linear => between(low, high).collect(),
+                    AxisScale::Logarithmic => between(ln(low), ln(high)).map(exp).collect(),
                 }
             });
             LevelAxis { label: name.to_owned(), middles }

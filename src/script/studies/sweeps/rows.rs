@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use rhai::{Dynamic, Map};
 
-use crate::script::rows::lifting::Varied;
-use crate::script::studies::calls::calling::Called;
+use crate::script::bindings::parameter_variants::VariantValue;
+use crate::script::studies::calls::calling::CallOutcome;
 
 /// What became of a row.
 #[derive(Clone, Debug)]
-pub enum Row {
+pub enum RowOutcome {
     /// The function gave a map of numbers: their names, and the numbers.
     Found(Arc<[String]>, Vec<f64>),
     /// The function threw something, or gave a result that is not a number: the reason.
@@ -18,40 +18,40 @@ pub enum Row {
     Wrong(String),
 }
 
-impl Row {
+impl RowOutcome {
     /// The row that came of a call.
-    pub fn of(called: Called) -> Self {
+    pub fn of(called: CallOutcome) -> Self {
         match called {
-            Called::Given(given) => found(&given),
-            Called::Failed(reason) => Self::Failed(reason),
-            Called::Wrong(reason) => Self::Wrong(reason),
+            CallOutcome::Given(given) => found(&given),
+            CallOutcome::Failed(reason) => Self::Failed(reason),
+            CallOutcome::Wrong(reason) => Self::Wrong(reason),
         }
     }
 }
 
 /// What the function gave, as numbers.
-pub fn found(given: &Dynamic) -> Row {
+pub fn found(given: &Dynamic) -> RowOutcome {
     let Some(map) = given.read_lock::<Map>() else {
-        return Row::Wrong("it gives no map of numbers, such as #{ peak: peak }".into());
+        return RowOutcome::Wrong("it gives no map of numbers, such as #{ peak: peak }".into());
     };
     if map.is_empty() {
-        return Row::Wrong("it gives an empty map".into());
+        return RowOutcome::Wrong("it gives an empty map".into());
     }
     let mut numbers = Vec::with_capacity(map.len());
     for (name, value) in map.iter() {
         let truth = || value.as_bool().ok().map(|truth| f64::from(u8::from(truth)));
-        match Varied::number(value).or_else(truth) {
+        match VariantValue::number(value).or_else(truth) {
             Some(number) if number.is_finite() => numbers.push(number),
             Some(number) if number.is_nan() => {
-                return Row::Failed(format!("'{name}' is not a number"));
+                return RowOutcome::Failed(format!("'{name}' is not a number"));
             }
-            Some(_) => return Row::Failed(format!("'{name}' is infinite")),
+            Some(_) => return RowOutcome::Failed(format!("'{name}' is infinite")),
             None => {
-                return Row::Wrong(format!(
+                return RowOutcome::Wrong(format!(
                     "it gives '{name}', which is neither a number nor true or false"
                 ));
             }
         }
     }
-    Row::Found(map.keys().map(ToString::to_string).collect(), numbers)
+    RowOutcome::Found(map.keys().map(ToString::to_string).collect(), numbers)
 }

@@ -6,18 +6,18 @@ use std::time::Duration;
 use rhai::{Dynamic, FnPtr};
 
 use super::design::SweepPlan;
-use super::ledger::{Ledger, Trouble, listed};
-use super::rows::{Row, found};
-use super::table::Swept;
+use super::rows::{RowOutcome, found};
+use super::sweep_progress::{SweepError, SweepProgress, listed};
+use super::table::FinishedSweep;
 use crate::analysis::Sweep;
-use crate::script::engine::workers::{Blueprint, Crew, News, with_crew};
-use crate::script::rows::call::Call;
+use crate::script::bindings::call::Call;
+use crate::script::engine::workers::{EngineConfig, WorkerEvent, WorkerPool, with_crew};
+use crate::script::messages::error::ScriptError;
 use crate::script::state::context::Context;
 use crate::script::state::journals::RowKeeper;
-use crate::script::studies::calls::calling::{Made, call, thrown};
+use crate::script::studies::calls::calling::{CallWork, call, thrown};
 use crate::script::studies::calls::function::RunFunction;
 use crate::script::studies::plan::at_key;
-use crate::script::words::error::ScriptError;
 
 /// Why a run of a sweep writes no files.
 const NO_FILES: &str = "a run of a sweep writes no files: give what is to be kept in its map";
@@ -26,7 +26,7 @@ const NO_FILES: &str = "a run of a sweep writes no files: give what is to be kep
 const AHEAD: usize = 4096;
 
 /// What a sweep is asked for.
-pub struct Order<'o> {
+pub struct SweepRequest<'o> {
     /// The name of the sweep and of its files.
     pub name: String,
     /// What it goes through.
@@ -37,17 +37,17 @@ pub struct Order<'o> {
     pub wall: Duration,
 }
 
-impl Order<'_> {
+impl SweepRequest<'_> {
     /// Makes all runs.
     ///
     /// # Errors
     /// When the function cannot go to other engines, is wrong, or fails in all rows; or when the run is stopped: what was finished by then is in the
     /// journal.
-    pub fn make(self, call: &Call) -> Result<Swept, ScriptError> {
+    pub fn make(self, call: &Call) -> Result<FinishedSweep, ScriptError> {
         let context = call.context();
         let function = RunFunction::read(call, "run", self.function)?;
         let rows = self.plan.design.rows;
-        let mut ledger = Ledger::new(rows);
+        let mut ledger = SweepProgress::new(rows);
         let mut keeper = self.keeper(call, &function, &mut ledger)?;
         if context.studies().merge.is_empty() {
             tell_known(context, &self.name, ledger.done, rows);
@@ -55,7 +55,7 @@ impl Order<'_> {
         let part = context.studies().part;
         part.into_iter().for_each(|part| ledger.leave_out(part));
         context.progress().begin_cases(&self.name, rows);
-        let outcome = match Blueprint::of(call.engine(), context, NO_FILES) {
+        let outcome = match EngineConfig::of(call.engine(), context, NO_FILES) {
             _ if ledger.done == rows => Ok(()),
             Some(blueprint) => {
                 self.on_all_cores(call, &blueprint, &function, (&mut ledger, &mut keeper))
@@ -67,15 +67,15 @@ impl Order<'_> {
             keeper.flush()?;
         }
         match outcome {
-            Err(Trouble::Other(error)) => return Err(error),
-            Err(Trouble::Row(row, told)) => return Err(self.blame(call, &ledger, row, &told)),
+            Err(SweepError::Other(error)) => return Err(error),
+            Err(SweepError::Row(row, told)) => return Err(self.blame(call, &ledger, row, &told)),
             Ok(()) if ledger.done < rows => return Err(context.why_stopped("a sweep")),
             Ok(()) => (),
         }
         if part.is_some() {
             ledger.pretend_the_rest();
         }
-        let Ledger { results, model, .. } = ledger;
+        let SweepProgress { results, model, .. } = ledger;
         if model.is_none()
             && part.is_none()
             && let Some((row, reason)) = results.failures().next()
@@ -87,40 +87,40 @@ impl Order<'_> {
                 .unwrap_or_else(|| at_key(call, "run", told, "see what the function throws")));
         }
         let sweep = Sweep { name: self.name, design: self.plan.design.clone(), results };
-        Ok(Swept { sweep, plan: self.plan })
+        Ok(FinishedSweep { sweep, plan: self.plan })
     }
 
     fn on_all_cores(
         &self,
         calling: &Call,
-        blueprint: &Blueprint,
+        blueprint: &EngineConfig,
         function: &RunFunction,
-        (ledger, keeper): (&mut Ledger, &mut Option<RowKeeper>),
-    ) -> Result<(), Trouble> {
+        (ledger, keeper): (&mut SweepProgress, &mut Option<RowKeeper>),
+    ) -> Result<(), SweepError> {
         let plan = &self.plan;
         let wall = format!("{} s, which is the patience of the sweep", self.wall.as_secs_f64());
         let work = |worker: &_, row| {
             let values =
                 |function_of: &dyn Fn(&str, usize) -> Option<FnPtr>| plan.values(row, function_of);
-            call(worker, function, values, &wall, Row::of)
+            call(worker, function, values, &wall, RowOutcome::of)
         };
-        let panicked = |told: String| Made {
-            result: Row::Failed(format!("withy has made a mistake: {told}")),
+        let panicked = |told: String| CallWork {
+            result: RowOutcome::Failed(format!("withy has made a mistake: {told}")),
             steps: 0,
         };
         let driven = with_crew(blueprint, self.wall, work, panicked, |crew| {
             drive(crew, calling.context(), (ledger, keeper))
         });
-        driven.map_err(Trouble::Other)?
+        driven.map_err(SweepError::Other)?
     }
 
     /// Makes the runs in the engine of the script, one by one, where there is no whole script that others could read.
     fn on_this_thread(
         &self,
         call: &Call,
-        ledger: &mut Ledger,
+        ledger: &mut SweepProgress,
         keeper: &mut Option<RowKeeper>,
-    ) -> Result<(), Trouble> {
+    ) -> Result<(), SweepError> {
         let context = call.context();
         for row in 0..self.plan.design.rows {
             if ledger.knows(row) {
@@ -129,16 +129,16 @@ impl Order<'_> {
             let of = match context.tracelessly(NO_FILES, || self.invoked(call, row)) {
                 Ok(given) => found(&given),
                 Err(error @ (ScriptError::Stopped(_) | ScriptError::Bug(_))) => {
-                    return Err(Trouble::Other(error));
+                    return Err(SweepError::Other(error));
                 }
                 Err(ScriptError::Engine(error)) if context.is_stopped() => {
-                    return Err(Trouble::Other(ScriptError::Engine(error)));
+                    return Err(SweepError::Other(ScriptError::Engine(error)));
                 }
                 Err(ScriptError::Engine(error)) => match thrown(&error) {
-                    Some(reason) => Row::Failed(reason),
-                    None => return Err(Trouble::Other(ScriptError::Engine(error))),
+                    Some(reason) => RowOutcome::Failed(reason),
+                    None => return Err(SweepError::Other(ScriptError::Engine(error))),
                 },
-                Err(ScriptError::Failure(failure)) => Row::Failed(failure.message),
+                Err(ScriptError::Failure(failure)) => RowOutcome::Failed(failure.message),
             };
             take(context, (ledger, keeper), row, of)?;
         }
@@ -155,7 +155,7 @@ impl Order<'_> {
     }
 
     /// The error about a row for which the function seems wrong: that of the script itself, at its place, where it is found again.
-    fn blame(&self, call: &Call, ledger: &Ledger, row: usize, told: &str) -> ScriptError {
+    fn blame(&self, call: &Call, ledger: &SweepProgress, row: usize, told: &str) -> ScriptError {
         let found = call.context().tracelessly(NO_FILES, || self.invoked(call, row));
         match found {
             Err(error) => error,
@@ -188,10 +188,10 @@ impl Order<'_> {
 /// Gives the rows that are not known to the workers, a few ahead, and hears of them until all are known or the run is to stop. Until one has come to its end,
 /// which tells what the others are to give, they are taken in their order, whoever is first.
 fn drive(
-    crew: &Crew<usize, Made<Row>>,
+    crew: &WorkerPool<usize, CallWork<RowOutcome>>,
     context: &Context,
-    (ledger, keeper): (&mut Ledger, &mut Option<RowKeeper>),
-) -> Result<(), Trouble> {
+    (ledger, keeper): (&mut SweepProgress, &mut Option<RowKeeper>),
+) -> Result<(), SweepError> {
     let unknown: Vec<u32> =
         (0..ledger.rows).filter(|row| !ledger.knows(*row)).map(|row| row as u32).collect();
     let mut in_order = unknown.iter().map(|row| *row as usize).peekable();
@@ -200,7 +200,7 @@ fn drive(
     rows.by_ref().take(AHEAD * crew.size()).for_each(|row| crew.give(row, row));
     while ledger.done < ledger.rows {
         match crew.hear_of_many() {
-            News::Done(row, Made { result, steps }) => {
+            WorkerEvent::Done(row, CallWork { result, steps }) => {
                 context.meter().count_steps(usize::try_from(steps).unwrap_or(usize::MAX));
                 early.insert(row, result);
                 while let Some(row) = match ledger.model {
@@ -212,8 +212,8 @@ fn drive(
                 }
                 rows.by_ref().take(1).for_each(|row| crew.give(row, row));
             }
-            News::Nothing => beat(keeper).map_err(Trouble::Other)?,
-            News::Nobody => break,
+            WorkerEvent::Nothing => beat(keeper).map_err(SweepError::Other)?,
+            WorkerEvent::Nobody => break,
         }
         let has_steps = ledger.done == ledger.rows || context.meter().allows_a_step();
         if !has_steps || context.stopped_by().is_some() {
@@ -225,15 +225,15 @@ fn drive(
 
 fn take(
     context: &Context,
-    (ledger, keeper): (&mut Ledger, &mut Option<RowKeeper>),
+    (ledger, keeper): (&mut SweepProgress, &mut Option<RowKeeper>),
     row: usize,
-    of: Row,
-) -> Result<(), Trouble> {
+    of: RowOutcome,
+) -> Result<(), SweepError> {
     let entries = ledger.hear(row, of)?;
     context.progress().reach_case(ledger.done);
     if let Some(keeper) = keeper {
         for entry in &entries {
-            let bytes = keeper.write(context.journals(), entry).map_err(Trouble::Other)?;
+            let bytes = keeper.write(context.journals(), entry).map_err(SweepError::Other)?;
             context.meter().allows_to_write(bytes);
         }
     }

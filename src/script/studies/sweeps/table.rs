@@ -8,7 +8,7 @@ use rhai::{Dynamic, Map};
 use super::design::SweepPlan;
 use crate::analysis::{Sweep, SweepColumn, SweptValues};
 use crate::output::{
-    Cell, DataColumn, DataTable, DataValues, NpzArchive, NpzArray, Table, format_number,
+    Cell, DataColumn, DataTable, DataValues, NpzArchive, NpzArray, TextTable, format_number,
     significant,
 };
 
@@ -20,7 +20,7 @@ const SHOWN: (usize, usize) = (12, 4);
 const DIGITS: usize = 6;
 
 /// A finished sweep, with the values that its function got.
-pub struct Swept {
+pub struct FinishedSweep {
     /// The sweep.
     pub sweep: Sweep,
     /// Where the values of its rows are from.
@@ -30,19 +30,19 @@ pub struct Swept {
 /// The table of a sweep: all of its rows, or some.
 #[derive(Clone)]
 pub struct SweepTable {
-    swept: Rc<Swept>,
+    swept: Rc<FinishedSweep>,
     /// The numbers of the rows; none for all.
     chosen: Option<Rc<Vec<u32>>>,
 }
 
 impl SweepTable {
     /// The table of all rows.
-    pub fn new(swept: Rc<Swept>) -> Self {
+    pub fn new(swept: Rc<FinishedSweep>) -> Self {
         Self { swept, chosen: None }
     }
 
     /// What the table is of.
-    pub fn into_swept(self) -> Rc<Swept> {
+    pub fn into_swept(self) -> Rc<FinishedSweep> {
         self.swept
     }
 
@@ -90,7 +90,7 @@ impl SweepTable {
 
     /// The row with this number in the sweep, as a map of a script: parameters, results, and `failure` where it failed.
     pub fn row(&self, row: usize) -> Map {
-        let Swept { sweep, plan } = &*self.swept;
+        let FinishedSweep { sweep, plan } = &*self.swept;
         let mut map = plan.values(row, &|_, _| None);
         match sweep.results.failure(row) {
             Some(reason) => _ = map.insert(FAILURE.into(), reason.into()),
@@ -172,7 +172,7 @@ impl SweepTable {
         let columns: Vec<_> = sweep.names().filter_map(|name| sweep.column(name)).collect();
         let has_failures = self.rows().any(|row| sweep.results.failure(row).is_some());
         let head: Vec<&str> = sweep.names().chain(has_failures.then_some(FAILURE)).collect();
-        let mut table = Table::new(&head);
+        let mut table = TextTable::new(&head);
         let (first, last) = SHOWN;
         let left_out = self.length().saturating_sub(first + last);
         for (at, row) in self.rows().enumerate() {
@@ -190,7 +190,7 @@ impl SweepTable {
     }
 }
 
-impl Swept {
+impl FinishedSweep {
     /// What a sweep found in few lines: how many runs came to their end, and from where to where each result goes, and at which parameters.
     pub fn summary(&self) -> String {
         let Sweep { name, design, results } = &self.sweep;
@@ -200,7 +200,7 @@ impl Swept {
             design.rows - failed,
             design.rows
         );
-        let mut table = Table::new(&["result", "least", "at", "mean", "largest", "at"]);
+        let mut table = TextTable::new(&["result", "least", "at", "mean", "largest", "at"]);
         for name in &results.names {
             let Some(column) = results.column(name) else { continue };
             let found = || column.iter().copied().enumerate().filter(|(_, x)| x.is_finite());

@@ -1,0 +1,145 @@
+//! What other programs needed for the same problem, as somebody measured it.
+
+use super::csv_table::{ParsedCsv, ParsedCsvError};
+use super::observable::Observable;
+use super::reference::{ReferenceError, ReferenceSolution};
+use crate::geometry::Vec2;
+
+/// A run of another program.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExternalResult {
+    /// The name of the other program.
+    pub peer: String,
+    /// The series of points that the run belongs to, such as the program with one kind of integrator.
+    pub series: String,
+    /// How the other program was run, in words.
+    pub setting: String,
+    /// The time that the run of the other program took [s].
+    pub run_time: f64,
+    /// The largest distance of a station from where it should be in the run of the other program, relative to the length of the study [-].
+    pub error: f64,
+    /// How far the energy of the other program's run drifted [-]; NaN where that was not measured.
+    pub energy_drift: f64,
+    /// The machine on which the other program was measured.
+    pub machine: String,
+}
+
+/// A table of runs of other programs that cannot be used.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ExternalResultError {
+    /// The table of other programs cannot be read.
+    #[error(transparent)]
+    Sheet(#[from] ParsedCsvError),
+    /// The table of other programs cannot be compared with the reference.
+    #[error(transparent)]
+    Truth(#[from] ReferenceError),
+    /// A run of another program was measured at another time than the study asks for.
+    #[error("its row {row} holds positions at t = {measured}, and the study asks for errors at t = {}", asked.join(", "))]
+    Times {
+        /// The row of the run below the names, counted from 1.
+        row: usize,
+        /// The time at which the other program's positions were measured [time].
+        measured: f64,
+        /// The times of the study, in words.
+        asked: Vec<String>,
+    },
+}
+
+/// Cells that describe how a rival was run, with the words before them.
+const SETTING: [(&str, &str); 4] =
+    [("integrator", ""), ("elements", "elements "), ("dof", "unknowns "), ("dt", "dt = ")];
+
+impl ExternalResult {
+    /// Reads rivals from a table with the columns peer, series, run_time_s, t, energy_drift and machine, and positions of the
+    /// stations named as in a reference; integrator, elements, dof and dt are welcome.
+    ///
+    /// # Errors
+    /// When a column is missing, a number is none, or the positions belong to another time than that of the study.
+    pub fn of_sheet(
+        sheet: &ParsedCsv,
+        observables: &[Observable],
+        truth: &ReferenceSolution,
+        (times, length): (&[f64], f64),
+    ) -> Result<Vec<Self>, ExternalResultError> {
+        (0..sheet.len())
+            .map(|row| {
+                let measured = sheet.number(row, "t")?;
+                if times.len() != 1 || (times[0] - measured).abs() > 1e-9 * measured.abs().max(1.0)
+                {
+                    let asked = times.iter().map(f64::to_string).collect();
+                    return Err(ExternalResultError::Times { row: row + 1, measured, asked });
+                }
+                let compared = |(index, of): (usize, &Observable)| {
+                    let is_compared = of.is_position() && truth.knows(index);
+                    if is_compared { position(sheet, row, of) } else { Ok(Vec2::zeros()) }
+                };
+                let found: Vec<Vec2> =
+                    observables.iter().enumerate().map(compared).collect::<Result<_, _>>()?;
+                let deviation = truth.of_positions(observables, &vec![found]);
+                let cell = |column: &str| sheet.text(row, column).map(str::to_owned);
+                let described = SETTING.iter().filter_map(|(column, word)| {
+                    let text = sheet.text(row, column).ok().filter(|text| !text.is_empty())?;
+                    Some(format!("{word}{text}"))
+                });
+                Ok(Self {
+                    peer: cell("peer")?,
+                    series: cell("series")?,
+                    setting: described.collect::<Vec<_>>().join(", "),
+                    run_time: sheet.number(row, "run_time_s")?,
+                    error: deviation.map_or(f64::NAN, |of| of.divided_by(length).error()),
+                    energy_drift: sheet.number(row, "energy_drift").unwrap_or(f64::NAN),
+                    machine: cell("machine")?,
+                })
+            })
+            .collect()
+    }
+}
+
+/// Where a rival found a station.
+fn position(sheet: &ParsedCsv, row: usize, of: &Observable) -> Result<Vec2, ParsedCsvError> {
+    let [x, y] = ["x", "y"].map(|axis| sheet.number(row, &format!("{axis}{}", of.name)));
+    Ok(Vec2::new(x?, y?))
+}
+
+/// The machines that runs of other programs were measured on, each once.
+pub fn machines(rivals: &[ExternalResult]) -> Vec<&str> {
+    let mut machines = Vec::new();
+    for rival in rivals.iter().map(|rival| rival.machine.as_str()) {
+        if !machines.contains(&rival) {
+            machines.push(rival);
+        }
+    }
+    machines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::beams::Station;
+
+    const RIVALS: &str = "# made by hand\nseries,peer,integrator,dt,run_time_s,t,xA,yA,energy_drift,machine\n\
+                          fast,P,euler,0.1,0.5,1,3,4.5,1e-3,a Cray\nslow,P,,0.2,2,1,3,4,,a Cray\n";
+
+    #[test]
+    fn rivals_are_judged_by_the_same_reference() {
+        let observables: Vec<_> = Observable::of_station("A", Station::on_beam(0, 0.0)).collect();
+        let table = ParsedCsv::parse("t,xA,yA\n1,3,4\n2,0,0\n").unwrap();
+        let truth = ReferenceSolution::of_sheet("T", &table, &observables, &[1.0]).unwrap();
+        let sheet = ParsedCsv::parse(RIVALS).unwrap();
+        let rivals =
+            ExternalResult::of_sheet(&sheet, &observables, &truth, (&[1.0], 10.0)).unwrap();
+        assert_eq!(rivals[0].error, 0.05);
+        // Who meets the reference errs by no more than rounding.
+        assert!(rivals[1].error < 1e-13, "{}", rivals[1].error);
+        assert_eq!(rivals[0].setting, "euler, dt = 0.1");
+        assert!(rivals[1].energy_drift.is_nan());
+        assert_eq!(machines(&rivals), ["a Cray"]);
+        let told =
+            ExternalResult::of_sheet(&sheet, &observables, &truth, (&[2.0], 10.0)).unwrap_err();
+        assert!(told.to_string().contains("row 1 holds positions at t = 1"), "{told}");
+        let lame = ParsedCsv::parse("series,peer,t,xA,yA\na,b,1,0,0\n").unwrap();
+        let told =
+            ExternalResult::of_sheet(&lame, &observables, &truth, (&[1.0], 10.0)).unwrap_err();
+        assert!(told.to_string().contains("no column 'run_time_s'"), "{told}");
+    }
+}

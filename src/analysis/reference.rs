@@ -1,0 +1,370 @@
+//! What the observables of a study should be, and how far results are from it.
+
+use super::csv_table::{ParsedCsv, ParsedCsvError};
+use super::observable::{Observable, ObservableKind};
+use crate::elementary::hypot;
+use crate::geometry::{Vec2, larger};
+
+/// Observables at the times of a study: the first index is the time, the second the observable.
+pub type Readings = Vec<Vec<Vec2>>;
+
+/// How far a result is from the truth, and how well the truth is known.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Deviation {
+    /// The distance from the reference, in the unit of the observable.
+    pub distance: f64,
+    /// An estimate of the error of the reference itself, in the unit of the observable; zero where it gives none.
+    pub trusted: f64,
+    /// Whether the reference is a run of our own. All errors are then told as bounds, so that none seems better than another
+    /// one only because it is closer to the reference than that is to the truth.
+    pub is_of_own_run: bool,
+}
+
+impl Deviation {
+    /// Whether the reference is good enough to tell the error from none.
+    pub fn is_resolved(&self) -> bool {
+        self.distance > self.trusted
+    }
+
+    /// The error, by which results are judged: a bound of it where the reference is a run of our own, or does not tell.
+    pub fn error(&self) -> f64 {
+        match self.is_of_own_run || !self.is_resolved() {
+            true => self.distance + self.trusted,
+            false => self.distance,
+        }
+    }
+
+    /// The larger of two deviations; one that is not a number is larger than all.
+    pub fn worst(self, other: Self) -> Self {
+        if larger(self.distance, other.distance) == self.distance || self.distance.is_nan() {
+            Self { trusted: self.trusted.max(other.trusted), ..self }
+        } else {
+            Self { trusted: self.trusted.max(other.trusted), ..other }
+        }
+    }
+
+    /// The deviation divided by a scale: the same by another measure.
+    pub fn divided_by(self, scale: f64) -> Self {
+        Self { distance: self.distance / scale, trusted: self.trusted / scale, ..self }
+    }
+}
+
+/// A reference of a study that cannot be used.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ReferenceError {
+    /// The table of the reference is wrong.
+    #[error(transparent)]
+    Sheet(#[from] ParsedCsvError),
+    /// The table of the reference is empty.
+    #[error("it has no rows")]
+    Empty,
+    /// The reference says nothing about a time of the study.
+    #[error("it has no row at t = {time}; the nearest rows are at t = {}", nearest.join(" and "))]
+    Time {
+        /// The time asked for, of which the reference says nothing [time].
+        time: f64,
+        /// The times of the rows before and behind it, in words.
+        nearest: Vec<String>,
+    },
+    /// The reference says two things about a time of the study.
+    #[error("lines {first} and {second} are both about t = {time}, and they differ")]
+    Twice {
+        /// The time of which the reference says two things [time].
+        time: f64,
+        /// The line of the first row for that time.
+        first: u64,
+        /// The line of the second row for that time.
+        second: u64,
+    },
+    /// The reference says nothing about any station of the study.
+    #[error(
+        "it has no station of the study: for one called '{station}' it needs the columns x{station} and y{station}; its columns are {known}"
+    )]
+    Stations {
+        /// The name of a station of the study.
+        station: String,
+        /// The names of the columns of the reference.
+        known: String,
+    },
+}
+
+/// No reference of rounded numbers tells errors below this, relative to the size of an observable.
+const ROUNDING: f64 = 1e-13;
+
+/// A value that an observable should have.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct KnownValue {
+    value: Vec2,
+    trusted: f64,
+}
+
+/// The reference of a study: what its observables should be at its times.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReferenceSolution {
+    /// The source of the reference, in a line.
+    pub source: String,
+    /// Whether the reference is a run of our own, and no independent solution.
+    pub is_own: bool,
+    /// None where it says nothing.
+    known: Vec<Vec<Option<KnownValue>>>,
+}
+
+/// Times that differ by less, relative to the larger of them and one, are the same.
+const SAME_TIME: f64 = 1e-9;
+
+/// The row of a table at a time.
+fn row_at(sheet: &ParsedCsv, time: f64) -> Result<usize, ReferenceError> {
+    let times: Vec<f64> =
+        (0..sheet.len()).map(|row| sheet.number(row, "t")).collect::<Result<_, _>>()?;
+    let near = |other: f64| (other - time).abs() <= SAME_TIME * time.abs().max(1.0);
+    let nearest = || {
+        let before = times.iter().copied().filter(|other| *other < time).reduce(f64::max);
+        let behind = times.iter().copied().filter(|other| *other > time).reduce(f64::min);
+        before.into_iter().chain(behind).map(|time| time.to_string()).collect()
+    };
+    let mut found = (0..times.len()).filter(|row| near(times[*row]));
+    let Some(first) = found.next() else {
+        return Err(match sheet.is_empty() {
+            true => ReferenceError::Empty,
+            false => ReferenceError::Time { time, nearest: nearest() },
+        });
+    };
+    match found.find(|other| sheet.texts(*other) != sheet.texts(first)) {
+        Some(other) => {
+            let (first, second) = (sheet.line(first), sheet.line(other));
+            Err(ReferenceError::Twice { time, first, second })
+        }
+        None => Ok(first),
+    }
+}
+
+/// The first of these columns that a table has, as numbers of a row; zero where it has none.
+fn estimate(sheet: &ParsedCsv, row: usize, columns: &[String]) -> Result<f64, ParsedCsvError> {
+    let found = columns.iter().find(|column| sheet.has(column));
+    found.map_or(Ok(0.0), |column| sheet.size(row, column))
+}
+
+/// What a table says of an observable.
+fn known_of(
+    sheet: &ParsedCsv,
+    row: usize,
+    of: &Observable,
+) -> Result<Option<KnownValue>, ParsedCsvError> {
+    let name = &of.name;
+    let number = |column: &str| sheet.number(row, column);
+    let either = |columns: &[String]| estimate(sheet, row, columns);
+    Ok(match &of.kind {
+        ObservableKind::Position(_) => {
+            let [x, y] = ["x", "y"].map(|axis| format!("{axis}{name}"));
+            if !sheet.has(&x) || !sheet.has(&y) {
+                return Ok(None);
+            }
+            let groups = [format!("d_{name}"), "d_pos".to_owned()];
+            let trusted = match [&x, &y].map(|column| format!("d_{column}")) {
+                [x, y] if sheet.has(&x) && sheet.has(&y) => {
+                    hypot(sheet.size(row, &x)?, sheet.size(row, &y)?)
+                }
+                _ => either(&groups)?,
+            };
+            Some(KnownValue { value: Vec2::new(number(&x)?, number(&y)?), trusted })
+        }
+        ObservableKind::Angle(_) => {
+            let column = format!("th{name}");
+            if !sheet.has(&column) {
+                return Ok(None);
+            }
+            let trusted = either(&[format!("d_{column}"), "d_th".to_owned()])?;
+            Some(KnownValue { value: Vec2::new(number(&column)?, 0.0), trusted })
+        }
+        ObservableKind::Column { .. } if !sheet.has(name) => None,
+        ObservableKind::Column { .. } => {
+            let groups: &[&str] = match name.as_str() {
+                "KE" | "SE" => &["d_KE", "d_E"],
+                _ => &[],
+            };
+            let own = std::iter::once(format!("d_{name}"));
+            let columns: Vec<String> =
+                own.chain(groups.iter().map(|group| (*group).to_owned())).collect();
+            Some(KnownValue { value: Vec2::new(number(name)?, 0.0), trusted: either(&columns)? })
+        }
+    })
+}
+
+impl ReferenceSolution {
+    /// The reference in a table of an independent solution: a column t and, for a station called A, xA, yA and thA; other columns bear the
+    /// names of observables. Estimates of its own errors stand in columns d_xA, d_A or d_pos, d_thA or d_th, d_E, ….
+    ///
+    /// # Errors
+    /// When it has no row at one of the times, none of the stations, or something else than numbers.
+    pub fn of_sheet(
+        source: impl Into<String>,
+        sheet: &ParsedCsv,
+        observables: &[Observable],
+        times: &[f64],
+    ) -> Result<Self, ReferenceError> {
+        let at = |time: &f64| -> Result<Vec<Option<KnownValue>>, ReferenceError> {
+            let row = row_at(sheet, *time)?;
+            Ok(observables.iter().map(|of| known_of(sheet, row, of)).collect::<Result<_, _>>()?)
+        };
+        let known: Vec<_> = times.iter().map(at).collect::<Result<_, _>>()?;
+        let truth = Self { source: source.into(), is_own: false, known };
+        let mut positions = observables.iter().enumerate().filter(|(_, of)| of.is_position());
+        match positions.clone().next() {
+            Some((_, first)) if !positions.any(|(index, _)| truth.knows(index)) => {
+                Err(ReferenceError::Stations {
+                    station: first.name.clone(),
+                    known: sheet.columns().join(", "),
+                })
+            }
+            _ => Ok(truth),
+        }
+    }
+
+    /// The reference that a run of our own gave.
+    pub fn of_run(source: impl Into<String>, readings: &Readings) -> Self {
+        let known = |value: &Vec2| {
+            (value.x.is_finite() && value.y.is_finite())
+                .then_some(KnownValue { value: *value, trusted: 0.0 })
+        };
+        let known = readings.iter().map(|at| at.iter().map(known).collect()).collect();
+        Self { source: source.into(), is_own: true, known }
+    }
+
+    /// The same reference, each value trusted no further than another run, a little coarser, agrees with it.
+    pub fn as_far_as(mut self, coarser: &Readings) -> Self {
+        for (known, other) in self.known.iter_mut().zip(coarser) {
+            for (known, other) in known.iter_mut().zip(other) {
+                *known = known
+                    .map(|known| KnownValue { trusted: (*other - known.value).norm(), ..known });
+            }
+        }
+        self
+    }
+
+    /// Whether the reference says something about an observable, by its index.
+    pub fn knows(&self, observable: usize) -> bool {
+        self.known.iter().any(|at| at.get(observable).is_some_and(Option::is_some))
+    }
+
+    /// The largest deviation of an observable from the reference at its times; none where the reference says nothing of it.
+    pub fn deviation(&self, observable: usize, readings: &Readings) -> Option<Deviation> {
+        let values = self.known.iter().filter_map(|at| (*at.get(observable)?)?.value.norm().into());
+        let rounding = ROUNDING * values.fold(0.0, f64::max);
+        let at = |(known, found): (&Vec<Option<KnownValue>>, &Vec<Vec2>)| {
+            let known = (*known.get(observable)?)?;
+            let distance = (found.get(observable)? - known.value).norm();
+            let (trusted, is_of_own_run) = (known.trusted.max(rounding), self.is_own);
+            Some(Deviation { distance, trusted, is_of_own_run })
+        };
+        self.known.iter().zip(readings).filter_map(at).reduce(Deviation::worst)
+    }
+
+    /// The largest deviation of all positions from the reference [length].
+    pub fn of_positions(
+        &self,
+        observables: &[Observable],
+        readings: &Readings,
+    ) -> Option<Deviation> {
+        let positions = observables.iter().enumerate().filter(|(_, of)| of.is_position());
+        positions.filter_map(|(index, _)| self.deviation(index, readings)).reduce(Deviation::worst)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::beams::Station;
+
+    const TABLE: &str = "t,xA,yA,thA,KE,d_pos,d_E\n0,0,0,0,1,0,0\n0.5,3,4,0.2,2,1e-3,0.1\n";
+
+    fn observables() -> Vec<Observable> {
+        let columns = [("KE", "kinetic"), ("SE", "strain")];
+        let columns = columns.map(|(name, column)| Observable::of_column(name, column, 1.0));
+        Observable::of_station("A", Station::on_beam(0, 0.0)).chain(columns).collect()
+    }
+
+    #[test]
+    fn a_table_tells_values_and_how_well_it_knows_them() {
+        let sheet = ParsedCsv::parse(TABLE).unwrap();
+        let truth = ReferenceSolution::of_sheet("T.csv", &sheet, &observables(), &[0.5]).unwrap();
+        let found = |x| vec![vec![Vec2::new(3.0, 4.0 + x), Vec2::zeros(), Vec2::new(2.0, 0.0)]];
+        let near = truth.of_positions(&observables(), &found(5e-4)).unwrap();
+        assert!(!near.is_resolved() && (near.error() - 1.5e-3).abs() < 1e-12, "{near:?}");
+        let far = truth.deviation(0, &found(0.1)).unwrap().divided_by(2.0);
+        assert!(far.is_resolved() && (far.error() - 0.05).abs() < 1e-12);
+        assert_eq!(truth.deviation(1, &found(0.0)).unwrap().error(), 0.2);
+        assert_eq!(truth.deviation(2, &found(0.0)).unwrap().trusted, 0.1);
+        assert!(!truth.knows(3) && truth.deviation(3, &found(0.0)).is_none());
+    }
+
+    #[test]
+    fn a_table_without_the_time_or_the_stations_is_refused() {
+        let sheet = ParsedCsv::parse(TABLE).unwrap();
+        let told =
+            ReferenceSolution::of_sheet("T.csv", &sheet, &observables(), &[0.3]).unwrap_err();
+        assert_eq!(
+            told.to_string(),
+            "it has no row at t = 0.3; the nearest rows are at t = 0 and 0.5"
+        );
+        let empty = ParsedCsv::parse("t,xA,yA\n").unwrap();
+        let told =
+            ReferenceSolution::of_sheet("T.csv", &empty, &observables(), &[0.3]).unwrap_err();
+        assert_eq!(told.to_string(), "it has no rows");
+        let other: Vec<_> = Observable::of_station("tip", Station::on_beam(0, 0.0)).collect();
+        let told =
+            ReferenceSolution::of_sheet("T.csv", &sheet, &other, &[0.5]).unwrap_err().to_string();
+        assert!(told.contains("xtip and ytip") && told.contains("t, xA, yA"), "{told}");
+    }
+
+    #[test]
+    fn a_table_that_says_two_things_of_one_time_or_a_negative_size_is_refused() {
+        let told = |rows: &str| {
+            let sheet = ParsedCsv::parse(&format!("# two\nt,xA,yA,thA,KE,d_pos\n{rows}")).unwrap();
+            ReferenceSolution::of_sheet("T.csv", &sheet, &observables(), &[0.5])
+                .map_err(|it| it.to_string())
+        };
+        let row = "0.5,3,4,0.2,2,0\n";
+        assert!(told(&row.repeat(2)).is_ok(), "said twice is said once");
+        let both = told(&format!("0,0,0,0,0,0\n{row}0.5,3,4.1,0.2,2,0\n")).unwrap_err();
+        assert_eq!(both, "lines 4 and 5 are both about t = 0.5, and they differ");
+        let negative = told("0.5,3,4,0.2,2,-0.1\n").unwrap_err();
+        assert_eq!(
+            negative,
+            "line 3, column 'd_pos', holds '-0.1', and the size of an error is not negative"
+        );
+    }
+
+    #[test]
+    fn a_run_of_our_own_knows_what_a_coarser_one_confirms() {
+        let readings = |x: f64, angle: f64| vec![vec![Vec2::new(x, 0.0), Vec2::new(angle, 0.0)]];
+        let own =
+            ReferenceSolution::of_run("own", &readings(1.0, 0.5)).as_far_as(&readings(1.0, 0.51));
+        let deviation = |x, angle, of| own.deviation(of, &readings(x, angle)).unwrap();
+        assert!(deviation(1.0 + 1e-12, 0.5, 0).is_resolved());
+        assert!(!deviation(1.0 + 1e-14, 0.5, 0).is_resolved(), "rounding is no error");
+        assert!(!deviation(1.0, 0.495, 1).is_resolved() && deviation(1.0, 0.48, 1).is_resolved());
+        assert!((deviation(1.0, 0.495, 1).error() - 0.015).abs() < 1e-12);
+        assert!((deviation(1.0, 0.48, 1).error() - 0.03).abs() < 1e-12, "all are bounds");
+    }
+
+    #[test]
+    fn who_is_nearer_to_a_run_of_our_own_has_the_smaller_error() {
+        let readings = |x: f64| vec![vec![Vec2::new(x, 0.0)]];
+        let own = ReferenceSolution::of_run("own", &readings(1.0)).as_far_as(&readings(1.1));
+        let error = |x| own.deviation(0, &readings(x)).unwrap().error();
+        assert!(error(1.099) < error(1.101), "the one beyond the difference is not the better one");
+    }
+
+    #[test]
+    fn what_is_not_a_number_is_the_largest_deviation() {
+        let of = |distance| Deviation { distance, trusted: 0.0, is_of_own_run: false };
+        let deviations = [1.0, f64::NAN, 3.0].map(of);
+        for order in [[0, 1, 2], [2, 1, 0], [1, 0, 2], [0, 2, 1]] {
+            let worst = order.map(|index| deviations[index]).into_iter().reduce(Deviation::worst);
+            assert!(worst.unwrap().error().is_nan());
+        }
+        let own =
+            ReferenceSolution::of_run("own", &vec![vec![Vec2::new(f64::NAN, 0.0), Vec2::zeros()]]);
+        assert!(!own.knows(0) && own.knows(1) && own.is_own);
+    }
+}

@@ -1,0 +1,132 @@
+//! The progress bar of a terminal.
+
+use std::cell::{Cell, RefCell};
+use std::io::{IsTerminal, stderr};
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::script::messages::numbers::format_number;
+use crate::script::messages::progress::{NoProgress, Progress};
+
+/// Whether a bar of progress is wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ProgressPreference {
+    /// The bar is wanted, where there is a terminal.
+    Show,
+    /// The bar is not wanted.
+    Hide,
+}
+
+/// What shows progress: a bar on a terminal; nothing in a pipe or when it is not wanted.
+pub fn progress(wish: ProgressPreference) -> Box<dyn Progress + Send> {
+    match wish == ProgressPreference::Show && stderr().is_terminal() {
+        true => Box::new(ProgressDisplay::default()),
+        false => Box::new(NoProgress),
+    }
+}
+
+/// A bar over the time of one simulation, or over the cases of one study, at a time. What is over soon never makes one.
+#[derive(Default)]
+struct ProgressDisplay {
+    begun: Cell<Option<Instant>>,
+    name: RefCell<String>,
+    from: Cell<f64>,
+    to: Cell<f64>,
+    shown: RefCell<Option<ProgressBar>>,
+}
+
+/// Parts that a bar is divided into: finer than any terminal is wide.
+const PARTS: u64 = 1000;
+/// Nobody needs to be told that something will be ready this soon.
+const SOON: Duration = Duration::from_millis(300);
+
+impl ProgressDisplay {
+    fn make(&self) -> ProgressBar {
+        let bar = ProgressBar::new(PARTS);
+        // A template that does not parse would show the default bar: less pretty, as useful.
+        let style = ProgressStyle::with_template("{prefix} {wide_bar} {msg} {eta}");
+        bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+        bar.set_prefix(self.name.borrow().clone());
+        bar.enable_steady_tick(Duration::from_millis(200));
+        bar
+    }
+
+    /// Shows how far it is, unless it may be over soon.
+    fn show(&self, reached: f64, message: impl FnOnce() -> String) {
+        let mut shown = self.shown.borrow_mut();
+        if shown.is_none() && self.begun.get().is_none_or(|begun| begun.elapsed() < SOON) {
+            return;
+        }
+        let bar = shown.get_or_insert_with(|| self.make());
+        let share = (reached - self.from.get()) / (self.to.get() - self.from.get());
+        bar.set_position((share.clamp(0.0, 1.0) * PARTS as f64) as u64);
+        bar.set_message(message());
+    }
+}
+
+impl Progress for ProgressDisplay {
+    fn begin(&self, name: &str, from: f64, to: f64) {
+        self.end();
+        self.from.set(from);
+        self.to.set(to);
+        name.clone_into(&mut self.name.borrow_mut());
+        self.begun.set(Some(Instant::now()));
+    }
+
+    fn reach(&self, t: f64) {
+        self.show(t, || format!("t = {}", format_number((t * 1e6).round() / 1e6)));
+    }
+
+    fn begin_cases(&self, name: &str, count: usize) {
+        self.begin(name, 0.0, count as f64);
+    }
+
+    fn reach_case(&self, done: usize) {
+        self.show(done as f64, || format!("{done} of {} cases", self.to.get()));
+    }
+
+    fn end(&self) {
+        self.begun.set(None);
+        if let Some(bar) = self.shown.borrow_mut().take() {
+            bar.finish_and_clear();
+        }
+    }
+
+    fn step_aside(&self, write: &mut dyn FnMut()) {
+        match &*self.shown.borrow() {
+            Some(bar) => bar.suspend(write),
+            None => write(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_over_soon_has_no_bar_and_what_takes_longer_has_one() {
+        let bar = ProgressDisplay::default();
+        bar.begin("rod", 0.0, 1.0);
+        bar.reach(0.5);
+        assert!(bar.shown.borrow().is_none());
+        std::thread::sleep(SOON);
+        bar.reach(0.6);
+        assert!(bar.shown.borrow().is_some());
+        bar.end();
+        bar.reach(0.7);
+        assert!(bar.shown.borrow().is_none());
+    }
+
+    #[test]
+    fn a_study_has_a_bar_over_its_cases() {
+        let bar = ProgressDisplay::default();
+        bar.begin_cases("flight", 8);
+        std::thread::sleep(SOON);
+        bar.reach_case(2);
+        let shown = bar.shown.borrow();
+        let shown = shown.as_ref().expect("a bar");
+        assert_eq!((shown.position(), shown.message().as_str()), (PARTS / 4, "2 of 8 cases"));
+    }
+}

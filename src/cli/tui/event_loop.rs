@@ -1,0 +1,183 @@
+//! What one works with who watches: the loop of keys, saved files, and runs that end.
+
+use std::io;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use super::judge_process::{JudgeProcess, cannot};
+use super::keys::Key;
+use super::line::ScreenLine;
+use super::screen::screen;
+use super::solution::ScriptPainter;
+use super::state::{KeyAction, ScreenPage, ScrollPosition, ScrollWindow, TaskSection, TuiState};
+use super::terminal::RawTerminal;
+use crate::cli::learn::shown;
+use crate::cli::limits::LimitOptions;
+use crate::exercises::catalogue::EXERCISES;
+use crate::exercises::error::ExerciseError;
+use crate::exercises::exercise::Exercise;
+use crate::exercises::report::AttemptOutcome;
+use crate::exercises::watch::{INTERVAL, Watcher};
+use crate::exercises::workbook::{Advice, Workbook};
+use crate::panics::caught;
+
+/// How long keys are waited for before one looks at the run.
+const PATIENCE: Duration = Duration::from_millis(50);
+
+/// Watches the attempts of a student, judging each that is saved, until one leaves, or `stop` is set.
+///
+/// # Errors
+/// When the folder or the terminal cannot be used; the terminal is as it was then.
+pub(in crate::cli) fn watch(
+    workbook: &Workbook,
+    limits: &LimitOptions,
+    stop: &AtomicBool,
+) -> Result<(), ExerciseError> {
+    let mut desk = EventLoop::open(workbook, limits)?;
+    // A panic is our mistake: the terminal is given back, and then it is told.
+    let done = caught(|| {
+        let mut terminal = RawTerminal::take()?;
+        desk.work(&mut terminal, stop)
+    });
+    let done = done.unwrap_or_else(|panic| {
+        Err(io::Error::other(format!("withy has made a mistake: {panic}")))
+    });
+    done.map_err(ExerciseError::Terminal)
+}
+
+/// What one works with.
+struct EventLoop<'a> {
+    workbook: &'a Workbook,
+    limits: &'a LimitOptions,
+    watcher: Watcher<'a>,
+    looked: Instant,
+    trial: Option<JudgeProcess>,
+    painter: ScriptPainter,
+    solution: Vec<ScreenLine>,
+    state: TuiState,
+}
+
+impl<'a> EventLoop<'a> {
+    fn open(workbook: &'a Workbook, limits: &'a LimitOptions) -> Result<Self, ExerciseError> {
+        let next = workbook.next()?;
+        let exercise = next.unwrap_or(&EXERCISES[0]);
+        let painter = ScriptPainter::new();
+        let mut desk = Self {
+            workbook,
+            limits,
+            watcher: Watcher::new(workbook),
+            looked: Instant::now(),
+            trial: None,
+            solution: painter.solution(exercise),
+            painter,
+            state: TuiState::open(exercise, shown(&workbook.file(exercise)), workbook.progress()?),
+        };
+        desk.run();
+        if next.is_none() {
+            desk.state.page = ScreenPage::List(0);
+            desk.state.notice = Some("All exercises are passed. Congratulations!".into());
+        }
+        Ok(desk)
+    }
+
+    fn work(&mut self, terminal: &mut RawTerminal, stop: &AtomicBool) -> io::Result<()> {
+        while !stop.load(Ordering::Relaxed) {
+            self.look();
+            let size = terminal.size();
+            let screen = screen(&self.state, size, &self.solution);
+            terminal.show(&screen.lines, size)?;
+            let Some(key) = terminal.key(PATIENCE)? else { continue };
+            match self.press(key, screen.window) {
+                KeyAction::Leave => break,
+                KeyAction::Suspend => terminal.rest()?,
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    fn press(&mut self, key: Key, window: ScrollWindow) -> KeyAction {
+        let wish = self.state.press(key, window);
+        match wish {
+            KeyAction::Run => {
+                self.run();
+                self.state.top = ScrollPosition::Part(TaskSection::Result);
+            }
+            KeyAction::Open(exercise) => self.turn_to(exercise),
+            KeyAction::Hint => self.hint(),
+            KeyAction::Nothing | KeyAction::Leave | KeyAction::Suspend => {}
+        }
+        wish
+    }
+
+    /// Looks whether a file was saved or a run has ended.
+    fn look(&mut self) {
+        if self.looked.elapsed() >= INTERVAL {
+            self.looked = Instant::now();
+            if let Some(exercise) = self.watcher.changed() {
+                if exercise != self.state.exercise {
+                    self.turn_to(exercise);
+                } else {
+                    self.run();
+                }
+                self.state.page = ScreenPage::Task;
+                self.state.top = ScrollPosition::Part(TaskSection::Result);
+                self.state.notice = None;
+            }
+        }
+        let Some(trial) = &mut self.trial else { return };
+        self.state.running = Some(trial.seconds());
+        if let Some(report) = trial.ended() {
+            self.trial = None;
+            if report.outcome != AttemptOutcome::Interrupted {
+                let has_passed = report.outcome == AttemptOutcome::Passed;
+                if let Err(error) = self.workbook.note(self.state.exercise, has_passed) {
+                    self.state.notice = Some(format!("not noted: {error}"));
+                }
+            }
+            self.state.tell(report);
+            // Another window may have noted something.
+            if let Ok(progress) = self.workbook.progress() {
+                self.state.progress = progress;
+            }
+        }
+    }
+
+    fn turn_to(&mut self, exercise: &'static Exercise) {
+        // What was read last is shown on; that it cannot be read is told when something is to be noted.
+        let progress = self.workbook.progress().unwrap_or_else(|_| self.state.progress.clone());
+        self.state = TuiState::open(exercise, shown(&self.workbook.file(exercise)), progress);
+        self.solution = self.painter.solution(exercise);
+        self.run();
+    }
+
+    /// Begins a run; one that is going on is ended.
+    fn run(&mut self) {
+        self.trial = None;
+        match JudgeProcess::begin(self.state.exercise, self.limits) {
+            Ok(trial) => {
+                self.trial = Some(trial);
+                self.state.running = Some(0);
+            }
+            Err(error) => self.state.tell(cannot(&error)),
+        }
+    }
+
+    /// Shows the hints that were given before, or gives one more.
+    fn hint(&mut self) {
+        let exercise = self.state.exercise;
+        let given = self.state.progress.hints(exercise);
+        if given > self.state.hints {
+            self.state.hints = given;
+            return;
+        }
+        match self.workbook.hint(exercise) {
+            Ok(Advice::Hint { number, .. }) => {
+                self.state.hints = number;
+                self.state.progress.note_hint(exercise);
+            }
+            Ok(Advice::Solution(_)) => self.state.hints = exercise.judge().hints.len(),
+            Err(error) => self.state.notice = Some(format!("not noted: {error}")),
+        }
+    }
+}

@@ -1,0 +1,190 @@
+//! An attempt that is judged in a process of its own, so that keys are answered meanwhile and whatever it does is over when it is
+//! ended.
+
+use std::io::{self, Read};
+use std::process::{self, Child, Command, ExitStatus, Stdio};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+use std::{env, thread};
+
+use crate::cli::Exit;
+use crate::cli::console::say;
+use crate::cli::limits::LimitOptions;
+use crate::exercises::attempt;
+use crate::exercises::captured_output::{CaptureWriter, CapturedOutput};
+use crate::exercises::exercise::Exercise;
+use crate::exercises::judging::{AttemptVerdict, PATIENCE, judge};
+use crate::exercises::report::{AttemptError, AttemptOutcome, AttemptReport};
+use crate::exercises::workbook::Workbook;
+use crate::script::messages::stop::Stop;
+use crate::script::state::limits::Limits;
+use crate::script::state::settings::{RunMode, RunSettings};
+
+/// What the process may take beside the attempt and its judge, which are given time to hear of their limits.
+const SLACK: Duration = Duration::from_secs(12);
+/// The most that is read of what the process says [bytes].
+const LONGEST: u64 = 1 << 20;
+
+/// A process that judges an attempt; it is ended when this is dropped.
+pub struct JudgeProcess {
+    process: Child,
+    said: Receiver<String>,
+    begun: Instant,
+    limits: Limits,
+}
+
+impl JudgeProcess {
+    /// Begins to judge the attempt in the student's folder.
+    ///
+    /// # Errors
+    /// When no process can be started.
+    pub fn begin(exercise: &Exercise, options: &LimitOptions) -> io::Result<Self> {
+        let mut command = Command::new(env::current_exe()?);
+        command.args(["learn", "try"]).args(options.words()).args(["--", &exercise.id()]);
+        command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::null());
+        // Keys at the terminal are for who watches.
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut command, 0);
+        let mut process = command.spawn()?;
+        let (send, said) = channel();
+        let output = process.stdout.take();
+        thread::spawn(move || {
+            let mut text = Vec::new();
+            if let Some(output) = output {
+                // What cannot be read is no report, and is told as such.
+                let _ = output.take(LONGEST).read_to_end(&mut text);
+            }
+            let _ = send.send(String::from_utf8_lossy(&text).into_owned());
+        });
+        let mut limits = options.limits();
+        limits.time = limits.time.or(Some(PATIENCE));
+        Ok(Self { process, said, begun: Instant::now(), limits })
+    }
+
+    /// Whole seconds since the process began.
+    pub fn seconds(&self) -> u64 {
+        self.begun.elapsed().as_secs()
+    }
+
+    /// What became of the attempt, once that is known.
+    pub fn ended(&mut self) -> Option<AttemptReport> {
+        let longest = self.limits.time.unwrap_or(PATIENCE) * 2 + SLACK;
+        match self.said.try_recv() {
+            Ok(said) => Some(self.report(&said)),
+            Err(TryRecvError::Disconnected) => Some(self.report("")),
+            Err(TryRecvError::Empty) if self.begun.elapsed() > longest => {
+                Some(stopped(Stop::Time(longest), CapturedOutput::default()))
+            }
+            Err(TryRecvError::Empty) => None,
+        }
+    }
+
+    fn report(&mut self, said: &str) -> AttemptReport {
+        match said.lines().last().and_then(|line| serde_json::from_str(line).ok()) {
+            Some(report) => report,
+            None => match self.process.wait() {
+                Ok(status) => death(status, &self.limits),
+                Err(error) => cannot(&error),
+            },
+        }
+    }
+}
+
+impl Drop for JudgeProcess {
+    fn drop(&mut self) {
+        // One that has ended is not there any more.
+        let _ = self.process.kill();
+        let _ = self.process.wait();
+    }
+}
+
+/// The report of an attempt for which a process cannot be started.
+pub fn cannot(error: &io::Error) -> AttemptReport {
+    let message = format!("cannot start a process for it: {error}");
+    let why = AttemptError { message, ..AttemptError::default() };
+    AttemptReport { outcome: AttemptOutcome::Broken(why), printed: CapturedOutput::default() }
+}
+
+/// What the death of a process without a word says.
+fn death(status: ExitStatus, limits: &Limits) -> AttemptReport {
+    match limits.memory.filter(|_| is_out_of_memory(status)) {
+        Some(memory) => stopped(Stop::Memory(memory), CapturedOutput::default()),
+        None => {
+            let message = format!("its process ended without a word: {status}");
+            let why = AttemptError { message, ..AttemptError::default() };
+            AttemptReport {
+                outcome: AttemptOutcome::Broken(why),
+                printed: CapturedOutput::default(),
+            }
+        }
+    }
+}
+
+/// An allocation that is refused aborts; the system ends who takes too much.
+#[cfg(unix)]
+fn is_out_of_memory(status: ExitStatus) -> bool {
+    use nix::libc::{SIGABRT, SIGKILL};
+    use std::os::unix::process::ExitStatusExt;
+    matches!(status.signal(), Some(SIGABRT | SIGKILL))
+}
+
+#[cfg(not(unix))]
+fn is_out_of_memory(_: ExitStatus) -> bool {
+    false
+}
+
+fn stopped(stop: Stop, printed: CapturedOutput) -> AttemptReport {
+    let (message, help) = stop.words();
+    let why = AttemptError { message, help, ..AttemptError::default() };
+    AttemptReport { outcome: AttemptOutcome::Stopped(why), printed }
+}
+
+/// Judges an attempt in this process, which is for nothing else, and prints what became of it.
+pub fn try_here(workbook: &Workbook, exercise: &Exercise, options: &LimitOptions) -> Exit {
+    die_with_parent();
+    let ear = CaptureWriter::default();
+    let heard = ear.clone();
+    // One report is said, whoever comes first.
+    let turn = Arc::new(Mutex::new(()));
+    let last_turn = Arc::clone(&turn);
+    let resort = move |stop: Stop| {
+        let _turn = last_turn.lock().unwrap_or_else(PoisonError::into_inner);
+        tell(&stopped(stop, heard.heard()));
+        process::exit(0)
+    };
+    let settings = RunSettings {
+        out: workbook.folder().join("out"),
+        limits: options.limits(),
+        printed: Box::new(ear.clone()),
+        told: Box::new(ear.clone()),
+        last_resort: Some(Arc::new(resort)),
+        ..RunSettings::silent(RunMode::Run)
+    };
+    let verdict = match attempt::load(&workbook.file(exercise), workbook.folder()) {
+        Ok(attempt) => judge(exercise, &attempt, settings),
+        Err(why) => AttemptVerdict::Broken(why),
+    };
+    let _turn = turn.lock().unwrap_or_else(PoisonError::into_inner);
+    tell(&AttemptReport { outcome: verdict.into(), printed: ear.heard() });
+    // What the attempt has made is not taken apart: that may take as long as making it.
+    process::exit(0)
+}
+
+fn tell(report: &AttemptReport) {
+    match serde_json::to_string(report) {
+        Ok(line) => say(&line),
+        Err(error) => eprintln!("error: {error}"),
+    }
+}
+
+/// Nobody would read what is said.
+#[cfg(target_os = "linux")]
+fn die_with_parent() {
+    use nix::sys::signal::Signal;
+    // Without it the limits end the process, later.
+    let _ = nix::sys::prctl::set_pdeathsig(Signal::SIGKILL);
+}
+
+#[cfg(not(target_os = "linux"))]
+fn die_with_parent() {}

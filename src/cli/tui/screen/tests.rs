@@ -1,0 +1,226 @@
+use super::super::state::{ScreenPage, TuiState};
+use super::*;
+use crate::exercises::captured_output::CapturedOutput;
+use crate::exercises::progress::StudentProgress;
+use crate::exercises::report::{AttemptError, AttemptOutcome, AttemptReport, ScriptPosition};
+use crate::output::Colours;
+
+fn at(number: usize) -> TuiState {
+    let exercise = &EXERCISES[number - 1];
+    TuiState::open(
+        exercise,
+        format!("withy-exercises/{}", exercise.file()),
+        StudentProgress::default(),
+    )
+}
+
+fn judged(number: usize, outcome: AttemptOutcome, printed: &[&str]) -> TuiState {
+    let mut state = at(number);
+    let lines = printed.iter().map(|line| (*line).to_owned()).collect();
+    state.tell(AttemptReport { outcome, printed: CapturedOutput { lines, more: 0 } });
+    state
+}
+
+fn broken() -> AttemptOutcome {
+    let text = EXERCISES[1].start.lines().find(|line| line.contains("todo(\"")).unwrap();
+    let place = ScriptPosition {
+        file: "./withy-exercises/beams/rectangle.rhai".into(),
+        line: 19,
+        text: text.into(),
+        at: 20,
+        length: 4,
+    };
+    let message = "still to do: the second moment of area, from width and height".into();
+    let help = Some("write it in the place of todo(…), quotes and all".into());
+    AttemptOutcome::Broken(AttemptError { message, help, place: Some(place), calls: Vec::new() })
+}
+
+fn lines(state: &TuiState, size: (usize, usize)) -> Vec<String> {
+    screen(state, size, &[]).lines.iter().map(ScreenLine::text).collect()
+}
+
+fn text(state: &TuiState, size: (usize, usize)) -> String {
+    lines(state, size).join("\n")
+}
+
+/// Words as they are read, wherever lines are broken.
+fn words(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+fn without_blanks(text: &str) -> String {
+    text.split_whitespace().collect()
+}
+
+#[test]
+fn the_first_screen_says_what_it_is_how_far_one_is_where_the_file_is_and_what_to_do() {
+    for size in [(80, 24), (120, 40), (60, 40), (40, 60)] {
+        let shown = lines(&at(1), size);
+        // A path is one word, and broken where it is wider than the screen.
+        let all = without_blanks(&shown.join("\n"));
+        for part in [
+            "Exercise 1 of 23: Change one number and see what it does",
+            "0 of 23 passed",
+            "Edit withy-exercises/beams/change_one_number.rhai",
+            "A strip of length 1 is clamped at its left end.",
+            "To do: choose EI such that the tip sinks by no less than 0.08 and no more than 0.1.",
+            "h hint",
+        ] {
+            let is_there = all.contains(&without_blanks(part));
+            assert!(is_there, "{part} at {size:?}:\n{}", shown.join("\n"));
+        }
+        assert!(shown.last().unwrap().ends_with("q quit"), "{shown:#?}");
+    }
+}
+
+#[test]
+fn every_screen_fits_whatever_its_size() {
+    let notice =
+        Some("a word to who has pressed a key that does nothing, and a long one".to_owned());
+    let code: Vec<ScreenLine> =
+        EXERCISES[2].solution.lines().map(|line| ScreenLine::of(line, PLAIN)).collect();
+    for number in 1..=EXERCISES.len() {
+        for page in [ScreenPage::Task, ScreenPage::List(number - 1), ScreenPage::Solution] {
+            for size in [(80, 24), (120, 40), (40, 24), (40, 8), (20, 5), (1, 1), (300, 100)] {
+                let mut state =
+                    TuiState { page, notice: notice.clone(), ..judged(number, broken(), &["x"]) };
+                state.hints = 2;
+                let Screen { lines, window } = screen(&state, size, &code);
+                assert!(lines.len() <= size.1, "{number} {page:?} {size:?}");
+                assert!(window.top <= window.last);
+                let widest = lines.iter().map(ScreenLine::width).max().unwrap();
+                assert!(widest < size.0.max(11), "{number} {page:?} {size:?}: {widest}");
+            }
+        }
+    }
+}
+
+#[test]
+fn words_are_not_broken() {
+    for exercise in 1..=EXERCISES.len() {
+        let all = text(&at(exercise), (40, 200));
+        let known = EXERCISES[exercise - 1].start;
+        let of_task = all.lines().skip_while(|line| !line.starts_with('─')).skip(1);
+        for word in
+            of_task.take_while(|line| !line.starts_with('─')).flat_map(str::split_whitespace)
+        {
+            assert!(known.contains(word), "{word} in\n{all}");
+        }
+    }
+}
+
+#[test]
+fn an_error_points_to_its_line() {
+    let all = text(&judged(2, broken(), &[]), (80, 40));
+    for part in [
+        "line 19: still to do: the second moment of area",
+        "   19 │ let second_moment = todo(\"the second",
+        "      │                     ^^^^",
+        "help: write it in the place of todo",
+    ] {
+        assert!(all.contains(part), "{part}:\n{all}");
+    }
+}
+
+#[test]
+fn after_a_run_the_result_is_seen_and_the_rest_can_be_reached() {
+    let found = AttemptOutcome::Off(vec!["the strip is too soft".into()]);
+    let many: Vec<String> = (0..40).map(|number| format!("number {number}")).collect();
+    let many: Vec<&str> = many.iter().map(String::as_str).collect();
+    let mut state = judged(4, found, &many);
+    assert!(text(&state, (80, 24)).contains("lines below"));
+    state.top = ScrollPosition::Part(TaskSection::Result);
+    let all = text(&state, (80, 24));
+    for part in ["lines above", "Not yet (run 1): it runs", "- the strip is too soft"] {
+        assert!(all.contains(part), "{part}:\n{all}");
+    }
+    assert!(
+        all.contains("… and 28 lines more: withy run withy-exercises/beams/stocky.rhai"),
+        "{all}"
+    );
+    assert!(all.contains("↑↓ scroll"), "{all}");
+    // From the first line to the last one, everything is on some screen.
+    let window = screen(&state, (80, 24), &[]).window;
+    let mut seen = String::new();
+    for top in 0..=window.last {
+        state.top = ScrollPosition::Line(top);
+        seen += &text(&state, (80, 24));
+    }
+    let whole = lines(&state, (80, 200));
+    let page = whole.iter().skip(4).take_while(|line| !line.starts_with('─'));
+    assert!(page.clone().count() > 20);
+    for line in page {
+        assert!(seen.contains(line.trim_end()), "{line}:\n{seen}");
+    }
+}
+
+#[test]
+fn hints_are_shown_when_they_are_asked_for() {
+    let mut state = judged(1, AttemptOutcome::Off(vec!["too soft".into()]), &["one", "two"]);
+    let hints = state.exercise.judge().hints;
+    assert!(!text(&state, (80, 24)).contains("Hint"));
+    state.hints = 2;
+    state.top = ScrollPosition::Part(TaskSection::Hint);
+    for size in [(80, 24), (40, 24)] {
+        let all = words(&text(&state, size));
+        assert!(all.contains(&format!("Hint 2 of {}: {}", hints.len(), words(&hints[1]))), "{all}");
+    }
+}
+
+#[test]
+fn passing_says_so_and_what_comes_next() {
+    let all = text(&judged(1, AttemptOutcome::Passed, &[]), (80, 24));
+    for part in [
+        "Passed.",
+        "1 of 23 passed",
+        "n goes on to beams/rectangle",
+        "s shows a solution",
+        "s solution",
+    ] {
+        assert!(all.contains(part), "{part}:\n{all}");
+    }
+    assert!(!text(&at(1), (80, 24)).contains("s solution"));
+    let mut state = judged(1, AttemptOutcome::Passed, &[]);
+    for exercise in EXERCISES {
+        state.progress.note(exercise, true);
+    }
+    let all = text(&state, (80, 24));
+    assert!(all.contains("All 23 exercises are passed. Congratulations!"), "{all}");
+    assert!(all.contains(&format!("[{}] 23 of 23 passed", "#".repeat(BAR))), "{all}");
+}
+
+#[test]
+fn a_run_that_takes_its_time_says_so_and_a_fast_one_does_not_flicker() {
+    let mut state = judged(1, AttemptOutcome::Off(vec!["too soft".into()]), &[]);
+    let before = text(&state, (80, 24));
+    state.running = Some(0);
+    assert_eq!(text(&state, (80, 24)), before);
+    state.running = Some(3);
+    let all = text(&state, (80, 24));
+    assert!(all.contains("Running, 3 s.") && !all.contains("too soft"), "{all}");
+    assert!(text(&TuiState { running: Some(0), ..at(1) }, (80, 24)).contains("Running, 0 s."));
+}
+
+#[test]
+fn the_list_shows_marks_and_what_is_chosen() {
+    let mut state = judged(1, AttemptOutcome::Passed, &[]);
+    for chosen in [0, 10, 20] {
+        state.page = ScreenPage::List(chosen);
+        let shown = lines(&state, (80, 24));
+        let line = shown.iter().find(|line| line.starts_with("> ")).expect("a choice");
+        assert!(line.contains(EXERCISES[chosen].name), "{line}");
+    }
+    state.page = ScreenPage::List(0);
+    let all = text(&state, (120, 40));
+    assert!(all.contains("> passed  1  change_one_number"), "{all}");
+    assert!(TRACKS.iter().all(|track| all.contains(track.title)), "{all}");
+}
+
+#[test]
+fn without_colours_nothing_is_lost() {
+    let state = judged(2, broken(), &["EI = 4.2"]);
+    for line in screen(&state, (80, 24), &[]).lines {
+        assert_eq!(line.drawn(Colours::None), line.text());
+        assert!(!line.text().contains('\u{1b}'));
+    }
+}

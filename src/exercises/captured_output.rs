@@ -1,0 +1,68 @@
+//! What an attempt prints, heard up to a length: enough for a person to read.
+
+use std::io::{self, Write};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use serde::{Deserialize, Serialize};
+
+/// The most that is kept [bytes].
+const MOST: usize = 1 << 14;
+
+/// What an attempt was heard to print.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct CapturedOutput {
+    /// The first lines that were heard.
+    pub lines: Vec<String>,
+    /// The number of lines beyond the first ones.
+    pub more: usize,
+}
+
+/// A writer that remembers the beginning of what is written and counts the rest. Its clones are one.
+#[derive(Clone, Default)]
+pub struct CaptureWriter(Arc<Mutex<CapturedText>>);
+
+#[derive(Default)]
+struct CapturedText {
+    kept: Vec<u8>,
+    more: usize,
+}
+
+impl CaptureWriter {
+    /// What was written to this writer until now.
+    pub fn heard(&self) -> CapturedOutput {
+        let heard = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let text = String::from_utf8_lossy(&heard.kept);
+        CapturedOutput { lines: text.lines().map(str::to_owned).collect(), more: heard.more }
+    }
+}
+
+impl Write for CaptureWriter {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let mut heard = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let (kept, rest) = bytes.split_at(bytes.len().min(MOST - heard.kept.len()));
+        heard.kept.extend(kept);
+        heard.more += rest.iter().filter(|byte| **byte == b'\n').count();
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_beginning_is_kept_and_the_rest_counted() {
+        let ear = CaptureWriter::default();
+        let mut writer = ear.clone();
+        for _ in 0..MOST {
+            writer.write_all(b"1\n").unwrap();
+        }
+        let heard = ear.heard();
+        assert_eq!((heard.lines.len(), heard.more), (MOST / 2, MOST / 2));
+        assert!(heard.lines.iter().all(|line| line == "1"));
+    }
+}

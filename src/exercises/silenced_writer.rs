@@ -1,0 +1,69 @@
+//! A writer that can be silenced: while a judge works, nothing of the attempt is heard.
+
+use std::io::{self, Write};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// A switch that silences all writers that were made with it.
+#[derive(Clone, Default)]
+pub struct SilenceSwitch(Arc<AtomicBool>);
+
+impl SilenceSwitch {
+    /// Silences the writers from now on: nothing gets through.
+    pub fn begin(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+
+    /// The same writer, as long as the switch is not turned to silence.
+    pub fn muffle(&self, writer: Box<dyn Write + Send>) -> Box<dyn Write + Send> {
+        Box::new(SilencedWriter { silence: self.clone(), writer })
+    }
+}
+
+struct SilencedWriter {
+    silence: SilenceSwitch,
+    writer: Box<dyn Write + Send>,
+}
+
+impl Write for SilencedWriter {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match self.silence.0.load(Ordering::Relaxed) {
+            true => Ok(bytes.len()),
+            false => self.writer.write(bytes),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.writer.flush()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::Mutex;
+
+    #[derive(Clone, Default)]
+    struct SilenceState(Arc<Mutex<Vec<u8>>>);
+
+    impl Write for SilenceState {
+        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+            self.0.lock().unwrap().extend(bytes);
+            Ok(bytes.len())
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn nothing_gets_through_once_there_is_silence() {
+        let (heard, silence) = (SilenceState::default(), SilenceSwitch::default());
+        let mut writer = silence.muffle(Box::new(heard.clone()));
+        writer.write_all(b"before").unwrap();
+        silence.begin();
+        writer.write_all(b"after").unwrap();
+        assert_eq!(*heard.0.lock().unwrap(), b"before");
+    }
+}

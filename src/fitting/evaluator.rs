@@ -1,0 +1,118 @@
+//! A function that is asked for its values, and for its derivatives where it knows them; calls are counted.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::differences::{derivatives, only};
+use super::gradient_check::{DISTRUST, agree, beside};
+use super::{Evaluate, Evaluation, SearchRange, Slopes};
+
+/// A function with its calls so far.
+pub struct CountedEvaluator<'a, 'e, E> {
+    evaluate: &'a mut Evaluate<'e, E>,
+    slopes: &'a mut Slopes<'e, E>,
+    ranges: &'a [SearchRange],
+    /// How often it was called.
+    pub runs: usize,
+    /// How often it was called for its derivatives too.
+    pub gradient_runs: usize,
+    /// Why it is not asked for derivatives any more.
+    pub differences: Option<String>,
+}
+
+/// What a function gave at a point, and its derivatives there if it knows them.
+pub struct EvaluatedPoint {
+    /// Its values, or why there are none.
+    pub values: Evaluation,
+    /// Its derivatives.
+    pub derivatives: Option<DMatrix<f64>>,
+}
+
+impl<'a, 'e, E> CountedEvaluator<'a, 'e, E> {
+    /// A function that has not been called.
+    pub fn new(
+        evaluate: &'a mut Evaluate<'e, E>,
+        slopes: &'a mut Slopes<'e, E>,
+        ranges: &'a [SearchRange],
+    ) -> Self {
+        Self { evaluate, slopes, ranges, runs: 0, gradient_runs: 0, differences: None }
+    }
+
+    /// The values at a point, and the derivatives if the function knows them. The first ones are held against a difference.
+    ///
+    /// # Errors
+    /// Those of the function.
+    pub fn at(&mut self, x: &[f64]) -> Result<EvaluatedPoint, E> {
+        let mut unknown = None;
+        if self.differences.is_none() {
+            self.runs += 1;
+            match (self.slopes)(x)?.and_then(|found| matrix(found, x.len())) {
+                Ok((values, derivatives)) => {
+                    self.gradient_runs += 1;
+                    if self.gradient_runs > 1 || self.are_true(x, &values, &derivatives)? {
+                        return Ok(EvaluatedPoint {
+                            values: Ok(values),
+                            derivatives: Some(derivatives),
+                        });
+                    }
+                    unknown = Some(DISTRUST.to_owned());
+                }
+                Err(reason) => unknown = Some(reason),
+            }
+        }
+        self.runs += 1;
+        let values = only((self.evaluate)(&[x.to_vec()])?);
+        // Where it has no values either, that tells nothing of its derivatives.
+        if values.is_ok() && self.differences.is_none() {
+            self.differences = unknown;
+        }
+        Ok(EvaluatedPoint { values, derivatives: None })
+    }
+
+    /// Whether derivatives are those of what the function gives for plain numbers.
+    fn are_true(&mut self, x: &[f64], here: &[f64], slopes: &DMatrix<f64>) -> Result<bool, E> {
+        let [low, high] = beside(self.ranges, x);
+        let way = DVector::from_fn(x.len(), |at, _| high[at] - low[at]);
+        let change = slopes * way;
+        self.runs += 2;
+        let found = (self.evaluate)(&[low, high])?;
+        let [Ok(low), Ok(high)] = &found[..] else { return Ok(true) };
+        Ok(agree([low, high], here, |at| change[at]))
+    }
+
+    /// The derivatives at a point, by differences: `here` are the values there.
+    ///
+    /// # Errors
+    /// Those of the function; the inner one tells which call gave nothing.
+    pub fn differences(
+        &mut self,
+        ranges: &[SearchRange],
+        x: &[f64],
+        here: &DVector<f64>,
+        relative: f64,
+    ) -> Result<Result<DMatrix<f64>, String>, E> {
+        let Self { evaluate, runs, .. } = self;
+        let mut counted = |points: &[Vec<f64>]| {
+            *runs += points.len();
+            evaluate(points)
+        };
+        derivatives(ranges, (x, here), relative, &mut counted)
+    }
+}
+
+/// Values with derivatives by so many parameters, a row for each value, as values and a matrix.
+fn matrix(
+    found: Vec<(f64, Vec<f64>)>,
+    parameters: usize,
+) -> Result<(Vec<f64>, DMatrix<f64>), String> {
+    if found.iter().any(|(_, row)| row.len() != parameters) {
+        return Err("derivatives by another number of parameters".into());
+    }
+    let matrix = DMatrix::from_fn(found.len(), parameters, |row, column| found[row].1[column]);
+    if !matrix.iter().all(|slope| slope.is_finite()) {
+        return Err("a derivative is not finite".into());
+    }
+    if matrix.column_iter().any(|column| column.norm() == 0.0) {
+        return Err("all derivatives by a parameter are zero".into());
+    }
+    Ok((found.into_iter().map(|(value, _)| value).collect(), matrix))
+}

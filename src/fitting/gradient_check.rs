@@ -1,0 +1,73 @@
+//! Whether derivatives that a function knows are those of what it gives without them: it may decide or round by what it is asked at.
+
+use super::SearchRange;
+
+/// The parts of the sizes of parameters by which they are moved.
+const DISTANCE: f64 = 1e-4;
+
+/// What differences may be off by, as a part of them: their own error is far below that, and wrong derivatives are far above.
+const OFF: f64 = 0.02;
+
+/// Differences below this part of the values tell nothing.
+const ROUNDING: f64 = 1e-7;
+
+/// Why derivatives are not followed.
+pub const DISTRUST: &str =
+    "those that the runs know are not those of what they give for plain numbers";
+
+/// Two points on both sides of one, or at it and beside it where it is at a bound, each parameter moved by another part of its size.
+pub fn beside(ranges: &[SearchRange], x: &[f64]) -> [Vec<f64>; 2] {
+    let moved = |sign: f64| {
+        let parameters = x.iter().zip(ranges).enumerate();
+        let moved = parameters.map(|(at, (x, range))| {
+            // No two alike, so that what is wrong does not cancel.
+            let part = 0.5 + 0.5 * (1.0 + at as f64).recip();
+            range.clip(x + sign * part * DISTANCE * range.size(*x))
+        });
+        moved.collect()
+    };
+    [moved(-1.0), moved(1.0)]
+}
+
+/// Whether values that belong together differ at two points as derivatives between them say, and lie about those there.
+pub fn agree(values: [&[f64]; 2], here: &[f64], change: impl Fn(usize) -> f64) -> bool {
+    let [low, high] = values;
+    if low.len() != here.len() || high.len() != here.len() {
+        return false;
+    }
+    let norm =
+        |of: &dyn Fn(usize) -> f64| (0..here.len()).map(|at| of(at) * of(at)).sum::<f64>().sqrt();
+    let difference = norm(&|at| high[at] - low[at]);
+    let promised = norm(&change);
+    let off = norm(&|at| high[at] - low[at] - change(at));
+    let aside = norm(&|at| 0.5 * (low[at] + high[at]) - here[at]);
+    let floor = ROUNDING * norm(&|at| here[at]);
+    // Not finite values tell nothing against derivatives.
+    !(off > OFF * difference.max(promised) + floor || aside > difference.max(promised) + floor)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_lie_on_both_sides_within_bounds() {
+        let range = |start, low, high| SearchRange { start, low, high };
+        let ranges = [range(1.0, 0.0, 10.0), range(0.0, 0.0, 1.0)];
+        let [low, high] = beside(&ranges, &[1.0, 0.0]);
+        assert!(low[0] < 1.0 && high[0] > 1.0 && low[1] == 0.0 && high[1] > 0.0);
+    }
+
+    #[test]
+    fn a_function_that_gives_something_else_is_found_out() {
+        let square = |x: f64| [x * x, 3.0 * x];
+        let (x, h) = (2.0, 1e-4);
+        let check = |here: [f64; 2], slopes: [f64; 2]| {
+            agree([&square(x - h), &square(x + h)], &here, |at| 2.0 * h * slopes[at])
+        };
+        assert!(check(square(x), [4.0, 3.0]));
+        assert!(!check(square(x), [0.0, 3.0]), "a derivative is missing");
+        assert!(!check([8.0, 12.0], [4.0, 3.0]), "other values");
+        assert!(!check(square(x), [8.0, 6.0]), "another branch");
+    }
+}

@@ -1,0 +1,192 @@
+//! The spans of a beam in parts, on which several threads work at once, with the very bits that one thread gives.
+//!
+//! Parts are cut at control points: each owns those from its cut to the next one, and the spans that reach no others. A few
+//! spans lie astride a cut. Sums are rounded, so that each of them is to be made in the order of the spans; spans astride a cut
+//! therefore count for the control points behind it before the parts are worked on, and for those before it afterwards.
+
+use std::ops::Range;
+
+use super::dynamics::Movement;
+use super::sections::Sections;
+use super::span_points::{SPANS_AT_ONCE, SpanGroup};
+use crate::threads::at_once;
+
+/// What a part of a beam has for itself: what its work needs, its spans, its first control point and its sums.
+type PartOf<'a, const N: usize, S, C> =
+    (&'a mut C, &'a mut [SpanGroup<N, S>], usize, &'a mut [Movement]);
+
+/// The largest number of parts of a beam that are worked on at once: a few cores use up the bandwidth of the memory.
+pub(super) const MOST_PARTS: usize = 8;
+
+/// Fewest spans of a part: smaller ones gain little, and lose where the other cores have other work (docs/studies.md).
+const SMALLEST_PART: usize = 4000;
+
+/// Fewest spans of a part for what takes little time at each: less than a tenth of what their tangents take.
+const SMALLEST_LIGHT_PART: usize = 2000;
+
+fn count_spans<const N: usize, S>(groups: &[SpanGroup<N, S>]) -> usize {
+    groups.iter().map(|group| group.spans.len()).sum()
+}
+
+/// Where one part ends and the next begins.
+#[derive(Debug, Clone, PartialEq)]
+struct SpanCut {
+    /// The first control point behind it.
+    point: usize,
+    /// The groups of spans that reach over it.
+    astride: Range<usize>,
+}
+
+/// How the spans of a beam are cut into parts, on which threads work at once.
+#[derive(Debug, Clone, Default)]
+pub(super) struct SpanPartition {
+    cuts: Vec<SpanCut>,
+}
+
+impl SpanPartition {
+    /// The cut of some spans into at most so many parts, each as large as is worth a thread.
+    pub(super) fn worthwhile<const N: usize, S: Sections>(
+        groups: &[SpanGroup<N, S>],
+        most: usize,
+    ) -> Self {
+        Self::new(groups, most.min(MOST_PARTS).min(count_spans(groups) / SMALLEST_PART))
+    }
+
+    /// So many parts, of about as many spans each.
+    fn new<const N: usize, S: Sections>(groups: &[SpanGroup<N, S>], count: usize) -> Self {
+        let cut = |part: usize| {
+            let behind = part * groups.len() / count;
+            let point = groups[behind].control_points().start;
+            let before = |group: &SpanGroup<N, S>| group.control_points().end <= point;
+            let begin = groups[..behind].partition_point(before);
+            SpanCut { point, astride: begin..behind }
+        };
+        Self { cuts: (1..count).map(cut).collect() }
+    }
+
+    pub(super) fn count(&self) -> usize {
+        self.cuts.len() + 1
+    }
+
+    /// The index of the first control point of each part of the beam but the first.
+    pub(super) fn first_points(&self) -> Vec<usize> {
+        self.cuts.iter().map(|cut| cut.point).collect()
+    }
+
+    /// Whether the parts are large enough for threads that do little for each span.
+    fn are_large(&self, spans: usize) -> bool {
+        !self.cuts.is_empty() && spans >= SMALLEST_LIGHT_PART * self.count()
+    }
+
+    /// Works a little on all spans of a beam, parts at once, where spans give nothing to each other.
+    pub(super) fn each<const N: usize, S: Sections>(
+        &self,
+        groups: &mut [SpanGroup<N, S>],
+        work: impl Fn(&mut [SpanGroup<N, S>]) + Sync,
+    ) {
+        if !self.are_large(count_spans(groups)) {
+            return work(groups);
+        }
+        let most = groups.len().div_ceil(self.count());
+        at_once(groups.chunks_mut(most), work);
+    }
+
+    /// Works a little on the sums of the control points of each part of a beam, parts at once.
+    pub(super) fn each_point(
+        &self,
+        sums: &mut [Movement],
+        work: impl Fn(Range<usize>, &mut [Movement]) + Sync,
+    ) {
+        if !self.are_large(sums.len()) {
+            return work(0..sums.len(), sums);
+        }
+        let mut parts = Vec::with_capacity(self.count());
+        let (mut sums, mut next) = (sums, 0);
+        for cut in &self.cuts {
+            let (before, behind) = sums.split_at_mut(cut.point - next);
+            parts.push((next..cut.point, before));
+            (sums, next) = (behind, cut.point);
+        }
+        parts.push((next..next + sums.len(), sums));
+        at_once(parts, |(points, sums)| work(points, sums));
+    }
+
+    /// Adds up what the spans of a beam give to control points, parts at once.
+    ///
+    /// `work` is called with what a part has for itself, some spans, the first control point of some sums, and these. Of
+    /// spans astride a cut it is called twice, and must do the same both times.
+    pub(super) fn sum<const N: usize, S: Sections, C: Send>(
+        &self,
+        groups: &mut [SpanGroup<N, S>],
+        sums: &mut [Movement],
+        own: &mut [C],
+        work: impl Fn(&mut C, &mut [SpanGroup<N, S>], usize, &mut [Movement]) + Sync,
+    ) {
+        if self.cuts.is_empty() {
+            return work(&mut own[0], groups, 0, sums);
+        }
+        let on_one_side = |own: &mut C,
+                           group: &mut SpanGroup<N, S>,
+                           sums: &mut [Movement],
+                           side: Range<usize>| {
+            let points = group.control_points();
+            let mut copy = [[Movement::default(); N]; SPANS_AT_ONCE];
+            let copy = &mut copy.as_flattened_mut()[..points.len()];
+            let sums = &mut sums[points.clone()];
+            copy.copy_from_slice(sums);
+            work(own, std::slice::from_mut(group), points.start, copy);
+            let Range { start, end } = points;
+            let side = side.start.max(start) - start..side.end.min(end) - start;
+            sums[side.clone()].copy_from_slice(&copy[side]);
+        };
+        for (cut, own) in self.cuts.iter().zip(&mut own[1..]) {
+            for group in &mut groups[cut.astride.clone()] {
+                on_one_side(own, group, sums, cut.point..usize::MAX);
+            }
+        }
+        at_once(self.split(groups, sums, own), |(own, groups, first, sums)| {
+            work(own, groups, first, sums);
+        });
+        for (cut, own) in self.cuts.iter().zip(own) {
+            for group in &mut groups[cut.astride.clone()] {
+                on_one_side(own, group, sums, 0..cut.point);
+            }
+        }
+    }
+
+    /// The same for sums that take little time at each span.
+    pub(super) fn sum_lightly<const N: usize, S: Sections>(
+        &self,
+        groups: &mut [SpanGroup<N, S>],
+        sums: &mut [Movement],
+        work: impl Fn(&mut [SpanGroup<N, S>], usize, &mut [Movement]) + Sync,
+    ) {
+        if !self.are_large(count_spans(groups)) {
+            return work(groups, 0, sums);
+        }
+        let own = &mut [(); MOST_PARTS];
+        self.sum(groups, sums, own, |(), groups, first, sums| work(groups, first, sums));
+    }
+
+    /// What each part has for itself, without the spans astride.
+    fn split<'a, const N: usize, S, C>(
+        &self,
+        mut groups: &'a mut [SpanGroup<N, S>],
+        mut sums: &'a mut [Movement],
+        own: &'a mut [C],
+    ) -> Vec<PartOf<'a, N, S, C>> {
+        let mut parts = Vec::with_capacity(self.count());
+        let (mut next_group, mut next_point) = (0, 0);
+        let mut own = own.iter_mut();
+        for (cut, own) in self.cuts.iter().zip(&mut own) {
+            let (before, behind) = groups.split_at_mut(cut.astride.start - next_group);
+            let (sums_before, sums_behind) = sums.split_at_mut(cut.point - next_point);
+            parts.push((own, before, next_point, sums_before));
+            groups = &mut behind[cut.astride.len()..];
+            sums = sums_behind;
+            (next_group, next_point) = (cut.astride.end, cut.point);
+        }
+        parts.extend(own.next().map(|own| (own, groups, next_point, sums)));
+        parts
+    }
+}

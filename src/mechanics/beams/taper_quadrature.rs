@@ -1,0 +1,112 @@
+//! What the points of a mesh see of a section that varies.
+
+use super::{BeamError, Mesh, Section, SectionVariation};
+use crate::geometry::{GaussRule, larger};
+
+/// Points between two places of a taper, or two knots, for integrals that are compared with.
+const POINTS: usize = 8;
+
+/// By how much integrals along a beam are off, taken at the points of its mesh, as parts of what they are [-].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct TaperQuadrature {
+    /// That of `ρA`, the mass.
+    pub mass: f64,
+    /// That of `1/EA`, by which the beam stretches under its ends.
+    pub stretching: f64,
+    /// That of `1/EI`, by which it bends under couples.
+    pub bending: f64,
+}
+
+impl TaperQuadrature {
+    /// What a mesh sees of a section along a beam; the places of the section are taken for parts of its parameter, as they are where spans are of equal length.
+    ///
+    /// # Errors
+    /// When the mesh has no quadrature.
+    pub fn of(variation: &SectionVariation, mesh: &Mesh) -> Result<Self, BeamError> {
+        let mut cuts = variation.places();
+        if cuts.is_empty() {
+            return Ok(Self::default());
+        }
+        let (first, last) = mesh.basis().domain();
+        let part = |xi: f64| (xi - first) / (last - first);
+        let (masses, fine) = (mesh.inertia_rule()?, GaussRule::new(POINTS)?);
+        let mut seen = [0.0; 3];
+        for quadrature in mesh.quadrature_spans()? {
+            let (start, end) = (quadrature.span.start, quadrature.span.end);
+            cuts.extend([part(start), part(end)]);
+            let rules: [Vec<(f64, f64)>; 3] = [
+                masses.iter_on(start, end).collect(),
+                quadrature.force_rule.clone(),
+                quadrature.moment_rule()?.iter_on(start, end).collect(),
+            ];
+            for (number, (sum, rule)) in seen.iter_mut().zip(rules).enumerate() {
+                let values = rule.into_iter().map(|(xi, weight)| {
+                    weight / (last - first) * integrands(&variation.at(part(xi)))[number]
+                });
+                *sum += values.sum::<f64>();
+            }
+        }
+        cuts.sort_by(f64::total_cmp);
+        let mut whole = [0.0; 3];
+        for pair in cuts.windows(2) {
+            for (place, weight) in fine.iter_on(pair[0], pair[1]) {
+                let values = integrands(&variation.at(place));
+                whole.iter_mut().zip(values).for_each(|(sum, value)| *sum += weight * value);
+            }
+        }
+        let off = |number: usize| (seen[number] / whole[number] - 1.0).abs();
+        Ok(Self { mass: off(0), stretching: off(1), bending: off(2) })
+    }
+
+    /// The largest of the three.
+    pub fn largest(&self) -> f64 {
+        larger(self.mass, larger(self.stretching, self.bending))
+    }
+}
+
+/// `ρA`, `1/EA` and `1/EI`.
+fn integrands(section: &Section) -> [f64; 3] {
+    [section.mass_per_length, 1.0 / section.axial_stiffness, 1.0 / section.bending_stiffness]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(bending: f64, mass: f64) -> Section {
+        Section {
+            axial_stiffness: 12.0 * bending,
+            shear_stiffness: 5.0 * bending,
+            bending_stiffness: bending,
+            mass_per_length: mass,
+            rotary_inertia: 1e-3,
+        }
+    }
+
+    #[test]
+    fn a_flange_between_points_is_missed_and_what_is_smooth_is_not() {
+        let smooth = SectionVariation::Numbers(vec![(0.0, of(3.0, 2.0)), (1.0, of(1.0, 1.0))]);
+        let mesh = Mesh::bspline(16, 3, 2).unwrap();
+        assert!(TaperQuadrature::of(&smooth, &mesh).unwrap().largest() < 1e-5);
+        let (thin, thick) = (of(1.0, 1.0), of(1.0, 20.0));
+        let flange = vec![(0.0, thin), (0.52, thin), (0.53, thick), (0.54, thin), (1.0, thin)];
+        let seen = TaperQuadrature::of(&SectionVariation::Numbers(flange), &mesh).unwrap();
+        // The mass of the flange alone is 0.19 of 1.19; stiffness is the same everywhere.
+        assert!(seen.mass > 0.05 && seen.mass < 0.2, "{seen:?}");
+        assert!(seen.bending < 1e-12 && seen.stretching < 1e-12, "{seen:?}");
+        let uniform = SectionVariation::Uniform(thin);
+        assert_eq!(TaperQuadrature::of(&uniform, &mesh).unwrap(), TaperQuadrature::default());
+    }
+
+    #[test]
+    fn knots_at_a_step_see_it() {
+        let places = |at: f64| {
+            let (thick, thin) = (of(27.0, 3.0), of(1.0, 1.0));
+            let all = vec![(0.0, thick), (at, thick), (at + 1e-9, thin), (1.0, thin)];
+            SectionVariation::Numbers(all)
+        };
+        let mesh = Mesh::lagrange(10, 1).unwrap();
+        assert!(TaperQuadrature::of(&places(0.4), &mesh).unwrap().largest() < 1e-6);
+        assert!(TaperQuadrature::of(&places(0.43), &mesh).unwrap().bending > 0.01);
+    }
+}

@@ -1,0 +1,227 @@
+//! Numbers with their derivatives by what an equation of a contact depends on (forward differentiation).
+
+use std::ops::{Add, Mul, Neg, Sub};
+
+use super::contact::PathVector;
+use super::{Contact, ContactUnknowns, Equation, Unit};
+use crate::geometry::Vec2;
+
+/// How many numbers an equation of a contact depends on: offset of the slave, tangent, swing, `λ`, couple and way.
+pub(super) const ALL_SLOPES: usize = 11;
+
+/// No derivatives: where values only are asked for, they come from the same operations in the same order.
+pub(super) const NO_SLOPES: usize = 0;
+
+const OFFSET: usize = 0;
+const TANGENT: usize = 2;
+const SWING: usize = 4;
+const FORCE: usize = 6;
+const COUPLE: usize = 8;
+const WAY: usize = 10;
+
+/// A number of a contact with its derivatives by the offset of the slave from the smooth axis, the mean tangent `τ` and the swing `d` of the master, the
+/// force `λ`, the couple and the way `Δξ`: with [`ALL_SLOPES`], or with [`NO_SLOPES`].
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Dual<const SLOPES: usize> {
+    pub value: f64,
+    slopes: [f64; SLOPES],
+}
+
+/// A vector of a contact with the derivatives of both components.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct DualVector<const SLOPES: usize> {
+    pub x: Dual<SLOPES>,
+    pub y: Dual<SLOPES>,
+}
+
+/// What the equations of a contact are made of.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ContactDuals<const SLOPES: usize> {
+    /// How far the slave is from the smooth axis at the end of the step, `x_s1 - Σ B_i(ξ1) x_i1` [length].
+    pub offset: DualVector<SLOPES>,
+    /// The mean tangent `τ` [length].
+    pub tangent: DualVector<SLOPES>,
+    /// The swing `d` [length].
+    pub swing: DualVector<SLOPES>,
+    /// The contact force `λ` on the master [force].
+    pub force: DualVector<SLOPES>,
+    /// The couple of the contact [force].
+    pub couple: DualVector<SLOPES>,
+    /// The way `Δξ` [-].
+    pub way: Dual<SLOPES>,
+}
+
+impl<const SLOPES: usize> ContactDuals<SLOPES> {
+    pub fn of(contact: &Contact<'_>) -> Self {
+        let ContactUnknowns { force, couple, way } = contact.unknowns;
+        let end = contact.end_point();
+        let offset = PathVector { value: contact.slave_moved - end.value, by_way: -end.by_way };
+        let constant = |value: Vec2| PathVector { value, by_way: Vec2::zeros() };
+        Self {
+            offset: DualVector::variable(offset, OFFSET),
+            tangent: DualVector::variable(contact.tangent(), TANGENT),
+            swing: DualVector::variable(contact.swing(), SWING),
+            force: DualVector::variable(constant(force), FORCE),
+            couple: DualVector::variable(constant(couple), COUPLE),
+            way: Dual::along_way(way, 1.0),
+        }
+    }
+}
+
+impl<const SLOPES: usize> Dual<SLOPES> {
+    pub fn constant(value: f64) -> Self {
+        Self { value, slopes: [0.0; SLOPES] }
+    }
+
+    /// A number that depends on the way only, with its derivative by that.
+    pub fn along_way(value: f64, by_way: f64) -> Self {
+        let mut jet = Self::constant(value);
+        jet.add_slope(WAY, by_way);
+        jet
+    }
+
+    /// Adds to the derivative by one of the numbers, where there are derivatives.
+    fn add_slope(&mut self, at: usize, slope: f64) {
+        if let Some(own) = self.slopes.get_mut(at) {
+            *own += slope;
+        }
+    }
+
+    pub fn inverse(self) -> Self {
+        let value = 1.0 / self.value;
+        Self { value, slopes: self.slopes.map(|slope| -slope * value * value) }
+    }
+}
+
+impl Dual<ALL_SLOPES> {
+    /// The equation that the number vanishes.
+    pub fn vanishes(self, unit: Unit) -> Equation {
+        let pair = |at: usize| Vec2::new(self.slopes[at], self.slopes[at + 1]);
+        Equation {
+            by_slave: pair(OFFSET),
+            by_end: -pair(OFFSET),
+            by_difference: pair(TANGENT) * 0.5 + pair(SWING) * 0.25,
+            by_unknowns: ContactUnknowns {
+                force: pair(FORCE),
+                couple: pair(COUPLE),
+                way: self.slopes[WAY],
+            },
+            ..Equation::new(self.value, unit)
+        }
+    }
+}
+
+impl<const SLOPES: usize> Add for Dual<SLOPES> {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        let slopes = std::array::from_fn(|k| self.slopes[k] + other.slopes[k]);
+        Self { value: self.value + other.value, slopes }
+    }
+}
+
+impl<const SLOPES: usize> Neg for Dual<SLOPES> {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        self * -1.0
+    }
+}
+
+impl<const SLOPES: usize> Sub for Dual<SLOPES> {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        self + -other
+    }
+}
+
+impl<const SLOPES: usize> Mul for Dual<SLOPES> {
+    type Output = Self;
+
+    fn mul(self, other: Self) -> Self {
+        let (by_self, by_other) = (self * other.value, other * self.value);
+        Self { value: by_self.value, ..by_self + by_other }
+    }
+}
+
+impl<const SLOPES: usize> Mul<f64> for Dual<SLOPES> {
+    type Output = Self;
+
+    fn mul(self, factor: f64) -> Self {
+        Self { value: self.value * factor, slopes: self.slopes.map(|slope| slope * factor) }
+    }
+}
+
+impl<const SLOPES: usize> DualVector<SLOPES> {
+    pub fn constant(value: Vec2) -> Self {
+        Self { x: Dual::constant(value.x), y: Dual::constant(value.y) }
+    }
+
+    fn variable(vector: PathVector, first: usize) -> Self {
+        let component = |value: f64, by_way: f64, at: usize| {
+            let mut jet = Dual::along_way(value, by_way);
+            jet.add_slope(at, 1.0);
+            jet
+        };
+        Self {
+            x: component(vector.value.x, vector.by_way.x, first),
+            y: component(vector.value.y, vector.by_way.y, first + 1),
+        }
+    }
+
+    pub fn value(&self) -> Vec2 {
+        Vec2::new(self.x.value, self.y.value)
+    }
+
+    pub fn dot(&self, other: &Self) -> Dual<SLOPES> {
+        self.x * other.x + self.y * other.y
+    }
+
+    pub fn cross(&self, other: &Self) -> Dual<SLOPES> {
+        self.x * other.y - self.y * other.x
+    }
+
+    /// The vector turned by a right angle, `J a`.
+    pub fn turned(&self) -> Self {
+        Self { x: -self.y, y: self.x }
+    }
+
+    /// The vector `p` with `a·p = α` and `b·p = β`.
+    pub fn with_products([a, b]: [Self; 2], [alpha, beta]: [Dual<SLOPES>; 2]) -> Self {
+        let determinant = a.cross(&b).inverse();
+        (a.turned() * beta - b.turned() * alpha) * determinant
+    }
+}
+
+impl<const SLOPES: usize> Add for DualVector<SLOPES> {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self { x: self.x + other.x, y: self.y + other.y }
+    }
+}
+
+impl<const SLOPES: usize> Sub for DualVector<SLOPES> {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        Self { x: self.x - other.x, y: self.y - other.y }
+    }
+}
+
+impl<const SLOPES: usize> Mul<Dual<SLOPES>> for DualVector<SLOPES> {
+    type Output = Self;
+
+    fn mul(self, factor: Dual<SLOPES>) -> Self {
+        Self { x: self.x * factor, y: self.y * factor }
+    }
+}
+
+impl<const SLOPES: usize> Mul<f64> for DualVector<SLOPES> {
+    type Output = Self;
+
+    fn mul(self, factor: f64) -> Self {
+        Self { x: self.x * factor, y: self.y * factor }
+    }
+}

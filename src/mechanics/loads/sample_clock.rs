@@ -1,0 +1,139 @@
+//! When a digital controller is asked, and when what it says acts.
+
+use super::{LoadError, multiple};
+
+/// The beat of a digital controller: it is asked at `n T`, `n = 0, 1, …`, and what it says acts from `n T + delay` on, until the next command does.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SampleClock {
+    period: f64,
+    delay: f64,
+}
+
+/// How near to a time, as a part of the period, another one is the same.
+const SAME: f64 = 1e-9;
+
+impl SampleClock {
+    /// The beat with a sampling period `T` and a dead time [time].
+    ///
+    /// # Errors
+    /// When the period is not positive, the delay is negative, or one of them is not finite.
+    pub fn new(period: f64, delay: f64) -> Result<Self, LoadError> {
+        let wrong = |name, value, allowed| {
+            Err(LoadError::Value { schedule: "controller", name, value, allowed })
+        };
+        if !(period.is_finite() && period > 0.0) {
+            return wrong("the sampling period", period, "a positive finite number");
+        }
+        if !(delay.is_finite() && delay >= 0.0) {
+            return wrong("the delay", delay, "zero or a positive finite number");
+        }
+        Ok(Self { period, delay })
+    }
+
+    /// The sampling period [time].
+    pub fn period(&self) -> f64 {
+        self.period
+    }
+
+    /// How much later than it is said a command acts [time].
+    pub fn delay(&self) -> f64 {
+        self.delay
+    }
+
+    /// The time of a sample, by its number [time].
+    pub fn sample(&self, number: u64) -> f64 {
+        multiple(self.period, number)
+    }
+
+    /// The number of the last sample that is not after a time; times closer than `slack` are one [time]. None before the first.
+    fn last_by(&self, time: f64, slack: f64) -> Option<u64> {
+        if time < -slack {
+            return None;
+        }
+        // Rounding may take it to the neighbour, and no further.
+        let number = ((time + slack).max(0.0) / self.period) as u64;
+        if number > 0 && self.sample(number) > time + slack {
+            return Some(number - 1);
+        }
+        let next = number.saturating_add(1);
+        Some(if self.sample(next) <= time + slack { next } else { number })
+    }
+
+    /// The number of the sample at a time, if there is one; times closer than `slack` are one [time].
+    pub fn sample_at(&self, time: f64, slack: f64) -> Option<u64> {
+        self.last_by(time, slack).filter(|number| time - self.sample(*number) <= slack)
+    }
+
+    /// The number of the sample whose command acts just after a time; none before the first does [time].
+    pub fn acting_after(&self, time: f64, slack: f64) -> Option<u64> {
+        self.last_by(time - self.delay, slack)
+    }
+
+    /// Whether a command begins to act at a time.
+    pub fn acts_at(&self, time: f64) -> bool {
+        self.sample_at(time - self.delay, SAME * self.period).is_some()
+    }
+
+    /// The next time after one at which the controller is asked or a command begins to act [time].
+    pub fn next(&self, now: f64, slack: f64) -> f64 {
+        let after = |time: f64| {
+            self.sample(self.last_by(time, slack).map_or(0, |last| last.saturating_add(1)))
+        };
+        after(now).min(after(now - self.delay) + self.delay)
+    }
+}
+
+/// A time as people write it: with a power of ten where it has many zeros.
+fn in_words(time: f64) -> String {
+    if (1e-4..1e7).contains(&time) { time.to_string() } else { format!("{time:e}") }
+}
+
+impl std::fmt::Display for SampleClock {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "every {}", in_words(self.period))?;
+        if self.delay > 0.0 { write!(f, ", {} later", in_words(self.delay)) } else { Ok(()) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn samples_and_commands_come_in_their_order() {
+        let beat = SampleClock::new(0.1, 0.03).unwrap();
+        let mut times = vec![0.0];
+        while times[times.len() - 1] < 0.5 {
+            times.push(beat.next(times[times.len() - 1], 1e-12));
+        }
+        let expected = [0.0, 0.03, 0.1, 0.13, 0.2, 0.23, 0.3, 0.33, 0.4, 0.43, 0.5];
+        assert_eq!(times.len(), expected.len());
+        assert!(times.iter().zip(expected).all(|(time, other)| (time - other).abs() < 1e-15));
+        assert_eq!(beat.sample_at(0.3, 1e-12), Some(3));
+        assert_eq!(beat.sample_at(0.1 * 3.0, 1e-12), Some(3));
+        assert_eq!(beat.sample_at(0.33, 1e-12), None);
+        assert_eq!(beat.acting_after(0.02, 1e-12), None);
+        assert_eq!(beat.acting_after(0.03, 1e-12), Some(0));
+        assert_eq!(beat.acting_after(0.32, 1e-12), Some(2));
+        assert!(beat.acts_at(0.43) && !beat.acts_at(0.4));
+    }
+
+    #[test]
+    fn a_delay_may_be_longer_than_the_period() {
+        let beat = SampleClock::new(0.01, 0.025).unwrap();
+        assert_eq!(beat.acting_after(0.055, 1e-12), Some(3));
+        assert_eq!(beat.next(0.0, 1e-12), 0.01);
+        assert!((beat.next(0.03, 1e-12) - 0.035).abs() < 1e-15);
+        assert_eq!(beat.to_string(), "every 0.01, 0.025 later");
+        assert_eq!(SampleClock::new(1e300, 2e-6).unwrap().to_string(), "every 1e300, 2e-6 later");
+    }
+
+    #[test]
+    fn nonsense_is_refused() {
+        for (period, delay) in [(0.0, 0.0), (-1.0, 0.0), (f64::NAN, 0.0), (1.0, -0.1)] {
+            assert!(SampleClock::new(period, delay).is_err());
+        }
+        let told = SampleClock::new(1.0, f64::INFINITY).unwrap_err().to_string();
+        assert!(told.contains("the delay is inf, but must be zero or a positive"), "{told}");
+    }
+}

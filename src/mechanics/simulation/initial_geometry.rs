@@ -1,0 +1,32 @@
+//! What is found of a scene as drawn, once, when it is first asked for.
+
+use std::cell::OnceCell;
+
+use super::Outline;
+use crate::system::SystemError;
+
+/// What is found once of a scene as drawn: outlines of its beams, its lowest period.
+#[derive(Debug, Default)]
+pub(super) struct InitialGeometry {
+    outlines: OnceCell<Vec<Outline>>,
+    lowest_period: OnceCell<Option<f64>>,
+}
+
+impl InitialGeometry {
+    /// The outlines of the beams of the scene as drawn.
+    pub(super) fn outlines(
+        &self,
+        draw: impl FnOnce() -> Result<Vec<Outline>, SystemError>,
+    ) -> Result<&[Outline], SystemError> {
+        if let Some(outlines) = self.outlines.get() {
+            return Ok(outlines);
+        }
+        let outlines = draw()?;
+        Ok(self.outlines.get_or_init(|| outlines))
+    }
+
+    /// The lowest period of the scene as drawn, where it has one [time].
+    pub(super) fn lowest_period(&self, find: impl FnOnce() -> Option<f64>) -> Option<f64> {
+        *self.lowest_period.get_or_init(find)
+    }
+}

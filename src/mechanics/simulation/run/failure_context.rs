@@ -1,0 +1,111 @@
+//! What may leave a step without a solution, in words: what no steps, however short, take a scene through.
+
+use super::Simulation;
+use crate::beams::BodyIndex;
+use crate::geometry::smaller;
+use crate::integrators::Method;
+use crate::joints::SlidingRule;
+use crate::simulation::Axes;
+use crate::simulation::warning::short;
+use crate::system::{Element, SliderState};
+
+/// An axis that is shorter than this part of what it is as drawn is as good as compressed to nothing.
+const COMPRESSED: f64 = 0.5;
+
+/// An axis that is longer than so many times what it is as drawn is as good as torn.
+const STRETCHED: f64 = 1.5;
+
+/// A contact force that is larger than this part of the shear stiffness of a beam folds its axis.
+const PRESSED: f64 = 0.1;
+
+/// A slider that kinks its axis and is nearer to an end than this part of its master is held off by the kink.
+const HOVERS: f64 = 5e-3;
+
+impl Simulation {
+    /// What is extreme in the present configuration, in words, as the end of a sentence; empty where nothing is.
+    pub(super) fn plight(&self) -> String {
+        let extreme = self.extreme_axes().chain(self.extreme_contacts());
+        let others = self.bodies_without_inertia().chain(self.driven_backwards());
+        extreme.chain(others).map(|told| format!("; {told}")).collect()
+    }
+
+    /// What is pulled off its centre and has no inertia turns in no time to where nothing turns it.
+    fn bodies_without_inertia(&self) -> impl Iterator<Item = String> {
+        let inertia = |body: usize| -> f64 {
+            let masses = self.scene.elements.iter().filter_map(|element| match element {
+                Element::PointMass(mass) => Some(mass),
+                _ => None,
+            });
+            let own = masses
+                .filter(|mass| matches!(mass.station.body, BodyIndex::Rigid(at, _) if at == body));
+            own.map(|mass| mass.rotary_inertia).sum()
+        };
+        let bodies = self.scene.rigid_bodies.iter().enumerate();
+        bodies.filter(move |(index, body)| !body.points.is_empty() && inertia(*index) == 0.0).map(
+            |(_, body)| {
+                format!(
+                    "body '{}' has no inertia: a force off its centre would turn it at once, in no time; give it an inertia",
+                    body.name
+                )
+            },
+        )
+    }
+
+    /// A method whose steps go back in time for a part, where what resists gives.
+    fn driven_backwards(&self) -> impl Iterator<Item = String> {
+        let goes_back = self.settings.method == Method::FourthOrder;
+        let damping = if goes_back { self.model.most_damping() } else { None };
+        damping.into_iter().map(|(name, _)| {
+            format!(
+                "fourth_order goes back in time within a step, where '{name}' drives instead of resisting, and where it is strong there may be no way back: take energy_momentum"
+            )
+        })
+    }
+
+    fn extreme_axes(&self) -> impl Iterator<Item = String> {
+        let stations = Axes::of(&self.scene).and_then(|axes| axes.stations()).unwrap_or_default();
+        let beams = self.scene.beams.iter().zip(stations).zip(self.model.control_points());
+        beams.flat_map(|((beam, stations), points)| {
+            let lengths = || stations.iter().map(|station| 1.0 + station.stretch(points));
+            let least = lengths().fold(f64::INFINITY, smaller);
+            let most = lengths().fold(0.0, f64::max);
+            let name = &beam.name;
+            let compressed = (least < COMPRESSED).then(|| {
+                format!(
+                    "the axis of beam '{name}' is compressed to {} % of its length as drawn, where its tangent x' has hardly a direction",
+                    short(100.0 * least)
+                )
+            });
+            let stretched = (most > STRETCHED).then(|| {
+                format!("the axis of beam '{name}' is stretched to {} times its length as drawn", short(most))
+            });
+            compressed.into_iter().chain(stretched)
+        })
+    }
+
+    fn extreme_contacts(&self) -> impl Iterator<Item = String> {
+        let sliders = self.scene.sliders.iter().enumerate();
+        let slides = |index: usize| self.model.slider_state(index) != SliderState::Released;
+        sliders.filter(move |(index, _)| slides(*index)).flat_map(|(index, slider)| {
+            let beam = &self.scene.beams[self.model.slider_beam(index)];
+            let (name, master) = (&slider.name, &beam.name);
+            let force = self.model.contact_force(index).norm();
+            let pressed = force / beam.section.mean().shear_stiffness;
+            let place = self.model.slider_position(index);
+            let left = smaller(place, 1.0 - place);
+            let pressed = (pressed > PRESSED).then(|| {
+                format!(
+                    "slider '{name}' presses on beam '{master}' with {} times its shear stiffness GA, which folds the axis",
+                    short(pressed)
+                )
+            });
+            let hovers = (slider.rule == SlidingRule::Kinked && left < HOVERS).then(|| {
+                format!(
+                    "slider '{name}' hovers at {} of the length of beam '{master}' before its end, where the kink under its force is squeezed",
+                    short(left)
+                )
+            });
+            pressed.into_iter().chain(hovers)
+        })
+    }
+}

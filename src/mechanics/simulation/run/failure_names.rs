@@ -1,0 +1,60 @@
+//! Where a step failed, in the names of the scene.
+
+use super::Simulation;
+use crate::beams::{BodyIndex, Station};
+use crate::integrators::{FailureSource, StepError};
+use crate::joints::CONTACT_UNKNOWNS;
+
+/// The movements of a control point, in words.
+const MOVEMENTS: [&str; 3] = ["x", "y", "the angle"];
+
+impl Simulation {
+    /// The same error, with the name of what the step failed at, if that is known.
+    pub(super) fn with_name(&self, mut error: StepError) -> StepError {
+        if let StepError::Newton { culprit, .. } = &mut error {
+            let name = culprit.take().and_then(|culprit| match *culprit {
+                FailureSource::Unknown(unknown) => self.name_of_unknown(unknown),
+                FailureSource::Named(name) => Some(name),
+            });
+            *culprit = name.map(|name| Box::new(FailureSource::Named(name)));
+        }
+        error
+    }
+
+    fn name_of_body(&self, body: usize) -> String {
+        let (beams, particles) = (self.scene.beams.len(), self.scene.particles.len());
+        let index = match body {
+            at if at < beams => BodyIndex::Beam(at),
+            at if at < beams + particles => BodyIndex::Particle(at - beams),
+            at => BodyIndex::Rigid(at - beams - particles, 0),
+        };
+        self.scene.name_of_body(&Station { body: index, arc_length: 0.0 })
+    }
+
+    fn name_of_unknown(&self, unknown: usize) -> Option<String> {
+        if let Some(of_contact) = unknown.checked_sub(self.model.unknown_count()) {
+            let slider = self.scene.sliders.get(of_contact / CONTACT_UNKNOWNS)?;
+            return Some(format!("slider '{}'", slider.name));
+        }
+        if let Some((body, point)) = self.model.linked_by(unknown) {
+            return Some(format!("what holds {}", self.name_of_point(body, point)));
+        }
+        let (body, point, component) = self.model.movement(unknown)?;
+        Some(format!("{} of {}", MOVEMENTS[component], self.name_of_point(body, point)))
+    }
+
+    fn name_of_point(&self, body: usize, point: usize) -> String {
+        let (beams, particles) = (self.scene.beams.len(), self.scene.particles.len());
+        if let Some(rigid) = body.checked_sub(beams + particles) {
+            let station = Station { body: BodyIndex::Rigid(rigid, point), arc_length: 0.0 };
+            return self.scene.describe(&station);
+        }
+        let name = self.name_of_body(body);
+        match self.model.control_points().nth(body).map_or(1, <[_]>::len) {
+            1 => name,
+            _ if point == 0 => format!("the start of {name}"),
+            count if point + 1 == count => format!("the end of {name}"),
+            count => format!("control point {} of {count} of {name}", point + 1),
+        }
+    }
+}

@@ -1,0 +1,265 @@
+//! What the steps of a run do not resolve.
+
+use std::f64::consts::TAU;
+
+use super::Simulation;
+use crate::geometry::larger;
+use crate::integrators::{EnergyClaim, INTEGRATORS, Mechanism, Method};
+use crate::simulation::warning::{LARGEST_ROTATION, MOST_SPANS, RateChangeCause, short};
+use crate::simulation::{Invariant, StepSize, Warning};
+use crate::system::{RESOLVED_BLOW, Resolution, SpringLaw, System, SystemFeature};
+use crate::vibration::{Modes, VibrationError};
+
+/// Steps that leave more than this part of the kinetic energy to vibration that they do not follow are too long: that of a single
+/// vibration with 3.5 steps a period, which takes a fifth longer than it should.
+const LARGEST_SHARE: f64 = 0.2;
+
+/// Where motion as a whole is followed, a smaller part of its energy may be in vibration that is not,
+const HIDDEN_SHARE: f64 = 0.05;
+
+/// and that takes less than a step, by so many times [rad].
+const HIDDEN_TURN: f64 = 2.0 * TAU;
+
+/// Where a body has less than this part of the kinetic energy of a scene, what it does matters to nobody.
+const NOTHING: f64 = 1e-8;
+
+/// Rounding of some ten thousand steps makes less of the energy, however stiff a scene is.
+const LARGEST_DRIFT: f64 = 1e-7;
+
+/// What dissipates may be off by this part of all energy by rounding.
+const FED: f64 = 1e-7;
+
+/// The part of all energy that is much of it.
+const MUCH: f64 = 0.3;
+
+/// The modes about a scene as drawn are looked for where there are no more unknowns than this,
+const MOST_UNKNOWNS: usize = 1200;
+
+/// and so many of them at a time, until one is no free movement.
+const MODES: [usize; 3] = [4, 8, 16];
+
+/// So many of the last steps are looked at for whether long and short ones take turns,
+const LOOKED_BACK: usize = 200;
+
+/// which they do where they differ by more than this part,
+const UNEVEN: f64 = 0.1;
+
+/// so often.
+const MOST_TURNS: usize = 20;
+
+/// The resolution of no more sliders is explained.
+const SLIDERS: usize = 6;
+
+impl Simulation {
+    /// What the steps that led to the present do not resolve; empty when all is well. Steps that were taken back do not count.
+    ///
+    /// The lowest period of the scene is found the first time that there is something to tell of it.
+    pub fn notes(&self) -> Vec<Warning> {
+        let (dt, resolution) = (self.longest_step(), self.model.resolution());
+        let mut notes = Vec::new();
+        if self.is_unresolved(resolution) {
+            let share = resolution.unresolved_share();
+            let period = TAU / resolution.angular_frequency();
+            let (lowest, suspects) = (self.lowest_period(), self.suspects());
+            let damping = self.damping_method();
+            notes.push(Warning::Motion { dt, share, period, lowest, suspects, damping });
+        }
+        if notes.is_empty() {
+            notes.extend(self.beams_not_followed(dt));
+        }
+        notes.extend(self.uneven_steps());
+        if resolution.rotation() > LARGEST_ROTATION {
+            let dt = self.settings.method.step_with_part(resolution.turned_in());
+            notes.push(Warning::Rotation { dt, angle: resolution.rotation() });
+        }
+        for (index, slider) in self.model.slider_names().enumerate() {
+            let (slider, spans) = (slider.to_owned(), self.model.most_spans(index));
+            if spans > MOST_SPANS {
+                notes.push(Warning::Way { slider: slider.clone(), dt, spans });
+            }
+            if let Some(limit) = self.model.fastest_on_kink(index) {
+                let speeds = self.history().column(&format!("{slider}.speed"));
+                let fastest = |speeds: Vec<f64>| speeds.into_iter().map(f64::abs).fold(0.0, larger);
+                let speed = speeds.map_or(0.0, fastest);
+                if speed > limit {
+                    notes.push(Warning::Fast { slider: slider.clone(), speed, limit });
+                }
+            }
+            let blows = self.model.blows_in_a_step(index);
+            if blows > RESOLVED_BLOW {
+                notes.push(Warning::Bounce { slider, dt, blows });
+            }
+        }
+        if let Some(drift) = self.broken_promise() {
+            let stiffest = self.model.stiffest_spring();
+            let stiffest = stiffest.map(|(name, stiffness)| (name.to_owned(), stiffness));
+            notes.push(Warning::Drift { drift, stiffest });
+        }
+        notes.extend(self.fed_back());
+        let bends = self.model.bends();
+        notes.extend(bends.map(|(drive, bend)| Warning::Bend { drive: drive.to_owned(), bend }));
+        let bounces = self.model.short_bounces();
+        let tolerance = self.adaptive.as_ref().map(|adaptive| adaptive.tolerance);
+        let told = |(spring, bounce): (&str, _)| Warning::Contact {
+            spring: spring.to_owned(),
+            tolerance,
+            bounce,
+        };
+        notes.extend(bounces.map(told));
+        notes
+    }
+
+    /// Whether vibration that steps do not follow is a good part of a motion.
+    fn is_unresolved(&self, resolution: &Resolution) -> bool {
+        let share = resolution.unresolved_share();
+        let turn = resolution.angular_frequency() * self.dt();
+        share > LARGEST_SHARE || (share > HIDDEN_SHARE && turn > HIDDEN_TURN)
+    }
+
+    /// Damped beams whose own motion steps of a size [time] do not follow, where they follow that of the scene.
+    fn beams_not_followed(&self, dt: f64) -> impl Iterator<Item = Warning> {
+        let least = NOTHING * self.model.resolution().kinetic();
+        let beams = self.model.resolution_by_beam();
+        let shaken = beams.filter(move |(_, own)| self.is_unresolved(own) && own.kinetic() > least);
+        shaken.map(move |(beam, own)| Warning::Beam {
+            beam: self.scene.beams[beam].name.clone(),
+            dt,
+            share: own.unresolved_share(),
+            period: TAU / own.angular_frequency(),
+        })
+    }
+
+    /// Long and short steps that take turns, where velocities that are off in a step do not fade: by `-1` a step they are gone on with, and what long steps
+    /// add short ones do not take away.
+    fn uneven_steps(&self) -> Option<Warning> {
+        let keeps = self.model.has_rigid_links() || self.scene.dissipating().next().is_some();
+        if !keeps || !matches!(self.settings.dt, StepSize::Fixed(_)) {
+            return None;
+        }
+        let rows = self.history().samples();
+        let last = &rows[rows.len().saturating_sub(LOOKED_BACK)..];
+        let (mut turns, mut shortest, mut longest) = (0, f64::INFINITY, 0.0);
+        for pair in last.windows(2) {
+            let [before, now] = [pair[0].dt, pair[1].dt];
+            if before > 0.0 && (now - before).abs() > UNEVEN * larger(now, before) {
+                turns += 1;
+                shortest = before.min(now).min(shortest);
+                longest = larger(longest, larger(before, now));
+            }
+        }
+        (turns >= MOST_TURNS).then_some(Warning::Uneven { shortest, longest })
+    }
+
+    /// The longest of the steps that were taken: a chosen size may be one that was wished for and never met [time].
+    fn longest_step(&self) -> f64 {
+        let rows = self.history().samples();
+        let longest = rows.iter().map(|row| row.dt).fold(0.0, larger);
+        if longest > 0.0 { longest.min(self.dt()) } else { self.dt() }
+    }
+
+    /// The drift of the energy, where the method promises none and rounding does not explain it. Sliders have rules with promises of their own.
+    fn broken_promise(&self) -> Option<f64> {
+        let keeps = self.settings.method.entry().claims.energy == EnergyClaim::Kept;
+        let rows = self.history().samples();
+        let (first, last) = (rows.first()?.measures, rows.last()?.measures);
+        if !keeps || !self.scene.sliders.is_empty() {
+            return None;
+        }
+        // All rows are looked at only where the first and the last one are apart by more than they should be.
+        let apart = Invariant::Energy.value(&last) - Invariant::Energy.value(&first);
+        let now = last.energy.kinetic + last.energy.strain + last.energy.stored;
+        if apart.norm() <= LARGEST_DRIFT * now {
+            return None;
+        }
+        let drift = self.history().drift(Invariant::Energy);
+        (drift > LARGEST_DRIFT).then_some(drift)
+    }
+
+    /// The method that damps vibration which steps do not follow, by name: none where it is in use. It damps what strains: beams, and springs whose law is a line.
+    fn damping_method(&self) -> Option<&'static str> {
+        let entries = INTEGRATORS.iter();
+        let damping = entries.filter(|entry| entry.claims.energy == EnergyClaim::Decays);
+        let is_line = |law: &SpringLaw| matches!(law, SpringLaw::Linear { .. });
+        let mut springs = self.scene.springs().filter_map(|spring| spring.law.as_ref());
+        let strains = !self.scene.beams.is_empty() || springs.any(is_line);
+        let mut others = damping.filter(|_| strains).map(|entry| entry.name);
+        others.find(|name| *name != self.settings.method.entry().name)
+    }
+
+    /// The most that something that dissipates gave back over a step of the method of fourth order, a part of which leads back in time; none where rounding explains
+    /// it.
+    fn fed_back(&self) -> Option<Warning> {
+        if self.settings.method != Method::FourthOrder {
+            return None;
+        }
+        let rows = self.history().samples();
+        rows.last().filter(|row| row.measures.dissipated != 0.0)?;
+        let given = rows.windows(2).map(|pair| {
+            let [before, now] = [pair[0].measures, pair[1].measures];
+            let held = now.energy.kinetic + now.energy.strain + now.energy.stored;
+            let energy = before.dissipated - now.dissipated;
+            (energy - FED * larger(held, now.dissipated.abs()), energy, &pair[1])
+        });
+        let (beyond, energy, row) = given.max_by(|(a, ..), (b, ..)| a.total_cmp(b))?;
+        let (time, dt) = (row.measures.time, row.dt);
+        (beyond > 0.0).then_some(Warning::Fed { time, dt, energy })
+    }
+
+    /// What takes a good part of the kinetic energy within a step, or may give it: the strongest damping, and controllers.
+    fn suspects(&self) -> Vec<RateChangeCause> {
+        let rows = self.history().samples();
+        let others = rows.last().map(|row| row.measures).unwrap_or_default().dissipated;
+        // What is stored may be let go as slowly as a damper allows: it is motion that is taken within a step.
+        let left = rows.iter().map(|row| row.measures.energy.kinetic).fold(0.0, larger);
+        let most = self.model.most_damping();
+        let is_much = |energy: f64| larger(energy, others) > MUCH * (larger(energy, others) + left);
+        let most = most.filter(|(_, energy)| is_much(*energy));
+        let dampers = most.map(|(name, _)| RateChangeCause::Damping(name.to_owned()));
+        let sampled = self.scene.schedules().filter(|(_, schedule)| schedule.is_asked_every_step());
+        let controllers = sampled
+            .map(|(name, _)| RateChangeCause::Controller(self.scene.source_of_schedule(name)));
+        dampers.into_iter().chain(controllers.take(1)).collect()
+    }
+
+    /// The lowest period of the scene as drawn; none where something slides, nothing vibrates, or the scene is large [time].
+    fn lowest_period(&self) -> Option<f64> {
+        self.drawn.lowest_period(|| {
+            let slides = self.model.slider_names().next().is_some();
+            if slides || self.model.unknowns() > MOST_UNKNOWNS {
+                return None;
+            }
+            // Where modes are refused the note tells no period: it is about the steps, and not about the modes.
+            let drawn = System::assemble(&self.scene).ok()?;
+            MODES.iter().find_map(|count| {
+                let modes = match Modes::of(&drawn, *count, &mut || true) {
+                    Err(VibrationError::Count { available, .. }) if available > 0 => {
+                        Modes::of(&drawn, available, &mut || true)
+                    }
+                    found => found,
+                };
+                let modes = modes.ok()?;
+                let vibrating = modes.all().iter().find(|mode| mode.square > 0.0)?;
+                Some(vibrating.period())
+            })
+        })
+    }
+
+    /// How far the steps so far resolve the motion, in numbers, and what is to be told of it.
+    pub(super) fn explain_resolution(&self) -> Vec<SystemFeature> {
+        let resolution = self.model.resolution();
+        let mut how = format!(
+            "{} % of the kinetic energy in vibration that steps do not follow; sections turn by at most {} rad a step",
+            short(100.0 * resolution.unresolved_share()),
+            short(resolution.rotation())
+        );
+        for (index, slider) in self.model.slider_names().enumerate().take(SLIDERS) {
+            how += &format!(
+                "; '{slider}' passes at most {} spans",
+                short(self.model.most_spans(index))
+            );
+        }
+        let notes =
+            self.notes().into_iter().map(|note| SystemFeature::used("note", note.to_string()));
+        std::iter::once(SystemFeature::used("resolution", how)).chain(notes).collect()
+    }
+}

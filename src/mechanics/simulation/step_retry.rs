@@ -1,0 +1,130 @@
+//! A step of the time grid that is halved where it fails.
+
+use crate::integrators::Interval;
+
+/// A step is divided by two at most so often.
+const MOST_HALVINGS: u32 = 12;
+
+/// The finest parts of a step.
+const PARTS: u64 = 1 << MOST_HALVINGS;
+
+/// A step that is halved where it fails and grows again after success, as far as it has got.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct StepRetry {
+    pub(super) whole: Interval,
+    /// Finest parts that are behind.
+    covered: u64,
+    halvings: u32,
+    /// The number of failed tries since the last success.
+    pub(super) retries: usize,
+}
+
+impl StepRetry {
+    /// A step of which nothing is covered yet.
+    pub(super) fn new(whole: Interval) -> Self {
+        Self { whole, covered: 0, halvings: 0, retries: 0 }
+    }
+
+    /// The end of the whole step [time].
+    pub(super) fn end(&self) -> f64 {
+        self.whole.end
+    }
+
+    /// The parts of the halved step: start and end of the whole, the finest parts covered, halvings and retries.
+    pub(super) fn to_parts(self) -> ((f64, f64), u64, u32, usize) {
+        ((self.whole.start, self.whole.end), self.covered, self.halvings, self.retries)
+    }
+
+    /// A halved step that has got to `now`, from its parts; none when they make no sense.
+    pub(super) fn from_parts(
+        now: f64,
+        ((start, end), covered, halvings, retries): ((f64, f64), u64, u32, usize),
+    ) -> Option<Self> {
+        let whole = Interval::between(start, end);
+        let new = Self { whole, covered, halvings, retries };
+        let is_finite = start.is_finite() && end.is_finite() && start < end;
+        let is_halved = halvings <= MOST_HALVINGS && covered < PARTS;
+        let fits = is_finite && is_halved && covered.is_multiple_of(PARTS >> halvings);
+        (fits && new.time(covered) == now && retries < usize::MAX / 2).then_some(new)
+    }
+
+    fn time(&self, part: u64) -> f64 {
+        match part {
+            PARTS => self.whole.end,
+            part => self.whole.start + self.whole.duration() * (part as f64 / PARTS as f64),
+        }
+    }
+
+    fn width(&self) -> u64 {
+        PARTS >> self.halvings
+    }
+
+    /// The number by which the whole step is divided in what is tried.
+    pub(super) fn divisions(&self) -> u64 {
+        1 << self.halvings
+    }
+
+    /// Whether the whole step is covered.
+    pub(super) fn is_done(&self) -> bool {
+        self.covered == PARTS
+    }
+
+    /// The halved step itself, unless it is covered.
+    pub(super) fn rest(self) -> Option<Self> {
+        (!self.is_done()).then_some(self)
+    }
+
+    /// The part of the step to try next.
+    pub(super) fn next(&self) -> Interval {
+        Interval::between(self.time(self.covered), self.time(self.covered + self.width()))
+    }
+
+    /// Goes on behind the part of the step that was tried.
+    pub(super) fn succeed(&mut self) {
+        let width = self.width();
+        self.covered += width;
+        self.retries = 0;
+        if self.halvings > 0 && self.covered.is_multiple_of(2 * width) {
+            self.halvings -= 1;
+        }
+    }
+
+    /// Halves the part of the step that is to be tried; false when it cannot be smaller.
+    pub(super) fn fail(&mut self) -> bool {
+        self.retries += 1;
+        let can_be_halved = self.halvings < MOST_HALVINGS;
+        self.halvings += u32::from(can_be_halved);
+        can_be_halved
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_step_that_fails_is_halved_and_grows_again() {
+        let mut halving = StepRetry::new(Interval::between(0.0, 1.0));
+        assert!(halving.fail() && halving.fail());
+        let mut ends = Vec::new();
+        while let Some(rest) = halving.rest() {
+            ends.push(rest.next().end);
+            halving.succeed();
+        }
+        assert_eq!(ends, [0.25, 0.5, 1.0]);
+    }
+
+    #[test]
+    fn parts_that_make_no_sense_are_no_step() {
+        let mut halving = StepRetry::new(Interval::between(1.0, 2.0));
+        halving.fail();
+        halving.succeed();
+        let parts = halving.to_parts();
+        assert_eq!(StepRetry::from_parts(1.5, parts), Some(halving));
+        assert_eq!(StepRetry::from_parts(1.25, parts), None);
+        let ((start, end), covered, halvings, retries) = parts;
+        assert_eq!(StepRetry::from_parts(1.5, ((start, end), covered, 70, retries)), None);
+        assert_eq!(StepRetry::from_parts(1.5, ((start, f64::NAN), covered, halvings, 0)), None);
+        assert_eq!(StepRetry::from_parts(2.0, ((start, end), PARTS, 0, 0)), None);
+    }
+}

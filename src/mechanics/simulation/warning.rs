@@ -1,0 +1,378 @@
+//! What a run should be told of: steps that went well and mean little.
+
+use std::f64::consts::TAU;
+use std::fmt;
+
+use super::StepControl;
+use crate::system::{MotionCurvature, RESOLVED_BLOW, ShortBounce};
+
+/// The largest rotation of a section in a step that is not noted: ten steps a turn [rad].
+pub(super) const LARGEST_ROTATION: f64 = 0.1 * TAU;
+
+/// The most spans of its master that a slider may pass in a step without a note [-].
+pub(super) const MOST_SPANS: f64 = 1.0;
+
+/// A note is told again where its measure has grown by this factor.
+const WORSE: f64 = 2.0;
+
+/// By how much a step has to be shorter where a bounce took no more than three.
+const BOUNCE: f64 = 5.0;
+
+/// How many steps a period has where nothing is to be told any more.
+const ENOUGH: f64 = 20.0;
+
+/// What may change rates within a step besides vibration.
+#[derive(Debug, Clone, PartialEq)]
+pub enum RateChangeCause {
+    /// A damper, the damping of a material, or drag, by name.
+    Damping(String),
+    /// A controller that is asked once a step, by its load or drive in words.
+    Controller(String),
+}
+
+impl fmt::Display for RateChangeCause {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Damping(name) => write!(f, "what '{name}' slows down"),
+            Self::Controller(name) => {
+                write!(f, "what the controller of {name} does, which is asked once a step")
+            }
+        }
+    }
+}
+
+/// Something that steps do not resolve.
+///
+/// A further kind is a variant, its words and its condition in [`Simulation::notes`].
+#[derive(Debug, Clone, PartialEq)]
+pub enum Warning {
+    /// Vibration has a good part of the kinetic energy, and steps do not follow it.
+    Motion {
+        /// The step size with which vibration is not followed [time].
+        dt: f64,
+        /// The part of the kinetic energy that belongs to vibration which steps do not follow [-].
+        share: f64,
+        /// The period of what accelerates the scene, in the mean over accelerations [time].
+        period: f64,
+        /// The lowest period of the scene as drawn, where there is one [time].
+        lowest: Option<f64>,
+        /// What else than vibration may change rates within a step.
+        suspects: Vec<RateChangeCause>,
+        /// The name of a method that would damp such vibration; none where it is in use, or damps nothing in the scene.
+        damping: Option<&'static str>,
+    },
+    /// Vibration has a good part of the kinetic energy of a damped beam, of which there is little beside that of other bodies, and steps do not follow it.
+    Beam {
+        /// The name of the beam.
+        beam: String,
+        /// The step size with which its motion is not followed [time].
+        dt: f64,
+        /// The part of its kinetic energy that belongs to motion which steps do not follow [-].
+        share: f64,
+        /// The period of what accelerates it, in the mean over accelerations [time].
+        period: f64,
+    },
+    /// Long and short steps take turns, and something is joined rigidly or strongly damped.
+    Uneven {
+        /// The shortest of the last steps [time].
+        shortest: f64,
+        /// The longest of the last steps [time].
+        longest: f64,
+    },
+    /// Sections turn far in a step.
+    Rotation {
+        /// The step size with which sections turn far [time].
+        dt: f64,
+        /// The largest rotation of a section in a step [rad].
+        angle: f64,
+    },
+    /// A slider passes many spans in a step.
+    Way {
+        /// The name of the slider that passes many spans in a step.
+        slider: String,
+        /// The step size with which a slider passes many spans [time].
+        dt: f64,
+        /// The most spans that the slider passes in a step [-].
+        spans: f64,
+    },
+    /// A slider on a kinked axis runs nearly as fast as the waves by which its master gives way.
+    Fast {
+        /// The name of the slider.
+        slider: String,
+        /// The highest speed along the master that was recorded [length/time].
+        speed: f64,
+        /// The speed up to which the kink follows the contact force [length/time].
+        limit: f64,
+    },
+    /// The energy is not kept as the method promises.
+    Drift {
+        /// The largest change of the energy, loads accounted for, relative to the largest energy [-].
+        drift: f64,
+        /// The stiffest spring, by name, with its stiffness; none where there is no spring.
+        stiffest: Option<(String, f64)>,
+    },
+    /// Something that dissipates gave energy back over a step.
+    Fed {
+        /// The time at the end of that step [time].
+        time: f64,
+        /// The length of that step [time].
+        dt: f64,
+        /// What it gave back [energy].
+        energy: f64,
+    },
+    /// A given motion bends within a step.
+    Bend {
+        /// The name of the drive whose motion bends.
+        drive: String,
+        /// The step in which it bends, and the rates before and after it.
+        bend: MotionCurvature,
+    },
+    /// A spring that is slack at times was struck for fewer steps than tell anything.
+    Contact {
+        /// The name of the spring.
+        spring: String,
+        /// The tolerance of steps that keep one [-].
+        tolerance: Option<f64>,
+        /// The number of steps of the bounce, how long it took, and the force in it.
+        bounce: ShortBounce,
+    },
+    /// A slider bounced off what gives way, and steps are longer than such a blow lasts.
+    Bounce {
+        /// The name of the slider that bounced.
+        slider: String,
+        /// The step size that is longer than the blow [time].
+        dt: f64,
+        /// How many times as long as the blow a step is [-].
+        blows: f64,
+    },
+}
+
+impl Warning {
+    /// How bad it is; only notes of a kind can be compared.
+    fn measure(&self) -> f64 {
+        match self {
+            Self::Motion { share, .. } | Self::Beam { share, .. } => *share,
+            Self::Uneven { shortest, longest } => longest / shortest,
+            Self::Rotation { angle, .. } => *angle,
+            Self::Way { spans, .. } => *spans,
+            Self::Fast { speed, .. } => *speed,
+            Self::Bounce { blows, .. } => *blows,
+            Self::Drift { drift, .. } => *drift,
+            Self::Fed { energy, .. } => *energy,
+            Self::Bend { bend, .. } => bend.size(),
+            Self::Contact { bounce, .. } => bounce.force,
+        }
+    }
+
+    /// What it is about, if that is one of several.
+    fn about(&self) -> Option<&str> {
+        match self {
+            Self::Motion { .. }
+            | Self::Uneven { .. }
+            | Self::Rotation { .. }
+            | Self::Drift { .. }
+            | Self::Fed { .. } => None,
+            Self::Way { slider, .. } | Self::Fast { slider, .. } | Self::Bounce { slider, .. } => {
+                Some(slider)
+            }
+            Self::Beam { beam, .. } => Some(beam),
+            Self::Bend { drive, .. } => Some(drive),
+            Self::Contact { spring, .. } => Some(spring),
+        }
+    }
+
+    /// Whether the note says something that those told before have not said, or not as bad.
+    pub fn is_news_after(&self, told: &[Self]) -> bool {
+        !told.iter().any(|other| {
+            std::mem::discriminant(other) == std::mem::discriminant(self)
+                && other.about() == self.about()
+                && self.measure() < WORSE * other.measure()
+        })
+    }
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Motion { dt, share, period, suspects, .. } if !suspects.is_empty() => {
+                let others: Vec<String> = suspects.iter().map(RateChangeCause::to_string).collect();
+                write!(
+                    f,
+                    "steps are too long for the motion: {} % of its kinetic energy changes within them as they do not follow, as vibration or {}. A \
+                     step (dt = {}) is {} times what it goes on in ({}); take dt below {}",
+                    short(100.0 * share),
+                    others.join(", or "),
+                    short(*dt),
+                    short(dt / period),
+                    short(*period),
+                    short(period / ENOUGH)
+                )
+            }
+            Self::Motion { dt, share, period, lowest, damping, .. } => {
+                write!(
+                    f,
+                    "steps are too long for the motion: {} % of its kinetic energy is in vibration that they do not follow. A step \
+                     (dt = {}) is ",
+                    short(100.0 * share),
+                    short(*dt)
+                )?;
+                let known = lowest.filter(|lowest| lowest < dt);
+                let shown = known.unwrap_or(*period);
+                match known {
+                    Some(lowest) => write!(
+                        f,
+                        "{} times the lowest period of the scene as drawn ({})",
+                        short(dt / lowest),
+                        short(lowest)
+                    )?,
+                    None => write!(
+                        f,
+                        "{} of the period of what vibrates ({}, in the mean over accelerations)",
+                        short(dt / period),
+                        short(*period)
+                    )?,
+                }
+                write!(f, "; take dt below {}", short(shown / ENOUGH))?;
+                match damping {
+                    Some(method) => {
+                        write!(f, ", or the method {method} where that vibration does not matter")
+                    }
+                    None => Ok(()),
+                }
+            }
+            Self::Beam { beam, dt, share, period } => write!(
+                f,
+                "steps are too long for the motion of beam '{beam}', whose material is damped: {} % of its kinetic energy changes within them as they do not \
+                 follow. A step (dt = {}) is {} times what it goes on in ({}); take dt below {}. Velocities of the beam alternate from step to step, and \
+                 forces with them: means of two neighbouring steps are nearer to what happens",
+                short(100.0 * share),
+                short(*dt),
+                short(dt / period),
+                short(*period),
+                short(period / ENOUGH)
+            ),
+            Self::Rotation { dt, angle } => write!(
+                f,
+                "sections turn by up to {} rad in a step (dt = {}): {} steps a turn are few; take dt below {}",
+                short(*angle),
+                short(*dt),
+                short(TAU / angle),
+                short(dt * LARGEST_ROTATION / angle)
+            ),
+            Self::Way { slider, dt, spans } => write!(
+                f,
+                "slider '{slider}' passes up to {} spans of its beam in a step (dt = {}), which sees only their mean; take dt below {}, or \
+                 longer spans",
+                short(*spans),
+                short(*dt),
+                short(dt * MOST_SPANS / spans)
+            ),
+            Self::Uneven { shortest, longest } => write!(
+                f,
+                "long and short steps take turns ({} to {}): what velocities across rigid joints, and of strongly damped beams, are off by in a step \
+                 then adds up, and reactions, accelerations, forces and spins err by far more than places. Let the periods and delays of controllers, and the times \
+                 of run_to, be multiples of dt",
+                short(*shortest),
+                short(*longest)
+            ),
+            Self::Fast { slider, speed, limit } => write!(
+                f,
+                "slider '{slider}' runs along its beam at up to {}; from {} on that is nearly the speed of shear waves, and the kink under it is kept as it \
+                 is: contacts are then of first order in the length of spans",
+                short(*speed),
+                short(*limit)
+            ),
+            Self::Drift { drift, stiffest } => {
+                write!(
+                    f,
+                    "the energy changes by {} of the largest there was, loads and dampers accounted for, where the method keeps it to rounding: numbers of very \
+                     different size lose digits in a sum.",
+                    short(*drift)
+                )?;
+                match stiffest {
+                    Some((spring, stiffness)) => write!(
+                        f,
+                        " '{spring}' has a stiffness of {}: join what it holds instead, or take less",
+                        short(*stiffness)
+                    ),
+                    None => write!(f, " Compare stiffnesses, masses and units"),
+                }
+            }
+            Self::Fed { time, dt, energy } => write!(
+                f,
+                "what dissipates gave {} back in the step (dt = {}) to t = {}, as no damper does: of the method fourth_order a part leads back in time, \
+                 and what decays by a rate near 3.557/dt grows by it. Take steps of another size, or the method energy_momentum",
+                short(*energy),
+                short(*dt),
+                short(*time)
+            ),
+            Self::Bend { drive, bend: MotionCurvature { time, rates: [before, after] } } => write!(
+                f,
+                "the motion of '{drive}' bends about t = {}, where its rate goes from {} to {} within a step, which takes it for smooth. Give its \
+                 schedule the times at which it bends, so that steps end there, or let it bend smoothly, as the smooth steps of the library do",
+                short(*time),
+                short(*before),
+                short(*after)
+            ),
+            Self::Contact { spring, tolerance, bounce: ShortBounce { steps, force, duration } } => {
+                let dt = duration / steps;
+                write!(
+                    f,
+                    "a bounce on '{spring}' took {steps} steps (dt = {} in it), in which its force went from none to {} and back: how fast what strikes it \
+                     leaves depends on the step; ",
+                    short(dt),
+                    short(*force)
+                )?;
+                match tolerance.map(|tolerance| tolerance / BOUNCE) {
+                    Some(less) if less >= StepControl::LEAST_TOLERANCE => {
+                        write!(f, "take a tolerance below {}, or a softer law", short(less))
+                    }
+                    Some(_) => write!(f, "take a softer law"),
+                    None => write!(f, "take dt below {}, or a softer law", short(dt / BOUNCE)),
+                }
+            }
+            Self::Bounce { slider, dt, blows } => write!(
+                f,
+                "slider '{slider}' bounced off a beam that gives way, and a step (dt = {}) is {} times as long as such a blow may last \
+                 ({}): the beam was struck as if it were rigid; take dt below {} to see its waves, or hold the end that is struck",
+                short(*dt),
+                short(*blows),
+                short(dt / blows),
+                short(RESOLVED_BLOW * dt / blows)
+            ),
+        }
+    }
+}
+
+/// A number in words, of three digits.
+pub(super) fn short(number: f64) -> String {
+    let rounded: f64 = format!("{number:.2e}").parse().unwrap_or(number);
+    let size = rounded.abs();
+    if size == 0.0 || (1e-4..1e7).contains(&size) {
+        format!("{rounded}")
+    } else {
+        format!("{rounded:e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_told_is_told_again_when_it_is_new_or_twice_as_bad() {
+        let way = |slider: &str, spans| Warning::Way { slider: slider.to_owned(), dt: 1.0, spans };
+        let told = [way("ring", 2.0)];
+        assert!(!way("ring", 3.9).is_news_after(&told));
+        assert!(way("ring", 4.0).is_news_after(&told));
+        assert!(way("bead", 1.1).is_news_after(&told));
+        let bounce = Warning::Bounce { slider: "ring".to_owned(), dt: 1.0, blows: 1.1 };
+        assert!(bounce.is_news_after(&told) && bounce.is_news_after(&[]));
+    }
+
+    #[test]
+    fn numbers_have_three_digits() {
+        let shown = [0.119_37, 42.04, 5.0, 1.0 / 3.0 * 1e-7, 0.0].map(short);
+        assert_eq!(shown, ["0.119", "42", "5", "3.33e-8", "0"]);
+    }
+}

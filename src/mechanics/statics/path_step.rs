@@ -1,0 +1,76 @@
+//! Steps of given length along the path of equilibria.
+
+use super::Loading;
+use super::balance::{AlongPath, Balance};
+use super::continuation::{norm, settle_on_stops, tangent};
+use super::error::StepFailure;
+use crate::integrators::{Constraints, Mechanism};
+use crate::newton::Newton;
+use crate::system::{Scene, System};
+
+/// A step along the path, with its work space.
+pub(super) struct PathStep {
+    newton: Newton,
+    normal: Vec<f64>,
+    /// Movements and unknowns of contacts, then the load factor.
+    unknowns: Vec<f64>,
+    residual: Vec<f64>,
+    forces: Vec<f64>,
+}
+
+impl PathStep {
+    pub(super) fn new(model: &System, loading: &Loading) -> Self {
+        let unknowns = model.unknowns() + model.constraint_shape().width;
+        Self {
+            newton: Newton::of(tangent(model, 1), loading.tolerance),
+            normal: vec![0.0; unknowns],
+            unknowns: vec![0.0; unknowns + 1],
+            residual: vec![0.0; unknowns + 1],
+            forces: vec![0.0; model.degrees_of_freedom()],
+        }
+    }
+
+    /// Goes on in the direction of the last movement.
+    pub(super) fn look_along(&mut self, metric: &[f64], last: &[f64]) {
+        let inverse = 1.0 / norm(metric, last);
+        for ((normal, weight), u) in self.normal.iter_mut().zip(metric).zip(last) {
+            *normal = weight * u * inverse;
+        }
+    }
+
+    /// From a standstill: the first iteration then goes along the tangent of the path.
+    pub(super) fn find(
+        &mut self,
+        model: &mut System,
+        length: f64,
+        from: f64,
+        distance: f64,
+        scene: &Scene,
+    ) -> Result<usize, StepFailure> {
+        let mut iterations = 0;
+        for _ in 0..=scene.most_settlings() {
+            let last = self.normal.len();
+            model.stay(&mut self.unknowns[..last]);
+            self.unknowns[last] = from;
+            model.begin_movement();
+            let balance = Balance { model, length };
+            let mut equations =
+                AlongPath { balance, normal: &self.normal, distance, forces: &mut self.forces };
+            let report =
+                self.newton.solve(&mut equations, &mut self.unknowns, &mut self.residual)?;
+            iterations += report.iterations;
+            if !settle_on_stops(model, scene, self.movements(), self.factor())? {
+                return Ok(iterations);
+            }
+        }
+        Err(StepFailure::Far)
+    }
+
+    pub(super) fn movements(&self) -> &[f64] {
+        &self.unknowns[..self.normal.len()]
+    }
+
+    pub(super) fn factor(&self) -> f64 {
+        self.unknowns[self.normal.len()]
+    }
+}

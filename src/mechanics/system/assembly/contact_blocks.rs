@@ -1,0 +1,70 @@
+//! What of the contacts of many sliders can be eliminated by itself.
+
+use super::Numbering;
+use crate::linalg::BlockLayout;
+use crate::system::scene::Ties;
+use crate::system::sliders::SliderContact;
+
+/// From so many sliders on, contacts are eliminated one by one: the border of fewer takes less time (docs/studies.md).
+const MANY: usize = 4;
+
+/// A rigid body with more points is not eliminated with its contact.
+const MOST_POINTS: usize = 4;
+
+impl Numbering {
+    /// The contacts of sliders as blocks, where there are many of them.
+    pub fn contact_blocks(&self, sliders: &[SliderContact]) -> Option<BlockLayout> {
+        if sliders.len() < MANY {
+            return None;
+        }
+        let mut coupled = Ties::new(self.unknowns);
+        for pair in self.groups.iter().flat_map(|group| group.windows(2)) {
+            coupled.tie(pair[0], pair[1]);
+        }
+        let component: Vec<usize> = (0..self.unknowns).map(|at| coupled.root(at)).collect();
+        let mut sizes = vec![0_usize; self.unknowns];
+        component.iter().for_each(|&of| sizes[of] += 1);
+        let unknown = |at: &usize| *at < self.unknowns;
+        // How many sliders move the unknowns of a component.
+        let mut sliders_on = vec![0_usize; self.unknowns];
+        for slider in sliders {
+            let (body, point) = slider.connection.slave;
+            let [x, y, _] = self.degrees_of_freedom[body][point];
+            let mut roots = [x, y].map(|at| unknown(&at).then(|| component[at]));
+            if roots[0] == roots[1] {
+                roots[1] = None;
+            }
+            roots.into_iter().flatten().for_each(|root| sliders_on[root] += 1);
+        }
+        // Nothing slides on those that are free.
+        let own = sliders.iter().map(|slider| {
+            let own = self.unknowns_of_free_slave(slider);
+            let root = component[*own.first()?];
+            let is_one = own.iter().all(|at| component[*at] == root);
+            (is_one && sizes[root] == own.len() && sliders_on[root] == 1).then_some(own)
+        });
+        let own = own.map(Option::unwrap_or_default);
+        Some(BlockLayout {
+            own: own.collect(),
+            groups: self.groups.clone().into(),
+            block_entries: sliders.iter().map(SliderContact::usual_entries).max().unwrap_or(0),
+        })
+    }
+
+    /// The unknowns of a slave that is no beam and may go anywhere, if it is such.
+    fn unknowns_of_free_slave(&self, slider: &SliderContact) -> Vec<usize> {
+        let body = slider.connection.slave.0;
+        let points = &self.degrees_of_freedom[body];
+        let is_free = points.iter().all(|[x, y, _]| [x, y].iter().all(|at| **at < self.unknowns));
+        if !is_free || points.len() > MOST_POINTS {
+            return Vec::new();
+        }
+        let rotations = points.iter().map(|degrees| degrees[2]).filter(|at| *at < self.unknowns);
+        let links = self.links.iter().filter(|link| link.body == body);
+        let mut own: Vec<usize> = points.iter().flat_map(|[x, y, _]| [*x, *y]).collect();
+        own.extend(rotations.chain(links.flat_map(|link| link.force)));
+        own.sort_unstable();
+        own.dedup();
+        own
+    }
+}

@@ -1,0 +1,132 @@
+//! The unknowns in the order of the bodies, and which of them are coupled with each other.
+
+use super::tied_components::{GROUND, TiedComponents};
+use crate::beams::{BodyDynamics, BodyPoint, Station};
+use crate::joints::Component;
+use crate::system::SystemError;
+use crate::system::scene::Scene;
+
+/// The number of what is no unknown.
+const NONE: usize = usize::MAX;
+
+/// Numbers of the unknowns in the order of the bodies, before they are put into that of the band.
+pub struct InitialNumbering {
+    pub unknowns: usize,
+    /// The number of each class of components that move as one, by its root.
+    pub number: Vec<usize>,
+    /// The unknowns of the force of each rigid link: they stand before the point that it holds.
+    pub forces: Vec<[usize; 2]>,
+    /// The unknown of the force of each inclined roller: they stand before the point that it holds. None where it has let go.
+    pub across: Vec<Option<usize>>,
+}
+
+impl InitialNumbering {
+    /// Numbers the components of a scene that are free, those that move as one alike.
+    ///
+    /// # Errors
+    /// When nothing is free.
+    pub fn new(scene: &Scene, tied: &mut TiedComponents) -> Result<Self, SystemError> {
+        let all = tied.count();
+        let held = tied.links.iter().map(|link| tied.component(*link, Component::X));
+        let held: Vec<usize> = held.collect();
+        let mut forces = vec![[0; 2]; held.len()];
+        let on_rollers = tied.rollers.iter();
+        let on_rollers: Vec<Option<usize>> =
+            on_rollers.map(|node| node.map(|node| tied.component(node, Component::X))).collect();
+        let mut across = vec![None; on_rollers.len()];
+        let mut number = vec![NONE; all];
+        let mut unknowns = 0;
+        for at in GROUND + 1..all {
+            for (force, _) in forces.iter_mut().zip(&held).filter(|(_, held)| **held == at) {
+                *force = [unknowns, unknowns + 1];
+                unknowns += 2;
+            }
+            for (force, _) in across.iter_mut().zip(&on_rollers).filter(|(_, on)| **on == Some(at))
+            {
+                *force = Some(unknowns);
+                unknowns += 1;
+            }
+            let root = tied.ties.root(at);
+            if root != GROUND && number[root] == NONE && !tied.prescribed.contains(&root) {
+                number[root] = unknowns;
+                unknowns += 1;
+            }
+        }
+        match unknowns {
+            // Where all is driven, forces come out.
+            0 if scene.drives.is_empty() => {
+                Err(SystemError::NothingMoves { scene: scene.name.clone() })
+            }
+            _ => Ok(Self { unknowns, number, forces, across }),
+        }
+    }
+
+    /// The unknowns that are coupled with each other: by spans, by rigid links and rollers, and by elements.
+    pub fn coupled(
+        &self,
+        scene: &Scene,
+        bodies: &[&dyn BodyDynamics],
+        tied: &mut TiedComponents,
+        place: &impl Fn(&Station) -> Result<BodyPoint, SystemError>,
+    ) -> Result<Vec<Vec<usize>>, SystemError> {
+        let mut groups = Vec::new();
+        for (index, body) in bodies.iter().enumerate() {
+            for first in body.span_starts() {
+                let points = first..first + body.order();
+                groups.push(self.numbers(points.map(|point| (index, point)), tied));
+            }
+        }
+        for (force, &(body, point)) in self.forces.iter().zip(&tied.links) {
+            for (&force, component) in force.iter().zip([Component::X, Component::Y]) {
+                let centre =
+                    [component, Component::Rotation].map(|of| tied.component((body, 0), of));
+                let held = tied.component((body, point), component);
+                for at in centre.into_iter().chain([held]) {
+                    let other = self.number[tied.ties.root(at)];
+                    if other != NONE {
+                        groups.push(vec![force.min(other), force.max(other)]);
+                    }
+                }
+            }
+        }
+        for (force, node) in self.across.iter().zip(&tied.rollers) {
+            let (Some(force), Some(node)) = (*force, *node) else { continue };
+            for component in [Component::X, Component::Y] {
+                let at = tied.component(node, component);
+                let other = self.number[tied.ties.root(at)];
+                if other != NONE {
+                    groups.push(vec![force.min(other), force.max(other)]);
+                }
+            }
+        }
+        for element in &scene.elements {
+            let mut points = Vec::new();
+            for station in element.description().coupled() {
+                let place = place(&station)?;
+                points.extend(place.weights().map(|(point, _)| (place.body, point)));
+            }
+            let group = self.numbers(points.into_iter(), tied);
+            if group.len() > 1 {
+                groups.push(group);
+            }
+        }
+        Ok(groups)
+    }
+
+    /// The unknowns of control points of bodies, in rising order.
+    pub fn numbers(
+        &self,
+        points: impl Iterator<Item = (usize, usize)>,
+        tied: &mut TiedComponents,
+    ) -> Vec<usize> {
+        let mut group = Vec::new();
+        for point in points {
+            let first = tied.component(point, Component::X);
+            let numbers = (first..first + 3).map(|at| self.number[tied.ties.root(at)]);
+            group.extend(numbers.filter(|&number| number != NONE));
+        }
+        group.sort_unstable();
+        group.dedup();
+        group
+    }
+}

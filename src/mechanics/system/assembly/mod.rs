@@ -1,0 +1,16 @@
+//! From a scene to a model: meshes with nodes where joints are, numbers, elements, sliders and start velocities.
+
+mod assemble;
+mod contact_blocks;
+mod held_bodies;
+mod initial_numbering;
+mod links;
+mod numbering;
+mod redundancy;
+mod release;
+mod sliders;
+mod start_rates;
+mod tied_components;
+
+use assemble::Assembly;
+use numbering::Numbering;

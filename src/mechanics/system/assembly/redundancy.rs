@@ -1,0 +1,47 @@
+//! Whether the contact forces of sliders are determined: what is held twice has no force that one could tell.
+//!
+//! An impulse `P` at the contacts changes the velocities across the masters by `G M⁻¹ Gᵀ P`. Where this matrix is singular, some
+//! impulses change nothing, and the forces of a step are not determined either.
+
+use crate::system::errors::SliderError;
+use crate::system::{Scene, System, SystemError};
+
+/// What is left of the response of a slider beside that of the others, relative to its own, when it is one of rounding.
+const NOTHING_LEFT: f64 = 1e-13;
+
+/// The response of a slider on which only rounding acts, relative to that of the mass of everything.
+const NO_RESPONSE: f64 = 1e-26;
+
+impl System {
+    /// Refuses sliders whose contact forces are not determined at the start.
+    pub(super) fn check_determined(&self, scene: &Scene) -> Result<(), SystemError> {
+        let Ok(response) = self.response_across() else {
+            return Err(self.sliders().overdetermined());
+        };
+        // Rows of the Cholesky factor.
+        let mut rows: Vec<Vec<f64>> = Vec::with_capacity(response.len());
+        for (slider, response) in response.iter().enumerate() {
+            let own = response[slider];
+            if own * self.total_mass() <= NO_RESPONSE {
+                let parts = scene.parts(&scene.sliders[slider]);
+                return Err(SliderError::HeldBesides(parts).into());
+            }
+            let mut row: Vec<f64> = Vec::with_capacity(slider + 1);
+            for (other, before) in rows.iter().enumerate() {
+                let sum: f64 = row.iter().zip(before).map(|(a, b)| a * b).sum();
+                row.push((response[other] - sum) / before[other]);
+            }
+            let left = own - row.iter().map(|entry| entry * entry).sum::<f64>();
+            if left <= NOTHING_LEFT * own {
+                let takes_part = |(_, entry): &(usize, &f64)| *entry * *entry > NOTHING_LEFT * own;
+                let others = row.iter().enumerate().filter(takes_part).map(|(other, _)| other);
+                let names = others.chain([slider]).map(|at| scene.sliders[at].name.as_str());
+                let sliders = names.collect::<Vec<_>>().join("', '");
+                return Err(SliderError::Overdetermined { sliders }.into());
+            }
+            row.push(left.sqrt());
+            rows.push(row);
+        }
+        Ok(())
+    }
+}

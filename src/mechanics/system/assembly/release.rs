@@ -1,0 +1,74 @@
+//! What lets go of a model on its way.
+
+use super::Numbering;
+use super::assemble::joined;
+use crate::beams::BodyDynamics;
+use crate::integrators::Constraints;
+use crate::joints::Releasable;
+use crate::system::mechanism::DofNumbers;
+use crate::system::{Scene, System, SystemError};
+
+impl System {
+    /// Lets something go at the present moment that the scene of this model holds; `released` has let go before. Places and rates go on; what a spring
+    /// stores counts as dissipated. Methods need new work space for what follows.
+    ///
+    /// # Errors
+    /// When a station is off its beam, which it was not when the scene was described.
+    pub fn let_go(
+        &mut self,
+        scene: &Scene,
+        released: &[Releasable],
+        hold: Releasable,
+    ) -> Result<(), SystemError> {
+        match hold {
+            Releasable::Slider(slider) => self.release(slider),
+            Releasable::Spring(spring) => self.let_go_of_spring(spring),
+            Releasable::Joint(_) | Releasable::Drive(_) => {
+                let all: Vec<Releasable> = released.iter().copied().chain([hold]).collect();
+                let numbers = self.numbers(scene, &all)?;
+                self.renumber(numbers);
+            }
+        }
+        Ok(())
+    }
+
+    /// Makes the model one in which exactly these have let go, to be given a state of such a one.
+    ///
+    /// # Errors
+    /// When a station is off its beam, which it was not when the scene was described.
+    pub fn stand_released(
+        &mut self,
+        scene: &Scene,
+        released: &[Releasable],
+    ) -> Result<(), SystemError> {
+        let numbers = self.numbers(scene, released)?;
+        self.renumber(numbers);
+        self.detach_springs(released);
+        Ok(())
+    }
+
+    /// Numbers for all movements where these have let go.
+    fn numbers(&self, scene: &Scene, released: &[Releasable]) -> Result<DofNumbers, SystemError> {
+        let border = self.constraint_shape().width;
+        let meshes = self.meshes();
+        let bodies: Vec<&dyn BodyDynamics> =
+            self.bodies().iter().map(|body| &*body.dynamics).collect();
+        let place = |station: &_| scene.place(station, meshes);
+        let numbering = Numbering::new(scene, released, &bodies, border, place)?;
+        let (prescribed, held, unknowns) = numbering.supports_and_unknowns(scene, released, border);
+        Ok(DofNumbers {
+            joined: joined(scene, released, meshes)?,
+            contacts: numbering.contact_blocks(self.sliders()),
+            links: numbering.links.iter().map(|link| link.force).collect(),
+            rollers: numbering
+                .rollers
+                .iter()
+                .map(|roller| roller.map(|(force, _)| force))
+                .collect(),
+            degrees_of_freedom: numbering.degrees_of_freedom,
+            prescribed,
+            held,
+            unknowns,
+        })
+    }
+}

@@ -1,0 +1,186 @@
+//! Sliders from description to model.
+
+use super::{Assembly, Numbering};
+use std::sync::Arc;
+
+use crate::beams::{MissedKink, Station, missed_kink};
+use crate::geometry::{ContactPath, PiecewisePolynomial, Span};
+use crate::joints::{Slider, SlidingRule, StartVelocities, Track, TrackBeam};
+use crate::system::elements::AssemblyContext;
+use crate::system::errors::SliderError;
+use crate::system::sliders::{
+    Connection, ImpactBar, KinkedAxis, MasterCurve, MasterKink, SliderContact, TrackPath,
+    TrackPathSegment,
+};
+use crate::system::{BeamDefinition, Scene, System, SystemError};
+
+/// Largest start velocity across the master, relative to the fastest point of the scene: where a mechanism has a dead centre, velocities of
+/// that size have left nothing but their rounding.
+const SAME_VELOCITY: f64 = 1e-9;
+
+impl Assembly<'_> {
+    /// The sliders of the scene with their contacts, in its order.
+    pub fn sliders(&self, numbering: &Numbering) -> Result<Vec<SliderContact>, SystemError> {
+        let mut sliders: Vec<SliderContact> = Vec::new();
+        let mut kink_lengths = vec![None; self.scene.beams.len()];
+        let mut passages: Vec<Option<ContactPath>> = vec![None; self.scene.beams.len()];
+        let mut routes: Vec<Option<Arc<[TrackPathSegment]>>> = vec![None; self.scene.tracks.len()];
+        for (index, slider) in self.scene.sliders.iter().enumerate() {
+            let place = self.place(&slider.slave)?;
+            let slave = (place.body, place.nearest_control_point());
+            let [x, ..] = numbering.degrees_of_freedom[slave.0][slave.1];
+            let masters = self.scene.masters(slider);
+            let of_master = |beam: &usize| &numbering.degrees_of_freedom[*beam];
+            let is_unknown = x < numbering.unknowns;
+            if is_unknown && masters.iter().flat_map(of_master).any(|degrees| degrees[0] == x) {
+                return Err(SliderError::Tied(self.scene.parts(slider)).into());
+            }
+            let is_twice = |other: &SliderContact| {
+                let Connection { index, slave: (body, point), .. } = other.connection;
+                let others = self.scene.masters(&self.scene.sliders[index]);
+                let is_on = others.iter().any(|master| masters.contains(master));
+                is_on && numbering.degrees_of_freedom[body][point][0] == x
+            };
+            if is_unknown && sliders.iter().any(is_twice) {
+                return Err(SliderError::Twice(self.scene.parts(slider)).into());
+            }
+            let connection = Connection { master: slider.master, slave, index };
+            let beam = &self.scene.beams[slider.master];
+            let bars = (bar(beam), self.scene.beams.get(slave.0).map(bar));
+            let parameter = self.slider_parameter(slider)?;
+            let rail = self.rail(slider.master);
+            let passage = self.passage(slider.master, &mut passages);
+            let axis = self.kinked_axis(slider, &mut kink_lengths)?;
+            let mut new =
+                SliderContact::new(slider, connection, passage, parameter, rail, bars, axis);
+            if let Some(track) = slider.track {
+                let Track { legs, course, .. } = &self.scene.tracks[track];
+                let route = &mut routes[track];
+                let route = route.get_or_insert_with(|| self.route(legs, &mut passages)).clone();
+                let own = legs.iter().position(|leg| leg.beam == slider.master).unwrap_or(0);
+                new.follow(TrackPath::new(route, *course, own));
+            }
+            sliders.push(new);
+        }
+        Ok(sliders)
+    }
+
+    fn rail(&self, beam: usize) -> MasterCurve {
+        MasterCurve::new(self.scene.beams[beam].axis.clone(), self.mesh(beam).basis().domain())
+    }
+
+    /// The functions of a beam along ways, of which `found` has those that are known.
+    fn passage(&self, beam: usize, found: &mut [Option<ContactPath>]) -> ContactPath {
+        let basis = || ContactPath::new(self.mesh(beam).basis().clone());
+        found[beam].get_or_insert_with(basis).clone()
+    }
+
+    /// The beams of a track as sliders find them.
+    fn route(
+        &self,
+        legs: &[TrackBeam],
+        passages: &mut [Option<ContactPath>],
+    ) -> Arc<[TrackPathSegment]> {
+        let leg = |&TrackBeam { beam, heading }: &TrackBeam| {
+            let passage = self.passage(beam, passages);
+            TrackPathSegment::new(
+                beam,
+                heading,
+                self.rail(beam),
+                passage,
+                bar(&self.scene.beams[beam]),
+            )
+        };
+        legs.iter().map(leg).collect()
+    }
+
+    /// The axis of a slider's master as the contact force kinks it, if the rule knows of that and the mesh of the master is smooth; kink
+    /// lengths are found once.
+    fn kinked_axis(
+        &self,
+        slider: &Slider,
+        found: &mut [Option<Option<MasterKink>>],
+    ) -> Result<Option<KinkedAxis>, SystemError> {
+        let (master, beam) = (slider.master, &self.scene.beams[slider.master]);
+        let basis = self.mesh(master).basis();
+        // At a node where the mesh itself may kink there is no kink length, and a slider would have to pass a wall.
+        let has_nodes = basis.breaks().len() > 2 && basis.continuity() == 0;
+        if slider.rule != SlidingRule::Kinked || has_nodes {
+            return Ok(None);
+        }
+        if found[master].is_none() {
+            let points = self.bodies[master].control_points();
+            let wrap = |source| SystemError::Beam { beam: beam.name.clone(), source };
+            let missed = missed_kink(self.mesh(master), points).map_err(wrap)?;
+            let arc = || {
+                let speed = |span: &Span, xi| basis.evaluate_in(span, xi).combine(1, points).norm();
+                PiecewisePolynomial::integral(&basis.spans(), basis.degree(), speed)
+            };
+            let of = |missed: MissedKink| MasterKink {
+                length: Arc::new(missed.length),
+                arc: Arc::new(arc()),
+                inertia: missed.inertia,
+            };
+            found[master] = Some(missed.map(of));
+        }
+        let axis = |kink| KinkedAxis::new(kink, beam.axis.length(), &beam.section.mean());
+        Ok(found[master].clone().flatten().map(axis))
+    }
+
+    /// The parameter of the mesh of its master at which a slider starts.
+    pub fn slider_parameter(&self, slider: &Slider) -> Result<f64, SystemError> {
+        let beam = &self.scene.beams[slider.master];
+        Station::on_beam(slider.master, slider.arc_length)
+            .parameter(&beam.axis, self.mesh(slider.master))
+            .map_err(|error| self.wrong(slider.master, error))
+    }
+}
+
+fn bar(beam: &BeamDefinition) -> ImpactBar {
+    ImpactBar { length: beam.axis.length(), section: beam.section.mean() }
+}
+
+impl System {
+    /// Deals with start velocities that would leave the masters, as each slider says.
+    ///
+    /// Speeds across a master that strain nothing by more than rounding, as waves go, are none either: `w/c < ε`.
+    pub(super) fn settle_start_velocities(&mut self, scene: &Scene) -> Result<(), SystemError> {
+        let negligible = self.negligible_velocity(scene);
+        let mut is_projected = false;
+        for (index, described) in scene.sliders.iter().enumerate() {
+            match described.velocities {
+                StartVelocities::Check => self.check_start_velocity(index, negligible)?,
+                StartVelocities::Project => is_projected = true,
+            }
+        }
+        if is_projected {
+            self.project_velocities()?;
+        }
+        self.fit_links_to_drives(negligible);
+        Ok(())
+    }
+
+    /// Puts a model at rest that has not taken a step at a time, gives what is moved by functions of time the rates that these have there, and points of
+    /// rigid bodies those that fit.
+    ///
+    /// # Errors
+    /// When a function has no value there, or velocities there do not fit the sliders.
+    pub(super) fn begin_at(&mut self, time: f64, scene: &Scene) -> Result<(), SystemError> {
+        self.pass_time_to(time);
+        self.set_given_in_motion(time)
+            .map_err(|(drive, source)| SystemError::DriveValue { drive, source })?;
+        self.settle_start_velocities(scene)
+    }
+
+    fn negligible_velocity(&self, scene: &Scene) -> f64 {
+        SAME_VELOCITY * self.fastest_speed() + f64::EPSILON * scene.fastest_wave()
+    }
+
+    fn check_start_velocity(&self, slider: usize, negligible: f64) -> Result<(), SystemError> {
+        let speed = self.speed_across(slider).abs();
+        if speed <= negligible {
+            return Ok(());
+        }
+        Err(SliderError::LeavesMaster { slider: self.slider(slider).name.clone(), speed }.into())
+    }
+}

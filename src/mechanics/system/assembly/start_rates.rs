@@ -1,0 +1,312 @@
+//! Start velocities: rigid motions of beams and bodies, which tied movements must share, and velocities of single nodes.
+
+use super::{Assembly, Numbering};
+use crate::beams::{BodyDynamics, BodyIndex, Station};
+use crate::geometry::{Vec2, cross, larger, perpendicular};
+use crate::system::elements::AssemblyContext;
+use crate::system::errors::written;
+use crate::system::{Scene, StartMotion, StationVelocity, SystemError, Turning};
+
+/// Largest difference of tied start velocities, relative to the velocities of the beam.
+const SAME_VELOCITY: f64 = 1e-9;
+
+/// Largest difference of a start velocity from that with which a prescribed motion begins, which is found by differences.
+const SAME_START: f64 = 1e-6;
+
+/// The components of a start velocity in messages.
+const COMPONENTS: [&str; 3] = ["velocity along x", "velocity along y", "spin"];
+
+/// Why a supported movement has no velocity.
+const GROUND: &str = "the ground there does not move";
+
+/// Why a prescribed movement has the velocity that it has.
+fn given_there(rate: f64) -> String {
+    format!("its motion is given there, and begins with {rate}")
+}
+
+/// The rate of each unknown, with the beam or the rigid body that has given it; and that which is asked for at a node, if one is.
+struct SharedRates<'a> {
+    rates: Vec<Option<(usize, f64)>>,
+    asked: Vec<Option<RequestedRate<'a>>>,
+}
+
+/// A rate that is asked for at a node [length/time, 1/time].
+#[derive(Clone, Copy)]
+struct RequestedRate<'a> {
+    rate: f64,
+    at: &'a Station,
+}
+
+/// The rates with which prescribed movements begin, behind the unknown ones.
+#[derive(Clone, Copy)]
+struct InitialDriveRates<'a> {
+    unknowns: usize,
+    /// With the entries of constraints ahead, which nobody asks for.
+    rates: &'a [f64],
+    constraints: usize,
+}
+
+impl InitialDriveRates<'_> {
+    /// That of a degree of freedom, if it is prescribed.
+    fn at(&self, degree: usize) -> Option<f64> {
+        let entry = degree.checked_sub(self.unknowns)?;
+        if entry < self.constraints { None } else { self.rates.get(entry).copied() }
+    }
+}
+
+impl SharedRates<'_> {
+    /// Takes a rate of a beam for a degree of freedom; that of another beam, or of the ground, which it does not share, is returned.
+    fn take(
+        &mut self,
+        at: usize,
+        beam: usize,
+        rate: f64,
+        size: f64,
+    ) -> Option<Option<(usize, f64)>> {
+        let other = match self.rates.get_mut(at) {
+            Some(free @ None) => {
+                *free = Some((beam, rate));
+                return None;
+            }
+            Some(taken) => *taken,
+            None => None,
+        };
+        let expected = other.map_or(0.0, |(_, rate)| rate);
+        let differs = (rate - expected).abs() > SAME_VELOCITY * size.max(expected.abs());
+        differs.then_some(other)
+    }
+}
+
+impl RequestedRate<'_> {
+    fn told(&self, scene: &Scene) -> String {
+        format!("{}, joined there, is given {}", scene.name_of_body(self.at), self.rate)
+    }
+}
+
+impl Assembly<'_> {
+    /// The rates of the unknown movements at the start, which fit joints and start velocities [length/time, 1/time].
+    ///
+    /// Behind them stand constraints with so many unknowns, and movements that are prescribed with rates of their own.
+    pub fn start_rates(
+        &self,
+        numbering: &Numbering,
+        constraints: usize,
+        prescribed: &[f64],
+    ) -> Result<Vec<f64>, SystemError> {
+        let begun =
+            InitialDriveRates { unknowns: numbering.unknowns, rates: prescribed, constraints };
+        let asked = self.asked_rates(numbering)?;
+        let mut shared = SharedRates { rates: vec![None; numbering.unknowns], asked };
+        for (index, beam) in self.scene.beams.iter().enumerate() {
+            let degrees = &numbering.degrees_of_freedom[index];
+            let length = beam.axis.length();
+            self.share_rigid_motion(index, length, &beam.motion, degrees, &mut shared, begun)?;
+        }
+        let first = self.scene.first_rigid_body();
+        for (index, body) in (first..).zip(&self.scene.rigid_bodies) {
+            let degrees = &numbering.degrees_of_freedom[index];
+            // One without points is as large as anything: what it shares is its centre.
+            let size = if body.size() > 0.0 { body.size() } else { 1.0 };
+            self.share_rigid_motion(index, size, &body.motion, degrees, &mut shared, begun)?;
+        }
+        let rates = shared.rates.into_iter();
+        let mut rates: Vec<f64> = rates.map(|rate| rate.map_or(0.0, |(_, value)| value)).collect();
+        for velocity in &self.scene.velocities {
+            self.set_velocity(velocity, numbering, &mut rates, begun)?;
+        }
+        self.check_rollers(numbering, &rates)?;
+        Ok(rates)
+    }
+
+    /// Refuses velocities across inclined rollers.
+    fn check_rollers(&self, numbering: &Numbering, rates: &[f64]) -> Result<(), SystemError> {
+        let inclined =
+            self.scene.joints.iter().filter_map(|joint| Some((joint, joint.kind.inclined()?)));
+        for (place, (joint, along)) in numbering.rollers.iter().zip(inclined) {
+            let Some((_, (body, point))) = *place else { continue };
+            let [x, y, _] = numbering.degrees_of_freedom[body][point];
+            let rate = |at: usize| rates.get(at).copied().unwrap_or(0.0);
+            let velocity = Vec2::new(rate(x), rate(y));
+            let across = cross(along, velocity);
+            if across.abs() > SAME_VELOCITY * velocity.norm() {
+                return Err(SystemError::StartVelocity {
+                    body: self.scene.name_of_body(&joint.station),
+                    place: "inclined roller (velocity across it)".to_owned(),
+                    velocity: across,
+                    other: format!("it moves along {} only", written(along)),
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Gives the movements of a body of some length the rates of its rigid motion.
+    fn share_rigid_motion(
+        &self,
+        index: usize,
+        length: f64,
+        motion: &StartMotion,
+        degrees_of_freedom: &[[usize; 3]],
+        shared: &mut SharedRates,
+        begun: InitialDriveRates<'_>,
+    ) -> Result<(), SystemError> {
+        let body = self.body(index);
+        let about = motion.about.unwrap_or_else(|| match index < self.scene.beams.len() {
+            true => centre(body),
+            false => body.control_points()[0],
+        });
+        let rests = motion.velocity == Vec2::zeros() && motion.spin == 0.0;
+        let speed = motion.velocity.norm() + motion.spin.abs() * length;
+        let sizes = [speed, speed, speed / length];
+        for (point, degrees) in body.control_points().iter().zip(degrees_of_freedom) {
+            let velocity = motion.velocity + perpendicular(point - about) * motion.spin;
+            let rates = [velocity.x, velocity.y, motion.spin];
+            let sized = degrees.iter().zip(rates).zip(sizes).zip(COMPONENTS);
+            for (((&at, rate), size), component) in sized {
+                if let Some(begins) = begun.at(at) {
+                    // What rests is set in motion by a blow.
+                    if !rests && (rate - begins).abs() > SAME_START * size.max(begins.abs()) {
+                        return Err(SystemError::StartVelocity {
+                            body: self.name_of(index),
+                            place: format!("drive ({component})"),
+                            velocity: rate,
+                            other: given_there(begins),
+                        });
+                    }
+                    continue;
+                }
+                if let Some(asked) = shared.asked.get(at).copied().flatten() {
+                    // A node of a beam has it, whatever the beam does; a rigid body cannot do otherwise there, and a beam that moves not with a particle
+                    // that moves differently.
+                    let is_rigid = degrees_of_freedom.len() > 1 && index >= self.scene.beams.len();
+                    let moves_apart = !rests && matches!(asked.at.body, BodyIndex::Particle(_));
+                    let missed = (rate - asked.rate).abs();
+                    if (is_rigid || moves_apart) && missed > SAME_START * size.max(asked.rate.abs())
+                    {
+                        return Err(SystemError::StartVelocity {
+                            body: self.name_of(index),
+                            place: format!("joint ({component})"),
+                            velocity: rate,
+                            other: asked.told(self.scene),
+                        });
+                    }
+                    continue;
+                }
+                if let Some(other) = shared.take(at, index, rate, size) {
+                    let other = other.map_or(GROUND.to_owned(), |(other, rate)| {
+                        format!("{}, joined there, has {rate}", self.name_of(other))
+                    });
+                    return Err(SystemError::StartVelocity {
+                        body: self.name_of(index),
+                        place: format!("joint ({component})"),
+                        velocity: rate,
+                        other,
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The rates that are asked for at single nodes, for each unknown.
+    ///
+    /// # Errors
+    /// When two stations that are joined are given different ones.
+    fn asked_rates(
+        &self,
+        numbering: &Numbering,
+    ) -> Result<Vec<Option<RequestedRate<'_>>>, SystemError> {
+        let mut asked: Vec<Option<RequestedRate>> = vec![None; numbering.unknowns];
+        for StationVelocity { station, velocity, spin } in &self.scene.velocities {
+            if let BodyIndex::Rigid(..) = station.body {
+                continue;
+            }
+            let place = self.place(station)?;
+            let degrees = numbering.degrees_of_freedom[place.body][place.nearest_control_point()];
+            let values = [Some(velocity.x), Some(velocity.y), *spin];
+            for ((at, value), component) in degrees.into_iter().zip(values).zip(COMPONENTS) {
+                let (Some(taken), Some(rate)) = (asked.get_mut(at), value) else { continue };
+                if let Some(other) = taken
+                    && other.at != station
+                    && (rate - other.rate).abs() > SAME_START * larger(rate.abs(), other.rate.abs())
+                {
+                    return Err(SystemError::StartVelocity {
+                        body: self.scene.name_of_body(station),
+                        place: format!("joint ({component})"),
+                        velocity: rate,
+                        other: other.told(self.scene),
+                    });
+                }
+                *taken = Some(RequestedRate { rate, at: station });
+            }
+        }
+        Ok(asked)
+    }
+
+    /// A beam or a rigid body in words, by its index in the model.
+    fn name_of(&self, index: usize) -> String {
+        let first = self.scene.first_rigid_body();
+        match self.scene.beams.get(index) {
+            Some(beam) => format!("beam '{}'", beam.name),
+            None => format!("body '{}'", self.scene.rigid_bodies[index - first].name),
+        }
+    }
+
+    /// Sets the rates of the node at a station, whatever its beam does.
+    fn set_velocity(
+        &self,
+        velocity: &StationVelocity,
+        numbering: &Numbering,
+        rates: &mut [f64],
+        begun: InitialDriveRates<'_>,
+    ) -> Result<(), SystemError> {
+        let StationVelocity { station, velocity, spin } = velocity;
+        let object = format!("start velocity of {}", self.scene.describe(station));
+        if let BodyIndex::Rigid(..) = station.body {
+            return Err(SystemError::PointAlone { object });
+        }
+        if !station.turns() && spin.is_some() {
+            return Err(SystemError::ParticleTurned { object, by: Turning::Spin });
+        }
+        let place = self.place(station)?;
+        let degrees = numbering.degrees_of_freedom[place.body][place.nearest_control_point()];
+        let values = [Some(velocity.x), Some(velocity.y), *spin];
+        let differs = |begins: f64, value: f64| {
+            (value - begins).abs() > SAME_START * value.abs().max(begins.abs())
+        };
+        for ((at, value), component) in degrees.into_iter().zip(values).zip(COMPONENTS) {
+            match (value, rates.get_mut(at)) {
+                (Some(value), Some(rate)) => *rate = value,
+                (Some(value), None)
+                    if begun.at(at).is_some_and(|begins| differs(begins, value)) =>
+                {
+                    return Err(SystemError::StartVelocity {
+                        body: self.scene.name_of_body(station),
+                        place: format!("drive ({component})"),
+                        velocity: value,
+                        other: given_there(begun.at(at).unwrap_or_default()),
+                    });
+                }
+                (Some(_), None) if begun.at(at).is_some() => {}
+                (Some(value), None) if value != 0.0 => {
+                    return Err(SystemError::StartVelocity {
+                        body: self.scene.name_of_body(station),
+                        place: format!("support ({component})"),
+                        velocity: value,
+                        other: GROUND.to_owned(),
+                    });
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The centre of mass of a beam as drawn.
+fn centre(beam: &dyn BodyDynamics) -> Vec2 {
+    let lengths = beam.lumped_lengths();
+    let moment: Vec2 =
+        beam.control_points().iter().zip(&lengths).map(|(point, length)| point * *length).sum();
+    moment / lengths.iter().sum::<f64>()
+}

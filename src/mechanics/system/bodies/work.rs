@@ -1,0 +1,141 @@
+//! What all bodies do in a step, one after another or in two halves at once.
+
+use super::halves::BodyHalves;
+use super::{Bodies, Body};
+use crate::beams::{Collocation, ForceSummary, RotationIncrement};
+use crate::linalg::{BandRows, BandedMatrix};
+use crate::threads::at_once;
+
+impl Bodies {
+    /// Lets up to `threads` threads work on a large body, or on many, from here on, with the same results; gives how many will at most.
+    pub fn divide(&mut self, threads: usize) -> usize {
+        self.threads = threads;
+        let parts = self.all.iter_mut().map(|body| body.divide(threads)).max().unwrap_or(1);
+        self.halves = BodyHalves::worthwhile(&self.all, threads);
+        if self.halves.is_some() { parts.max(2) } else { parts }
+    }
+
+    /// How many threads may work at once.
+    pub fn threads(&self) -> usize {
+        self.threads
+    }
+
+    /// Lets all bodies do something, each for itself.
+    fn each(&mut self, work: impl Fn(&mut Body) + Sync) {
+        match &self.halves {
+            None => self.all.iter_mut().for_each(work),
+            Some(halves) => {
+                let (first, second) = self.all.split_at_mut(halves.body);
+                at_once([first, second], |bodies| bodies.iter_mut().for_each(&work));
+            }
+        }
+    }
+
+    /// Begins a step of all bodies with the section forces of the last one.
+    pub fn begin_step(&mut self) {
+        self.each(|body| body.dynamics.begin_step());
+    }
+
+    /// Adds the internal forces of all bodies to `out`; the largest that was met.
+    pub fn add_forces(
+        &mut self,
+        at: Collocation,
+        increments: &[f64],
+        weight: f64,
+        out: &mut [f64],
+    ) -> ForceSummary {
+        self.each(|body| body.meet_forces(at, increments, weight));
+        self.hand_on(out)
+    }
+
+    /// Hands what all bodies have added up on to `out`, in their order, which sums depend on; the largest that was met.
+    fn hand_on(&mut self, out: &mut [f64]) -> ForceSummary {
+        let mut summary = ForceSummary::default();
+        for body in &mut self.all {
+            summary.join(&body.hand_on(out));
+        }
+        summary
+    }
+
+    /// Adds the condensed internal forces of all bodies to `out`, and their derivatives to the tangent.
+    pub fn add_linearised_forces(
+        &mut self,
+        at: Collocation,
+        increments: &[f64],
+        weight: f64,
+        out: &mut [f64],
+        tangent: &mut BandedMatrix,
+    ) {
+        self.linearise(at, increments, weight, tangent);
+        self.hand_on(out);
+    }
+
+    fn linearise(
+        &mut self,
+        at: Collocation,
+        increments: &[f64],
+        weight: f64,
+        tangent: &mut BandedMatrix,
+    ) {
+        let work = |body: &mut Body, rows: BandRows<'_>| {
+            body.linearise(at, increments, weight, rows);
+        };
+        let Some(halves) = &self.halves else {
+            return self.all.iter_mut().for_each(|body| work(body, tangent.rows_mut()));
+        };
+        let (first, second) = self.all.split_at_mut(halves.body);
+        let (before, behind) = tangent.rows_mut().split_at(halves.row);
+        at_once([(first, before), (second, behind)], |(bodies, mut rows)| {
+            bodies.iter_mut().for_each(|body| work(body, rows.reborrow()));
+        });
+        for &at in &halves.astride {
+            let (before, _) = tangent.rows_mut().split_at(halves.row);
+            self.all[at].forget_forces();
+            work(&mut self.all[at], before);
+        }
+    }
+
+    /// Adds `factor · M` of all bodies to the tangent.
+    pub fn add_inertia_tangent(&self, factor: f64, tangent: &mut BandedMatrix) {
+        let Some(halves) = &self.halves else {
+            return self
+                .all
+                .iter()
+                .for_each(|body| body.add_inertia_tangent(factor, tangent.rows_mut()));
+        };
+        let (first, second) = self.all.split_at(halves.body);
+        let (before, behind) = tangent.rows_mut().split_at(halves.row);
+        at_once([(first, before), (second, behind)], |(bodies, mut rows)| {
+            bodies.iter().for_each(|body| body.add_inertia_tangent(factor, rows.reborrow()));
+        });
+        for &at in &halves.astride {
+            let (before, _) = tangent.rows_mut().split_at(halves.row);
+            self.all[at].add_inertia_tangent(factor, before);
+        }
+    }
+
+    /// Adds the forces to `out` that would close the strain mismatch of all bodies.
+    pub fn add_mismatch_forces(&mut self, weight: f64, out: &mut [f64]) {
+        self.each(|body| body.meet_mismatch(weight));
+        self.hand_on(out);
+    }
+
+    /// Updates the section forces of all bodies for a correction of the unknowns.
+    pub fn correct_section_forces(&mut self, correction: &[f64]) {
+        self.each(|body| body.correct_section_forces(correction));
+    }
+
+    /// Adds `factor · M · rates` of all bodies to `out`, one entry for each unknown.
+    pub fn add_inertia(&mut self, factor: f64, rates: &[f64], out: &mut [f64]) {
+        self.each(|body| body.meet_inertia(factor, rates));
+        self.hand_on(out);
+    }
+
+    /// Lets all bodies accept the movements that were gathered last.
+    pub fn advance(&mut self, rotations: RotationIncrement) {
+        for tracker in &mut self.trackers {
+            tracker.advance(self.all[tracker.place.body].moved(), rotations);
+        }
+        self.each(|body| body.advance(rotations));
+    }
+}

@@ -1,0 +1,216 @@
+//! Drag in a step.
+//!
+//! ```text
+//! v = Δx/Δt - wind      f_a = -w N_a G(v, t)      D grows by Σ w G·v Δt ≥ 0, W by -Σ w G·wind Δt
+//! ```
+//!
+//! In a wind `G·v` is that of the law at the force `G`: as `G·Δx - G·wind Δt` it would be a small difference of two numbers that a strong drag makes large,
+//! whose rounding may have either sign. W is what is left of `-G·Δx`, so that the ledger closes.
+//!
+//! `t` is the direction of the axis in the mean configuration.
+
+use super::drag_law::DragLaw;
+use super::drag_point::{DragPoint, Medium};
+use super::internal_force::InternalForce;
+use super::rate_history::RateHistory;
+use super::{TrialState, WorkAndImpulse};
+use crate::beams::{ForceSummary, Movement, RateCollocation};
+use crate::geometry::{Vec2, cross, larger};
+use crate::integrators::Interval;
+use crate::linalg::BandedMatrix;
+use crate::system::bodies::Body;
+
+/// Drag on points of bodies.
+pub struct DragForces {
+    name: String,
+    surroundings: Medium,
+    points: Vec<DragPoint>,
+    pace: RateHistory,
+    dissipated: f64,
+    /// What the wind has given [energy].
+    wind_work: f64,
+}
+
+impl DragForces {
+    /// Drag by a law on points of bodies, in a wind [length/time].
+    pub fn new(name: String, law: DragLaw, points: Vec<DragPoint>, wind: Vec2) -> Self {
+        Self {
+            name,
+            surroundings: Medium { law, wind },
+            points,
+            pace: RateHistory::default(),
+            dissipated: 0.0,
+            wind_work: 0.0,
+        }
+    }
+
+    fn rates(&self, at: TrialState<'_>) -> Option<RateCollocation> {
+        let is_timed = self.pace.duration().is_finite();
+        self.pace.at(at.stage, at.weight).filter(|_| is_timed)
+    }
+
+    /// What the wind gives by a point in the step of the movements that its body gathered last, and what is lost there [energy].
+    fn turnover(&self, point: &DragPoint, body: &Body) -> [f64; 2] {
+        let (force, movement) = (point.given(), point.movement(body));
+        let taken = force.dot(&movement);
+        if !self.blows() {
+            return [0.0, taken];
+        }
+        let duration = self.pace.duration();
+        let besides = force.dot(&point.besides(movement, duration));
+        let lost = point.power(&self.surroundings.law) * duration + besides;
+        [lost - taken, lost]
+    }
+
+    fn blows(&self) -> bool {
+        self.surroundings.wind != Vec2::zeros()
+    }
+}
+
+impl InternalForce for DragForces {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn begin_step(&mut self, interval: Interval, bodies: &[Body], rates: &[f64]) {
+        self.pace.begin(interval.duration());
+        self.points.iter_mut().for_each(|point| point.begin_step(&bodies[point.body], rates));
+    }
+
+    fn begin_movement(&mut self) {
+        self.pace.begin(f64::INFINITY);
+        self.points.iter_mut().for_each(DragPoint::rest);
+    }
+
+    fn add_forces(&mut self, at: TrialState<'_>, out: &mut [f64]) -> ForceSummary {
+        let Some(rates) = self.rates(at) else { return ForceSummary::default() };
+        let mut summary = ForceSummary::default();
+        for point in &mut self.points {
+            let body = &at.bodies[point.body];
+            let missing = point.compare(&self.surroundings, body, at.increments, rates);
+            let force = point.given();
+            summary.strain_mismatch = larger(summary.strain_mismatch, missing);
+            summary.force = larger(summary.force, larger(force.x.abs(), force.y.abs()));
+            point.scatter(body, force, out);
+        }
+        summary
+    }
+
+    fn add_linearised_forces(
+        &mut self,
+        at: TrialState<'_>,
+        out: &mut [f64],
+        unknowns: usize,
+        tangent: &mut BandedMatrix,
+    ) {
+        let Some(rates) = self.rates(at) else { return };
+        for point in &mut self.points {
+            let body = &at.bodies[point.body];
+            let asked = point.linearise(&self.surroundings, body, at.increments, rates);
+            point.scatter(body, asked, out);
+            point.each_derivative(|to, from, by| {
+                let row = body.degrees_of_freedom[to.0][to.1];
+                let column = body.degrees_of_freedom[from.0][from.1];
+                if row < unknowns && column < unknowns {
+                    tangent.add(row, column, by);
+                }
+            });
+        }
+    }
+
+    /// It counts once a step, whatever the weight.
+    fn add_mismatch_forces(&self, bodies: &[Body], _weight: f64, out: &mut [f64]) {
+        for point in &self.points {
+            point.scatter(&bodies[point.body], point.missing(), out);
+        }
+    }
+
+    fn correct(&mut self, bodies: &[Body], correction: &[f64]) {
+        self.points.iter_mut().for_each(|point| point.correct(&bodies[point.body], correction));
+    }
+
+    /// What the medium gives: an impulse where the point is in the middle of the step, and work where it flows.
+    fn exchange(&self, bodies: &[Body], duration: f64) -> WorkAndImpulse {
+        let mut sum = WorkAndImpulse::default();
+        for point in &self.points {
+            let body = &bodies[point.body];
+            let impulse = point.given() * -duration;
+            let (middle, [work, _]) = (point.middle(body), self.turnover(point, body));
+            sum += WorkAndImpulse::of(work, impulse, cross(middle, impulse));
+        }
+        sum
+    }
+
+    fn advance(&mut self, bodies: &[Body]) {
+        let duration = self.pace.duration();
+        let is_timed = duration.is_finite();
+        if is_timed {
+            for point in &self.points {
+                let [work, lost] = self.turnover(point, &bodies[point.body]);
+                self.dissipated += lost;
+                self.wind_work += work;
+            }
+        }
+        for point in &mut self.points {
+            let movement = point.movement(&bodies[point.body]);
+            point.advance(movement / duration);
+        }
+        self.pace.end();
+    }
+
+    fn dissipated(&self) -> f64 {
+        self.dissipated
+    }
+
+    fn wind_work(&self) -> Option<f64> {
+        self.blows().then_some(self.wind_work)
+    }
+
+    fn add_forces_now(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]) {
+        for point in &self.points {
+            let rate = |at: usize| Vec2::new(rates[point.body][at][0], rates[point.body][at][1]);
+            let body = &bodies[point.body];
+            point.scatter(body, point.resisting(&self.surroundings, body, rate), out);
+        }
+    }
+
+    /// Small vibration meets what is linear in velocities.
+    fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
+        let damping = self.surroundings.law.linear();
+        for point in &self.points {
+            let body = &bodies[point.body];
+            let components = point.across_and_along(body, |at| body.vector_at(at, rates));
+            for (damping, rate) in damping.iter().zip(components.iter()) {
+                if *damping > 0.0 {
+                    take(point.weight() * damping, *rate);
+                }
+            }
+        }
+    }
+
+    fn save(&self, state: &mut Vec<f64>) {
+        self.pace.save(state);
+        self.points.iter().for_each(|point| point.save(state));
+        state.push(self.dissipated);
+        state.extend(self.wind_work());
+    }
+
+    fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
+        self.pace.restore(next);
+        self.points.iter_mut().for_each(|point| point.restore(next));
+        self.dissipated = next();
+        if self.blows() {
+            self.wind_work = next();
+        }
+    }
+
+    fn explain(&self) -> String {
+        let points = crate::system::errors::plural(self.points.len(), "point");
+        let Medium { law, wind } = &self.surroundings;
+        let blowing = match self.blows() {
+            true => format!(", in a wind of ({}, {})", wind.x, wind.y),
+            false => String::new(),
+        };
+        format!("{} at {points}{blowing}; its forces are unknowns of their own", law.describe())
+    }
+}

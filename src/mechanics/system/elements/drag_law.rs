@@ -1,0 +1,180 @@
+//! Laws of drag: a force against a velocity, with its derivatives.
+//!
+//! ```text
+//! point    G = (c + k |v|) v        line    G = φn(n·v) n + φt(t·v) t,  φ(s) = c s + k |s| s        G·v ≥ 0
+//! ```
+
+use serde::{Deserialize, Serialize};
+
+use crate::geometry::{Vec2, perpendicular};
+
+/// A force over a speed, `c s + k |s| s`: of a point, or per length of a line.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct SpeedLaw {
+    /// The coefficient `c` of the part that is linear in the speed [force·time/length; of a line force·time/length²].
+    pub linear: f64,
+    /// The coefficient `k` of the part that is quadratic in the speed [force·time²/length²; of a line force·time²/length³].
+    pub quadratic: f64,
+}
+
+impl SpeedLaw {
+    fn force(&self, speed: f64) -> f64 {
+        (self.linear + self.quadratic * speed.abs()) * speed
+    }
+
+    /// The power `F s` at a force `F = c s + k |s| s`: never negative, and without a speed that it would have to be a difference of.
+    fn power(&self, force: f64) -> f64 {
+        let force = force.abs();
+        if force == 0.0 {
+            return 0.0;
+        }
+        let root = (self.linear * self.linear + 4.0 * self.quadratic * force).sqrt();
+        force * (2.0 * force / (self.linear + root))
+    }
+
+    fn slope(&self, speed: f64) -> f64 {
+        self.linear + 2.0 * self.quadratic * speed.abs()
+    }
+}
+
+/// How the medium resists.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum DragLaw {
+    /// Alike in every direction.
+    Point(SpeedLaw),
+    /// Across and along a line.
+    Line {
+        /// The force across the line, over the speed across it.
+        normal: SpeedLaw,
+        /// The force along the line, over the speed along it.
+        tangent: SpeedLaw,
+    },
+}
+
+/// The force of a point of the body on the medium by its components across a line, along `n = J t`, and along it, with their derivatives.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct DragResponse {
+    /// `(G·n, G·t)` [force, or force/length].
+    pub force: Vec2,
+    /// The derivative of either component by the velocity.
+    pub by_velocity: [Vec2; 2],
+    /// The derivatives of the components by the angle of the line.
+    pub by_turn: Vec2,
+}
+
+/// The vector in space that has these components across and along a line with a unit tangent.
+pub fn in_space(t: Vec2, components: Vec2) -> Vec2 {
+    perpendicular(t) * components.x + t * components.y
+}
+
+impl DragLaw {
+    /// What resists a velocity relative to the medium, where the line has a unit tangent; that of a point does not count.
+    pub fn resist(&self, velocity: Vec2, t: Vec2) -> DragResponse {
+        let n = perpendicular(t);
+        let (across, along) = (n.dot(&velocity), t.dot(&velocity));
+        match self {
+            Self::Point(law) => {
+                let speed = velocity.norm();
+                let factor = law.linear + law.quadratic * speed;
+                // k v ⊗ v/|v|
+                let bend = if speed > 0.0 { velocity * (law.quadratic / speed) } else { velocity };
+                DragResponse {
+                    force: Vec2::new(across, along) * factor,
+                    by_velocity: [n * factor + bend * across, t * factor + bend * along],
+                    by_turn: Vec2::new(-along, across) * factor,
+                }
+            }
+            Self::Line { normal, tangent } => {
+                let (slope_n, slope_t) = (normal.slope(across), tangent.slope(along));
+                DragResponse {
+                    force: Vec2::new(normal.force(across), tangent.force(along)),
+                    by_velocity: [n * slope_n, t * slope_t],
+                    by_turn: Vec2::new(-slope_n * along, slope_t * across),
+                }
+            }
+        }
+    }
+
+    /// The power that is lost at such components of the force [power, or power/length].
+    pub fn power(&self, force: Vec2) -> f64 {
+        match self {
+            Self::Point(law) => law.power(force.norm()),
+            Self::Line { normal, tangent } => normal.power(force.x) + tangent.power(force.y),
+        }
+    }
+
+    /// What the components of the force are relative to where velocities are differences of velocities of such a size.
+    pub fn scale(&self, speed: f64) -> Vec2 {
+        let of = |law: &SpeedLaw| law.slope(speed) * speed;
+        match self {
+            Self::Point(law) => Vec2::repeat(of(law)),
+            Self::Line { normal, tangent } => Vec2::new(of(normal), of(tangent)),
+        }
+    }
+
+    /// The coefficients of what is linear in velocities, across and along a line [force·time/length; of a line force·time/length²].
+    pub fn linear(&self) -> Vec2 {
+        match self {
+            Self::Point(law) => Vec2::repeat(law.linear),
+            Self::Line { normal, tangent } => Vec2::new(normal.linear, tangent.linear),
+        }
+    }
+
+    /// The law in words.
+    pub fn describe(&self) -> String {
+        let law = |law: &SpeedLaw| match (law.linear, law.quadratic) {
+            (linear, 0.0) => format!("{linear} v"),
+            (0.0, quadratic) => format!("{quadratic} |v| v"),
+            (linear, quadratic) => format!("{linear} v + {quadratic} |v| v"),
+        };
+        match self {
+            Self::Point(along) => law(along),
+            Self::Line { normal, tangent } => {
+                format!("{} across, {} along", law(normal), law(tangent))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::unit;
+
+    #[test]
+    fn derivatives_are_those_of_the_force_and_no_force_drives() {
+        let (normal, tangent) =
+            (SpeedLaw { linear: 0.3, quadratic: 2.0 }, SpeedLaw { linear: 0.1, quadratic: 0.4 });
+        for law in [DragLaw::Point(normal), DragLaw::Line { normal, tangent }] {
+            for (angle, velocity) in [(0.3, Vec2::new(1.0, -2.0)), (2.5, Vec2::new(-0.4, 0.2))] {
+                let (h, t) = (1e-6, unit(angle));
+                let found = law.resist(velocity, t);
+                let power = in_space(t, found.force).dot(&velocity);
+                assert!(power > 0.0 && (law.power(found.force) - power).abs() < 1e-14 * power);
+                let force = |v: Vec2, angle: f64| {
+                    let t = unit(angle);
+                    in_space(t, law.resist(v, t).force)
+                };
+                for axis in [Vec2::x(), Vec2::y()] {
+                    let by = found.by_velocity.map(|by| by.dot(&axis));
+                    let (more, less) = (velocity + axis * h, velocity - axis * h);
+                    let expected = (force(more, angle) - force(less, angle)) / (2.0 * h);
+                    let by = in_space(t, Vec2::new(by[0], by[1]));
+                    assert!((by - expected).norm() < 1e-8, "{law:?}: {by} {expected}");
+                }
+                let turned = force(velocity, angle + h) - force(velocity, angle - h);
+                // Components change, and so does the line that they stand on.
+                let by = found.by_turn + Vec2::new(found.force.y, -found.force.x);
+                assert!((in_space(t, by) - turned / (2.0 * h)).norm() < 1e-8, "{law:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_does_not_move_is_not_dragged() {
+        let law = DragLaw::Point(SpeedLaw { linear: 0.3, quadratic: 2.0 });
+        let found = law.resist(Vec2::zeros(), Vec2::x());
+        assert_eq!((found.force, found.by_velocity[0].x), (Vec2::zeros(), 0.0));
+        assert_eq!(found.by_velocity[1].x, 0.3);
+    }
+}

@@ -1,0 +1,314 @@
+//! A point of a body that is dragged, in a step.
+//!
+//! Its force is an unknown of its own, by components across and along its line: a force that was made of velocities would carry `c` times their rounding,
+//! which a strong drag, or a wind, makes larger than all that it has to balance.
+
+use super::drag_law::{DragLaw, DragResponse, in_space};
+use crate::beams::{BodyPoint, RateCollocation};
+use crate::geometry::{Vec2, larger, perpendicular};
+use crate::system::bodies::Body;
+
+/// The medium around points, and how it resists.
+pub struct Medium {
+    pub law: DragLaw,
+    /// The velocity of the medium [length/time].
+    pub wind: Vec2,
+}
+
+/// A point of a body that is dragged.
+#[derive(Debug, Clone)]
+pub struct DragPoint {
+    /// The body, by its index.
+    pub body: usize,
+    /// The first control point whose function is not zero there.
+    first: usize,
+    /// The functions there [-], and their derivatives by arc length [1/length]; the latter are zero where no direction counts.
+    shape: Vec<f64>,
+    slope: Vec<f64>,
+    /// The length that it stands for [length]; 1 of a point.
+    weight: f64,
+    /// The velocity of the point in the step before [length/time].
+    last_velocity: Vec2,
+    /// The largest speed that its velocity may be a difference of, at the start of the step [length/time].
+    speed: f64,
+    /// The components of the force across and along the line, in the iterate [force, or force/length].
+    force: Vec2,
+    /// The force of the last step, likewise.
+    last_force: Vec2,
+    /// What the configuration asks for less the force, likewise.
+    mismatch: Vec2,
+    /// The force in space, as it was given last, times its weight [force].
+    given: Vec2,
+    linearised: DragTrial,
+    /// Where rates were taken last.
+    rates: Option<RateCollocation>,
+}
+
+/// A point in an iterate.
+#[derive(Debug, Clone, Copy)]
+struct DragTrial {
+    /// The unit tangent of its line.
+    tangent: Vec2,
+    resisted: DragResponse,
+    /// The derivative of the angle of the line by `g` [1/length].
+    turn_by_gradient: Vec2,
+    rates: (f64, f64),
+}
+
+impl DragTrial {
+    /// A point that nothing resists.
+    fn nothing() -> Self {
+        let none = Vec2::zeros();
+        let resisted = DragResponse::default();
+        Self { tangent: Vec2::x(), resisted, turn_by_gradient: none, rates: (0.0, 0.0) }
+    }
+
+    /// What resists a velocity where a line has a tangent of any length.
+    fn new(law: &DragLaw, velocity: Vec2, gradient: Vec2, rates: (f64, f64)) -> Self {
+        let (tangent, inverse) = unit_tangent(gradient);
+        let resisted = law.resist(velocity, tangent);
+        Self { tangent, resisted, turn_by_gradient: perpendicular(tangent) * inverse, rates }
+    }
+}
+
+/// The unit tangent along a gradient, and one over the size of that [1/length]; where there is none, any.
+fn unit_tangent(gradient: Vec2) -> (Vec2, f64) {
+    let length = gradient.norm();
+    match length > 0.0 {
+        true => (gradient / length, 1.0 / length),
+        false => (Vec2::x(), 0.0),
+    }
+}
+
+impl DragPoint {
+    /// A point with functions of control points and their derivatives by arc length, which stands for a length.
+    pub fn new(
+        (body, first): (usize, usize),
+        shape: Vec<f64>,
+        slope: Vec<f64>,
+        weight: f64,
+    ) -> Self {
+        let none = Vec2::zeros();
+        Self {
+            body,
+            first,
+            shape,
+            slope,
+            weight,
+            last_velocity: none,
+            speed: 0.0,
+            force: none,
+            last_force: none,
+            mismatch: none,
+            given: none,
+            linearised: DragTrial::nothing(),
+            rates: None,
+        }
+    }
+
+    /// The point at a place, which has no length and no direction.
+    pub fn at(place: &BodyPoint) -> Self {
+        let shape = place.shape().to_vec();
+        let slope = vec![0.0; shape.len()];
+        Self::new((place.body, place.first), shape, slope, 1.0)
+    }
+
+    /// The sum of values of control points by the functions, or by their derivatives.
+    fn combine(&self, by: &[f64], value: impl Fn(usize) -> Vec2) -> Vec2 {
+        by.iter()
+            .enumerate()
+            .fold(Vec2::zeros(), |sum, (at, by)| sum + value(self.first + at) * *by)
+    }
+
+    /// The largest size that a sum by the functions is a difference of.
+    fn size(&self, value: impl Fn(usize) -> Vec2) -> f64 {
+        let sizes = self.shape.iter().enumerate();
+        sizes.fold(0.0, |sum, (at, by)| sum + value(self.first + at).norm() * by.abs())
+    }
+
+    /// The velocity of the point at rates of control points [length/time].
+    pub fn velocity(&self, rate: impl Fn(usize) -> Vec2) -> Vec2 {
+        self.combine(&self.shape, rate)
+    }
+
+    /// The components of the velocity of the point across and along its line at the start of a step, at rates of control points [length/time].
+    pub fn across_and_along(&self, body: &Body, rate: impl Fn(usize) -> Vec2) -> Vec2 {
+        let (velocity, tangent) = (self.velocity(rate), unit_tangent(self.gradient(body)).0);
+        Vec2::new(perpendicular(tangent).dot(&velocity), tangent.dot(&velocity))
+    }
+
+    /// The length that the point stands for [length]; 1 of a point.
+    pub fn weight(&self) -> f64 {
+        self.weight
+    }
+
+    /// The tangent of the axis at the start of the step.
+    fn gradient(&self, body: &Body) -> Vec2 {
+        let points = body.dynamics.control_points();
+        let origin = points[self.first];
+        self.combine(&self.slope, |at| points[at] - origin)
+    }
+
+    /// The movement of the point in the step of the movements that the body gathered last.
+    pub fn movement(&self, body: &Body) -> Vec2 {
+        let moved = body.moved();
+        self.combine(&self.shape, |at| Vec2::new(moved[at][0], moved[at][1]))
+    }
+
+    /// Where the point is in the middle of that step.
+    pub fn middle(&self, body: &Body) -> Vec2 {
+        let points = body.dynamics.control_points();
+        let origin = points[self.first];
+        let place = self.combine(&self.shape, |at| points[at] - origin);
+        origin + place + self.movement(body) * 0.5
+    }
+
+    pub fn begin_step(&mut self, body: &Body, rates: &[f64]) {
+        self.force = self.last_force;
+        self.speed = self.size(|at| body.vector_at(at, rates));
+    }
+
+    /// Begins a movement that takes no time.
+    pub fn rest(&mut self) {
+        (self.force, self.mismatch, self.given) = (Vec2::zeros(), Vec2::zeros(), Vec2::zeros());
+        self.linearised = DragTrial::nothing();
+    }
+
+    fn meet(
+        &self,
+        around: &Medium,
+        body: &Body,
+        increments: &[f64],
+        rates: RateCollocation,
+    ) -> DragTrial {
+        let moved = |control: usize| body.vector_at(control, increments);
+        let (change, by) = (self.combine(&self.shape, moved), self.combine(&self.slope, moved));
+        let velocity = change * rates.by_change - self.last_velocity * rates.by_last - around.wind;
+        let gradient = self.gradient(body) + by * rates.share;
+        DragTrial::new(&around.law, velocity, gradient, (rates.by_change, rates.share))
+    }
+
+    /// Compares the force with what an iterate asks for; how far it is off, relative to what the velocities there are differences of.
+    pub fn compare(
+        &mut self,
+        around: &Medium,
+        body: &Body,
+        increments: &[f64],
+        rates: RateCollocation,
+    ) -> f64 {
+        let DragTrial { tangent, resisted, .. } = self.meet(around, body, increments, rates);
+        self.mismatch = resisted.force - self.force;
+        self.rates = Some(rates);
+        self.given = in_space(tangent, self.force) * self.weight;
+        let moved = self.size(|at| body.vector_at(at, increments)) * rates.by_change.abs();
+        let before = self.last_velocity.norm() * rates.by_last.abs();
+        let scale = around.law.scale(self.speed + moved + before + around.wind.norm());
+        let relative = |missing: f64, scale: f64| match missing {
+            0.0 => 0.0,
+            missing => missing.abs() / scale,
+        };
+        larger(relative(self.mismatch.x, scale.x), relative(self.mismatch.y, scale.y))
+    }
+
+    /// Takes the derivatives in an iterate; the force that it asks for.
+    pub fn linearise(
+        &mut self,
+        around: &Medium,
+        body: &Body,
+        increments: &[f64],
+        rates: RateCollocation,
+    ) -> Vec2 {
+        self.linearised = self.meet(around, body, increments, rates);
+        let DragTrial { tangent, resisted, .. } = self.linearised;
+        self.mismatch = resisted.force - self.force;
+        in_space(tangent, resisted.force) * self.weight
+    }
+
+    /// Gives the derivatives of the force on control points by the movements of control points, each with its component; the line turns with the force of
+    /// the iterate.
+    pub fn each_derivative(&self, mut give: impl FnMut((usize, usize), (usize, usize), f64)) {
+        let DragTrial { tangent, resisted, turn_by_gradient, rates: (by_change, share) } =
+            self.linearised;
+        let turned = in_space(tangent, resisted.by_turn + Vec2::new(self.force.y, -self.force.x));
+        let [across, along] = resisted.by_velocity;
+        for (column, (shape, slope)) in self.shape.iter().zip(&self.slope).enumerate() {
+            for axis in 0..2 {
+                let by_velocity = in_space(tangent, Vec2::new(across[axis], along[axis]));
+                let by = by_velocity * (by_change * shape)
+                    + turned * (turn_by_gradient[axis] * share * slope);
+                for (row, of_row) in self.shape.iter().enumerate() {
+                    for component in 0..2 {
+                        let value = self.weight * of_row * by[component];
+                        give((self.first + row, component), (self.first + column, axis), value);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Carries a correction of the movements over to the force, to first order.
+    pub fn correct(&mut self, body: &Body, correction: &[f64]) {
+        let DragTrial { resisted, turn_by_gradient, rates: (by_change, share), .. } =
+            self.linearised;
+        let moved = |control: usize| body.vector_at(control, correction);
+        let velocity = self.combine(&self.shape, moved) * by_change;
+        let turn = turn_by_gradient.dot(&self.combine(&self.slope, moved)) * share;
+        let [across, along] = resisted.by_velocity.map(|by| by.dot(&velocity));
+        self.force += self.mismatch + Vec2::new(across, along) + resisted.by_turn * turn;
+    }
+
+    /// The force of the last iterate in space [force].
+    pub fn given(&self) -> Vec2 {
+        self.given
+    }
+
+    /// The power that the law loses at the force of the last iterate, which the rounding of velocities has no part in [power].
+    pub fn power(&self, law: &DragLaw) -> f64 {
+        law.power(self.force) * self.weight
+    }
+
+    /// By how much the point moves in a step of a duration, less what it would at the velocity that was resisted: nothing where that is the mean one [length].
+    pub fn besides(&self, movement: Vec2, duration: f64) -> Vec2 {
+        let Some(rates) = self.rates else { return Vec2::zeros() };
+        movement * (1.0 - rates.by_change * duration)
+            + self.last_velocity * (rates.by_last * duration)
+    }
+
+    /// The force that would close the mismatch, in the direction of the last linearisation [force].
+    pub fn missing(&self) -> Vec2 {
+        in_space(self.linearised.tangent, self.mismatch) * self.weight
+    }
+
+    /// The force on the medium at rates of control points at the start of a step [force].
+    pub fn resisting(&self, around: &Medium, body: &Body, rate: impl Fn(usize) -> Vec2) -> Vec2 {
+        let velocity = self.velocity(rate) - around.wind;
+        let DragTrial { tangent, resisted, .. } =
+            DragTrial::new(&around.law, velocity, self.gradient(body), (0.0, 0.0));
+        in_space(tangent, resisted.force) * self.weight
+    }
+
+    /// Adds a force at the point to those on control points.
+    pub fn scatter(&self, body: &Body, force: Vec2, out: &mut [f64]) {
+        for (at, share) in self.shape.iter().enumerate() {
+            let [x, y, _] = body.degrees_of_freedom[self.first + at];
+            out[x] += share * force.x;
+            out[y] += share * force.y;
+        }
+    }
+
+    /// Ends a step in which it had this velocity.
+    pub fn advance(&mut self, velocity: Vec2) {
+        self.last_velocity = velocity;
+        self.last_force = self.force;
+    }
+
+    pub fn save(&self, state: &mut Vec<f64>) {
+        let Self { last_velocity: v, last_force: f, .. } = self;
+        state.extend([v.x, v.y, f.x, f.y]);
+    }
+
+    pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
+        self.last_velocity = Vec2::new(next(), next());
+        self.last_force = Vec2::new(next(), next());
+    }
+}

@@ -1,0 +1,398 @@
+//! What springs measure: the length of a way over several places, or the angle between two sections.
+//!
+//! ```text
+//! way:    Δℓ = e·Δd, e = (d₀ + d₁)/(ℓ₀ + ℓ₁), part by part        angle:  Δθ = r (Δω_b - Δω_a)
+//! ```
+//!
+//! `e` and `r` are secants: a force along them does exactly the work `F Δℓ`, `M Δθ`, and is opposite at both ends. Differences of
+//! places are advanced by increments, so that they do not depend on how far from the origin everything has moved; and so is the elongation itself, as
+//! what it has grown by since the start: a length less one at ease would carry the rounding of the length, which may be millions of times as large.
+
+mod shares;
+mod term;
+
+use std::ops::Range;
+
+use self::shares::CoordinateShare;
+use self::term::{ElongationTerm, RelativeTurn};
+use super::coordinate::Coordinate;
+use super::{TrialState, collocation};
+use crate::beams::{BodyPoint, Movement, RotationIncrement};
+use crate::geometry::{Vec2, larger};
+use crate::system::bodies::Body;
+
+/// Movements that a change is a difference of are off by so many times their last digit at most.
+const MOST_ROUNDING: f64 = 16.0;
+
+/// Where an elongation is taken: a place of a body, or the ground.
+#[derive(Debug, Clone)]
+pub enum ElongationEnd {
+    /// A place that moves.
+    Moving(BodyPoint),
+    /// A place that does not.
+    Ground,
+}
+
+impl ElongationEnd {
+    /// The number of functions that are not zero there.
+    fn order(&self) -> usize {
+        match self {
+            Self::Moving(place) => place.shape().len(),
+            Self::Ground => 0,
+        }
+    }
+
+    /// What it has of a vector of the control points of each body, by body and point: none on the ground.
+    pub fn combine(&self, of_point: impl Fn(usize, usize) -> Vec2) -> Vec2 {
+        let Self::Moving(place) = self else { return Vec2::zeros() };
+        place
+            .weights()
+            .fold(Vec2::zeros(), |sum, (point, share)| sum + of_point(place.body, point) * share)
+    }
+}
+
+/// Which movements of a place count.
+#[derive(Debug, Clone)]
+enum Measure {
+    /// Those of the place: the differences `d₀` from each terminal to the next [length].
+    Way(Vec<Vec2>),
+    /// The rotation of its section.
+    Angle,
+    /// One component of the way between two terminals, by its number, x or y.
+    Component(usize),
+}
+
+/// A length or an angle between terminals at the start of a step, and how it changes in an iterate.
+///
+/// Its coordinates are the movements of the terminals that count, one terminal after another: x and y of each for a way, the
+/// rotation of each for an angle.
+#[derive(Debug, Clone)]
+pub struct Elongation {
+    measure: Measure,
+    terminals: Vec<ElongationEnd>,
+    /// Where their coordinates stand among the degrees of freedom, where they were located last.
+    shares: Vec<CoordinateShare>,
+    /// What is measured in the scene as it was built [length, rad].
+    drawn: f64,
+    /// By how much it has grown since, up to the start of the step [length, rad].
+    grown: Coordinate,
+    /// The movements in the iterate, a number for each coordinate.
+    moved: Vec<f64>,
+    /// Those of a correction.
+    corrected: Vec<f64>,
+    /// The change `Δq` of what is measured in the step [length, rad].
+    pub change: f64,
+    /// The same of the iterate whose force was settled last, and how much more it is as the force has it, without rounding of movements, of which a
+    /// stiff spring would store something [length, rad].
+    settled: (f64, f64),
+    /// The secant `g` with `Σ g u = Δq`; at the end of a step the derivative there [-].
+    pub secant: Vec<f64>,
+    /// The derivative `∂Δq/∂u` by the movements [-].
+    pub slope: Vec<f64>,
+    /// The derivative `∂g/∂u` of the secant by the movements, row by row, where it was found last [1/length, 1/rad].
+    pub bend: Vec<f64>,
+    /// What has to be added to the secant for the direction at the time of the step that [`balance`](Self::balance) took last [-].
+    pub lag: Vec<f64>,
+    /// The derivative of the lag by the movements, row by row [1/length].
+    pub lag_bend: Vec<f64>,
+}
+
+impl Elongation {
+    /// The length of a way over terminals, which are at these places at the start.
+    pub fn way(terminals: Vec<ElongationEnd>, at: &[Vec2]) -> Self {
+        let parts: Vec<Vec2> = at.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let length = parts.iter().map(Vec2::norm).sum();
+        Self::new(Measure::Way(parts), length, terminals, 2)
+    }
+
+    /// One component, x or y, of the way between two terminals, which are at these places at the start.
+    pub fn component(
+        terminals: [ElongationEnd; 2],
+        [from, to]: [Vec2; 2],
+        component: usize,
+    ) -> Self {
+        let start = (to - from)[component];
+        Self::new(Measure::Component(component), start, terminals.into(), 2)
+    }
+
+    /// The angle from the first terminal to the second one, which is this one at the start [rad].
+    pub fn angle(terminals: [ElongationEnd; 2], angle: f64) -> Self {
+        Self::new(Measure::Angle, angle, terminals.into(), 1)
+    }
+
+    fn new(measure: Measure, drawn: f64, terminals: Vec<ElongationEnd>, components: usize) -> Self {
+        let coordinates = components * terminals.len();
+        Self {
+            measure,
+            shares: Vec::with_capacity(terminals.iter().map(|of| components * of.order()).sum()),
+            terminals,
+            drawn,
+            grown: Coordinate::default(),
+            moved: vec![0.0; coordinates],
+            corrected: vec![0.0; coordinates],
+            change: 0.0,
+            settled: (0.0, 0.0),
+            secant: vec![0.0; coordinates],
+            slope: vec![0.0; coordinates],
+            bend: vec![0.0; coordinates * coordinates],
+            lag: vec![0.0; coordinates],
+            lag_bend: vec![0.0; coordinates * coordinates],
+        }
+    }
+
+    /// Whether it is the angle between two sections.
+    pub fn is_angle(&self) -> bool {
+        matches!(self.measure, Measure::Angle)
+    }
+
+    /// `q` at the start of the step [length, rad].
+    pub fn value(&self) -> f64 {
+        self.drawn + self.grown.value
+    }
+
+    /// `q` in the scene as it was built [length, rad].
+    pub fn drawn(&self) -> f64 {
+        self.drawn
+    }
+
+    /// By how much `q` has grown from the scene as it was built to the start of the step, right beyond its own rounding [length, rad].
+    pub fn grown(&self) -> Coordinate {
+        self.grown
+    }
+
+    /// What rounding of it is relative to, in an iterate: the largest length or angle that it is a difference of [length, rad].
+    pub fn extent(&self) -> f64 {
+        let after = (self.value() + self.change).abs();
+        match self.measure {
+            Measure::Way(_) => after,
+            Measure::Angle => larger(1.0, after),
+            // It is advanced by movements that may be larger by far.
+            Measure::Component(..) => self.moved.iter().fold(after, |size, by| size.max(by.abs())),
+        }
+    }
+
+    /// How far the change may be off by rounding of the movements that it is a difference of [length, rad].
+    fn rounding(&self) -> f64 {
+        let moved = self.moved.iter().fold(0.0, |most, by| larger(most, by.abs()));
+        MOST_ROUNDING * f64::EPSILON * moved
+    }
+
+    /// Takes the change of the iterate that was taken last for so much more, if rounding of its movements may be that; whether it may.
+    pub fn settle(&mut self, missing: f64) -> bool {
+        let is_rounding = missing.abs() <= self.rounding();
+        self.settled = (self.change, if is_rounding { missing } else { 0.0 });
+        is_rounding
+    }
+
+    /// Whether it is one component of a way.
+    pub fn is_component(&self) -> bool {
+        matches!(self.measure, Measure::Component(..))
+    }
+
+    /// The components of the movement of a place that count.
+    pub fn components(&self) -> Range<usize> {
+        match self.measure {
+            Measure::Way(_) | Measure::Component(..) => 0..2,
+            Measure::Angle => 2..3,
+        }
+    }
+
+    /// The terminals that move: their places, and the numbers of their coordinates.
+    pub fn moving(&self) -> impl Iterator<Item = (&BodyPoint, Range<usize>)> {
+        let count = self.components().len();
+        self.terminals.iter().enumerate().filter_map(move |(at, terminal)| match terminal {
+            ElongationEnd::Moving(place) => Some((place, at * count..(at + 1) * count)),
+            ElongationEnd::Ground => None,
+        })
+    }
+
+    /// Takes the movements of an iterate, and finds change, secant and slope.
+    pub fn take(&mut self, at: TrialState<'_>) {
+        self.locate(at.bodies);
+        self.gather(at.increments);
+        let collocation = collocation(at.stage);
+        self.compare(collocation.rotations);
+    }
+
+    /// Finds the lag in the iterate that was taken last, at the end of a step: the direction of the way such a share of the step after its start, less
+    /// the secant. There is none where no share is told, and none of angles, whose directions do not change.
+    pub fn balance(&mut self, share: Option<f64>) {
+        let Self { measure, moved, lag, lag_bend, .. } = self;
+        [&mut *lag, lag_bend].into_iter().for_each(|all| all.fill(0.0));
+        let (Measure::Way(parts), Some(share)) = (measure, share) else { return };
+        let width = moved.len();
+        for (part, start) in parts.iter().enumerate() {
+            let ends = [2 * part, 2 * part + 2];
+            let [from, to] = ends.map(|at| Vec2::new(moved[at], moved[at + 1]));
+            let at_end = ElongationTerm::new(*start, to - from, RotationIncrement::Angle);
+            let within = ElongationTerm::new(*start, (to - from) * share, RotationIncrement::Angle);
+            for (row, sign) in ends.into_iter().zip([-1.0, 1.0]) {
+                for component in 0..2 {
+                    lag[row + component] +=
+                        sign * (within.secant[component] - at_end.secant[component]);
+                    for (column, other) in ends.into_iter().zip([-1.0, 1.0]) {
+                        let at = (row + component) * width + column;
+                        for by in 0..2 {
+                            let bend =
+                                share * within.bend(component, by) - at_end.bend(component, by);
+                            lag_bend[at + by] += sign * other * bend;
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// The rate of `q` at the start of the step, where everything was taken last, with such rates of the control points of all bodies.
+    pub fn rate(&self, rates: &[Vec<Movement>]) -> f64 {
+        let mut sum = 0.0;
+        for (place, coordinates) in self.moving() {
+            let rates = &rates[place.body];
+            for (component, slope) in self.components().zip(&self.slope[coordinates]) {
+                let shares = place.weights().map(|(point, share)| share * rates[point][component]);
+                sum += slope * shares.fold(0.0, |sum, rate| sum + rate);
+            }
+        }
+        sum
+    }
+
+    /// The rate of `q` at the end of the last step, with such rates of the unknowns then.
+    pub fn rate_behind(&self, bodies: &[Body], rates: &[f64]) -> f64 {
+        self.moving().fold(0.0, |sum, (place, coordinates)| {
+            let [x, y, spin] = bodies[place.body].at(place, rates);
+            match (self.is_angle(), &self.slope[coordinates]) {
+                // What turns angles less than increments is of the step, and not of the rate.
+                (true, slope) => sum + slope[0].signum() * spin,
+                (false, slope) => sum + (slope[0] * x + slope[1] * y),
+            }
+        })
+    }
+
+    fn compare(&mut self, rotations: RotationIncrement) {
+        let Self { measure, moved, change, secant, slope, bend, .. } = self;
+        match measure {
+            Measure::Way(parts) => {
+                *change = 0.0;
+                [&mut *secant, slope].into_iter().for_each(|all| all.fill(0.0));
+                let (secants, _) = secant.as_chunks_mut::<2>();
+                let (slopes, _) = slope.as_chunks_mut::<2>();
+                let ways = moved.as_chunks().0.windows(2).map(way);
+                for (at, (start, way)) in parts.iter().zip(ways).enumerate() {
+                    let part = ElongationTerm::new(*start, way, rotations);
+                    *change += part.change;
+                    for component in 0..2 {
+                        secants[at][component] -= part.secant[component];
+                        secants[at + 1][component] += part.secant[component];
+                        slopes[at][component] -= part.slope[component];
+                        slopes[at + 1][component] += part.slope[component];
+                    }
+                }
+            }
+            Measure::Component(component) => {
+                let [from, to] = [*component, 2 + *component];
+                *change = moved[to] - moved[from];
+                for row in [secant, slope] {
+                    row.fill(0.0);
+                    [row[from], row[to]] = [-1.0, 1.0];
+                }
+            }
+            Measure::Angle => {
+                let [a, b] = [moved[0], moved[1]];
+                let turn = RelativeTurn::new(a, b, rotations);
+                *change = turn.ratio * (b - a);
+                secant.copy_from_slice(&[-turn.ratio, turn.ratio]);
+                slope.copy_from_slice(&[-rotations.rate(a), rotations.rate(b)]);
+                let [by_a, by_b] = turn.derivatives;
+                bend.copy_from_slice(&[-by_a, -by_b, by_a, by_b]);
+            }
+        }
+    }
+
+    /// Finds the bend in the iterate that was taken last.
+    pub fn find_bend(&mut self, rotations: RotationIncrement) {
+        let Self { measure, moved, bend, .. } = self;
+        let Measure::Way(parts) = measure else { return };
+        let width = moved.len();
+        bend.fill(0.0);
+        let ways = moved.as_chunks().0.windows(2).map(way);
+        for (at, (start, way)) in parts.iter().zip(ways).enumerate() {
+            let (part, ends) = (ElongationTerm::new(*start, way, rotations), [2 * at, 2 * at + 2]);
+            for component in 0..2 {
+                let bends = [part.bend(component, 0), part.bend(component, 1)];
+                for (row, sign) in ends.into_iter().zip([-1.0, 1.0]) {
+                    for (column, other) in ends.into_iter().zip([-1.0, 1.0]) {
+                        let at = (row + component) * width + column;
+                        let entries = bend[at..at + 2].iter_mut().zip(bends);
+                        entries.for_each(|(entry, by)| *entry += sign * other * by);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Accepts the movements that the bodies gathered last.
+    pub fn advance(&mut self, bodies: &[Body], rotations: RotationIncrement) {
+        let components = self.components();
+        let terminals = self.moved.chunks_exact_mut(components.len()).zip(&self.terminals);
+        for (own, terminal) in terminals {
+            own.fill(0.0);
+            let ElongationEnd::Moving(place) = terminal else { continue };
+            for (point, share) in place.weights() {
+                let moved = &bodies[place.body].moved()[point][components.clone()];
+                own.iter_mut().zip(moved).for_each(|(sum, moved)| *sum += share * moved);
+            }
+        }
+        self.compare(rotations);
+        let (change, missing) = self.settled;
+        let is_settled = (change - self.change).abs() <= self.rounding();
+        self.grown = match is_settled {
+            true => self.grown.after(change).after(missing),
+            false => self.grown.after(self.change),
+        };
+        if let Measure::Way(parts) = &mut self.measure {
+            for (part, ends) in parts.iter_mut().zip(self.moved.windows(4).step_by(2)) {
+                *part += Vec2::new(ends[2] - ends[0], ends[3] - ends[1]);
+            }
+        }
+    }
+
+    /// For each part of a way its derivative at rest and the length of the part: the rows of what its force turns.
+    pub fn turned(&self) -> Vec<(f64, Vec<f64>)> {
+        let Measure::Way(parts) = &self.measure else { return Vec::new() };
+        let of_part = |(index, part): (usize, &Vec2)| {
+            let length = part.norm();
+            let normal = Vec2::new(-part.y, part.x) / length;
+            let mut row = vec![0.0; self.moved.len()];
+            row[2 * index..2 * index + 4]
+                .copy_from_slice(&[-normal.x, -normal.y, normal.x, normal.y]);
+            (length, row)
+        };
+        parts.iter().enumerate().filter(|(_, part)| part.norm() > 0.0).map(of_part).collect()
+    }
+
+    /// Takes everything as it is at the start of the step.
+    pub fn rest(&mut self, bodies: &[Body]) {
+        self.locate(bodies);
+        self.moved.fill(0.0);
+        self.compare(RotationIncrement::Angle);
+    }
+
+    pub fn save(&self, state: &mut Vec<f64>) {
+        state.extend([self.grown.value, self.grown.rest]);
+        if let Measure::Way(parts) = &self.measure {
+            state.extend(parts.iter().flat_map(|part| [part.x, part.y]));
+        }
+    }
+
+    pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
+        self.grown = Coordinate { value: next(), rest: next() };
+        if let Measure::Way(parts) = &mut self.measure {
+            parts.iter_mut().for_each(|part| *part = Vec2::new(next(), next()));
+        }
+    }
+}
+
+/// The way from one place to the next.
+fn way(ends: &[[f64; 2]]) -> Vec2 {
+    Vec2::new(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1])
+}

@@ -1,0 +1,71 @@
+//! A part of a way, and the relative turn of two sections, in an iterate.
+
+use crate::beams::RotationIncrement;
+use crate::elementary::atan;
+use crate::geometry::Vec2;
+
+/// Rotation increments of two sections that differ by less are taken as one, to second order [rad].
+const SAME_TURN: f64 = 1e-5;
+
+/// A part of a way in an iterate.
+pub(super) struct ElongationTerm {
+    pub(super) change: f64,
+    pub(super) secant: Vec2,
+    pub(super) slope: Vec2,
+    /// `∂e/∂d₁ = (I - e⊗s) by this` [1/length].
+    inverse: f64,
+}
+
+impl ElongationTerm {
+    pub(super) fn new(start: Vec2, moved: Vec2, rotations: RotationIncrement) -> Self {
+        let end = start + moved;
+        let (before, after) = (start.norm(), end.norm());
+        let direction =
+            |d: Vec2, length: f64| if length > 0.0 { d / length } else { Vec2::zeros() };
+        let both = before + after;
+        let mean = direction(start + end, both);
+        let slope = direction(end, after);
+        // Increments of angles are taken where forces are taken at the end.
+        let (secant, inverse) = match rotations {
+            RotationIncrement::TangentScaled => (mean, both),
+            RotationIncrement::Angle => (slope, after),
+        };
+        let inverse = if inverse > 0.0 { 1.0 / inverse } else { 0.0 };
+        Self { change: mean.dot(&moved), secant, slope, inverse }
+    }
+
+    pub(super) fn bend(&self, component: usize, by: usize) -> f64 {
+        let one = if component == by { 1.0 } else { 0.0 };
+        (one - self.secant[component] * self.slope[by]) * self.inverse
+    }
+}
+
+/// `r = (Δθ_b - Δθ_a)/(Δω_b - Δω_a)` with its derivatives by `Δω_a` and `Δω_b`.
+pub(super) struct RelativeTurn {
+    pub(super) ratio: f64,
+    pub(super) derivatives: [f64; 2],
+}
+
+impl RelativeTurn {
+    pub(super) fn new(a: f64, b: f64, rotations: RotationIncrement) -> Self {
+        if rotations == RotationIncrement::Angle {
+            return Self { ratio: 1.0, derivatives: [0.0; 2] };
+        }
+        let (difference, mean) = (b - a, 0.5 * (a + b));
+        if difference.abs() < SAME_TURN {
+            // The mean of dθ/dω between both, by its value in their middle.
+            let (rate, slope) = rotations.rates(mean);
+            return Self { ratio: rate, derivatives: [0.5 * slope; 2] };
+        }
+        // 2 atan x - 2 atan y = 2 atan((x - y)/(1 + x y)), but for the other side of the circle.
+        let product = 1.0 + 0.25 * a * b;
+        let turned = match product > 0.0 {
+            true => 2.0 * atan(0.5 * difference / product),
+            false => rotations.angle(b) - rotations.angle(a),
+        };
+        let ratio = turned / difference;
+        let by_a = (ratio - rotations.rate(a)) / difference;
+        let by_b = (rotations.rate(b) - ratio) / difference;
+        Self { ratio, derivatives: [by_a, by_b] }
+    }
+}

@@ -1,0 +1,117 @@
+//! Forces that turn with a section.
+
+use super::{TrialState, WorkAndImpulse, collocation};
+use crate::beams::{BodyPoint, Rotation, RotationIncrement};
+use crate::geometry::{Vec2, cross, perpendicular};
+use crate::integrators::Stage;
+use crate::linalg::BandedMatrix;
+use crate::system::bodies::{Body, Tracker};
+
+/// A force that turns with a section: `f = Λτ F`.
+#[derive(Debug, Clone)]
+pub struct Follower {
+    tracker: Tracker,
+    /// In the frame of the section.
+    force: Vec2,
+    /// What the method takes from the start of the step, and from the iterate.
+    carried: Vec2,
+    current: Vec2,
+}
+
+impl Follower {
+    /// A follower force `force` [force] in the frame of the section at a place.
+    pub fn new(place: BodyPoint, force: Vec2) -> Self {
+        let tracker = Tracker::new(place);
+        Self { tracker, force, carried: Vec2::zeros(), current: Vec2::zeros() }
+    }
+
+    fn body<'b>(&self, bodies: &'b [Body]) -> &'b Body {
+        &bodies[self.tracker.place.body]
+    }
+
+    /// The rotation at `τ` and at the end, and `Δω`.
+    fn rotations(&self, at: TrialState<'_>) -> (Rotation, Rotation, f64) {
+        let [.., increment] = self.body(at.bodies).at(&self.tracker.place, at.increments);
+        let collocation = collocation(at.stage);
+        let end = self.tracker.rotation.turned(collocation.rotations, increment);
+        (self.tracker.rotation.mixed(end, collocation.configuration), end, increment)
+    }
+
+    pub fn begin_step(&mut self) {
+        (self.carried, self.current) = (Vec2::zeros(), Vec2::zeros());
+    }
+
+    /// Subtracts `factor` times the follower force in an iterate from `out`.
+    pub fn subtract_from(&mut self, at: TrialState<'_>, factor: f64, out: &mut [f64]) {
+        let (rotation, ..) = self.rotations(at);
+        let force = rotation.to_space(self.force) * factor;
+        *(if at.stage == Stage::Start { &mut self.carried } else { &mut self.current }) = force;
+        let body = self.body(at.bodies);
+        for (point, share) in self.tracker.place.weights() {
+            let [x, y, _] = body.degrees_of_freedom[point];
+            out[x] -= share * force.x;
+            out[y] -= share * force.y;
+        }
+    }
+
+    /// The largest component of the follower force [force].
+    pub fn largest(&self) -> f64 {
+        self.force.amax()
+    }
+
+    /// Adds the derivative of minus `weight` times `factor` times the follower force by the increments to the tangent.
+    pub fn add_tangent(
+        &self,
+        at: TrialState<'_>,
+        factor: f64,
+        unknowns: usize,
+        tangent: &mut BandedMatrix,
+    ) {
+        let body = self.body(at.bodies);
+        let (_, end, increment) = self.rotations(at);
+        let collocation = collocation(at.stage);
+        let scale =
+            -at.weight * factor * collocation.configuration * collocation.rotations.rate(increment);
+        let by_rotation = end.to_space(perpendicular(self.force)) * scale;
+        for (a, share_a) in self.tracker.place.weights() {
+            for (b, share_b) in self.tracker.place.weights() {
+                let column = body.degrees_of_freedom[b][2];
+                for (&row, value) in
+                    body.degrees_of_freedom[a].iter().zip([by_rotation.x, by_rotation.y])
+                {
+                    if row < unknowns && column < unknowns {
+                        tangent.add(row, column, share_a * share_b * value);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Adds to a sum the work and impulse of the follower force in the step of the movements that the bodies gathered last.
+    pub fn add_exchange(&self, bodies: &[Body], duration: f64, sum: &mut WorkAndImpulse) {
+        let body = self.body(bodies);
+        let force = self.carried + self.current;
+        for (point, share) in self.tracker.place.weights() {
+            let [x, y, _] = body.moved()[point];
+            let moved = Vec2::new(x, y) * share;
+            let middle = body.dynamics.control_points()[point] * share + moved * 0.5;
+            *sum += WorkAndImpulse::of(
+                force.dot(&moved),
+                force * (share * duration),
+                cross(middle, force) * duration,
+            );
+        }
+    }
+
+    pub fn advance(&mut self, bodies: &[Body], rotations: RotationIncrement) {
+        self.tracker.advance(self.body(bodies).moved(), rotations);
+    }
+
+    pub fn save(&self, state: &mut Vec<f64>) {
+        self.tracker.save(state);
+    }
+
+    pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
+        self.tracker.restore(next);
+    }
+}

@@ -1,0 +1,328 @@
+//! Loads in a step: their values, work and impulse.
+
+use super::element::{AssemblyContext, BuiltElement, ElementDef, SceneChecks};
+use super::follower::Follower;
+use super::load_vector::LoadVector;
+use super::{ExternalForce, LoadAccount, TrialState, WorkAndImpulse};
+use crate::beams::{BodyIndex, RotationIncrement, Station};
+use crate::geometry::{GaussRule, Vec2};
+use crate::integrators::{Interval, Method, Stage};
+use crate::linalg::BandedMatrix;
+use crate::loads::{LimitSide, Load, LoadError, LoadFrame, LoadKind, Schedule, VALUES_OF_A_MEAN};
+use crate::system::bodies::Body;
+use crate::system::errors::{finite, in_words, plural};
+use crate::system::{SystemError, Turning};
+
+impl ElementDef for Load {
+    fn check(&self, setting: &dyn SceneChecks) -> Result<(), SystemError> {
+        match &self.kind {
+            LoadKind::Force { station, force, .. } => {
+                setting.check_station("a load", station)?;
+                finite(&self.name, "force", force.as_slice())
+            }
+            LoadKind::Moment { station, moment } => {
+                setting.check_station("a load", station)?;
+                finite(&self.name, "moment", &[*moment])
+            }
+            LoadKind::Line { beam, force, .. } => {
+                setting.check_station("a load", &Station::on_beam(*beam, 0.0))?;
+                finite(&self.name, "force", force.as_slice())
+            }
+        }
+    }
+
+    /// Forces that turn with a rigid body couple a point of it with its rotation, which no span does.
+    fn coupled(&self) -> Vec<Station> {
+        match &self.kind {
+            LoadKind::Force { station, frame: LoadFrame::Follower, .. }
+                if station.turns() && station.beam().is_none() =>
+            {
+                vec![*station]
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    fn schedule(&self) -> Option<(&str, &Schedule)> {
+        Some((&self.name, &self.schedule))
+    }
+
+    fn build(&self, site: &dyn AssemblyContext) -> Result<BuiltElement, SystemError> {
+        if let LoadKind::Moment { station, .. }
+        | LoadKind::Force { station, frame: LoadFrame::Follower, .. } = &self.kind
+            && let BodyIndex::Particle(_) = station.body
+        {
+            let (object, by) = (self.name.clone(), Turning::Load);
+            return Err(SystemError::ParticleTurned { object, by });
+        }
+        let action = match &self.kind {
+            LoadKind::Force { station, force, frame: LoadFrame::Dead } => {
+                Action::Dead(LoadVector::at(&site.place(station)?, [force.x, force.y, 0.0]))
+            }
+            LoadKind::Moment { station, moment } => {
+                Action::Dead(LoadVector::at(&site.place(station)?, [0.0, 0.0, *moment]))
+            }
+            LoadKind::Force { station, force, frame: LoadFrame::Follower } => {
+                Action::Follower(vec![Follower::new(site.place(station)?, *force)])
+            }
+            LoadKind::Line { beam, force, frame: LoadFrame::Dead } => {
+                let mut pattern = LoadVector::default();
+                for (point, length) in site.body(*beam).lumped_lengths().into_iter().enumerate() {
+                    pattern.push(*beam, point, [length * force.x, length * force.y, 0.0]);
+                }
+                Action::Dead(pattern)
+            }
+            LoadKind::Line { beam, force, frame: LoadFrame::Follower } => {
+                Action::Follower(line_of_followers(site, *beam, *force)?)
+            }
+        };
+        Ok(BuiltElement::Force(Box::new(AppliedLoad {
+            name: self.name.clone(),
+            schedule: self.schedule.clone(),
+            action,
+            factors: StageFactors::default(),
+            carried: 0.0,
+            current: 0.0,
+            account: self.title.as_ref().map(|_| LoadAccount::default()),
+            size: self.kind.measure().2,
+        })))
+    }
+}
+
+/// A load that turns with the sections, by `degree` Gauss points a span.
+fn line_of_followers(
+    site: &dyn AssemblyContext,
+    beam: usize,
+    force: Vec2,
+) -> Result<Vec<Follower>, SystemError> {
+    let basis = site.mesh(beam).basis();
+    let rule = GaussRule::new(basis.degree()).map_err(|error| site.wrong(beam, error))?;
+    let controls = site.body(beam).control_points();
+    let mut followers = Vec::new();
+    for span in basis.spans() {
+        for (xi, weight) in rule.iter_on(span.start, span.end) {
+            let length = weight * basis.evaluate_in(&span, xi).combine(1, controls).norm();
+            followers.push(Follower::new(site.place_at(beam, xi)?, force * length));
+        }
+    }
+    Ok(followers)
+}
+
+/// What a load acts through.
+enum Action {
+    Dead(LoadVector),
+    Follower(Vec<Follower>),
+}
+
+/// A load of the model with its values in the current step.
+struct AppliedLoad {
+    name: String,
+    schedule: Schedule,
+    action: Action,
+    factors: StageFactors,
+    /// Weighted factors that the method takes from the start of the step, and from the iterate.
+    carried: f64,
+    current: f64,
+    /// What it gives, where it has a name.
+    account: Option<LoadAccount>,
+    /// How large it is while the schedule is 1.
+    size: f64,
+}
+
+/// Factors of the schedule; not a number at stages that the step did not announce.
+#[derive(Debug, Clone, Copy)]
+struct StageFactors {
+    start: f64,
+    mean: f64,
+    end: f64,
+}
+
+impl Default for StageFactors {
+    fn default() -> Self {
+        Self { start: f64::NAN, mean: f64::NAN, end: f64::NAN }
+    }
+}
+
+impl StageFactors {
+    fn at(&self, stage: Stage) -> f64 {
+        match stage {
+            Stage::Start => self.start,
+            Stage::Midpoint | Stage::DampedMidpoint(_) => self.mean,
+            Stage::End => self.end,
+        }
+    }
+}
+
+impl AppliedLoad {
+    fn followers(&self) -> &[Follower] {
+        match &self.action {
+            Action::Dead(_) => &[],
+            Action::Follower(followers) => followers,
+        }
+    }
+
+    fn followers_mut(&mut self) -> &mut [Follower] {
+        match &mut self.action {
+            Action::Dead(_) => &mut [],
+            Action::Follower(followers) => followers,
+        }
+    }
+
+    /// How often a step calls functions of scripts.
+    fn calls(&self, methods: &[Method]) -> String {
+        let functions = self.schedule.functions();
+        // A controller is asked once a step, by whoever steps.
+        if functions == 0 || self.schedule.is_sampled() {
+            return String::new();
+        }
+        let of_method = |method: &Method| {
+            let calls: usize = method.stages().iter().map(values_at).sum();
+            format!("{} calls a step with {}", functions * calls, method.entry().name)
+        };
+        format!(": {}", methods.iter().map(of_method).collect::<Vec<_>>().join(", "))
+    }
+}
+
+impl ExternalForce for AppliedLoad {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Evaluates the schedule for the stages of the step, and for no other: it may be a function of a script.
+    fn begin_step(&mut self, interval: Interval, stages: &[Stage]) -> Result<(), LoadError> {
+        self.factors = StageFactors::default();
+        for stage in stages {
+            match stage {
+                Stage::Start => {
+                    self.factors.start = self.schedule.value(interval.start, LimitSide::After)?
+                }
+                Stage::Midpoint | Stage::DampedMidpoint(_) => {
+                    self.factors.mean = self.schedule.mean(interval.start, interval.end)?
+                }
+                Stage::End => {
+                    self.factors.end = self.schedule.value(interval.end, LimitSide::Before)?
+                }
+            }
+        }
+        (self.carried, self.current) = (0.0, 0.0);
+        self.followers_mut().iter_mut().for_each(Follower::begin_step);
+        Ok(())
+    }
+
+    fn hold_at(&mut self, time: f64) -> Result<(), LoadError> {
+        let end = self.schedule.value(time, LimitSide::After)?;
+        self.factors = StageFactors { end, ..StageFactors::default() };
+        Ok(())
+    }
+
+    fn may_jump_at(&self, time: f64) -> bool {
+        self.schedule.may_jump_at(time)
+    }
+
+    fn subtract_from(&mut self, at: TrialState<'_>, out: &mut [f64]) -> (f64, f64) {
+        let value = self.factors.at(at.stage);
+        let factor = at.weight * value;
+        match &mut self.action {
+            Action::Dead(pattern) => {
+                let used =
+                    if at.stage == Stage::Start { &mut self.carried } else { &mut self.current };
+                *used = factor;
+                pattern.subtract_from(at, factor, out);
+                pattern.largest(value)
+            }
+            Action::Follower(followers) => {
+                let largest = followers.iter_mut().fold(0.0, |largest: f64, each| {
+                    each.subtract_from(at, factor, out);
+                    largest.max(each.largest() * value.abs())
+                });
+                (largest, 0.0)
+            }
+        }
+    }
+
+    fn add_tangent(&self, at: TrialState<'_>, unknowns: usize, tangent: &mut BandedMatrix) {
+        let factor = self.factors.at(at.stage);
+        self.followers().iter().for_each(|each| each.add_tangent(at, factor, unknowns, tangent));
+    }
+
+    fn exchange(&self, bodies: &[Body], duration: f64) -> WorkAndImpulse {
+        match &self.action {
+            Action::Dead(pattern) => {
+                pattern.exchange(bodies, self.carried + self.current, duration)
+            }
+            Action::Follower(followers) => {
+                let mut sum = WorkAndImpulse::default();
+                followers.iter().for_each(|each| each.add_exchange(bodies, duration, &mut sum));
+                sum
+            }
+        }
+    }
+
+    fn account(&self) -> Option<LoadAccount> {
+        self.account
+    }
+
+    fn turns(&self) -> bool {
+        matches!(self.action, Action::Follower(_))
+    }
+
+    fn followed_sections(&self) -> usize {
+        self.followers().len()
+    }
+
+    fn advance(&mut self, bodies: &[Body], rotations: RotationIncrement) {
+        if let Some(mut account) = self.account {
+            account.work += self.exchange(bodies, 1.0).work;
+            let StageFactors { start, mean, end } = self.factors;
+            let factor = if mean.is_nan() { 0.5 * (start + end) } else { mean };
+            account.value = self.size * factor;
+            self.account = Some(account);
+        }
+        self.followers_mut().iter_mut().for_each(|each| each.advance(bodies, rotations));
+    }
+
+    fn save(&self, state: &mut Vec<f64>) {
+        state.extend(self.account.iter().flat_map(|account| [account.work, account.value]));
+        self.followers().iter().for_each(|each| each.save(state));
+    }
+
+    fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
+        if let Some(account) = &mut self.account {
+            *account = LoadAccount { work: next(), value: next() };
+        }
+        self.followers_mut().iter_mut().for_each(|each| each.restore(next));
+    }
+
+    fn explain(&self, methods: &[Method]) -> String {
+        let action = match &self.action {
+            Action::Dead(_) => "dead".to_owned(),
+            Action::Follower(at) => {
+                format!("follower of {}, part of the tangent", plural(at.len(), "section"))
+            }
+        };
+        let (schedule, calls) = (self.schedule.describe(), self.calls(methods));
+        let cuts = in_words(&cuts(&self.schedule)).map(|at| format!("; steps end at t = {at}"));
+        format!("{action}, {schedule}{calls}{}", cuts.unwrap_or_default())
+    }
+
+    fn functions(&self) -> usize {
+        self.schedule.functions()
+    }
+}
+
+/// The times after the start at which steps end because of a schedule, in their order.
+fn cuts(schedule: &Schedule) -> Vec<f64> {
+    let mut times = schedule.breaks();
+    times.retain(|time| *time > 0.0);
+    times.sort_by(f64::total_cmp);
+    times.dedup();
+    times
+}
+
+/// How many values of a schedule a stage takes.
+fn values_at(stage: &Stage) -> usize {
+    match stage {
+        Stage::Start | Stage::End => 1,
+        Stage::Midpoint | Stage::DampedMidpoint(_) => VALUES_OF_A_MEAN,
+    }
+}

@@ -1,0 +1,56 @@
+//! What acts on the bodies: point masses, weight, loads, springs and supports. A further kind of element is a file here and a variant of
+//! [`Element`].
+
+mod all;
+mod branch;
+mod contact_watch;
+mod coordinate;
+mod damping_law;
+mod drag;
+mod drag_forces;
+mod drag_law;
+mod drag_point;
+mod drive;
+mod element;
+mod elongation;
+mod external_force;
+mod follower;
+mod internal_force;
+mod load;
+mod load_vector;
+mod material_damping;
+mod mixed_force;
+mod motion_curvature;
+mod point_damper;
+mod point_mass;
+mod prescribed_movements;
+mod rate_history;
+mod sampling;
+mod spring;
+mod spring_at_rest;
+mod spring_damper;
+mod spring_law;
+mod supports;
+mod weight;
+mod work_and_impulse;
+mod zero_length_spring;
+
+pub use all::Elements;
+pub use branch::{Along, Branch};
+pub use contact_watch::ShortBounce;
+pub use damping_law::DampingLaw;
+pub use drag::{Drag, Dragged};
+pub use drag_law::SpeedLaw;
+pub use drive::{Drive, DriveKind};
+pub use element::{AssemblyContext, Element, SceneChecks};
+pub use external_force::{ExternalForce, LoadAccount, TrialState, collocation};
+pub use internal_force::{InternalForce, SpringTrialState};
+pub use material_damping::MaterialDamping;
+pub use motion_curvature::MotionCurvature;
+pub use point_mass::PointMass;
+pub use prescribed_movements::{DriveState, PrescribedMovement, PrescribedMovements};
+pub use spring::{Anchor, Origin, Spring, SpringKind};
+pub use spring_law::SpringLaw;
+pub use supports::{Support, Supports};
+pub use weight::Weight;
+pub use work_and_impulse::WorkAndImpulse;

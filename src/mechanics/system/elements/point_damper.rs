@@ -1,0 +1,342 @@
+//! A damper along the straight way between two places, which may pass through one another.
+//!
+//! ```text
+//! v = Δd/Δt      d̄ = d₀ + ½ Δd      e = d̄/|d̄|      F = φ(e·v) e, opposite at both ends      D grows by F·Δd ≥ 0
+//! ```
+//!
+//! The rate of a length, `Δℓ/Δt`, is none where a way turns round through nothing within a step, though its ends pass each other with all their speed. That
+//! along the mean way is the same to second order elsewhere, and right there; the force is along the mean line of the ends, so that momenta stay.
+
+use super::damping_law::DampingLaw;
+use super::elongation::ElongationEnd;
+use super::internal_force::{InternalForce, SpringTrialState};
+use super::mixed_force::{ForceTarget, MixedForce};
+use super::rate_history::RateHistory;
+use super::{TrialState, WorkAndImpulse};
+use crate::beams::{ForceSummary, Movement, RateCollocation};
+use crate::geometry::{Vec2, cross};
+use crate::integrators::Interval;
+use crate::linalg::BandedMatrix;
+use crate::system::bodies::Body;
+
+/// A damper between two places, by the rate of their distance.
+#[derive(Debug, Clone)]
+pub struct PointDamper {
+    name: String,
+    terminals: [ElongationEnd; 2],
+    /// Where each terminal that is the ground is [length].
+    grounds: [Option<Vec2>; 2],
+    /// `d₀`, from the first to the second terminal [length].
+    way: Vec2,
+    law: DampingLaw,
+    /// The law that it had before it let go.
+    released: Option<DampingLaw>,
+    pace: RateHistory,
+    /// `Δd/Δt` in the step before [length/time].
+    last_velocity: Vec2,
+    /// The largest speed that the rate may be a difference of, at the start of the step [length/time].
+    speed: f64,
+    force: MixedForce,
+    /// The force on the second terminal's side, as it was given last [force].
+    given: Vec2,
+    linearised: DamperTrial,
+    dissipated: f64,
+}
+
+/// The damper in an iterate.
+#[derive(Debug, Clone, Copy)]
+struct DamperTrial {
+    /// `e`
+    direction: Vec2,
+    /// `e·v` [length/time].
+    rate: f64,
+    target: ForceTarget,
+    /// The derivative of the rate by `Δd` [1/time].
+    rate_by_movement: Vec2,
+    /// The derivative of `e` by `Δd` is `(1 - e⊗e)` times this [1/length].
+    turn: f64,
+}
+
+impl Default for DamperTrial {
+    fn default() -> Self {
+        let none = Vec2::zeros();
+        let target = ForceTarget::default();
+        Self { direction: none, rate: 0.0, target, rate_by_movement: none, turn: 0.0 }
+    }
+}
+
+impl PointDamper {
+    /// A damper with a law between two terminals, which are at these places at the start.
+    pub fn new(
+        name: String,
+        terminals: [ElongationEnd; 2],
+        [from, to]: [Vec2; 2],
+        grounds: &[Option<Vec2>],
+        law: DampingLaw,
+    ) -> Self {
+        Self {
+            name,
+            terminals,
+            grounds: [0, 1].map(|at: usize| grounds[at]),
+            way: to - from,
+            law,
+            released: None,
+            pace: RateHistory::default(),
+            last_velocity: Vec2::zeros(),
+            speed: 0.0,
+            force: MixedForce::default(),
+            given: Vec2::zeros(),
+            linearised: DamperTrial::default(),
+            dissipated: 0.0,
+        }
+    }
+
+    fn rates(&self, at: TrialState<'_>) -> Option<RateCollocation> {
+        let acts = self.pace.duration().is_finite() && self.law.acts();
+        self.pace.at(at.stage, at.weight).filter(|_| acts)
+    }
+
+    /// The difference of the values of two places, the second less the first.
+    fn difference(&self, of_place: impl Fn(&ElongationEnd) -> Vec2) -> Vec2 {
+        of_place(&self.terminals[1]) - of_place(&self.terminals[0])
+    }
+
+    /// The difference of values of the unknowns.
+    fn apart(&self, bodies: &[Body], values: &[f64]) -> Vec2 {
+        let value = |body: usize, point: usize| bodies[body].vector_at(point, values);
+        self.difference(|terminal| terminal.combine(value))
+    }
+
+    /// The largest size that such a difference is one of.
+    fn size(&self, bodies: &[Body], values: &[f64]) -> f64 {
+        let value = |body: usize, point: usize| bodies[body].vector_at(point, values);
+        self.terminals.iter().map(|terminal| terminal.combine(value).norm()).sum()
+    }
+
+    /// The movement from the first to the second terminal in the step of the movements that the bodies gathered last.
+    fn movement(&self, bodies: &[Body]) -> Vec2 {
+        let moved = |body: usize, point: usize| in_the_plane(bodies[body].moved()[point]);
+        self.difference(|terminal| terminal.combine(moved))
+    }
+
+    fn meet(&self, at: TrialState<'_>, rates: RateCollocation) -> DamperTrial {
+        let moved = self.apart(at.bodies, at.increments);
+        let (way, velocity) = (
+            self.way + moved * rates.share,
+            moved * rates.by_change - self.last_velocity * rates.by_last,
+        );
+        let length = way.norm();
+        let direction = direction(way, moved);
+        let rate = direction.dot(&velocity);
+        let turn = if length > 0.0 { rates.share / length } else { 0.0 };
+        DamperTrial {
+            direction,
+            rate,
+            target: ForceTarget { force: self.law.force(rate), stiffness: self.law.slope(rate) },
+            rate_by_movement: direction * rates.by_change + (velocity - direction * rate) * turn,
+            turn,
+        }
+    }
+
+    /// Gives a force on the second terminal, and its opposite on the first.
+    fn scatter(&self, bodies: &[Body], force: Vec2, out: &mut [f64]) {
+        for (terminal, sign) in self.terminals.iter().zip([-1.0, 1.0]) {
+            let ElongationEnd::Moving(place) = terminal else { continue };
+            for (point, share) in place.weights() {
+                let [x, y, _] = bodies[place.body].degrees_of_freedom[point];
+                out[x] += sign * share * force.x;
+                out[y] += sign * share * force.y;
+            }
+        }
+    }
+
+    /// The force that such a velocity from one terminal to the other meets at the start of the step.
+    fn resisting(&self, velocity: Vec2) -> Vec2 {
+        let direction = direction(self.way, velocity);
+        direction * self.law.force(direction.dot(&velocity))
+    }
+}
+
+/// The direction of a way, or where there is none that of a movement through it.
+fn direction(way: Vec2, moved: Vec2) -> Vec2 {
+    let along = if way == Vec2::zeros() { moved } else { way };
+    let length = along.norm();
+    if length > 0.0 { along / length } else { Vec2::zeros() }
+}
+
+fn in_the_plane([x, y, _]: Movement) -> Vec2 {
+    Vec2::new(x, y)
+}
+
+impl InternalForce for PointDamper {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn begin_step(&mut self, interval: Interval, bodies: &[Body], rates: &[f64]) {
+        self.pace.begin(interval.duration());
+        self.force.begin_step();
+        self.speed = self.size(bodies, rates);
+        self.given = Vec2::zeros();
+    }
+
+    fn begin_movement(&mut self) {
+        self.pace.begin(f64::INFINITY);
+        (self.force.force, self.force.mismatch) = (0.0, 0.0);
+        (self.given, self.linearised) = (Vec2::zeros(), DamperTrial::default());
+    }
+
+    fn add_forces(&mut self, at: TrialState<'_>, out: &mut [f64]) -> ForceSummary {
+        let Some(rates) = self.rates(at) else { return ForceSummary::default() };
+        let DamperTrial { direction, target, .. } = self.meet(at, rates);
+        let moved = self.size(at.bodies, at.increments) * rates.by_change.abs();
+        let speed = self.speed + moved + self.last_velocity.norm() * rates.by_last.abs();
+        let mismatch = self.force.compare(target, speed);
+        self.given = direction * self.force.force;
+        self.scatter(at.bodies, self.given, out);
+        let force = self.force.force.abs();
+        ForceSummary { strain_mismatch: mismatch, force, ..ForceSummary::default() }
+    }
+
+    fn add_linearised_forces(
+        &mut self,
+        at: TrialState<'_>,
+        out: &mut [f64],
+        unknowns: usize,
+        tangent: &mut BandedMatrix,
+    ) {
+        let Some(rates) = self.rates(at) else { return };
+        let met = self.meet(at, rates);
+        let impedance = self.force.impedance(met.rate);
+        let (force, stiffness) = self.law.aimed(met.rate, self.force.force, impedance);
+        let target = ForceTarget { force, stiffness };
+        self.linearised = met;
+        self.force.linearise(target);
+        let DamperTrial { direction, rate_by_movement, turn, .. } = met;
+        self.scatter(at.bodies, direction * target.force, out);
+        // The way turns with the force of the iterate.
+        let turning = self.force.force * turn;
+        let terminals = || self.terminals.iter().zip([-1.0, 1.0]);
+        for (to, sign) in terminals() {
+            let ElongationEnd::Moving(to) = to else { continue };
+            for (from, other) in terminals() {
+                let ElongationEnd::Moving(from) = from else { continue };
+                for component in 0..2 {
+                    for by in 0..2 {
+                        let one = if component == by { 1.0 } else { 0.0 };
+                        let across = one - direction[component] * direction[by];
+                        let value = direction[component] * target.stiffness * rate_by_movement[by]
+                            + turning * across;
+                        for (a, share_a) in to.weights() {
+                            let row = at.bodies[to.body].degrees_of_freedom[a][component];
+                            for (b, share_b) in from.weights() {
+                                let column = at.bodies[from.body].degrees_of_freedom[b][by];
+                                if row < unknowns && column < unknowns {
+                                    let share = share_a * share_b * sign * other;
+                                    tangent.add(row, column, share * value);
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// It counts once a step, whatever the weight.
+    fn add_mismatch_forces(&self, bodies: &[Body], _weight: f64, out: &mut [f64]) {
+        self.scatter(bodies, self.linearised.direction * self.force.mismatch, out);
+    }
+
+    fn correct(&mut self, bodies: &[Body], correction: &[f64]) {
+        let change = self.linearised.rate_by_movement.dot(&self.apart(bodies, correction));
+        self.force.correct(change);
+    }
+
+    /// The ground does not move, so that it does no work.
+    fn exchange(&self, _bodies: &[Body], duration: f64) -> WorkAndImpulse {
+        let mut sum = WorkAndImpulse::default();
+        for (ground, sign) in self.grounds.iter().zip([-1.0, 1.0]) {
+            if let Some(ground) = ground {
+                let impulse = self.given * (sign * duration);
+                sum += WorkAndImpulse::of(0.0, impulse, cross(*ground, impulse));
+            }
+        }
+        sum
+    }
+
+    fn advance(&mut self, bodies: &[Body]) {
+        let (movement, duration) = (self.movement(bodies), self.pace.duration());
+        self.dissipated += self.given.dot(&movement);
+        self.way += movement;
+        self.last_velocity = movement / duration;
+        self.force.last = self.force.force;
+        self.pace.end();
+    }
+
+    fn dissipated(&self) -> f64 {
+        self.dissipated
+    }
+
+    fn stretched(&self) -> Option<SpringTrialState> {
+        let elongation = self.way.norm();
+        Some(SpringTrialState { elongation, force: self.force.last, stiffness: 0.0 })
+    }
+
+    fn add_forces_now(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]) {
+        let rate = |body: usize, point: usize| in_the_plane(rates[body][point]);
+        let velocity = self.difference(|terminal| terminal.combine(rate));
+        self.scatter(bodies, self.resisting(velocity), out);
+    }
+
+    /// Small vibration through a way of no length is damped in whatever direction it is.
+    fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
+        if !self.law.acts() {
+            return;
+        }
+        let (velocity, damping) = (self.apart(bodies, rates), self.law.slope_at_rest());
+        match self.way == Vec2::zeros() {
+            true => velocity.iter().for_each(|rate| take(damping, *rate)),
+            false => take(damping, direction(self.way, velocity).dot(&velocity)),
+        }
+    }
+
+    fn let_go(&mut self) {
+        self.detach();
+    }
+
+    fn detach(&mut self) {
+        if self.released.is_none() {
+            self.released = Some(std::mem::take(&mut self.law));
+            (self.force, self.given) = (MixedForce::default(), Vec2::zeros());
+        }
+    }
+
+    fn attach(&mut self) {
+        if let Some(own) = self.released.take() {
+            self.law = own;
+        }
+    }
+
+    fn save(&self, state: &mut Vec<f64>) {
+        self.pace.save(state);
+        let Self { way, last_velocity: v, .. } = self;
+        state.extend([way.x, way.y, v.x, v.y, self.force.last, self.dissipated]);
+    }
+
+    fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
+        self.pace.restore(next);
+        self.way = Vec2::new(next(), next());
+        self.last_velocity = Vec2::new(next(), next());
+        self.force.last = next();
+        self.dissipated = next();
+    }
+
+    fn explain(&self) -> String {
+        if self.released.is_some() {
+            return "has let go: no force".to_owned();
+        }
+        let law = self.law.describe().unwrap_or_default();
+        format!("{law}; its force is an unknown of its own, outside the matrix")
+    }
+}

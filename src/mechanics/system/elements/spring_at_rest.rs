@@ -1,0 +1,48 @@
+//! How springs resist small movements from rest.
+
+use super::elongation::Elongation;
+use super::spring_law::SpringLaw;
+use crate::beams::SpanStiffness;
+use crate::system::bodies::Body;
+
+/// The degrees of freedom of a spring with a law along an elongation, in their order, and how it resists their movements: by the slope of its law, and by its
+/// force, which turns with every part of its way.
+pub fn law_at_rest(
+    law: &SpringLaw,
+    elongation: &Elongation,
+    bodies: &[Body],
+) -> (Vec<usize>, SpanStiffness) {
+    let mut elongation = elongation.clone();
+    elongation.rest(bodies);
+    let (value, mut degrees) = (elongation.grown(), Vec::new());
+    let by_degree = |row: &[f64]| {
+        let shares = elongation.shares().iter();
+        shares.map(|of| (of.degree, of.share * row[of.coordinate])).collect::<Vec<_>>()
+    };
+    degrees.extend(by_degree(&elongation.slope).into_iter().map(|(degree, _)| degree));
+    degrees.sort_unstable();
+    degrees.dedup();
+    let dense = |row: &[f64]| {
+        let mut dense = vec![0.0; degrees.len()];
+        for (degree, value) in by_degree(row) {
+            if let Ok(at) = degrees.binary_search(&degree) {
+                dense[at] += value;
+            }
+        }
+        dense
+    };
+    let mut rows = SpanStiffness::default();
+    let stiffness = law.slope(value);
+    if stiffness != 0.0 {
+        rows.strains.extend(dense(&elongation.slope));
+        rows.stiffness.push(stiffness);
+    }
+    let force = law.force(value);
+    for (length, row) in elongation.turned() {
+        let normal = dense(&row);
+        rows.twists.extend(normal.iter().map(|n| 0.5 * force / length * n));
+        rows.twists.extend(normal);
+        rows.doubts.push(0.0);
+    }
+    (degrees, rows)
+}

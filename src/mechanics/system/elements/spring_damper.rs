@@ -1,0 +1,382 @@
+//! Springs and dampers in a step: forces along an elongation, as unknowns of their own.
+//!
+//! ```text
+//! energy–momentum      F = ΔU/Δq + d(Δq/Δt)  along the secant: F Δq = ΔU + D, opposite at both ends
+//! forces at the ends   U'(q₀) and U'(q₁), and the damper d(q̇) once a step where the method balances it, its direction that at this time
+//! ```
+
+mod targets;
+
+use super::contact_watch::{ContactWatch, ShortBounce};
+use super::damping_law::DampingLaw;
+use super::elongation::Elongation;
+use super::internal_force::{InternalForce, SpringTrialState};
+use super::mixed_force::MixedForce;
+use super::spring_at_rest::law_at_rest;
+use super::spring_law::SpringLaw;
+use super::{Along, Branch, TrialState, WorkAndImpulse, collocation};
+use crate::beams::{ForceSummary, Movement, RotationIncrement, SpanStiffness};
+use crate::geometry::{Vec2, cross, larger};
+use crate::integrators::{Interval, Stage};
+use crate::linalg::BandedMatrix;
+use crate::system::bodies::Body;
+
+/// A part of what rounding of an elongation is relative to. Forces of a law with corners are to fit to so small a part of it: what is left does not die out by
+/// itself, as it does where the law is a line, which the next iteration meets.
+const SHARP: f64 = 2e-4;
+
+/// A spring, a damper, or both beside each other.
+#[derive(Debug, Clone)]
+pub struct SpringDamper {
+    name: String,
+    elongation: Elongation,
+    /// Secant, slope and lag of the last linearisation, whose directions corrections take.
+    linearised: [Vec<f64>; 3],
+    /// The derivative of the force by the coordinates, row by row.
+    tangent: Vec<f64>,
+    /// Where each terminal that is the ground is [length].
+    grounds: Vec<Option<Vec2>>,
+    /// Over what the elongation has grown by since the scene was built.
+    law: Option<SpringLaw>,
+    /// Whether the law has corners and falls nowhere.
+    rises: bool,
+    /// Where the stiffness of the law jumps, over what the elongation has grown by [length, rad].
+    corners: Vec<f64>,
+    /// The law in words, over elongations as they are counted in the scene.
+    words: Option<String>,
+    /// `d(q̇)`.
+    damping: DampingLaw,
+    /// Law and damping that it had before it let go: one that has let go has neither.
+    released: Option<(Option<SpringLaw>, DampingLaw)>,
+    spring: MixedForce,
+    damper: MixedForce,
+    /// `Δt`; infinite in movements that take no time [time].
+    duration: f64,
+    /// `Δt` and `Δq/Δt` of the last step.
+    last: (f64, f64),
+    rotations: RotationIncrement,
+    /// The coordinates of its forces on bodies that the method took from the start of the step, and from the iterate.
+    carried: Vec<f64>,
+    current: Vec<f64>,
+    dissipated: f64,
+    /// Of a law that is none at times.
+    contact: ContactWatch,
+}
+
+impl SpringDamper {
+    /// A spring with a law and what its elongations are counted from, a damper with one, or both, along an elongation.
+    pub fn new(
+        name: String,
+        elongation: Elongation,
+        grounds: Vec<Option<Vec2>>,
+        law: Option<(SpringLaw, f64)>,
+        damping: DampingLaw,
+    ) -> Self {
+        let coordinates = elongation.secant.len();
+        let words = law.as_ref().map(|(law, origin)| law.shifted(*origin).describe());
+        let law = law.map(|(law, origin)| law.shifted(origin - elongation.drawn()).with_ease());
+        let stiffness = law.as_ref().map_or(0.0, SpringLaw::largest_slope);
+        let rises = law.as_ref().is_some_and(SpringLaw::rises_with_corners);
+        let corners = law.as_ref().map_or_else(Vec::new, SpringLaw::sharp_corners);
+        let extent = elongation.extent();
+        let mut new = Self {
+            name,
+            elongation,
+            linearised: [(); 3].map(|()| vec![0.0; coordinates]),
+            tangent: vec![0.0; coordinates * coordinates],
+            grounds,
+            law,
+            rises,
+            corners,
+            words,
+            damping,
+            released: None,
+            spring: MixedForce::default(),
+            damper: MixedForce::default(),
+            duration: f64::INFINITY,
+            last: (0.0, 0.0),
+            rotations: RotationIncrement::TangentScaled,
+            carried: vec![0.0; coordinates],
+            current: vec![0.0; coordinates],
+            dissipated: 0.0,
+            contact: ContactWatch::new(stiffness, extent),
+        };
+        new.spring.last = new.restoring_at_start();
+        new
+    }
+
+    /// Takes an iterate, and where a damper counts at a time of its own its direction there.
+    fn take(&mut self, at: TrialState<'_>) {
+        self.elongation.take(at);
+        if self.damping.acts() {
+            let share = (at.stage == Stage::End).then_some(at.weight);
+            self.elongation.balance(share);
+        }
+    }
+
+    /// The damper counts once a step, the spring as the method weighs it.
+    fn weighted(&self, at: TrialState<'_>, spring: f64, damper: f64) -> f64 {
+        match at.stage {
+            Stage::Start => at.weight * spring,
+            _ => at.weight * spring + damper,
+        }
+    }
+
+    /// Notes a force along the secant, and that of the damper along the lag.
+    fn note(&mut self, stage: Stage, force: f64, damper: f64) {
+        let Self { elongation: Elongation { secant, lag, .. }, carried, current, .. } = self;
+        let noted = if stage == Stage::Start { carried } else { current };
+        let directions = secant.iter().zip(lag);
+        noted
+            .iter_mut()
+            .zip(directions)
+            .for_each(|(noted, (g, l))| *noted = g * force + *l * damper);
+    }
+
+    fn summary(&self, mismatch: f64) -> ForceSummary {
+        let force = self.spring.force.abs() + self.damper.force.abs();
+        let (force, moment) = if self.elongation.is_angle() { (0.0, force) } else { (force, 0.0) };
+        ForceSummary { strain_mismatch: mismatch, force, moment, rotation: 0.0 }
+    }
+}
+
+impl InternalForce for SpringDamper {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn begin_step(&mut self, interval: Interval, _bodies: &[Body], _rates: &[f64]) {
+        self.duration = interval.duration();
+        self.spring.begin_step();
+        self.damper.begin_step();
+        [&mut self.carried, &mut self.current].into_iter().for_each(|all| all.fill(0.0));
+    }
+
+    fn begin_movement(&mut self) {
+        self.duration = f64::INFINITY;
+        self.spring.force = self.spring.last;
+        self.damper.force = 0.0;
+    }
+
+    fn add_forces(&mut self, at: TrialState<'_>, out: &mut [f64]) -> ForceSummary {
+        self.take(at);
+        self.rotations = collocation(at.stage).rotations;
+        if at.stage == Stage::Start {
+            let force = at.weight * self.restoring(at.stage).force;
+            self.note(at.stage, force, 0.0);
+            self.elongation.scatter(&self.elongation.secant, force, out);
+            return self.summary(0.0);
+        }
+        let extent = self.elongation.extent();
+        let (restoring, damping) = (self.restoring(at.stage), self.damping(at));
+        let of_spring = if self.rises { SHARP * extent } else { extent };
+        let mut missed = self.spring.compare(restoring, of_spring);
+        let has_mean = matches!(at.stage, Stage::Midpoint | Stage::DampedMidpoint(_));
+        let missing = if has_mean { self.spring.missing_change() } else { 0.0 };
+        if self.elongation.settle(missing) && has_mean && self.rises {
+            missed = 0.0;
+        }
+        let mismatch = larger(missed, self.damper.compare(damping, extent));
+        let force = self.weighted(at, self.spring.force, self.damper.force);
+        self.note(at.stage, force, self.damper.force);
+        self.elongation.scatter(&self.elongation.secant, force, out);
+        if self.damping.acts() {
+            self.elongation.scatter(&self.elongation.lag, self.damper.force, out);
+        }
+        self.summary(mismatch)
+    }
+
+    fn add_linearised_forces(
+        &mut self,
+        at: TrialState<'_>,
+        out: &mut [f64],
+        unknowns: usize,
+        tangent: &mut BandedMatrix,
+    ) {
+        self.take(at);
+        self.elongation.find_bend(collocation(at.stage).rotations);
+        let (restoring, damping) = (self.aimed_restoring(at.stage), self.aimed_damping(at));
+        self.spring.linearise(restoring);
+        self.damper.linearise(damping);
+        let Self { elongation, linearised: [secant, slope, lag], .. } = self;
+        secant.copy_from_slice(&elongation.secant);
+        slope.copy_from_slice(&elongation.slope);
+        lag.copy_from_slice(&elongation.lag);
+        let force = self.weighted(at, restoring.force, damping.force);
+        self.elongation.scatter(&self.elongation.secant, force, out);
+        if self.damping.acts() {
+            self.elongation.scatter(&self.elongation.lag, damping.force, out);
+        }
+        // The geometric terms with the force of the iterate.
+        let stiffness = self.weighted(at, restoring.stiffness, damping.stiffness);
+        let force = self.weighted(at, self.spring.force, self.damper.force);
+        let Elongation { secant, slope, bend, lag, lag_bend, .. } = &self.elongation;
+        let rows = self.tangent.chunks_exact_mut(slope.len());
+        let bends = bend.chunks_exact(slope.len());
+        for ((row, secant), bend) in rows.zip(secant).zip(bends) {
+            for ((entry, slope), bend) in row.iter_mut().zip(slope).zip(bend) {
+                *entry = stiffness * secant * slope + force * bend;
+            }
+        }
+        if self.damping.acts() {
+            let rows = self.tangent.chunks_exact_mut(slope.len());
+            let bends = lag_bend.chunks_exact(slope.len());
+            for ((row, lag), bend) in rows.zip(lag).zip(bends) {
+                for ((entry, slope), bend) in row.iter_mut().zip(slope).zip(bend) {
+                    *entry += damping.stiffness * lag * slope + self.damper.force * bend;
+                }
+            }
+        }
+        self.elongation.scatter_tangent(&self.tangent, unknowns, &mut tangent.rows_mut());
+    }
+
+    fn add_mismatch_forces(&self, _bodies: &[Body], weight: f64, out: &mut [f64]) {
+        let force = weight * self.spring.mismatch + self.damper.mismatch;
+        let [secant, _, lag] = &self.linearised;
+        self.elongation.scatter(secant, force, out);
+        if self.damping.acts() {
+            self.elongation.scatter(lag, self.damper.mismatch, out);
+        }
+    }
+
+    fn correct(&mut self, _bodies: &[Body], correction: &[f64]) {
+        let change = self.elongation.along(&self.linearised[1], correction);
+        self.spring.correct(change);
+        self.damper.correct(change);
+    }
+
+    /// The ground does not move, so that it does no work.
+    fn exchange(&self, _bodies: &[Body], duration: f64) -> WorkAndImpulse {
+        let given = |at: usize| (self.carried[at] + self.current[at]) * duration;
+        let mut sum = WorkAndImpulse::default();
+        for (terminal, ground) in self.grounds.iter().enumerate() {
+            let Some(ground) = ground else { continue };
+            sum += match self.elongation.is_angle() {
+                true => WorkAndImpulse::of(0.0, Vec2::zeros(), given(terminal)),
+                false => {
+                    let impulse = Vec2::new(given(2 * terminal), given(2 * terminal + 1));
+                    WorkAndImpulse::of(0.0, impulse, cross(*ground, impulse))
+                }
+            };
+        }
+        sum
+    }
+
+    fn advance(&mut self, bodies: &[Body]) {
+        self.dissipated += self.damper.force * self.elongation.change;
+        let (was_slack, before) = (self.restoring_at_start() == 0.0, self.last.1);
+        self.last = match self.duration.is_finite() {
+            true => (self.duration, self.elongation.change / self.duration),
+            false => (0.0, 0.0),
+        };
+        self.elongation.advance(bodies, self.rotations);
+        if self.duration.is_finite() && self.may_be_slack() {
+            let is_slack = self.restoring_at_start() == 0.0;
+            self.contact.add(
+                [was_slack, is_slack],
+                [before, self.last.1],
+                (self.spring.force, self.duration),
+            );
+        }
+        self.spring.last = self.spring.force;
+        self.damper.last = self.damper.force;
+    }
+
+    fn stored(&self) -> f64 {
+        self.law.as_ref().map_or(0.0, |law| law.energy(self.elongation.grown()))
+    }
+
+    fn dissipated(&self) -> f64 {
+        self.dissipated
+    }
+
+    fn stretched(&self) -> Option<SpringTrialState> {
+        let force = self.spring.last + self.damper.last;
+        let stiffness = self.law.as_ref().map_or(0.0, |law| law.slope(self.elongation.grown()));
+        Some(SpringTrialState { elongation: self.elongation.value(), force, stiffness })
+    }
+
+    fn add_forces_now(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]) {
+        let mut elongation = self.elongation.clone();
+        elongation.rest(bodies);
+        let rate = elongation.rate(rates);
+        let force = self.restoring_at_start() + self.damping.force(rate);
+        elongation.scatter(&elongation.slope, force, out);
+    }
+
+    fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
+        if self.damping.acts() {
+            let mut elongation = self.elongation.clone();
+            elongation.rest(bodies);
+            take(self.damping.slope_at_rest(), elongation.rate_behind(bodies, rates));
+        }
+    }
+
+    fn at_rest(&self, bodies: &[Body], take: &mut dyn FnMut(&[usize], &SpanStiffness)) {
+        if let Some(law) = &self.law {
+            let (degrees, rows) = law_at_rest(law, &self.elongation, bodies);
+            take(&degrees, &rows);
+        }
+    }
+
+    /// As a spring that snaps: what it stored rings out in itself.
+    fn let_go(&mut self) {
+        self.dissipated += self.stored();
+        self.detach();
+    }
+
+    fn detach(&mut self) {
+        if self.released.is_none() {
+            self.released = Some((self.law.take(), std::mem::take(&mut self.damping)));
+            (self.spring, self.damper) = (MixedForce::default(), MixedForce::default());
+        }
+    }
+
+    fn attach(&mut self) {
+        if let Some(own) = self.released.take() {
+            (self.law, self.damping) = own;
+        }
+    }
+
+    fn save(&self, state: &mut Vec<f64>) {
+        self.elongation.save(state);
+        state.extend([self.spring.last, self.damper.last, self.last.0, self.last.1]);
+        state.push(self.dissipated);
+        if self.may_be_slack() {
+            self.contact.save(state);
+        }
+    }
+
+    fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
+        self.elongation.restore(next);
+        (self.spring.last, self.damper.last) = (next(), next());
+        self.last = (next(), next());
+        self.dissipated = next();
+        if self.may_be_slack() {
+            self.contact.restore(next);
+        }
+    }
+
+    fn branch(&self, bodies: &[Body], rates: &[f64]) -> Option<Branch> {
+        if self.corners.is_empty() || self.law.is_none() {
+            return None;
+        }
+        let Self { elongation, corners, .. } = self;
+        let along = if elongation.is_angle() { Along::Angle } else { Along::Length };
+        let index = corners.partition_point(|at| elongation.grown().beyond(*at) >= 0.0);
+        Some(Branch { index, rate: elongation.rate_behind(bodies, rates), along })
+    }
+
+    fn short_bounce(&self) -> Option<ShortBounce> {
+        self.contact.short_bounce()
+    }
+
+    fn explain(&self) -> String {
+        if self.released.is_some() {
+            return "has let go: no force".to_owned();
+        }
+        let law = self.words.clone();
+        let parts: Vec<String> = law.into_iter().chain(self.damping.describe()).collect();
+        format!("{}; its force is an unknown of its own, outside the matrix", parts.join(", "))
+    }
+}

@@ -1,0 +1,353 @@
+//! Laws of restoring forces: a force over an elongation, with the energy that it stores.
+
+use serde::{Deserialize, Serialize};
+
+use super::coordinate::Coordinate;
+use crate::geometry::larger;
+
+/// A force is none that is no more than this part of the largest of its law.
+const ROUNDING: f64 = 1e-12;
+
+/// A corner is sharp where the stiffness changes by more than this part of the largest of its law.
+const SHARP: f64 = 0.5;
+
+/// A restoring force over an elongation `q`, a length or an angle.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub enum SpringLaw {
+    /// `k (q - q₀)`
+    Linear {
+        /// `k` [force/length, or force·length/rad].
+        stiffness: f64,
+        /// `q₀`, where it is at ease [length, rad].
+        natural: f64,
+    },
+    /// A polygon through points, and beyond the first and the last one as in the segment beside them.
+    Table {
+        /// Elongations `q` [length, rad], rising, each with the force there [force, force·length]; at least two.
+        points: Vec<(f64, f64)>,
+    },
+    /// A function that was asked when the scene was described, and is a table from then on.
+    Sampled {
+        /// As those of a table.
+        points: Vec<(f64, f64)>,
+        /// How far the function is from the polygon in the middle of its segments at most [force, force·length].
+        error: f64,
+    },
+}
+
+/// The mean force of a step: the discrete gradient of the stored energy (Gonzalez 1996), with its derivative.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeanForce {
+    /// The mean force `G = ΔU/Δq` of a step, or `U'` where nothing changes [force, force·length].
+    pub force: f64,
+    /// The derivative `∂G/∂q₁` of that force by the coordinate at the end of the step [force/length, force·length/rad].
+    pub slope: f64,
+}
+
+impl SpringLaw {
+    /// The force `U'(q)` [force, force·length].
+    pub fn force(&self, q: impl Into<Coordinate>) -> f64 {
+        let q = q.into();
+        match self {
+            Self::Linear { stiffness, natural } => stiffness * (q.value - natural),
+            Self::Table { points } | Self::Sampled { points, .. } => {
+                // From the smaller of both forces on: nothing is left of a larger one but its rounding.
+                let [first, second] = segment(points, q);
+                let (at, force) = if first.1.abs() <= second.1.abs() { first } else { second };
+                force + self.slope(q) * q.beyond(at)
+            }
+        }
+    }
+
+    /// The stiffness `U''(q)`; at a corner of a table that of the segment beyond it [force/length, force·length/rad].
+    pub fn slope(&self, q: impl Into<Coordinate>) -> f64 {
+        match self {
+            Self::Linear { stiffness, .. } => *stiffness,
+            Self::Table { points } | Self::Sampled { points, .. } => {
+                let [(q0, f0), (q1, f1)] = segment(points, q.into());
+                (f1 - f0) / (q1 - q0)
+            }
+        }
+    }
+
+    /// The largest stiffness of the law, whatever its sign [force/length, force·length/rad].
+    pub fn largest_slope(&self) -> f64 {
+        match self {
+            Self::Linear { stiffness, .. } => stiffness.abs(),
+            Self::Table { points } | Self::Sampled { points, .. } => {
+                points.windows(2).map(|pair| slope([pair[0], pair[1]]).abs()).fold(0.0, larger)
+            }
+        }
+    }
+
+    /// Whether it has corners, and a force that falls nowhere.
+    pub fn rises_with_corners(&self) -> bool {
+        match self {
+            Self::Linear { .. } => false,
+            Self::Table { points } | Self::Sampled { points, .. } => {
+                points.windows(2).all(|pair| pair[0].1 <= pair[1].1)
+            }
+        }
+    }
+
+    /// The elongations at which the stiffness jumps, by more than half of the largest that the law has [length, rad].
+    pub fn sharp_corners(&self) -> Vec<f64> {
+        match self {
+            Self::Linear { .. } => Vec::new(),
+            Self::Table { points } | Self::Sampled { points, .. } => {
+                let sharp = SHARP * self.largest_slope();
+                let at = |three: &[(f64, f64)]| {
+                    let slopes = [[three[0], three[1]], [three[1], three[2]]].map(slope);
+                    let jumps = (slopes[1] - slopes[0]).abs() > sharp;
+                    jumps.then_some(three[1].0)
+                };
+                points.windows(3).filter_map(at).collect()
+            }
+        }
+    }
+
+    /// Whether the force is none in a whole segment: slack, or not in touch.
+    pub fn may_be_slack(&self) -> bool {
+        match self {
+            Self::Linear { .. } => false,
+            Self::Table { points } | Self::Sampled { points, .. } => {
+                points.windows(2).any(|pair| pair[0].1 == 0.0 && pair[1].1 == 0.0)
+            }
+        }
+    }
+
+    /// Whether there is no force at an elongation, as far as rounding and what was sampled can tell.
+    pub fn is_at_ease(&self, q: f64) -> bool {
+        let off = match self {
+            Self::Linear { stiffness, natural } => ROUNDING * (stiffness * natural).abs(),
+            Self::Table { points } => ROUNDING * largest(points),
+            Self::Sampled { points, error } => larger(*error, ROUNDING * largest(points)),
+        };
+        self.force(q).abs() <= off
+    }
+
+    /// The stored energy `U(q)`, zero at ease; where a table has no such place, at its first point [energy].
+    pub fn energy(&self, q: impl Into<Coordinate>) -> f64 {
+        let q = q.into();
+        match self {
+            Self::Linear { stiffness, natural } => {
+                0.5 * stiffness * (q.value - natural) * (q.value - natural)
+            }
+            Self::Table { points } | Self::Sampled { points, .. } => {
+                self.work(points, ease(points).into(), q)
+            }
+        }
+    }
+
+    /// The work `∫ F dq` from one elongation of a table to another, corner by corner: no difference of large numbers.
+    fn work(&self, points: &[(f64, f64)], from: Coordinate, to: Coordinate) -> f64 {
+        let rises = to.beyond_other(from) >= 0.0;
+        let (low, high) = if rises { (from, to) } else { (to, from) };
+        let [first, last] = [
+            points.partition_point(|(q, _)| low.beyond(*q) >= 0.0),
+            points.partition_point(|(q, _)| high.beyond(*q) > 0.0),
+        ];
+        let corners = points[first..last.max(first)].iter().map(|(q, _)| Coordinate::from(*q));
+        let (mut at, mut force, mut sum) = (low, self.force(low), 0.0);
+        for next in corners.chain([high]) {
+            let next_force = self.force(next);
+            sum += 0.5 * (force + next_force) * next.beyond_other(at);
+            (at, force) = (next, next_force);
+        }
+        if rises { sum } else { -sum }
+    }
+
+    /// The mean force between two elongations, the second of which is the first and a change.
+    pub fn mean(&self, q: impl Into<Coordinate>, change: f64) -> MeanForce {
+        let q = q.into();
+        let end = q.after(change);
+        match self {
+            Self::Linear { stiffness, natural } => MeanForce {
+                force: stiffness * ((q.value - natural) + 0.5 * change),
+                slope: 0.5 * stiffness,
+            },
+            Self::Table { points } | Self::Sampled { points, .. }
+                if segment(points, q) != segment(points, end) && change != 0.0 =>
+            {
+                let force = self.work(points, q, end) / change;
+                MeanForce { force, slope: (self.force(end) - force) / change }
+            }
+            Self::Table { .. } | Self::Sampled { .. } => {
+                let slope = self.slope(end);
+                MeanForce { force: self.force(q) + 0.5 * slope * change, slope: 0.5 * slope }
+            }
+        }
+    }
+
+    /// The same law with a corner wherever its force is none, from which it is counted there to all digits.
+    pub fn with_ease(mut self) -> Self {
+        if let Self::Table { points } | Self::Sampled { points, .. } = &mut self {
+            let crossing = |pair: &[(f64, f64)]| {
+                let at = zero(pair[0], pair[1]);
+                let is_inside = pair[0].1 * pair[1].1 < 0.0 && pair[0].0 < at && at < pair[1].0;
+                is_inside.then_some((at, 0.0))
+            };
+            let corners: Vec<_> = points.windows(2).filter_map(crossing).collect();
+            points.extend(corners);
+            points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        }
+        self
+    }
+
+    /// The same law with its elongations counted from another origin, which is this far below.
+    pub fn shifted(&self, by: f64) -> Self {
+        match self {
+            Self::Linear { stiffness, natural } => {
+                Self::Linear { stiffness: *stiffness, natural: natural + by }
+            }
+            Self::Table { points } => Self::Table { points: moved(points, by) },
+            Self::Sampled { points, error } => {
+                Self::Sampled { points: moved(points, by), error: *error }
+            }
+        }
+    }
+
+    /// The law in words.
+    pub fn describe(&self) -> String {
+        match self {
+            Self::Linear { stiffness, natural } => {
+                format!("stiffness {stiffness}, at ease at {natural}")
+            }
+            Self::Table { points } => format!("a table of {} points", points.len()),
+            Self::Sampled { points, error } => {
+                let (count, first, last) = (points.len(), points[0].0, points[points.len() - 1].0);
+                format!(
+                    "a function asked at {count} points from {first} to {last}, off by {error:.1e} between them and straight beyond"
+                )
+            }
+        }
+    }
+}
+
+fn largest(points: &[(f64, f64)]) -> f64 {
+    points.iter().map(|(_, force)| force.abs()).fold(0.0, larger)
+}
+
+/// That of a segment [force/length, force·length/rad]; zero of one without length, which no checked law has.
+fn slope([a, b]: [(f64, f64); 2]) -> f64 {
+    if b.0 > a.0 { (b.1 - a.1) / (b.0 - a.0) } else { 0.0 }
+}
+
+fn moved(points: &[(f64, f64)], by: f64) -> Vec<(f64, f64)> {
+    points.iter().map(|(q, force)| (q + by, *force)).collect()
+}
+
+/// The ends of the segment of a table that an elongation lies on, or is nearest to; at a corner the one beyond it.
+fn segment(points: &[(f64, f64)], q: Coordinate) -> [(f64, f64); 2] {
+    let beyond = points.partition_point(|(at, _)| q.beyond(*at) >= 0.0);
+    let beyond = beyond.clamp(1, points.len() - 1);
+    [points[beyond - 1], points[beyond]]
+}
+
+/// Where the line through two points has no force; the first point of a level line.
+fn zero((q0, f0): (f64, f64), (q1, f1): (f64, f64)) -> f64 {
+    match (f1 == f0, f1 == 0.0) {
+        (true, _) => q0,
+        (false, true) => q1,
+        (false, false) => q0 - f0 * (q1 - q0) / (f1 - f0),
+    }
+}
+
+/// Where the force of a table passes from below to above zero, or beyond its ends would: the least energy. The first point if it does not.
+fn ease(points: &[(f64, f64)]) -> f64 {
+    let passes = |pair: &&[(f64, f64)]| pair[0].1 <= 0.0 && pair[1].1 >= 0.0;
+    let last = points.len() - 1;
+    match points.windows(2).find(passes) {
+        Some(pair) => zero(pair[0], pair[1]),
+        None if points[0].1 > 0.0 && points[1].1 > points[0].1 => zero(points[0], points[1]),
+        None if points[last].1 < 0.0 && points[last].1 > points[last - 1].1 => {
+            zero(points[last - 1], points[last])
+        }
+        None => points[0].0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn laws() -> [SpringLaw; 2] {
+        let points = vec![(-1.0, -3.0), (0.0, 0.0), (0.5, 0.0), (2.0, 6.0)];
+        [SpringLaw::Linear { stiffness: 40.0, natural: 0.3 }, SpringLaw::Table { points }]
+    }
+
+    #[test]
+    fn the_mean_force_does_the_work_by_which_the_energy_changes() {
+        for law in laws() {
+            for (q, change) in [(-2.0, 5.0), (0.1, 0.2), (0.4, 0.3), (1.9, -2.5), (0.5, 1e-9)] {
+                let mean = law.mean(q, change);
+                let (work, gained) = (mean.force * change, law.energy(q + change) - law.energy(q));
+                assert!((work - gained).abs() < 1e-13 * (1.0 + law.energy(q).abs()), "{law:?} {q}");
+            }
+        }
+    }
+
+    #[test]
+    fn forces_are_slopes_of_the_energy_and_slopes_those_of_the_mean_force() {
+        for law in laws() {
+            for (q, change) in [(-1.7, 0.4), (0.2, 0.5), (1.0, -0.8), (0.1, 1e-3)] {
+                let h = 1e-6;
+                let by_energy = (law.energy(q + h) - law.energy(q - h)) / (2.0 * h);
+                assert!((by_energy - law.force(q)).abs() < 1e-7);
+                let [more, less] = [change + h, change - h].map(|change| law.mean(q, change).force);
+                let slope = law.mean(q, change).slope;
+                assert!(((more - less) / (2.0 * h) - slope).abs() < 1e-6, "{law:?} {q} {change}");
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_is_stored_at_ease_and_never_less() {
+        let push = vec![(0.0, -1e5), (1.0, 0.0), (2.0, 0.0)];
+        let pull = vec![(0.0, 0.0), (1.0, 0.0), (2.0, 3.0)];
+        let tensioned = vec![(1.0, 2.0), (2.0, 4.0)];
+        let pressed = vec![(1.0, -4.0), (2.0, -2.0)];
+        for (points, ease) in [(push, 1.5), (pull, 0.5), (tensioned, 0.0), (pressed, 3.0)] {
+            let law = SpringLaw::Table { points };
+            assert_eq!(law.energy(ease), 0.0, "{law:?}");
+            assert!([-1.0, 0.5, 1.5, 4.0].iter().all(|q| law.energy(*q) >= 0.0), "{law:?}");
+        }
+        let constant = SpringLaw::Table { points: vec![(1.0, 2.0), (2.0, 2.0)] };
+        assert_eq!([constant.energy(1.0), constant.energy(0.0)], [0.0, -2.0]);
+    }
+
+    #[test]
+    fn a_law_is_at_ease_where_its_force_is_none_but_for_rounding() {
+        let line = |q: f64| (q, 16.1 * q);
+        let points = vec![line(-2.0), line(-0.7), line(1.9)];
+        let error = 0.0;
+        for law in
+            [SpringLaw::Table { points: points.clone() }, SpringLaw::Sampled { points, error }]
+        {
+            assert!(law.is_at_ease(0.0) && !law.is_at_ease(1e-9), "{law:?}");
+        }
+        let linear = SpringLaw::Linear { stiffness: 3.0, natural: 0.1 };
+        assert!(linear.is_at_ease(0.3 - 0.2) && !linear.is_at_ease(0.0));
+    }
+
+    #[test]
+    fn corners_are_sharp_where_the_stiffness_jumps() {
+        let [line, table] = laws();
+        assert!(line.sharp_corners().is_empty());
+        assert_eq!(table.sharp_corners(), [0.0, 0.5]);
+        let hardening = |q: f64| Ok::<f64, ()>(q + q * q * q);
+        assert!(SpringLaw::sampled((-1.0, 1.0), hardening).unwrap().sharp_corners().is_empty());
+        // Nor are there where the stiffness passes zero.
+        let cubic = |q: f64| Ok::<f64, ()>(q * q * q);
+        let waves = |q: f64| Ok::<f64, ()>((3.0 * q) - q * q * q);
+        assert!(SpringLaw::sampled((-1.0, 1.0), cubic).unwrap().sharp_corners().is_empty());
+        assert!(SpringLaw::sampled((-2.0, 2.0), waves).unwrap().sharp_corners().is_empty());
+    }
+
+    #[test]
+    fn a_table_goes_on_beyond_its_ends() {
+        let [_, table] = laws();
+        assert_eq!([table.force(-2.0), table.force(3.0), table.force(0.25)], [-6.0, 10.0, 0.0]);
+        assert_eq!([table.slope(-2.0), table.slope(3.0), table.slope(0.25)], [3.0, 4.0, 0.0]);
+    }
+}

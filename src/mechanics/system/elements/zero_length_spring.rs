@@ -1,0 +1,205 @@
+//! Springs whose ends may pass through one another: no force is left where they meet.
+//!
+//! A linear one without length at ease pulls with `k` times the way between its ends, a linear law of both its components. Along the way it would be `k ℓ` in
+//! a direction that changes without bound where the ends meet. By components there is no direction: `U = ½ k (x² + y²)`. Any other law is one of the length.
+//! The damper beside either takes the rate along the mean way, as the rate of a length says nothing of ends that pass through one another within a step.
+
+use super::damping_law::DampingLaw;
+use super::elongation::{Elongation, ElongationEnd};
+use super::internal_force::{InternalForce, SpringTrialState};
+use super::point_damper::PointDamper;
+use super::spring_damper::SpringDamper;
+use super::spring_law::SpringLaw;
+use super::{Branch, ShortBounce, TrialState, WorkAndImpulse};
+use crate::beams::{ForceSummary, Movement, SpanStiffness};
+use crate::geometry::Vec2;
+use crate::integrators::Interval;
+use crate::linalg::BandedMatrix;
+use crate::system::bodies::Body;
+
+/// A spring along x and one along y, which are one, or one along the way; and a damper along the way, if there is one.
+pub struct ZeroLengthSpring {
+    along: Vec<SpringDamper>,
+    damper: Option<PointDamper>,
+}
+
+impl ZeroLengthSpring {
+    /// A spring of a stiffness [force/length] with a damper between two terminals, which are at these places at the start.
+    pub fn new(
+        name: &str,
+        terminals: [ElongationEnd; 2],
+        at: [Vec2; 2],
+        grounds: &[Option<Vec2>],
+        stiffness: f64,
+        damping: DampingLaw,
+    ) -> Self {
+        let law = SpringLaw::Linear { stiffness, natural: 0.0 };
+        let component = |component| {
+            let elongation = Elongation::component(terminals.clone(), at, component);
+            let (law, none) = ((law.clone(), 0.0), DampingLaw::default());
+            SpringDamper::new(name.to_owned(), elongation, grounds.to_vec(), Some(law), none)
+        };
+        let along = [0, 1].map(component).into();
+        Self::beside(name, along, terminals, at, grounds, damping)
+    }
+
+    /// A spring with a law of the length, counted from an origin, with a damper between two terminals, which are at these places at the start.
+    pub fn of_law(
+        name: &str,
+        terminals: [ElongationEnd; 2],
+        at: [Vec2; 2],
+        grounds: &[Option<Vec2>],
+        law: (SpringLaw, f64),
+        damping: DampingLaw,
+    ) -> Self {
+        let (way, none) = (Elongation::way(terminals.to_vec(), &at), DampingLaw::default());
+        let along = SpringDamper::new(name.to_owned(), way, grounds.to_vec(), Some(law), none);
+        Self::beside(name, vec![along], terminals, at, grounds, damping)
+    }
+
+    fn beside(
+        name: &str,
+        along: Vec<SpringDamper>,
+        terminals: [ElongationEnd; 2],
+        at: [Vec2; 2],
+        grounds: &[Option<Vec2>],
+        damping: DampingLaw,
+    ) -> Self {
+        let damper = damping
+            .acts()
+            .then(|| PointDamper::new(name.to_owned(), terminals, at, grounds, damping));
+        Self { along, damper }
+    }
+
+    fn parts(&self) -> impl Iterator<Item = &dyn InternalForce> {
+        let along = self.along.iter().map(|part| part as &dyn InternalForce);
+        along.chain(self.damper.iter().map(|part| part as &dyn InternalForce))
+    }
+
+    fn parts_mut(&mut self) -> impl Iterator<Item = &mut dyn InternalForce> {
+        let along = self.along.iter_mut().map(|part| part as &mut dyn InternalForce);
+        along.chain(self.damper.iter_mut().map(|part| part as &mut dyn InternalForce))
+    }
+
+    /// What the springs measure and their force: of both components the sizes.
+    fn whole(&self) -> Option<SpringTrialState> {
+        let [x, y] = self.along.as_slice() else { return self.along[0].stretched() };
+        let (x, y) = (x.stretched()?, y.stretched()?);
+        let elongation = Vec2::new(x.elongation, y.elongation).norm();
+        Some(SpringTrialState { elongation, force: Vec2::new(x.force, y.force).norm(), ..x })
+    }
+}
+
+impl InternalForce for ZeroLengthSpring {
+    fn name(&self) -> &str {
+        self.along[0].name()
+    }
+
+    fn begin_step(&mut self, interval: Interval, bodies: &[Body], rates: &[f64]) {
+        self.parts_mut().for_each(|part| part.begin_step(interval, bodies, rates));
+    }
+
+    fn begin_movement(&mut self) {
+        self.parts_mut().for_each(|part| part.begin_movement());
+    }
+
+    fn add_forces(&mut self, at: TrialState<'_>, out: &mut [f64]) -> ForceSummary {
+        let mut summary = ForceSummary::default();
+        self.parts_mut().for_each(|part| summary.join(&part.add_forces(at, out)));
+        summary
+    }
+
+    fn add_linearised_forces(
+        &mut self,
+        at: TrialState<'_>,
+        out: &mut [f64],
+        unknowns: usize,
+        tangent: &mut BandedMatrix,
+    ) {
+        self.parts_mut().for_each(|part| part.add_linearised_forces(at, out, unknowns, tangent));
+    }
+
+    fn add_mismatch_forces(&self, bodies: &[Body], weight: f64, out: &mut [f64]) {
+        self.parts().for_each(|part| part.add_mismatch_forces(bodies, weight, out));
+    }
+
+    fn correct(&mut self, bodies: &[Body], correction: &[f64]) {
+        self.parts_mut().for_each(|part| part.correct(bodies, correction));
+    }
+
+    fn exchange(&self, bodies: &[Body], duration: f64) -> WorkAndImpulse {
+        let mut sum = WorkAndImpulse::default();
+        self.parts().for_each(|part| sum += part.exchange(bodies, duration));
+        sum
+    }
+
+    fn advance(&mut self, bodies: &[Body]) {
+        self.parts_mut().for_each(|part| part.advance(bodies));
+    }
+
+    fn stored(&self) -> f64 {
+        self.parts().map(|part| part.stored()).sum()
+    }
+
+    fn dissipated(&self) -> f64 {
+        self.parts().map(|part| part.dissipated()).sum()
+    }
+
+    fn stretched(&self) -> Option<SpringTrialState> {
+        let of_damper = self.damper.as_ref().and_then(InternalForce::stretched);
+        let spring = self.whole()?;
+        Some(SpringTrialState {
+            force: spring.force + of_damper.map_or(0.0, |part| part.force),
+            ..spring
+        })
+    }
+
+    fn branch(&self, bodies: &[Body], rates: &[f64]) -> Option<Branch> {
+        self.along.iter().find_map(|part| part.branch(bodies, rates))
+    }
+
+    fn short_bounce(&self) -> Option<ShortBounce> {
+        self.along.iter().find_map(InternalForce::short_bounce)
+    }
+
+    fn add_forces_now(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]) {
+        self.parts().for_each(|part| part.add_forces_now(bodies, rates, out));
+    }
+
+    fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
+        self.parts().for_each(|part| part.each_damped_rate(bodies, rates, take));
+    }
+
+    fn at_rest(&self, bodies: &[Body], take: &mut dyn FnMut(&[usize], &SpanStiffness)) {
+        self.parts().for_each(|part| part.at_rest(bodies, take));
+    }
+
+    fn let_go(&mut self) {
+        self.parts_mut().for_each(|part| part.let_go());
+    }
+
+    fn detach(&mut self) {
+        self.parts_mut().for_each(|part| part.detach());
+    }
+
+    fn attach(&mut self) {
+        self.parts_mut().for_each(|part| part.attach());
+    }
+
+    fn save(&self, state: &mut Vec<f64>) {
+        self.parts().for_each(|part| part.save(state));
+    }
+
+    fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
+        self.parts_mut().for_each(|part| part.restore(next));
+    }
+
+    fn explain(&self) -> String {
+        let damper = self.damper.as_ref().map(|damper| format!("; {}", damper.explain()));
+        let by = match self.along.len() {
+            1 => "",
+            _ => "by components, as it has no length at ease: ",
+        };
+        format!("{by}{}{}", self.along[0].explain(), damper.unwrap_or_default())
+    }
+}

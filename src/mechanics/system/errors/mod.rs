@@ -1,0 +1,13 @@
+//! What a model says: its errors, what may be a name, and how numbers are told.
+
+mod error;
+mod names;
+mod numbers;
+mod slider_error;
+mod track_error;
+
+pub use error::{SystemError, Turning, finite};
+pub use names::refusal;
+pub use numbers::{MOST, in_words, plural, rounded, written};
+pub use slider_error::{Approach, SliderError, SliderParts};
+pub use track_error::TrackError;

@@ -1,0 +1,233 @@
+//! All rigid links and inclined rollers of a model.
+
+use super::rigid_link::{ArmRule, ForceUnknowns};
+use super::{InclinedRoller, RigidLink};
+use crate::beams::{ForceSummary, SpanStiffness};
+use crate::geometry::{Vec2, larger};
+use crate::linalg::BandedMatrix;
+use crate::system::bodies::Bodies;
+
+/// The rigid links of a model, in the order of its rigid bodies and their points, and its inclined rollers, in the order of the joints of the scene.
+pub struct Links {
+    rigid: Vec<RigidLink>,
+    rollers: Vec<InclinedRoller>,
+    acting: ForceUnknowns,
+}
+
+impl Links {
+    /// The rigid links and the inclined rollers of a model.
+    pub fn new(rigid: Vec<RigidLink>, rollers: Vec<InclinedRoller>) -> Self {
+        Self { rigid, rollers, acting: ForceUnknowns::AtRest }
+    }
+
+    /// Gives the forces of all rigid links and rollers other unknowns, in their order; a roller that lets go gets none.
+    pub fn renumber(
+        &mut self,
+        rigid: impl Iterator<Item = [usize; 2]>,
+        rollers: impl Iterator<Item = Option<usize>>,
+    ) {
+        self.rigid.iter_mut().zip(rigid).for_each(|(link, own)| link.unknowns = own);
+        self.rollers.iter_mut().zip(rollers).for_each(|(roller, own)| roller.unknown = own);
+    }
+
+    /// Exchanges the unknowns of the forces of all rigid links and rollers for others, in their order.
+    pub fn exchange_unknowns(&mut self, rigid: &mut [[usize; 2]], rollers: &mut [Option<usize>]) {
+        let links = self.rigid.iter_mut().zip(rigid);
+        links.for_each(|(link, own)| std::mem::swap(&mut link.unknowns, own));
+        let all = self.rollers.iter_mut().zip(rollers);
+        all.for_each(|(roller, own)| std::mem::swap(&mut roller.unknown, own));
+    }
+
+    /// All inclined rollers, also those that have let go.
+    pub fn all_rollers(&self) -> &[InclinedRoller] {
+        &self.rollers
+    }
+
+    /// The number of rigid links.
+    pub fn count(&self) -> usize {
+        self.rigid.len()
+    }
+
+    /// The rigid links, in the order of rigid bodies and points.
+    pub fn iter(&self) -> impl Iterator<Item = &RigidLink> {
+        self.rigid.iter()
+    }
+
+    /// The inclined rollers that hold, with the unknowns of their forces.
+    pub fn rollers(&self) -> impl Iterator<Item = (usize, &InclinedRoller)> {
+        self.rollers.iter().filter_map(|roller| Some((roller.unknown?, roller)))
+    }
+
+    /// The number of forces that are unknowns.
+    pub fn forces(&self) -> usize {
+        2 * self.rigid.len() + self.rollers().count()
+    }
+
+    /// The force of the rollers on some nodes, bodies and control points, by the force of each, by its index [force]; none where there is no roller.
+    pub fn force_of_rollers(
+        &self,
+        nodes: &[(usize, usize)],
+        force: impl Fn(usize) -> Vec2,
+    ) -> Option<Vec2> {
+        let all = self.rollers.iter().enumerate();
+        let there = all.filter(|(_, at)| at.unknown.is_some() && nodes.contains(&at.node));
+        there.map(|(index, _)| force(index)).reduce(|sum, force| sum + force)
+    }
+
+    /// Prepares a step of some duration [time].
+    pub fn begin_step(&mut self, duration: f64) {
+        self.acting = ForceUnknowns::Step(duration);
+    }
+
+    /// Prepares a movement between two places at rest.
+    pub fn begin_movement(&mut self) {
+        self.acting = ForceUnknowns::AtRest;
+    }
+
+    /// Adds the forces of an iterate, and by how much points are off their places and lines; the largest that was met.
+    pub fn add(
+        &mut self,
+        bodies: &Bodies,
+        arms: ArmRule,
+        values: &[f64],
+        out: &mut [f64],
+        summary: &mut ForceSummary,
+    ) {
+        for link in &mut self.rigid {
+            summary.join(&link.add(bodies, self.acting, arms, values, out));
+        }
+        for roller in &mut self.rollers {
+            summary.join(&roller.add(bodies, self.acting, values, out));
+        }
+    }
+
+    /// Adds the derivatives of what [`add`](Self::add) adds; there are so many unknowns.
+    pub fn add_tangent(
+        &self,
+        bodies: &Bodies,
+        arms: ArmRule,
+        values: &[f64],
+        unknowns: usize,
+        tangent: &mut BandedMatrix,
+    ) {
+        for link in &self.rigid {
+            link.add_tangent(bodies, self.acting, arms, values, unknowns, tangent);
+        }
+        for roller in &self.rollers {
+            roller.add_tangent(bodies, self.acting, unknowns, tangent);
+        }
+    }
+
+    /// Couples the forces with movements as at the start of a step; there are so many unknowns.
+    pub fn add_coupling(&self, bodies: &Bodies, unknowns: usize, matrix: &mut BandedMatrix) {
+        self.rigid.iter().for_each(|link| link.add_coupling(bodies, unknowns, matrix));
+        self.rollers.iter().for_each(|roller| roller.add_coupling(bodies, unknowns, matrix));
+    }
+
+    /// Puts the centripetal accelerations of points, and what prescribed accelerations add to them, where the equations of the rigid links stand; a
+    /// roller has none.
+    pub fn set_acceleration_bias(
+        &self,
+        bodies: &Bodies,
+        rates: &[f64],
+        prescribed: &[f64],
+        out: &mut [f64],
+    ) {
+        for link in &self.rigid {
+            let bias =
+                link.centripetal(bodies, rates) - link.velocity_violation(bodies, prescribed);
+            [out[link.unknowns[0]], out[link.unknowns[1]]] = [bias.x, bias.y];
+        }
+        self.rollers().for_each(|(unknown, _)| out[unknown] = 0.0);
+    }
+
+    /// Puts a multiple of the velocities of points relative to their places in bodies, and across the lines of rollers, where these equations stand.
+    pub fn set_velocity_violation(
+        &self,
+        bodies: &Bodies,
+        rates: &[f64],
+        factor: f64,
+        out: &mut [f64],
+    ) {
+        for link in &self.rigid {
+            let violation = link.velocity_violation(bodies, rates) * factor;
+            [out[link.unknowns[0]], out[link.unknowns[1]]] = [violation.x, violation.y];
+        }
+        for (unknown, roller) in self.rollers() {
+            out[unknown] = roller.velocity_violation(bodies, rates) * factor;
+        }
+    }
+
+    /// Adds the forces among the unknowns to those on bodies, with the arms at the start of a step.
+    pub fn transmit(&self, bodies: &Bodies, unknowns: &[f64], out: &mut [f64]) {
+        for link in &self.rigid {
+            let force = Vec2::new(unknowns[link.unknowns[0]], unknowns[link.unknowns[1]]);
+            link.transmit(bodies, force, link.arm(), out);
+        }
+        self.rollers().for_each(|(at, roller)| roller.transmit(bodies, unknowns[at], out));
+    }
+
+    /// Makes the forces among the unknowns zero.
+    pub fn clear(&self, unknowns: &mut [f64]) {
+        self.rigid.iter().flat_map(|link| link.unknowns).for_each(|at| unknowns[at] = 0.0);
+        self.rollers().for_each(|(at, _)| unknowns[at] = 0.0);
+    }
+
+    /// Puts the forces where their unknowns stand: their rates, from which the next step is guessed.
+    pub fn write_forces(&self, rates: &mut [f64]) {
+        for link in &self.rigid {
+            let force = link.force();
+            [rates[link.unknowns[0]], rates[link.unknowns[1]]] = [force.x, force.y];
+        }
+        self.rollers().for_each(|(at, roller)| rates[at] = roller.multiplier());
+    }
+
+    /// Exchanges the forces of all rigid links for others, in their order [force].
+    pub fn exchange_forces(&mut self, others: &mut [Vec2]) {
+        self.rigid.iter_mut().zip(others).for_each(|(link, other)| link.exchange_force(other));
+    }
+
+    /// The largest distance of a point from its place or its line by a residual, relative to its movements and its arm, or the scene [-].
+    pub fn violation(&self, residual: &[f64]) -> f64 {
+        let most = self.rigid.iter().fold(0.0, |most, link| larger(most, link.violation(residual)));
+        self.rollers.iter().fold(most, |most, roller| larger(most, roller.violation(residual)))
+    }
+
+    /// The largest distance of a point from its place or its line [length].
+    pub fn largest_gap(&self, bodies: &Bodies) -> f64 {
+        let most = self.rigid.iter().fold(0.0, |most, link| larger(most, link.gap(bodies)));
+        self.rollers.iter().fold(most, |most, roller| larger(most, roller.gap(bodies)))
+    }
+
+    /// Lets all of them accept the unknowns of a step or a movement.
+    pub fn advance(&mut self, bodies: &Bodies, arms: ArmRule, values: &[f64]) {
+        for link in &mut self.rigid {
+            link.advance(bodies, self.acting, arms, values);
+        }
+        self.rollers.iter_mut().for_each(|roller| roller.advance(self.acting, values));
+    }
+
+    /// Gives how all of them resist small movements, were they as stiff as that [force/length].
+    pub fn each_at_rest(
+        &self,
+        bodies: &Bodies,
+        stiffness: f64,
+        take: &mut dyn FnMut(&[usize], &SpanStiffness),
+    ) {
+        let mut span = SpanStiffness::default();
+        self.rigid.iter().for_each(|link| link.at_rest(bodies, stiffness, &mut span, take));
+        self.rollers.iter().for_each(|roller| roller.at_rest(bodies, stiffness, &mut span, take));
+    }
+
+    /// Appends the state of all of them at the start of a step.
+    pub fn save(&self, state: &mut Vec<f64>) {
+        self.rigid.iter().for_each(|link| link.save(state));
+        self.rollers.iter().for_each(|roller| roller.save(state));
+    }
+
+    /// Takes the state of all of them back, in the order in which it was appended.
+    pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
+        self.rigid.iter_mut().for_each(|link| link.restore(next));
+        self.rollers.iter_mut().for_each(|roller| roller.restore(next));
+    }
+}

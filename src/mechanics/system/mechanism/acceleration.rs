@@ -1,0 +1,19 @@
+//! Accelerations, for methods whose state they are a part of.
+
+use super::System;
+use crate::integrators::Accelerated;
+
+impl Accelerated for System {
+    fn keep_accelerations(&mut self) {
+        self.motion.accelerations.keep(self.unknowns.count());
+    }
+
+    fn accelerations(&self) -> Option<&[f64]> {
+        // Those from before a jump are not those after it.
+        self.motion.accelerations.known().filter(|_| !self.step.jumps)
+    }
+
+    fn set_accelerations(&mut self, accelerations: &[f64]) {
+        self.motion.accelerations.set(accelerations);
+    }
+}

@@ -1,0 +1,374 @@
+//! Impulses at sliders: consistent start velocities, and blows at the ends of masters, all that strike at one time together.
+//!
+//! Impulses `P` at contacts change the velocities by `M (v⁺ - v⁻) = Σ Gᵀ P`, `G v` being the velocity of a slave relative to its place on the
+//! master. Where the contact is closed, linear and angular momentum stay; a gap of the relaxed rule costs angular momentum.
+//! For a blow `G` is what steps follow of that velocity ([`Rigidity`]). What a contact gives to the bodies is `½ P (w⁻ + w⁺)`.
+
+use super::System;
+use super::rigidity::Rigidity;
+use crate::geometry::{Vec2, cross};
+use crate::integrators::{Inertia, Interval, Mechanism};
+use crate::linalg::{BandedLu, LinearError, Pairing, complementary};
+use crate::system::SystemError;
+use crate::system::elements::WorkAndImpulse;
+
+/// A slider, and the component of its relative velocity on which an impulse acts.
+pub(super) type ImpactDirection = (usize, Vec2);
+
+/// Directions that are met by what steps of a length [time] follow of the motion, or by all of it.
+pub(super) type ImpactSelection<'a> = (&'a [ImpactDirection], Option<f64>);
+
+/// What a unit impulse transmits, and how the velocities answer.
+pub(super) struct ImpulseResponse {
+    /// `Gᵀ`, on all degrees of freedom, with what is passed on within a step.
+    pub(super) forces: Vec<f64>,
+    /// `M⁻¹ Gᵀ`, of the unknowns.
+    pub(super) rates: Vec<f64>,
+    /// Where `Gᵀ` has entries.
+    touched: Vec<usize>,
+    /// What section forces pass on, where anything is rigid.
+    passed_on: Vec<f64>,
+}
+
+impl ImpulseResponse {
+    fn of(inertia: &BandedLu<'_>, unknowns: usize, forces: Vec<f64>, passed_on: Vec<f64>) -> Self {
+        let mut rates = forces[..unknowns].to_vec();
+        inertia.solve(&mut rates);
+        let touched = (0..forces.len()).filter(|&at| forces[at] != 0.0).collect();
+        Self { forces, rates, touched, passed_on }
+    }
+
+    /// The velocity that rates are in the direction of the impulse: `G v`.
+    pub(super) fn velocity(&self, rates: &[f64]) -> f64 {
+        let of_rates = self.touched.iter().filter(|at| **at < rates.len());
+        of_rates.map(|&at| rates[at] * self.forces[at]).sum()
+    }
+}
+
+/// What an impulse makes of the velocity `w` on which it acts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum ImpactLaw {
+    /// `w⁺ = 0`, by an impulse of either sign.
+    Ends,
+    /// `w⁺ = -w⁻`, by an impulse of either sign: no work is done.
+    Reverses,
+    /// `0 ≤ P ⟂ w⁺ + e w⁻ ≥ 0`, with the coefficient of restitution `e`: a stop, which pushes and does not pull (Moreau 1988).
+    Strikes(f64),
+    /// `0 ≤ P ⟂ w⁺ ≥ 0`: what leans on a stop.
+    Leans,
+    /// `0 ≤ P ⟂ w⁺ - c ≥ 0`: a stop that gives back what it stored, by a speed `c` [length/time].
+    Leaves(f64),
+}
+
+impl ImpactLaw {
+    pub(super) fn pairing(self) -> Pairing {
+        match self {
+            Self::Ends | Self::Reverses => Pairing::Tied,
+            Self::Strikes(_) | Self::Leans | Self::Leaves(_) => Pairing::Pushing,
+        }
+    }
+
+    /// By how much the velocity after the blow lacks what it must be, without an impulse [length/time].
+    fn lack(self, w: f64) -> f64 {
+        match self {
+            Self::Ends | Self::Leans => w,
+            Self::Reverses => 2.0 * w,
+            Self::Strikes(restitution) => w + restitution * w.min(0.0),
+            Self::Leaves(speed) => w - speed,
+        }
+    }
+}
+
+/// Contacts that meet in one impact, in their directions, and how velocities answer to their impulses.
+pub(super) struct ImpactProblem {
+    directions: Vec<ImpactDirection>,
+    answers: Vec<ImpulseResponse>,
+    /// `G M⁻¹ Gᵀ` [1/mass].
+    pub(super) response: Vec<Vec<f64>>,
+    /// `w⁻` [length/time].
+    before: Vec<f64>,
+    /// What changes without impulses of contacts: where points of rigid bodies move beside these, and beside what jumps.
+    change: Vec<f64>,
+    /// By how much the rates of prescribed movements jump, where their degrees of freedom are; empty where none does.
+    jumps: Vec<f64>,
+}
+
+/// The impulses of an impact, one for each direction.
+#[derive(Debug, Clone)]
+pub(super) struct ImpactImpulses {
+    /// [mass·length/time]
+    pub(super) values: Vec<f64>,
+    /// What each gives to the bodies, `½ P (w⁻ + w⁺)` [energy].
+    pub(super) works: Vec<f64>,
+}
+
+impl ImpactProblem {
+    /// By how much the velocity in a direction changes without impulses of contacts [length/time].
+    fn by_links(&self, at: usize) -> f64 {
+        self.answers[at].velocity(&self.change)
+    }
+
+    /// The velocity in a direction before the impact, and by how much such impulses change it [length/time].
+    pub(super) fn meets(&self, at: usize, impulses: &[f64]) -> (f64, f64) {
+        let by_impulses: f64 = self.response[at].iter().zip(impulses).map(|(a, p)| a * p).sum();
+        (self.before[at], self.by_links(at) + by_impulses)
+    }
+
+    /// The velocities half-way between before and after the impact, without impulses of contacts [length/time].
+    pub(super) fn half_way(&self) -> Vec<f64> {
+        let half_way = |(at, w): (usize, &f64)| w + 0.5 * self.by_links(at);
+        self.before.iter().enumerate().map(half_way).collect()
+    }
+
+    /// By how much velocities after the impact lack, without impulses, what laws for the last directions ask for [length/time].
+    pub(super) fn lacks(&self, laws: &[ImpactLaw]) -> Vec<f64> {
+        let first = self.before.len() - laws.len();
+        let lack = |(at, law): (usize, &ImpactLaw)| law.lack(self.before[at]) + self.by_links(at);
+        (first..).zip(laws).map(lack).collect()
+    }
+
+    /// Impulses with the works that they do.
+    pub(super) fn with_works(&self, values: Vec<f64>) -> ImpactImpulses {
+        let work = |at: usize| {
+            let (before, change) = self.meets(at, &values);
+            values[at] * (before + 0.5 * change)
+        };
+        let works = (0..values.len()).map(work).collect();
+        ImpactImpulses { values, works }
+    }
+
+    /// The impulses by a law for each direction.
+    pub(super) fn impulses(&self, laws: &[ImpactLaw]) -> Result<ImpactImpulses, LinearError> {
+        let pairings: Vec<Pairing> = laws.iter().map(|law| law.pairing()).collect();
+        let values = complementary(&self.response, &self.lacks(laws), &pairings)?;
+        Ok(self.with_works(values))
+    }
+}
+
+/// The velocities in all directions that unit impulses cause: `G M⁻¹ Gᵀ`, a row for each answer [1/mass].
+fn response(answers: &[ImpulseResponse]) -> Vec<Vec<f64>> {
+    let row = |answer: &ImpulseResponse| {
+        answers.iter().map(|other| answer.velocity(&other.rates)).collect()
+    };
+    answers.iter().map(row).collect()
+}
+
+impl System {
+    /// Takes away the velocities of sliders across all masters, by the impulses that change least (Gauss's principle of least constraint).
+    ///
+    /// # Errors
+    /// When the impulses are not determined.
+    pub(in crate::system) fn project_velocities(&mut self) -> Result<(), SystemError> {
+        self.strike_across().map_err(|_| self.sliders.overdetermined())
+    }
+
+    /// Takes away the velocities across all masters, and of points of rigid bodies beside these.
+    fn strike_across(&mut self) -> Result<(), LinearError> {
+        let across = self.across();
+        let encounter = self.encounter(&[(&across, None)], -1.0)?;
+        let impulses = encounter.impulses(&vec![ImpactLaw::Ends; across.len()])?;
+        self.apply(encounter, &impulses.values);
+        Ok(())
+    }
+
+    /// Where a drive begins with a rate and points of rigid bodies do not have the velocities of that, they get them, as the nearest that fit;
+    /// velocities that miss by less than a number [length/time] do. It would alternate from step to step without end, as all rates do that do not
+    /// fit.
+    pub(in crate::system) fn fit_links_to_drives(&mut self, negligible: f64) {
+        if self.links.count() == 0 || !self.supports.prescribed().begins_with_a_rate() {
+            return;
+        }
+        let mut missed = vec![0.0; self.unknowns()];
+        self.links.set_velocity_violation(&self.bodies, &self.motion.rates, 1.0, &mut missed);
+        if missed.iter().all(|missed| missed.abs() <= negligible) {
+            return;
+        }
+        // The blow with which a motion begins is before the start: nothing of it is in the sums since then. A matrix that cannot be factorised is found by
+        // the first step.
+        let before = std::mem::take(&mut self.exchanged);
+        let struck = self.strike_across();
+        self.exchanged = before;
+        if struck.is_ok() {
+            self.supports.prescribed_mut().forget_work();
+        }
+    }
+
+    /// Where the rate of a drive jumps at the start of a step, all that is tied to it by more than strains follows at once: points of rigid bodies, and
+    /// sliders. It would alternate from step to step without end, as all rates do that do not fit. The blow keeps the energy but for the work of
+    /// drives: what is tied moves after it as it did before, but for the sign of what it lacked (theory.md 9.5). Gives whether there was one.
+    pub fn follow_jumps_of_drives(&mut self, interval: Interval) -> bool {
+        if self.links.count() == 0 && self.sliders.iter().next().is_none() {
+            return false;
+        }
+        // A function that fails is told by the step that begins.
+        let prescribed = self.supports.prescribed();
+        let Ok(Some(jumps)) = prescribed.jumps(interval, &self.motion.rates) else { return false };
+        let directions = self.sliders.directions(&self.bodies);
+        let laws = vec![ImpactLaw::Reverses; directions.len()];
+        // So is a matrix that cannot be factorised.
+        let Ok(encounter) = self.encounter_of(&[(&directions, None)], -2.0, jumps) else {
+            return false;
+        };
+        let Ok(impulses) = encounter.impulses(&laws) else { return false };
+        self.apply(encounter, &impulses.values);
+        true
+    }
+
+    /// How fast a slave and its place on the master move in a direction by such rates [length/time].
+    pub(super) fn speeds(&self, (slider, unit): ImpactDirection, rates: &[f64]) -> (f64, f64) {
+        let slider = &self.sliders[slider];
+        let (slave, relative) = (
+            slider.slave_velocity(&self.bodies, rates),
+            slider.relative_velocity(&self.bodies, rates),
+        );
+        (slave.dot(&unit), (slave - relative).dot(&unit))
+    }
+
+    /// The speed of the fastest control point of the model [length/time].
+    pub(in crate::system) fn fastest_speed(&self) -> f64 {
+        self.bodies.fastest_speed(&self.motion.rates)
+    }
+
+    /// The speed of a slave across its master [length/time].
+    pub(in crate::system) fn speed_across(&self, slider: usize) -> f64 {
+        let slider = &self.sliders[slider];
+        slider.across(&self.bodies).dot(&slider.relative_velocity(&self.bodies, &self.motion.rates))
+    }
+
+    /// The directions across all masters.
+    fn across(&self) -> Vec<ImpactDirection> {
+        self.sliders.iter().map(|slider| slider.across(&self.bodies)).enumerate().collect()
+    }
+
+    /// `Gᵀ` of a direction, on all degrees of freedom.
+    fn transmitted(&self, (slider, unit): ImpactDirection) -> Vec<f64> {
+        let mut forces = vec![0.0; self.degrees_of_freedom()];
+        self.sliders[slider].transmit(&self.bodies, unit, &mut forces);
+        forces
+    }
+
+    pub(super) fn answers(
+        &self,
+        inertia: &BandedLu<'_>,
+        directions: &[ImpactDirection],
+    ) -> Vec<ImpulseResponse> {
+        let unknowns = self.unknowns();
+        let answer = |at: &ImpactDirection| {
+            ImpulseResponse::of(inertia, unknowns, self.transmitted(*at), Vec::new())
+        };
+        directions.iter().map(answer).collect()
+    }
+
+    /// How velocities answer to a blow in steps of such a length [time]; what these do not follow is rigid.
+    pub(super) fn answers_within(
+        &mut self,
+        inertia: &BandedLu<'_>,
+        directions: &[ImpactDirection],
+        dt: f64,
+    ) -> Result<Vec<ImpulseResponse>, LinearError> {
+        let rigidity = Rigidity::of(self, dt);
+        let mut matrix = rigidity.matrix(self);
+        let factors = matrix.factorise()?;
+        let unknowns = self.unknowns();
+        let mut answer = |direction: &ImpactDirection| {
+            let mut forces = self.transmitted(*direction);
+            let passed_on = rigidity.pass_on(self, &factors, &mut forces);
+            ImpulseResponse::of(inertia, unknowns, forces, passed_on)
+        };
+        Ok(directions.iter().map(&mut answer).collect())
+    }
+
+    /// The contacts in some directions; what points of rigid bodies move beside these is changed by `links` times itself: by -2, and rigid links do no work.
+    pub(super) fn encounter(
+        &mut self,
+        met: &[ImpactSelection<'_>],
+        links: f64,
+    ) -> Result<ImpactProblem, LinearError> {
+        self.encounter_of(met, links, Vec::new())
+    }
+
+    /// The same where the rates of prescribed movements jump; contacts and links are met by rates half-way through that.
+    fn encounter_of(
+        &mut self,
+        met: &[ImpactSelection<'_>],
+        links: f64,
+        jumps: Vec<f64>,
+    ) -> Result<ImpactProblem, LinearError> {
+        let mut inertia = self.banded_inertia();
+        let inertia = inertia.factorise()?;
+        let (mut directions, mut answers) = (Vec::new(), Vec::new());
+        for (own, rigid_within) in met.iter().filter(|(own, _)| !own.is_empty()) {
+            directions.extend_from_slice(own);
+            answers.extend(match rigid_within {
+                None => self.answers(&inertia, own),
+                Some(dt) => self.answers_within(&inertia, own, *dt)?,
+            });
+        }
+        let mut change = vec![0.0; self.unknowns()];
+        if !jumps.is_empty() {
+            let mut pulled = vec![0.0; self.degrees_of_freedom()];
+            self.add_inertia(-1.0, &jumps, &mut pulled);
+            change.copy_from_slice(&pulled[..self.unknowns()]);
+        }
+        let mut rates = self.motion.rates.clone();
+        rates.iter_mut().zip(&jumps).for_each(|(rate, jump)| *rate += 0.5 * jump);
+        if self.links.forces() > 0 {
+            self.links.set_velocity_violation(&self.bodies, &rates, links, &mut change);
+        }
+        if self.links.forces() > 0 || !jumps.is_empty() {
+            inertia.solve(&mut change);
+        }
+        let response = response(&answers);
+        let before = answers.iter().map(|answer| answer.velocity(&rates)).collect();
+        Ok(ImpactProblem { directions, answers, response, before, change, jumps })
+    }
+
+    /// Changes the velocities by the impulses of an encounter.
+    pub(super) fn apply(&mut self, encounter: ImpactProblem, impulses: &[f64]) {
+        let ImpactProblem { directions, answers, mut change, jumps, .. } = encounter;
+        let most_passed_on = answers.iter().map(|answer| answer.passed_on.len()).max();
+        let mut passed_on = vec![0.0; most_passed_on.unwrap_or(0)];
+        let mut residual = vec![0.0; self.degrees_of_freedom()];
+        for (impulse, ImpulseResponse { forces, rates, .. }) in impulses.iter().zip(&answers) {
+            change.iter_mut().zip(rates).for_each(|(change, rate)| *change += impulse * rate);
+            residual.iter_mut().zip(forces).for_each(|(out, force)| *out -= impulse * force);
+        }
+        for (impulse, answer) in impulses.iter().zip(&answers) {
+            let own = passed_on.iter_mut().zip(&answer.passed_on);
+            own.for_each(|(sum, passed)| *sum += impulse * passed);
+        }
+        change.extend(jumps.iter().skip(change.len()));
+        // What is left of `M (v⁺ - v⁻) - Gᵀ P` at supports is their impulse.
+        self.add_inertia(1.0, &change, &mut residual);
+        self.links.transmit(&self.bodies, &change, &mut residual);
+        for (unknown, roller) in self.links.rollers() {
+            let (impulse, place) = (roller.force_of(change[unknown]), roller.place(&self.bodies));
+            self.exchanged.total += WorkAndImpulse::of(0.0, impulse, cross(place, impulse));
+        }
+        let on_slaves = impulses.iter().zip(directions);
+        let on_slaves = on_slaves.map(|(impulse, (slider, unit))| (slider, unit * *impulse));
+        for (slider, impulse) in on_slaves.clone() {
+            self.sliders[slider].impulse -= impulse;
+        }
+        self.add_impulses_of_blow(&change, &passed_on, on_slaves);
+        // Impulses of rigid links are no forces that go on.
+        self.links.clear(&mut change);
+        self.motion.jump(&change);
+        self.elements.forget_rates();
+        self.exchanged.total += self.supports.exchange_in_blow(&self.bodies, &residual);
+        if self.supports.prescribed().count() > 0 {
+            let mut mean_rates = self.motion.rates.clone();
+            mean_rates.iter_mut().zip(&jumps).for_each(|(rate, jump)| *rate -= 0.5 * jump);
+            let movements = self.supports.prescribed_mut();
+            self.exchanged.total +=
+                movements.exchange_in_blow(&self.bodies, &residual, &mean_rates);
+        }
+    }
+
+    /// The velocities across the masters that unit impulses across them cause: `G M⁻¹ Gᵀ`, a row for each direction [1/mass].
+    pub(in crate::system) fn response_across(&self) -> Result<Vec<Vec<f64>>, LinearError> {
+        let mut inertia = self.banded_inertia();
+        let answers = self.answers(&inertia.factorise()?, &self.across());
+        Ok(response(&answers))
+    }
+}

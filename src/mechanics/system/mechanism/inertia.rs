@@ -1,0 +1,56 @@
+//! The inertia of all that moves.
+
+use super::{OrderAtRest, System};
+use crate::integrators::Inertia;
+use crate::linalg::{BandedMatrix, SymmetricSparse};
+
+impl Inertia for System {
+    fn add_inertia(&mut self, factor: f64, rates: &[f64], out: &mut [f64]) {
+        self.bodies.add_inertia(factor, rates, out);
+        self.elements.add_inertia(&self.bodies, factor, rates, out);
+    }
+
+    fn add_inertia_tangent(&self, factor: f64, tangent: &mut BandedMatrix) {
+        self.bodies.add_inertia_tangent(factor, tangent);
+        let add = &mut |row, column, value| tangent.add(row, column, value);
+        self.elements.inertia_entries(&self.bodies, factor, self.unknowns.count(), add);
+    }
+}
+
+impl System {
+    /// Gives the entries of the inertia matrix to `add`: row, column and value; several of one place add up.
+    pub(super) fn inertia_entries(&self, add: &mut impl FnMut(usize, usize, f64)) {
+        self.bodies.iter().for_each(|body| body.inertia_entries(1.0, add));
+        self.elements.inertia_entries(&self.bodies, 1.0, self.unknowns.count(), add);
+    }
+
+    /// The inertia matrix of the model's small movements in such an order, by rows [mass, mass·length, mass·length²].
+    pub fn sparse_inertia(&self, order: &OrderAtRest) -> SymmetricSparse {
+        SymmetricSparse::new(order.count(), |add| {
+            self.inertia_entries(&mut |row, column, value| {
+                add(order.place(row), order.place(column), value);
+            });
+        })
+    }
+
+    /// The inertia matrix of the model's unknown movements with the couplings of rigid links beside it, as a band: what answers to forces by accelerations
+    /// and forces of rigid links [mass, mass·length, mass·length²].
+    pub(super) fn banded_inertia(&self) -> BandedMatrix {
+        let mut inertia =
+            BandedMatrix::zeros(self.unknowns.count(), self.unknowns.half_bandwidth());
+        self.add_inertia_tangent(1.0, &mut inertia);
+        self.links.add_coupling(&self.bodies, self.unknowns.count(), &mut inertia);
+        inertia
+    }
+
+    /// The diagonal of the inertia matrix of the model's unknown movements [mass, mass·length²].
+    pub(in crate::system) fn diagonal_of_inertia(&self) -> Vec<f64> {
+        let mut diagonal = vec![0.0; self.unknowns.count()];
+        self.inertia_entries(&mut |row, column, value| {
+            if row == column {
+                diagonal[row] += value;
+            }
+        });
+        diagonal
+    }
+}

@@ -1,0 +1,179 @@
+//! The present moment by the equations of motion: accelerations, and what supports, joints and contacts give.
+//!
+//! ```text
+//! M a + F(x) - f(t) - Gᵀ λ = r        G a = 2 ξ̇ u·Σ B_i' v_i + ξ̇² u·Σ B_i'' x_i        r = 0 but where something is held
+//! ```
+//!
+//! Where the axis gives way under a slider, `λ` is known, as is the kink.
+//! Configuration and rates at the end of a step are of second order with every method, and so is what follows from them. It is a matter of the
+//! present state alone: the same after going back, in a copy and from a file. Where steps do not resolve a vibration, it rings with it, while the
+//! mean of two neighbouring steps does not.
+
+use super::{Reactions, System};
+use crate::beams::BodyPoint;
+use crate::geometry::Vec2;
+use crate::integrators::{Inertia, Mechanism, Stage};
+use crate::linalg::{BandedMatrix, LinearError};
+use crate::system::elements::{TrialState, collocation};
+use crate::system::links::InclinedRoller;
+use crate::system::{SliderState, SystemError};
+
+/// What acts at the present moment.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Instant {
+    /// Of the unknown movements [length/time², 1/time²]; forces of rigid links where their unknowns stand.
+    accelerations: Vec<f64>,
+    given: Reactions,
+    /// Of each slave on its master [force].
+    contacts: Vec<Vec2>,
+}
+
+impl Instant {
+    /// The accelerations of the unknown movements, forces of rigid links and rollers where their unknowns stand [length/time², 1/time²; force].
+    pub fn accelerations(&self) -> &[f64] {
+        &self.accelerations
+    }
+
+    /// What joints and supports give.
+    pub fn given(&self) -> &Reactions {
+        &self.given
+    }
+
+    /// The force of a slider on its master [force].
+    pub fn contact(&self, slider: usize) -> Vec2 {
+        self.contacts[slider]
+    }
+}
+
+impl System {
+    /// Accelerations and forces at the present moment, with loads as they are just after it. What follows is not changed by that.
+    ///
+    /// # Errors
+    /// When a load has no value, or contact forces are not determined.
+    pub fn instant(&mut self) -> Result<Instant, SystemError> {
+        let time = self.motion.time;
+        let refused = |reason: String| SystemError::NoInstant { time, reason };
+        self.elements
+            .hold_at(time)
+            .map_err(|(load, source)| refused(format!("{load}: {source}")))?;
+        let rates = self.bodies.by_control_point(&self.motion.rates);
+        let joined = self.bodies.number_apart();
+        let mut apart = vec![0.0; joined.iter().map(|body| 3 * body.len()).sum()];
+        self.bodies.add_forces(collocation(Stage::Start), &[], 1.0, &mut apart);
+        let at =
+            TrialState { bodies: &self.bodies, stage: Stage::End, increments: &[], weight: 1.0 };
+        self.elements.subtract_from(at, &mut apart);
+        self.elements.add_resisting(&self.bodies, &rates, &mut apart);
+        let own = self.bodies.number_as(joined);
+
+        let degrees: Vec<usize> = self
+            .bodies
+            .iter()
+            .flat_map(|body| body.degrees_of_freedom.iter().flatten())
+            .copied()
+            .collect();
+        let mut residual = vec![0.0; self.degrees_of_freedom()];
+        degrees.iter().zip(&apart).for_each(|(&at, force)| residual[at] += force);
+        if self.supports.prescribed().count() > 0 {
+            let prescribed = self.supports.prescribed().accelerations();
+            self.add_inertia(1.0, &prescribed, &mut residual);
+        }
+        for slider in self.sliders.iter().filter(|slider| slider.gives_way()) {
+            slider.transmit(&self.bodies, slider.contact_force(), &mut residual);
+        }
+        let (accelerations, mut contacts) =
+            self.answer(&residual).map_err(|error| refused(error.to_string()))?;
+        for (contact, slider) in contacts.iter_mut().zip(self.sliders.iter()) {
+            if slider.gives_way() {
+                *contact += slider.contact_force();
+            }
+        }
+
+        let joined = self.bodies.number_as(own);
+        let of_all: Vec<f64> =
+            degrees.iter().map(|&at| accelerations.get(at).copied().unwrap_or(0.0)).collect();
+        self.add_inertia(1.0, &of_all, &mut apart);
+        self.links.transmit(&self.bodies, &accelerations, &mut apart);
+        for (slider, force) in self.sliders.iter().zip(&contacts) {
+            slider.transmit(&self.bodies, *force, &mut apart);
+        }
+        self.bodies.number_as(joined);
+        let multiplier =
+            |roller: &InclinedRoller| roller.unknown.map_or(0.0, |at| accelerations[at]);
+        let across: Vec<f64> = self.links.all_rollers().iter().map(multiplier).collect();
+        Ok(Instant { given: self.given(&apart, &across), accelerations, contacts })
+    }
+
+    /// Looks at the model while its rigid links have the forces of the present moment, and not those of the last step, which are none before the first one.
+    ///
+    /// # Errors
+    /// Those of [`instant`](Self::instant), of a model with rigid links.
+    pub fn with_present_link_forces<T>(
+        &mut self,
+        look: impl FnOnce(&Self) -> T,
+    ) -> Result<T, SystemError> {
+        if self.links.count() == 0 {
+            return Ok(look(self));
+        }
+        let now = self.instant()?;
+        let force = |at: usize| now.accelerations[at];
+        let forces = self.links.iter().map(|link| Vec2::from(link.unknowns.map(force)));
+        let mut forces: Vec<Vec2> = forces.collect();
+        self.links.exchange_forces(&mut forces);
+        let seen = look(self);
+        self.links.exchange_forces(&mut forces);
+        Ok(seen)
+    }
+
+    /// Accelerations that answer to `M a + residual = Gᵀ λ`, and the forces on the masters.
+    fn answer(&self, residual: &[f64]) -> Result<(Vec<f64>, Vec<Vec2>), LinearError> {
+        let mut accelerations: Vec<f64> =
+            residual[..self.unknowns()].iter().map(|force| -force).collect();
+        let prescribed = self.supports.prescribed().accelerations();
+        self.links.set_acceleration_bias(
+            &self.bodies,
+            &self.motion.rates,
+            &prescribed,
+            &mut accelerations,
+        );
+        let mut inertia = self.banded_inertia();
+        let inertia = inertia.factorise()?;
+        inertia.solve(&mut accelerations);
+        accelerations.extend(prescribed.into_iter().skip(self.unknowns()));
+        let mut contacts = vec![Vec2::zeros(); self.sliders.len()];
+        let directions = self.sliders.directions(&self.bodies);
+        let answers = self.answers(&inertia, &directions);
+        let count = answers.len();
+        if count == 0 {
+            return Ok((accelerations, contacts));
+        }
+        let mut response = BandedMatrix::zeros(count, count - 1);
+        for (row, answer) in answers.iter().enumerate() {
+            for (column, other) in answers.iter().enumerate() {
+                response.add(row, column, answer.velocity(&other.rates));
+            }
+        }
+        let wanted = answers.iter().zip(&directions).map(|(answer, (slider, unit))| {
+            let slider = &self.sliders[*slider];
+            let carried = match slider.state {
+                SliderState::Sliding => slider.carried(&self.bodies, &self.motion.rates).dot(unit),
+                SliderState::Held(_) | SliderState::Released => 0.0,
+            };
+            carried - answer.velocity(&accelerations)
+        });
+        let mut forces: Vec<f64> = wanted.collect();
+        response.factorise()?.solve(&mut forces);
+        for ((force, answer), (slider, unit)) in forces.iter().zip(&answers).zip(&directions) {
+            contacts[*slider] -= unit * *force;
+            let all = accelerations.iter_mut().zip(&answer.rates);
+            all.for_each(|(acceleration, rate)| *acceleration += force * rate);
+        }
+        Ok((accelerations, contacts))
+    }
+
+    /// The acceleration of a place [length/time²].
+    pub fn acceleration(&self, now: &Instant, place: &BodyPoint) -> Vec2 {
+        let [x, y, _] = self.bodies[place.body].at(place, &now.accelerations);
+        Vec2::new(x, y)
+    }
+}

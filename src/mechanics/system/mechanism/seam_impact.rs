@@ -1,0 +1,320 @@
+//! Sliders that pass from beam to beam of a track: what a corner between the two does to velocities.
+//!
+//! A corner is the limit of a rounded one. While the tangent turns, the contact keeps `w`, the velocity of the slave relative to its place, along it by
+//! impulses across, which do no work: `½ w·W⁻¹w` stays, with `W = G M⁻¹ Gᵀ` as in an impact. So `w` turns with the tangent, in the metric `W⁻¹`:
+//!
+//! ```text
+//! w⁺ = w⁻ + W P        P = γ J ½ (w⁻ + w⁺)        γ = 2 tan(θ/2)/√det W
+//! ```
+//!
+//! with the angle `θ` between the two tangents in that metric. Sections turn it first, for which `G` is what steps follow of the velocity, as in a blow,
+//! and in one impact with all blows of that moment; then what is left, the difference of the shear of both sides, for which it is the velocity itself.
+//! Derived in docs/theory.md, section 10.3.
+
+use super::System;
+use super::impact::{ImpactDirection, ImpactImpulses, ImpactLaw, ImpactProblem};
+use crate::elementary::{atan2, sin_cos, square};
+use crate::geometry::{Vec2, cross, perpendicular};
+use crate::linalg::{BandedMatrix, LinearError, Pairing, complementary};
+use crate::system::sliders::{MasterEnd, MasterLimit, Seam};
+
+/// Tangents whose directions differ by less than this angle are one: rounding [rad].
+const STRAIGHT: f64 = 1e-13;
+
+/// What moves in one direction only, by this part of what it moves at all, is turned by no corner.
+const ONE_WAY: f64 = 1e-20;
+
+/// The most times that the angles of corners are corrected that are passed together, where those who pass move each other.
+const CORRECTIONS: usize = 40;
+
+/// An angle that is off by less is right [rad].
+const RIGHT: f64 = 1e-12;
+
+/// By how much the angle of a turn may change with the one that stands for it, to be believed.
+const SLOPES: std::ops::Range<f64> = 0.2..5.0;
+
+/// A corner that a slider passes: the directions in which it comes and goes [-].
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SeamCorner {
+    pub(super) slider: usize,
+    comes: Vec2,
+    goes: Vec2,
+}
+
+impl SeamCorner {
+    /// The directions of the impulses at corners, two for each.
+    pub(super) fn directions(corners: &[Self]) -> Vec<ImpactDirection> {
+        let both = |Self { slider, .. }: &Self| [(*slider, Vec2::x()), (*slider, Vec2::y())];
+        corners.iter().flat_map(both).collect()
+    }
+
+    fn is_straight(&self) -> bool {
+        cross(self.comes, self.goes).abs() <= STRAIGHT && self.comes.dot(&self.goes) > 0.0
+    }
+}
+
+/// Sliders that pass seams at one time.
+pub(super) struct SeamCrossings {
+    passing: Vec<(usize, MasterEnd, Seam)>,
+    /// Their corners as sections make them.
+    of_sections: Vec<SeamCorner>,
+    /// What the shear of both sides leaves of these.
+    of_shear: Vec<SeamCorner>,
+}
+
+impl SeamCrossings {
+    /// The corners that sections make; none where all are straight.
+    pub(super) fn corners_of_sections(&self) -> &[SeamCorner] {
+        if self.of_sections.iter().all(SeamCorner::is_straight) { &[] } else { &self.of_sections }
+    }
+}
+
+/// How the relative velocity of a slider answers to an impulse on it: the symmetric matrix `W` by its rows [1/mass].
+#[derive(Debug, Clone, Copy)]
+struct Response([Vec2; 2]);
+
+impl Response {
+    fn times(&self, impulse: Vec2) -> Vec2 {
+        Vec2::new(self.0[0].dot(&impulse), self.0[1].dot(&impulse))
+    }
+
+    fn determinant(&self) -> f64 {
+        cross(self.0[0], self.0[1])
+    }
+
+    fn trace(&self) -> f64 {
+        self.0[0].x + self.0[1].y
+    }
+
+    fn is_one_way(&self) -> bool {
+        self.determinant() <= ONE_WAY * square(self.trace())
+    }
+
+    /// The angle by which one velocity has to be turned to have the direction of another one, in the metric `W⁻¹` [rad].
+    fn angle(&self, from: Vec2, to: Vec2) -> f64 {
+        // `det W` times the scalar product.
+        let along = perpendicular(from).dot(&self.times(perpendicular(to)));
+        atan2(self.determinant().sqrt() * cross(from, to), along)
+    }
+}
+
+impl System {
+    /// Whether the track of a slider goes on beyond a limit, so that it does not end there.
+    pub fn goes_on(&self, limit: MasterLimit) -> bool {
+        self.sliders[limit.slider].seam(&self.bodies, limit.end).is_some()
+    }
+
+    /// Whether a slider came to a seam at the present moment, or left one on which it leant.
+    pub fn came_to_seam_now(&self, slider: usize) -> bool {
+        self.sliders[slider].came_to_seam_at(self.motion.time)
+    }
+
+    /// How sliders pass the seams of their tracks at which they are.
+    pub(super) fn passages(&self, limits: &[MasterLimit]) -> SeamCrossings {
+        let passing = limits.iter().filter_map(|&MasterLimit { slider, end }| {
+            Some((slider, end, self.sliders[slider].seam(&self.bodies, end)?))
+        });
+        let passing: Vec<(usize, MasterEnd, Seam)> = passing.collect();
+        let corners = passing.iter().filter_map(|(slider, end, seam)| {
+            let [comes, goes] = self.sliders[*slider].corner(&self.bodies, *end, *seam)?;
+            let with_sections = turned(comes, self.sections_at(*slider, *end, *seam)?);
+            let corner = |comes, goes| SeamCorner { slider: *slider, comes, goes };
+            Some((corner(comes, with_sections), corner(with_sections, goes)))
+        });
+        let (of_sections, of_shear) = corners.unzip();
+        SeamCrossings { passing, of_sections, of_shear }
+    }
+
+    /// Lets sliders that sections have turned pass to the other sides of their seams.
+    pub(super) fn pass_seams(&mut self, passages: &SeamCrossings) -> Result<(), LinearError> {
+        self.turn(&passages.of_shear, None)?;
+        let time = self.motion.time;
+        for (slider, _, seam) in &passages.passing {
+            self.sliders[*slider].pass(*seam);
+            self.sliders[*slider].note_passing(time);
+            self.motion.accelerations.forget();
+        }
+        Ok(())
+    }
+
+    /// Sliders that are at ends of kinked axes, where no kink has an energy, turn onto the axes as they are: what their kinks vibrate with goes into the
+    /// motion along.
+    pub(super) fn straighten_kinks(&mut self, limits: &[MasterLimit]) -> Result<(), LinearError> {
+        let rates = &self.motion.rates;
+        let corner = |&MasterLimit { slider, end }: &MasterLimit| {
+            let [comes, goes] = self.sliders[slider].off_kink(&self.bodies, rates, end)?;
+            Some(SeamCorner { slider, comes, goes })
+        };
+        let corners: Vec<SeamCorner> = limits.iter().filter_map(corner).collect();
+        self.turn(&corners, None)?;
+        corners.iter().for_each(|corner| self.sliders[corner.slider].straighten());
+        Ok(())
+    }
+
+    /// The directions of the axis, as sections have them that are not sheared, in which a slider leaves the one side of a seam and comes to the other [-].
+    fn sections_at(&self, slider: usize, end: MasterEnd, seam: Seam) -> Option<[Vec2; 2]> {
+        let slider = &self.sliders[slider];
+        let along = |beam: usize, end: MasterEnd| {
+            let (sine, cosine) = sin_cos(self.section_angle(2 * beam + end as usize)?);
+            Some(Vec2::new(cosine, sine) * end.outward())
+        };
+        let beyond = along(slider.beam_beyond(seam)?, seam.end)?;
+        Some([along(slider.connection.master, end)?, -beyond])
+    }
+
+    /// Turns the relative velocities of sliders round corners, met by what steps of length `rigid_within` follow of the motion, or by all of it.
+    pub(super) fn turn(
+        &mut self,
+        corners: &[SeamCorner],
+        rigid_within: Option<f64>,
+    ) -> Result<(), LinearError> {
+        if corners.iter().all(SeamCorner::is_straight) {
+            return Ok(());
+        }
+        let passes = |slider: usize| corners.iter().any(|corner| corner.slider == slider);
+        let others = self.sliders.directions(&self.bodies);
+        let others: Vec<ImpactDirection> =
+            others.into_iter().filter(|(slider, _)| !passes(*slider)).collect();
+        let turned = SeamCorner::directions(corners);
+        let met = [(&turned[..], rigid_within), (&others, rigid_within)];
+        let encounter = self.encounter(&met, -2.0)?;
+        if let Some(impulses) =
+            round_corners(&encounter, corners, &vec![ImpactLaw::Reverses; others.len()])?
+        {
+            self.apply(encounter, &impulses.values);
+        }
+        Ok(())
+    }
+}
+
+/// A direction turned by the angle between two others.
+fn turned(direction: Vec2, [from, to]: [Vec2; 2]) -> Vec2 {
+    direction * from.dot(&to) + perpendicular(direction) * cross(from, to)
+}
+
+/// The impulses of an impact in which sliders are turned round corners, two for each, and all other contacts have a law: `P = γ J ½ (w⁻ + w⁺)` at corners,
+/// with `γ` such that each is turned by its own angle, to 1e-12, or as the last correction leaves it. None where stops strike too and the angles are not met.
+///
+/// For any `γ` it is one complementarity problem, with the rows `cos(θ/2) √det W P - sin(θ/2) J W P = sin(θ/2) J 2 w̄` for corners; theory.md, section 10.3,
+/// shows that it has one solution.
+pub(super) fn round_corners(
+    encounter: &ImpactProblem,
+    corners: &[SeamCorner],
+    laws: &[ImpactLaw],
+) -> Result<Option<ImpactImpulses>, LinearError> {
+    if corners.is_empty() {
+        return Ok(Some(encounter.impulses(laws)?));
+    }
+    let own = own_responses(encounter, corners, laws)?;
+    let half_way = encounter.half_way();
+    let lacks = [vec![0.0; 2 * corners.len()], encounter.lacks(laws)].concat();
+    let tied = corners.iter().flat_map(|_| [Pairing::Tied; 2]);
+    let pairings: Vec<Pairing> = tied.chain(laws.iter().map(|law| law.pairing())).collect();
+    let mut bends: Vec<TurnSearch> = corners.iter().zip(&own).map(TurnSearch::new).collect();
+    let strikes = pairings.contains(&Pairing::Pushing);
+    let mut last = None;
+    for _ in 0..CORRECTIONS {
+        let (mut matrix, mut missing) = (encounter.response.clone(), lacks.clone());
+        for (at, bend) in bends.iter().enumerate() {
+            let [x, y] = [2 * at, 2 * at + 1];
+            let (keeps, swings) = bend.row();
+            // J turns (x, y) into (-y, x).
+            for (row, from, sign) in [(x, y, swings), (y, x, -swings)] {
+                matrix[row] = encounter.response[from].iter().map(|w| w * sign).collect();
+                matrix[row][row] += keeps;
+                missing[row] = 2.0 * half_way[from] * sign;
+            }
+        }
+        let impulses = complementary(&matrix, &missing, &pairings)?;
+        let mut is_right = true;
+        for (at, bend) in bends.iter_mut().enumerate() {
+            let [x, y] = [2 * at, 2 * at + 1].map(|row| encounter.meets(row, &impulses));
+            let (before, change) = (Vec2::new(x.0, y.0), Vec2::new(x.1, y.1));
+            is_right &= bend.correct(before, before + change);
+        }
+        if is_right {
+            return Ok(Some(encounter.with_works(impulses)));
+        }
+        last = Some(impulses);
+    }
+    Ok(last.filter(|_| !strikes).map(|impulses| encounter.with_works(impulses)))
+}
+
+/// How sliders at corners answer to their own impulses, when all contacts answer that keep slaves on masters.
+fn own_responses(
+    encounter: &ImpactProblem,
+    corners: &[SeamCorner],
+    laws: &[ImpactLaw],
+) -> Result<Vec<Response>, LinearError> {
+    let (response, first) = (&encounter.response, 2 * corners.len());
+    let is_tied = |at: &usize| laws[at - first].pairing() == Pairing::Tied;
+    let tied: Vec<usize> = (first..response.len()).filter(is_tied).collect();
+    let entries = |row: usize| -> Vec<f64> { tied.iter().map(|at| response[row][*at]).collect() };
+    let among: Vec<Vec<f64>> = tied.iter().map(|row| entries(*row)).collect();
+    let own = |at: usize| -> Result<Response, LinearError> {
+        let mut rows = [Vec2::zeros(); 2];
+        for column in [0, 1] {
+            let of_tied = entries(2 * at + column);
+            let answers = if tied.is_empty() { of_tied } else { solve(&among, of_tied)? };
+            for row in [0, 1] {
+                let (to_tied, whole) =
+                    (entries(2 * at + row), response[2 * at + row][2 * at + column]);
+                rows[row][column] =
+                    whole - to_tied.iter().zip(&answers).map(|(a, p)| a * p).sum::<f64>();
+            }
+        }
+        Ok(Response(rows))
+    };
+    (0..corners.len()).map(own).collect()
+}
+
+/// A corner in the search for the `γ` with which its slider is turned by its angle.
+struct TurnSearch {
+    own: Response,
+    /// By which angle it is to be turned [rad].
+    wanted: f64,
+    /// The angle that stands for `γ` [rad], and by how much the one before was off.
+    angle: f64,
+    before: Option<(f64, f64)>,
+}
+
+impl TurnSearch {
+    fn new((corner, own): (&SeamCorner, &Response)) -> Self {
+        let wanted = own.angle(corner.comes, corner.goes);
+        Self { own: *own, wanted, angle: wanted, before: None }
+    }
+
+    /// The factors of `P` and of `J W P` in the equations of the corner.
+    fn row(&self) -> (f64, f64) {
+        let (sine, cosine) = sin_cos(0.5 * self.angle);
+        match self.own.is_one_way() {
+            true => (self.own.trace(), 0.0),
+            false => (cosine * self.own.determinant().sqrt(), sine),
+        }
+    }
+
+    /// Corrects the angle by the velocities before and after the impact; gives whether they were right.
+    fn correct(&mut self, before: Vec2, after: Vec2) -> bool {
+        if self.own.is_one_way() || before == Vec2::zeros() {
+            return true;
+        }
+        let off = self.own.angle(before, after) - self.wanted;
+        let slope = self.before.map(|(angle, other)| (off - other) / (self.angle - angle));
+        // By the secant where it is one.
+        let slope = slope.filter(|slope| SLOPES.contains(slope)).unwrap_or(1.0);
+        self.before = Some((self.angle, off));
+        self.angle -= off / slope;
+        off.abs() <= RIGHT
+    }
+}
+
+/// Solves a few equations with a dense matrix.
+fn solve(matrix: &[Vec<f64>], mut rhs: Vec<f64>) -> Result<Vec<f64>, LinearError> {
+    let count = rhs.len();
+    let mut dense = BandedMatrix::zeros(count, count - 1);
+    for (row, entries) in matrix.iter().enumerate() {
+        entries.iter().enumerate().for_each(|(column, entry)| dense.add(row, column, *entry));
+    }
+    dense.factorise()?.solve(&mut rhs);
+    Ok(rhs)
+}

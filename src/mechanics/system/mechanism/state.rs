@@ -1,0 +1,145 @@
+//! The state of a model: saved, and taken back bit for bit.
+
+use serde::{Deserialize, Serialize};
+
+use super::System;
+use crate::integrators::Checkpoint;
+use crate::system::SystemError;
+use crate::system::sliders::SliderState;
+use crate::system::state::Trend;
+
+/// The state of a [`System`], to be taken back by the same one: everything that its motion from there on depends on, and the sums of work
+/// and impulse so far.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct SystemState {
+    numbers: Vec<f64>,
+    trend: Trend,
+    knows_accelerations: bool,
+    /// What each slider does.
+    sliders: Vec<SliderState>,
+}
+
+impl SystemState {
+    /// An empty state, with room for as much as this one.
+    pub fn blank(&self) -> Self {
+        Self {
+            numbers: Vec::with_capacity(self.numbers.len()),
+            sliders: Vec::with_capacity(self.sliders.len()),
+            ..Self::default()
+        }
+    }
+
+    /// Whether the state has as many numbers and sliders as another one.
+    pub fn is_shaped_like(&self, other: &Self) -> bool {
+        self.numbers.len() == other.numbers.len() && self.sliders.len() == other.sliders.len()
+    }
+
+    /// Becomes the state that differs from another one by `amount` times a change of its numbers.
+    pub fn displace(&mut self, from: &Self, change: &[f64], amount: f64) {
+        let Self { numbers, trend, knows_accelerations, sliders } = self;
+        numbers.clear();
+        numbers.extend(from.numbers.iter().zip(change).map(|(own, by)| own + amount * by));
+        (*trend, *knows_accelerations) = (from.trend, from.knows_accelerations);
+        sliders.clear();
+        sliders.extend_from_slice(&from.sliders);
+    }
+
+    /// Writes by how much the numbers of the state change from those of another one over a distance, for each unit of it.
+    pub fn change_from(&self, other: &Self, distance: f64, change: &mut Vec<f64>) {
+        let per_unit = |(own, other): (&f64, &f64)| match own == other || own.is_nan() {
+            true => 0.0,
+            false => (own - other) / distance,
+        };
+        change.clear();
+        change.extend(self.numbers.iter().zip(&other.numbers).map(per_unit));
+    }
+
+    /// The memory that the state takes besides itself [bytes].
+    pub fn bytes(&self) -> usize {
+        self.numbers.capacity() * size_of::<f64>()
+            + self.sliders.capacity() * size_of::<SliderState>()
+    }
+}
+
+impl System {
+    /// The state of the model: everything that its motion from here on depends on, and the sums of work and impulse so far.
+    pub fn state(&self) -> SystemState {
+        let mut state = SystemState::default();
+        self.write_state(&mut state);
+        state.numbers.shrink_to_fit();
+        state
+    }
+
+    /// Writes the [`state`](Self::state) into one that may hold another; where that is one of this model, nothing is allocated.
+    pub fn write_state(&self, state: &mut SystemState) {
+        let SystemState { numbers, trend, knows_accelerations, sliders } = state;
+        numbers.clear();
+        self.exchanged.save(numbers);
+        self.motion.save(numbers);
+        self.bodies.save(numbers);
+        self.elements.save(numbers);
+        self.links.save(numbers);
+        self.supports.prescribed().save(numbers);
+        self.motion.accelerations.save(numbers);
+        self.sliders.save(numbers);
+        *trend = self.motion.trend();
+        *knows_accelerations = self.motion.accelerations.are_known();
+        sliders.clear();
+        sliders.extend(self.sliders.states());
+    }
+
+    /// Takes back a [`state`](Self::state) of this model, bit for bit.
+    ///
+    /// # Panics
+    /// When the state is that of another model.
+    pub fn restore(&mut self, state: &SystemState) {
+        let mut numbers = state.numbers.iter().copied();
+        let next = &mut || numbers.next().expect("the state is one of this model");
+        self.exchanged.restore(next);
+        self.motion.restore(state.trend, next);
+        self.bodies.restore(next);
+        self.elements.restore(next);
+        self.links.restore(next);
+        self.supports.prescribed_mut().restore(next);
+        self.motion.accelerations.restore(state.knows_accelerations, next);
+        self.sliders.restore(&state.sliders, next);
+        assert!(numbers.next().is_none(), "the state is one of this model");
+    }
+
+    /// Takes a state from a file, as [`restore`](Self::restore) does for one that is known to be of this model.
+    ///
+    /// # Errors
+    /// When it cannot be a state of this model.
+    pub fn restore_checked(&mut self, state: &SystemState) -> Result<(), SystemError> {
+        let refused = |reason: &'static str| SystemError::State { reason };
+        let numbers = &state.numbers;
+        let own = self.state();
+        if numbers.len() != own.numbers.len() || state.sliders.len() != own.sliders.len() {
+            return Err(refused("it has more or fewer numbers"));
+        }
+        if !numbers.iter().all(|number| number.is_finite()) {
+            return Err(refused("a number of it is not finite"));
+        }
+        // The numbers of the sliders stand last.
+        let of_sliders = &numbers[numbers.len() - self.sliders.saved()..];
+        if !self.sliders.fit(of_sliders) {
+            return Err(refused("a slider is beside its beam"));
+        }
+        self.restore(state);
+        Ok(())
+    }
+}
+
+impl Checkpoint for System {
+    fn keep(&mut self) {
+        let mut kept = std::mem::take(&mut self.kept);
+        self.write_state(&mut kept);
+        self.kept = kept;
+    }
+
+    fn go_back(&mut self) {
+        let kept = std::mem::take(&mut self.kept);
+        self.restore(&kept);
+        self.kept = kept;
+    }
+}

@@ -1,0 +1,176 @@
+//! How the present configuration resists small movements, and with which inertia.
+//!
+//! Rotations are increments of the angle itself, for which the stiffness is the Hessian of the strain energy. Loads of fixed direction
+//! have none; those that turn with a section are left out.
+
+use super::{OrderAtRest, System};
+use crate::beams::SpanStiffness;
+use crate::elementary::square;
+use crate::geometry::larger;
+use crate::linalg::{PreciseBand, SymmetricSparse};
+use crate::system::links::RigidLink;
+use crate::system::state::UnknownKind;
+
+/// A rigid link is so many times as stiff as anything else of a model where small movements are looked for: frequencies are lower by less than a part of that,
+/// and with 32 digits nothing else is hidden.
+const RIGID: f64 = 1e8;
+
+impl System {
+    /// Gives every span of every body, and every spring, as at rest: the places of the unknowns of its components, and its rows. Those of supported
+    /// components stand behind the unknowns of all.
+    pub fn each_span_at_rest(
+        &self,
+        order: &OrderAtRest,
+        take: &mut dyn FnMut(&[usize], &SpanStiffness),
+    ) {
+        self.each_span(&mut in_order(order, take));
+    }
+
+    /// Gives every span of every body, and every spring, as at rest, with the degrees of freedom of its components.
+    pub(super) fn each_span(&self, take: &mut dyn FnMut(&[usize], &SpanStiffness)) {
+        for body in self.bodies.iter() {
+            let order = body.dynamics.order();
+            body.dynamics.each_span_at_rest(&mut |span| {
+                let degrees = &body.degrees_of_freedom[span.first..span.first + order];
+                take(degrees.as_flattened(), span);
+            });
+        }
+        self.elements.each_at_rest(&self.bodies, take);
+    }
+
+    /// The power that dampers, damped materials and drag dissipate at such rates of the unknowns in the present configuration, as at rest there
+    /// [energy/time].
+    pub fn dissipation(&self, rates: &[f64]) -> f64 {
+        let mut power = 0.0;
+        self.each_damped_rate(rates, &mut |damping, rate| power += damping * square(rate));
+        power
+    }
+
+    /// Gives each rate that dampers, damped materials and drag resist at such rates of the unknowns in the present configuration, as at rest there, behind what
+    /// damps it: its product with the square of the rate is the power that it dissipates [energy/time]. As many are given, in the same order, at any rates.
+    pub fn each_damped_rate(&self, rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
+        self.elements.each_damped_rate(&self.bodies, rates, take);
+    }
+
+    /// How far from the diagonal the stiffness of a configuration has entries, where rigid links couple points and bodies without forces between them.
+    pub(super) fn half_bandwidth_at_rest(&self) -> usize {
+        let of_link = |link: &RigidLink| {
+            let degrees = &self.bodies[link.body].degrees_of_freedom;
+            let ([x, y, rotation], [point_x, point_y, _]) = (degrees[0], degrees[link.point]);
+            let free = [x, y, rotation, point_x, point_y];
+            let free = free.into_iter().filter(|at| *at < self.unknowns.count());
+            free.clone().max().unwrap_or(0) - free.min().unwrap_or(0)
+        };
+        let of_rollers = self.links.rollers().map(|(_, roller)| {
+            let [x, y] = roller.degrees(&self.bodies);
+            if x.max(y) < self.unknowns.count() { x.abs_diff(y) } else { 0 }
+        });
+        let reaches = self.links.iter().map(of_link).chain(of_rollers);
+        reaches.fold(self.unknowns.half_bandwidth(), usize::max)
+    }
+
+    /// Gives every rigid link and every contact as at rest, so stiff that nothing is seen of what gives way: `RIGID` times the largest `stiffness` of a
+    /// movement of the model, asked for by its place [force/length, force·length].
+    pub fn each_tie_at_rest(
+        &self,
+        order: &OrderAtRest,
+        stiffness: impl Fn(usize) -> f64,
+        take: &mut dyn FnMut(&[usize], &SpanStiffness),
+    ) {
+        let stiffness = |unknown: usize| stiffness(order.place(unknown));
+        let take = &mut in_order(order, take);
+        let kinds = self.unknowns.kinds().iter().enumerate();
+        let of_movements = kinds.map(|(at, kind)| match kind {
+            UnknownKind::Position => stiffness(at),
+            UnknownKind::Rotation | UnknownKind::Force => 0.0,
+        });
+        let of_links = self.links.iter().map(|link| {
+            let own = self.links.iter().filter(|other| other.body == link.body);
+            let size = own.map(|other| other.arm().norm()).fold(0.0, larger);
+            let [.., rotation] = self.bodies[link.body].degrees_of_freedom[0];
+            let moment = if rotation < self.unknowns.count() { stiffness(rotation) } else { 0.0 };
+            larger(moment / square(size), link.force().norm() / size)
+        });
+        let largest = of_movements.chain(of_links).fold(0.0, larger);
+        let rigid = if largest > 0.0 { RIGID * largest } else { 1.0 };
+        self.links.each_at_rest(&self.bodies, rigid, take);
+        self.sliders.each_at_rest(&self.bodies, self.unknowns.count(), rigid, take);
+    }
+
+    /// How many movements with inertia fewer the model has than its inertia matrix: rigid links and contacts hold them to each other.
+    pub fn held_by_ties(&self, order: &OrderAtRest, inertia: &SymmetricSparse) -> usize {
+        self.held_by_links(order, inertia) + self.sliders.movements_held()
+    }
+
+    fn held_by_links(&self, order: &OrderAtRest, inertia: &SymmetricSparse) -> usize {
+        if self.links.forces() == 0 {
+            return 0;
+        }
+        let kinds = self.unknowns.kinds().iter().enumerate();
+        let is_light = |(at, kind): &(usize, &UnknownKind)| {
+            **kind != UnknownKind::Force && inertia.diagonal(order.place(*at)) == 0.0
+        };
+        self.links.forces().saturating_sub(kinds.filter(is_light).count())
+    }
+
+    /// About the square of the slowest bending, as if all beams were one: the least `EI` over the largest `ρA` and the fourth power of
+    /// their length together; none without a beam [1/time²].
+    pub fn slowest_bending(&self) -> Option<f64> {
+        let extents = || self.bodies.iter().filter_map(|body| body.dynamics.extent());
+        let length: f64 = extents().map(|(_, length)| length).sum();
+        let bending =
+            extents().map(|(section, _)| section.bending_stiffness).fold(f64::INFINITY, f64::min);
+        let mass = extents().map(|(section, _)| section.mass_per_length).fold(0.0, f64::max);
+        (length > 0.0).then(|| bending / mass / square(square(length)))
+    }
+
+    /// In how many ways a movement from here would release energy if loads keep their directions: the negative eigenvalues of the
+    /// stiffness.
+    pub fn falls(&self) -> usize {
+        self.falls_against(0.0)
+    }
+
+    /// In how many ways that would be so against what resists every movement by such a multiple of its inertia [1/time²].
+    pub fn falls_against(&self, rate: f64) -> usize {
+        let order = self.order_at_rest();
+        let inertia = match rate > 0.0 {
+            true => self.sparse_inertia(&order),
+            false => SymmetricSparse::new(order.count(), |_| {}),
+        };
+        let mut stiffness = PreciseBand::zeros(order.count(), order.half_bandwidth());
+        self.each_span_at_rest(&order, &mut |degrees, span| {
+            add_resistance(&mut stiffness, degrees, span);
+        });
+        let own: Vec<f64> = (0..stiffness.size()).map(|at| stiffness.diagonal(at).abs()).collect();
+        self.each_tie_at_rest(&order, |at| own[at], &mut |degrees, span| {
+            add_resistance(&mut stiffness, degrees, span);
+        });
+        stiffness.pivots(rate, &inertia).map_or(0, |pivots| pivots.negative)
+    }
+}
+
+/// Gives the places of unknowns where unknowns are told.
+fn in_order<'t>(
+    order: &'t OrderAtRest,
+    take: &'t mut dyn FnMut(&[usize], &SpanStiffness),
+) -> impl FnMut(&[usize], &SpanStiffness) {
+    move |unknowns, span| match order.is_given() {
+        true => take(unknowns, span),
+        false => {
+            let places: Vec<usize> = unknowns.iter().map(|at| order.place(*at)).collect();
+            take(&places, span);
+        }
+    }
+}
+
+/// Adds to the stiffness of a configuration how a span resists: `Bᵀ k B + K_g`.
+pub fn add_resistance(stiffness: &mut PreciseBand, degrees: &[usize], span: &SpanStiffness) {
+    let width = degrees.len();
+    for (factor, row) in span.stiffness.iter().zip(span.strains.chunks_exact(width)) {
+        stiffness.add_square(degrees, *factor, row);
+    }
+    for twist in span.twists.chunks_exact(2 * width) {
+        let (p, q) = twist.split_at(width);
+        stiffness.add_product(degrees, p, q);
+    }
+}

@@ -1,0 +1,312 @@
+//! Blows at the ends of masters: who is struck together, what stops store, and when a slider leaves one.
+//!
+//! A slider that comes to lean on its stop comes to rest against it by an impulse. What that takes from the motion the stop stores, as the
+//! elastic body that it is, and gives it back when the slider leaves; with a coefficient of restitution below one it is lost.
+
+use super::System;
+use super::impact::{ImpactDirection, ImpactLaw};
+use super::seam_impact::{SeamCorner, round_corners};
+use crate::elementary::square;
+use crate::geometry::{Vec2, perpendicular};
+use crate::linalg::LinearError;
+use crate::system::SystemError;
+use crate::system::sliders::{AxialImpact, MasterLimit, SliderState};
+
+/// A slider that is as near to its end as this, as a part of its master, arrives together with one that is there.
+const TOGETHER: f64 = 1e-12;
+
+/// What vibrates faster than in so many steps is rigid for a blow.
+pub(super) const RIGID: f64 = 4.0;
+
+/// The largest part of a blow that a step may be to resolve it [-].
+pub const RESOLVED_BLOW: f64 = 0.125;
+
+/// What moves by less than this part of the change of relative velocity is held.
+const GIVES: f64 = 1e-9;
+
+/// A slider that approaches its end with less than this part of the fastest speed of the model does not.
+const APPROACHES: f64 = 1e-12;
+
+/// A direction in which a contact gives an impulse, and by which law.
+#[derive(Debug, Clone, Copy)]
+struct ImpactContact {
+    direction: ImpactDirection,
+    law: ImpactLaw,
+}
+
+/// Who strikes an end of its master, who comes to lean on it, and who passes it.
+#[derive(Debug, Clone, Default)]
+pub struct Arriving {
+    /// The limits at which sliders strike and bounce.
+    pub strike: Vec<MasterLimit>,
+    /// The limits that sliders strike and do not leave: their stops give no speed back, and steps do not resolve the blow.
+    pub stay: Vec<MasterLimit>,
+    /// The limits on which sliders come to lean.
+    pub lean: Vec<MasterLimit>,
+    /// The limits beyond which sliders go on along their tracks.
+    pub pass: Vec<MasterLimit>,
+}
+
+impl Arriving {
+    /// Whether nobody strikes, leans or passes.
+    pub fn is_empty(&self) -> bool {
+        !self.strikes_or_leans() && self.pass.is_empty()
+    }
+
+    fn strikes_or_leans(&self) -> bool {
+        [&self.strike, &self.stay, &self.lean].into_iter().any(|limits| !limits.is_empty())
+    }
+
+    fn law(&self, model: &System, limit: MasterLimit) -> Option<ImpactLaw> {
+        let restitution = model.sliders[limit.slider].restitution;
+        let strikes = self.strike.contains(&limit) || self.stay.contains(&limit);
+        let strikes = strikes.then_some(ImpactLaw::Strikes(restitution));
+        strikes.or(self.lean.contains(&limit).then_some(ImpactLaw::Ends))
+    }
+}
+
+impl System {
+    /// The limits that sliders reach at the present moment together with one that does, in the order of the scene: as near to them as rounding
+    /// can tell, and led beyond.
+    pub fn arriving_with(&self, limit: MasterLimit) -> Vec<MasterLimit> {
+        let limits = (0..self.sliders.len()).flat_map(MasterLimit::both);
+        let arrives = |other: &MasterLimit| {
+            let slider = &self.sliders[other.slider];
+            let is_there = slider.is_sliding() && slider.distance_to(other.end) <= TOGETHER;
+            *other == limit || (is_there && self.leads_beyond(*other))
+        };
+        limits.filter(arrives).collect()
+    }
+
+    /// Whether a slider approaches an end at which it is, by what steps of such a length follow of the motion.
+    ///
+    /// # Errors
+    /// When the impulse of a blow is not determined.
+    pub fn approaches(&mut self, limit: MasterLimit, dt: f64) -> Result<bool, SystemError> {
+        let direction = (limit.slider, self.inward(limit));
+        let approach = |model: &mut Self| -> Result<f64, LinearError> {
+            let mut inertia = model.banded_inertia();
+            let answers = model.answers_within(&inertia.factorise()?, &[direction], RIGID * dt)?;
+            Ok(answers.iter().map(|answer| answer.velocity(&model.motion.rates)).sum())
+        };
+        let speed = approach(self).map_err(|_| self.sliders.overdetermined())?;
+        Ok(speed < -APPROACHES * self.fastest_speed())
+    }
+
+    /// Whether steps of such a length resolve the blow of a slider at a limit, that lasts as long as its waves run: where something gives way to it
+    /// and is no more than so light. Notes how many times as long as the blow a step is.
+    ///
+    /// # Errors
+    /// When the impulse of a blow is not determined.
+    pub fn resolves_blow(&mut self, limit: MasterLimit, dt: f64) -> Result<bool, SystemError> {
+        let direction = (limit.slider, self.inward(limit));
+        let mut inertia = self.banded_inertia();
+        let inertia = inertia.factorise().map_err(|_| self.sliders.overdetermined())?;
+        let answers = self.answers(&inertia, &[direction]);
+        let [answer] = &answers[..] else { return Ok(false) };
+        let (slave, master) = self.speeds(direction, &answer.rates);
+        let (slave, master) = (slave.abs(), master.abs());
+        let least = GIVES * (slave + master);
+        let [slave, master] = [slave, master].map(|speed| (speed > least).then(|| 1.0 / speed));
+        let lasts =
+            self.sliders[limit.slider].blow_lasts(&self.bodies, AxialImpact { slave, master });
+        self.sliders[limit.slider].note_blow(dt / lasts);
+        Ok(lasts.is_finite() && dt <= RESOLVED_BLOW * lasts)
+    }
+
+    /// Keeps the kinks under contact forces as they are in steps to come; gives whether that is another law for the next step.
+    pub fn keep_kinks(&mut self) -> bool {
+        self.sliders.keep_kinks()
+    }
+
+    /// Lets the kinks under contact forces follow these again.
+    pub fn let_kinks_follow(&mut self) {
+        self.sliders.let_kinks_follow();
+    }
+
+    /// Whether a kink under a contact force stays as it is, whatever that force.
+    pub fn has_kept_kinks(&self) -> bool {
+        self.sliders.iter().any(|slider| slider.is_frozen())
+    }
+
+    /// The direction in which the stop at a limit pushes the slave [-].
+    fn inward(&self, limit: MasterLimit) -> Vec2 {
+        self.sliders[limit.slider].along_contact(&self.bodies) * -limit.end.outward()
+    }
+
+    /// All that arrives at ends of masters and at seams of tracks at the present moment is one impact, in steps of such a length [time]:
+    /// `0 ≤ P ⟂ w⁺ + e w⁻ ≥ 0` at stops, with those on which sliders lean already, a turn round the corner at seams, while all other contacts keep slaves on
+    /// masters. Then who passes a seam is on its other side.
+    ///
+    /// # Errors
+    /// When the impulses are not determined.
+    pub fn meet(&mut self, arriving: &Arriving, dt: f64) -> Result<(), SystemError> {
+        self.sliders.iter_mut().for_each(|slider| slider.impulse = Vec2::zeros());
+        let met = self.meet_at_once(arriving, dt);
+        met.map_err(|_| self.sliders.overdetermined())?;
+        self.leave_stops()
+    }
+
+    fn meet_at_once(&mut self, arriving: &Arriving, dt: f64) -> Result<(), LinearError> {
+        self.straighten_kinks(&[&arriving.strike[..], &arriving.stay, &arriving.lean].concat())?;
+        let passages = self.passages(&arriving.pass);
+        let corners = passages.corners_of_sections();
+        if arriving.strikes_or_leans() || !corners.is_empty() {
+            // What a stop holds it must hold as it is, and not as steps follow it.
+            let rigid_within = arriving.lean.is_empty().then_some(RIGID * dt);
+            let hits = self.hits(|model, limit| arriving.law(model, limit));
+            self.hit(&hits, corners, [Some(RIGID * dt), rigid_within])?;
+        }
+        if !arriving.stay.is_empty() {
+            // The blow is that of a rigid body, which does more than its very end; what is left of it is rounding, and none may be left.
+            let hits =
+                self.hits(|_, limit| arriving.stay.contains(&limit).then_some(ImpactLaw::Ends));
+            self.hit(&hits, &[], [None, None])?;
+        }
+        arriving.stay.iter().chain(&arriving.lean).for_each(|limit| self.hold(*limit));
+        self.pass_seams(&passages)
+    }
+
+    /// Changes the velocities by impulses at all contacts at once, those of passing sliders round corners and the others by their laws, met by what
+    /// steps of such lengths [time] follow of the motion.
+    fn hit(
+        &mut self,
+        hits: &[ImpactContact],
+        corners: &[SeamCorner],
+        [at_corners, rigid_within]: [Option<f64>; 2],
+    ) -> Result<(), LinearError> {
+        let passes = |slider: usize| corners.iter().any(|corner| corner.slider == slider);
+        let others = hits.iter().filter(|hit| !passes(hit.direction.0));
+        let (directions, laws): (Vec<ImpactDirection>, Vec<ImpactLaw>) =
+            others.map(|hit| (hit.direction, hit.law)).unzip();
+        let turned = SeamCorner::directions(corners);
+        let met = [(&turned[..], at_corners), (&directions, rigid_within)];
+        let encounter = self.encounter(&met, -2.0)?;
+        let Some(impulses) = round_corners(&encounter, corners, &laws)? else {
+            // A blow that turns somebody back at a corner comes first.
+            self.hit(hits, &[], [None, rigid_within])?;
+            return self.turn(corners, at_corners);
+        };
+        self.apply(encounter, &impulses.values);
+        let tolerance = APPROACHES * self.fastest_speed();
+        let of_others = impulses.values.iter().zip(&impulses.works).skip(turned.len());
+        for ((direction, law), (impulse, work)) in directions.iter().zip(&laws).zip(of_others) {
+            let (slave, master) = self.speeds(*direction, &self.motion.rates);
+            let leaves = *law == ImpactLaw::Leans && *impulse == 0.0 && slave - master > tolerance;
+            let slider = &mut self.sliders[direction.0];
+            slider.give(*work);
+            slider.is_pulled = leaves && !slider.stop_may_pull;
+            slider.leaves_beyond = false;
+        }
+        Ok(())
+    }
+
+    /// The impulses that a slider gave its master in the last impact [mass·length/time].
+    pub fn impulse_of(&self, slider: usize) -> Vec2 {
+        self.sliders[slider].impulse
+    }
+
+    /// All sliders whose stops would have had to pull leave these, with what the stops have stored.
+    ///
+    /// # Errors
+    /// When the impulses are not determined.
+    pub fn leave_stops(&mut self) -> Result<(), SystemError> {
+        let leaving = |slider: &usize| self.sliders[*slider].is_pulled_off();
+        let leaving: Vec<usize> = (0..self.sliders.len()).filter(leaving).collect();
+        if leaving.is_empty() {
+            return Ok(());
+        }
+        for slider in &leaving {
+            self.sliders[*slider].change_sides(&self.bodies);
+        }
+        if leaving.iter().any(|slider| self.sliders[*slider].stored > 0.0) {
+            self.give_back().map_err(|_| self.sliders.overdetermined())?;
+        }
+        let time = self.motion.time;
+        for slider in leaving {
+            self.sliders[slider].leave_stop(&self.bodies, time);
+        }
+        self.motion.accelerations.forget();
+        Ok(())
+    }
+
+    /// Gives sliders that leave what their stops have stored, by speeds in proportion to the roots of that.
+    ///
+    /// The impulses are linear in a scale `s` of these speeds, as long as the same contacts act, and what they give is quadratic.
+    fn give_back(&mut self) -> Result<(), LinearError> {
+        let hits = self.hits(|model, limit| {
+            let slider = &model.sliders[limit.slider];
+            let leaves = slider.is_pulled && slider.state == SliderState::Held(limit.end);
+            leaves.then_some(ImpactLaw::Leaves(1.0))
+        });
+        let directions: Vec<ImpactDirection> = hits.iter().map(|hit| hit.direction).collect();
+        let stored: Vec<f64> = hits
+            .iter()
+            .map(|hit| match hit.law {
+                ImpactLaw::Leaves(_) => self.sliders[hit.direction.0].stored.max(0.0),
+                _ => 0.0,
+            })
+            .collect();
+        let encounter = self.encounter(&[(&directions, None)], -2.0)?;
+        let laws = |scale: f64| -> Vec<ImpactLaw> {
+            let speed = |at: usize| scale * (2.0 * stored[at] * encounter.response[at][at]).sqrt();
+            let own = hits.iter().enumerate();
+            own.map(|(at, hit)| match hit.law {
+                ImpactLaw::Leaves(_) => ImpactLaw::Leaves(speed(at)),
+                law => law,
+            })
+            .collect()
+        };
+        let given = |scale: f64| -> Result<f64, LinearError> {
+            Ok(encounter.impulses(&laws(scale))?.works.iter().sum())
+        };
+        let wanted: f64 = stored.iter().sum();
+        let (none, one, two) = (given(0.0)?, given(1.0)?, given(2.0)?);
+        let square = 0.5 * (two - 2.0 * one + none);
+        let linear = one - none - square;
+        let root = nonnegative_root(square, linear, none - wanted);
+        if let Some(scale) = root {
+            let impulses = encounter.impulses(&laws(scale))?;
+            for (ImpactContact { direction: (slider, _), .. }, work) in
+                hits.iter().zip(&impulses.works)
+            {
+                self.sliders[*slider].give(*work);
+            }
+            self.apply(encounter, &impulses.values);
+        }
+        Ok(())
+    }
+
+    /// The directions [-] in which all contacts transmit impulses: across masters that do not give way, and along them where sliders lean on stops or
+    /// have a law at a limit.
+    fn hits(&self, law: impl Fn(&Self, MasterLimit) -> Option<ImpactLaw>) -> Vec<ImpactContact> {
+        let mut hits = Vec::new();
+        for (at, slider) in self.sliders.iter().enumerate() {
+            let mut limits = MasterLimit::both(at).into_iter();
+            let own = limits.find_map(|limit| law(self, limit).map(|law| (limit, law)));
+            let stop = match slider.state {
+                SliderState::Released => continue,
+                SliderState::Sliding => own,
+                SliderState::Held(end) => {
+                    own.or(Some((MasterLimit { slider: at, end }, ImpactLaw::Leans)))
+                }
+            };
+            if stop.is_some() || !slider.gives_way() {
+                let across = perpendicular(slider.along_contact(&self.bodies));
+                hits.push(ImpactContact { direction: (at, across), law: ImpactLaw::Reverses });
+            }
+            if let Some((limit, law)) = stop {
+                hits.push(ImpactContact { direction: (at, self.inward(limit)), law });
+            }
+        }
+        hits
+    }
+}
+
+/// The positive root of `a x² + b x + c`, if there is one.
+fn nonnegative_root(a: f64, b: f64, c: f64) -> Option<f64> {
+    let root = (square(b) - 4.0 * a * c).sqrt();
+    // The two forms of the quotient, by which nothing is cancelled.
+    let x = if b > 0.0 { -2.0 * c / (b + root) } else { (root - b) / (2.0 * a) };
+    (x.is_finite() && x >= 0.0).then_some(x)
+}

@@ -1,0 +1,36 @@
+//! From a scene, as the user describes it, to a mechanism that integrators can advance.
+
+mod assembly;
+mod bodies;
+mod elements;
+mod errors;
+mod links;
+mod mechanism;
+mod queries;
+mod scene;
+mod sliders;
+mod state;
+
+pub use elements::{
+    Along, Anchor, Branch, DampingLaw, Drag, Dragged, Drive, DriveKind, DriveState, Element,
+    LoadAccount, MaterialDamping, MotionCurvature, Origin, PointMass, ShortBounce, SpeedLaw,
+    Spring, SpringKind, SpringLaw,
+};
+pub use errors::{
+    Approach, SliderError, SliderParts, SystemError, TrackError, Turning,
+    refusal as refusal_of_name,
+};
+pub use mechanism::{
+    Arriving, BodyEnergy, Energy, Instant, Measures, OrderAtRest, RESOLVED_BLOW, Reactions,
+    StaticForces, System, SystemState, add_resistance,
+};
+pub use queries::{
+    BeamPlaces, BeamSample, CrossSection, Distance, Placement, SectionSample, SensorReader,
+    SpringState, SystemFeature, Transmission, Usage,
+};
+pub use scene::{
+    BeamDefinition, ParticleDefinition, Probe, Quantity, RigidBodyDefinition, Scene, Sensor,
+    StartMotion, StationVelocity, Value,
+};
+pub use sliders::{AxialImpact, MasterEnd, MasterLimit, SliderState};
+pub use state::{Resolution, UnknownKind};

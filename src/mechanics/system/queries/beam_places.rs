@@ -1,0 +1,119 @@
+//! Beams sampled along their axes, again and again at the same places.
+
+use std::f64::consts::PI;
+
+use crate::beams::{BodyPoint, SectionForces, SectionPlace};
+use crate::elementary::atan2;
+use crate::geometry::{Vec2, corresponding};
+use crate::system::{Scene, System, SystemError};
+
+/// Places along a beam, found once, to be asked often: those at its knots, and so many between each two of them.
+///
+/// Where a joint cuts the beam there are two of the same arc length, the end of the part before and the start of the part behind.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BeamPlaces {
+    beam: usize,
+    places: Vec<(f64, BodyPoint, SectionPlace)>,
+}
+
+/// What a beam does at one of its places.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BeamSample {
+    /// From the start of the beam as drawn [length].
+    pub arc_length: f64,
+    /// The place of the sample in the plane [length].
+    pub position: Vec2,
+    /// How fast it moves [length/time].
+    pub velocity: Vec2,
+    /// The angle of the section; unwrapped, as that at the start of the beam is followed [rad].
+    pub angle: f64,
+    /// What is transmitted there, by strains and, where the material is damped, by their rates.
+    pub forces: SectionForces,
+    /// The energy that the strains there store, per length as drawn [energy/length].
+    pub strain_energy: f64,
+}
+
+impl BeamPlaces {
+    /// Places between two knots that tell what section forces do there.
+    pub const WITHIN_A_SPAN: usize = 3;
+
+    /// Leaves, of two places with the same arc length at a joint that cuts the beam, that of the part behind alone.
+    pub fn one_at_each_arc_length(mut self) -> Self {
+        let mut behind = self.arc_lengths().skip(1).collect::<Vec<_>>().into_iter();
+        self.places.retain(|(arc_length, ..)| behind.next() != Some(*arc_length));
+        self
+    }
+
+    /// From the start of the beam as drawn, in rising order [length].
+    pub fn arc_lengths(&self) -> impl Iterator<Item = f64> + '_ {
+        self.places.iter().map(|(arc_length, ..)| *arc_length)
+    }
+
+    /// Where the places are when the control points of the beam are these [length].
+    pub fn positions(&self, control_points: &[Vec2]) -> impl Iterator<Item = Vec2> {
+        self.places.iter().map(|(_, place, _)| place.interpolate(control_points))
+    }
+}
+
+impl System {
+    /// The places of a beam at which [`sample_along`](Self::sample_along) looks: its knots, and so many between each two of them.
+    ///
+    /// # Errors
+    /// When an axis has a point without a tangent.
+    pub fn places_along(
+        &self,
+        scene: &Scene,
+        beam: usize,
+        within_a_span: usize,
+    ) -> Result<BeamPlaces, SystemError> {
+        let (definition, mesh) = (&scene.beams[beam], &self.meshes()[beam]);
+        let (from, onto) = (mesh.basis().domain(), definition.axis.domain());
+        let of_geometry = SystemError::geometry(&definition.name);
+        let place = |(xi, section): (f64, SectionPlace)| {
+            let arc_length = definition.axis.length_to(corresponding(xi, from, onto))?;
+            Ok((arc_length, BodyPoint::at(beam, &definition.axis, mesh, xi)?, section))
+        };
+        let sections = self.section_points(scene, beam)?.along(within_a_span);
+        let sections = sections.map_err(SystemError::beam(&definition.name))?;
+        let places = sections.into_iter().map(place).collect::<Result<_, _>>();
+        Ok(BeamPlaces { beam, places: places.map_err(of_geometry)? })
+    }
+
+    /// What a beam does in the present configuration, from its start to its end.
+    pub fn sample_along(&self, along: &BeamPlaces) -> Vec<BeamSample> {
+        let dynamics = &self.bodies()[along.beam].dynamics;
+        let mut angle = self.end_angles(along.beam).0;
+        let sample = |(arc_length, place, section): &(f64, BodyPoint, SectionPlace)| {
+            let of_strains = dynamics.section_forces(section);
+            let forces = self.with_damping(of_strains, along.beam, section);
+            angle = nearest_turn(atan2(forces.normal.y, forces.normal.x), angle);
+            BeamSample {
+                arc_length: *arc_length,
+                position: self.position(place),
+                velocity: self.velocity(place),
+                angle,
+                forces,
+                strain_energy: of_strains.strain_energy(),
+            }
+        };
+        along.places.iter().map(sample).collect()
+    }
+}
+
+/// The angle that differs from `angle` by whole turns and is nearest to another one [rad].
+fn nearest_turn(angle: f64, other: f64) -> f64 {
+    angle + 2.0 * PI * ((other - angle) / (2.0 * PI)).round()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn angles_follow_their_neighbour_through_whole_turns() {
+        for (angle, other, expected) in [(0.1, 0.0, 0.1), (-3.0, 3.2, 2.0 * PI - 3.0)] {
+            assert!((nearest_turn(angle, other) - expected).abs() < 1e-15);
+        }
+        assert!((nearest_turn(0.5, 20.0 * PI) - (20.0 * PI + 0.5)).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,376 @@
+//! What a scene uses, and what it therefore leaves out.
+
+use crate::beams::{PointCounts, SectionVariation};
+use crate::geometry::Vec2;
+use crate::integrators::{Constraints, INTEGRATORS, Mechanism, Method};
+use crate::joints::{
+    Component, Joint, Partner, Releasable, SLIDING_RULES, Slider, SlidingRule, StartVelocities,
+    Trigger,
+};
+use crate::system::elements::{ExternalForce, InternalForce};
+use crate::system::errors::{MOST, in_words, plural};
+use crate::system::{BeamDefinition, Drive, Scene, System, SystemError};
+
+/// A part of the mechanics, and whether a simulation uses it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SystemFeature {
+    /// The part of the mechanics in words.
+    pub name: String,
+    /// Whether the part is used, and how or what is saved.
+    pub usage: Usage,
+}
+
+/// Whether a part of the mechanics is used.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Usage {
+    /// The part is used: how much, or why.
+    Used(String),
+    /// The part is not used: what is saved by that.
+    LeftOut(String),
+}
+
+impl SystemFeature {
+    /// A part of the mechanics that is used, and how.
+    pub fn used(name: impl Into<String>, how: impl Into<String>) -> Self {
+        Self { name: name.into(), usage: Usage::Used(how.into()) }
+    }
+
+    /// The steps of a simulation as a part that is used: their size in words, and the times at which they are cut.
+    pub fn steps(size: &str, cuts: &[f64]) -> Self {
+        let cut = in_words(cuts).map(|times| format!("cut ahead at t = {times}"));
+        Self::used("steps", format!("{size}, {}", cut.unwrap_or("no cuts ahead".to_owned())))
+    }
+
+    /// A part of the mechanics that is left out, and what is saved by that.
+    pub fn left_out(name: impl Into<String>, saved: impl Into<String>) -> Self {
+        Self { name: name.into(), usage: Usage::LeftOut(saved.into()) }
+    }
+}
+
+impl Scene {
+    /// What a simulation of this scene uses and what it leaves out, with any integrator.
+    ///
+    /// # Errors
+    /// When the scene cannot be assembled.
+    pub fn explain(&self) -> Result<Vec<SystemFeature>, SystemError> {
+        let methods: Vec<Method> = INTEGRATORS.iter().map(|entry| entry.method).collect();
+        Ok(System::assemble(self)?.explain(self, &methods))
+    }
+}
+
+impl System {
+    /// What this model of a scene uses and what it leaves out; `methods` are those that may advance it.
+    pub fn explain(&self, scene: &Scene, methods: &[Method]) -> Vec<SystemFeature> {
+        let mut parts = vec![self.explain_matrix()];
+        parts.extend(self.explain_beams(scene));
+        parts.push(explain_particles(scene));
+        parts.extend(self.explain_bodies(scene));
+        parts.push(explain_masses(scene));
+        parts.extend([self.explain_joints(scene), self.explain_supports(scene)]);
+        parts.extend(scene.drives.iter().map(|drive| explain_drive(scene, drive)));
+        parts.extend([self.explain_sliders(scene), self.explain_gravity(methods)]);
+        parts.extend(self.explain_loads(methods));
+        parts.extend(self.explain_springs());
+        parts.extend([self.explain_angles(), explain_start(scene)]);
+        parts.extend(explain_releases(scene));
+        parts
+    }
+
+    fn explain_matrix(&self) -> SystemFeature {
+        let how =
+            format!("{} movements, half-bandwidth {}", self.movements(), self.half_bandwidth());
+        let how = match 2 * self.links().count() {
+            0 => how,
+            forces => format!("{how}; {forces} of rigid links among them, in the band"),
+        };
+        let how = match self.links().rollers().count() {
+            0 => how,
+            forces => format!("{how}; {forces} of inclined rollers among them, in the band"),
+        };
+        let how = match self.constraint_shape().width {
+            0 => how,
+            width if self.constraint_blocks().is_some() => {
+                format!("{how}; {width} of contacts, eliminated where they are")
+            }
+            width => format!("{how}; {width} of contacts, in the border"),
+        };
+        SystemFeature::used("unknowns", how)
+    }
+
+    /// The unknowns that are movements.
+    fn movements(&self) -> usize {
+        self.unknowns() - self.links().forces()
+    }
+
+    fn explain_bodies(&self, scene: &Scene) -> Option<SystemFeature> {
+        let points = self.links().count();
+        let how = match (scene.rigid_bodies.len(), points) {
+            (0, _) => return None,
+            (count, 0) => format!("{count}, which are held at their centres: no rigid links"),
+            (count, points) => format!(
+                "{count} with {}: a force with two components holds each, and keeps energy and momenta",
+                plural(points, "rigid link")
+            ),
+        };
+        Some(SystemFeature::used("rigid bodies", how))
+    }
+
+    fn explain_beams(&self, scene: &Scene) -> Vec<SystemFeature> {
+        if scene.beams.is_empty() {
+            return vec![SystemFeature::left_out(
+                "beams",
+                "no strains, no section forces, no quadrature",
+            )];
+        }
+        let counts: Vec<PointCounts> =
+            self.meshes().iter().map(|mesh| mesh.point_counts()).collect();
+        let sum = |of: fn(&PointCounts) -> usize| counts.iter().map(of).sum::<usize>();
+        let beam = |(index, beam): (usize, &BeamDefinition)| {
+            let PointCounts { force, moment, inertia } = counts[index];
+            let mesh = self.meshes()[index].describe();
+            let points = self.bodies()[index].dynamics.control_points().len();
+            let how = format!(
+                "{mesh}, {points} control points; points for Γ {force}, κ {moment}, mass {inertia}"
+            );
+            let taper = match beam.section {
+                SectionVariation::Uniform(_) => "",
+                SectionVariation::Numbers(_) | SectionVariation::Dimensions(_) => {
+                    "; a taper: each point has a section of its own"
+                }
+            };
+            SystemFeature::used(format!("beam '{}'", beam.name), format!("{how}{taper}"))
+        };
+        let mut parts: Vec<SystemFeature> = match scene.beams.len() {
+            count if count > MOST => {
+                let (force, moment) = (sum(|of| of.force), sum(|of| of.moment));
+                let how = format!(
+                    "{count}; points for Γ {force}, κ {moment}, mass {}",
+                    sum(|of| of.inertia)
+                );
+                vec![SystemFeature::used("beams", how)]
+            }
+            _ => scene.beams.iter().enumerate().map(beam).collect(),
+        };
+        let inertia = "rho_I of every section: rotations have an inertia of their own";
+        parts.push(SystemFeature::used("rotary inertia", inertia));
+        parts
+    }
+
+    /// The joints that have not let go.
+    fn holding<'s>(&'s self, scene: &'s Scene) -> impl Iterator<Item = &'s Joint> {
+        let unknowns = self.unknown_movements();
+        let joints = scene.joints.iter().enumerate();
+        joints
+            .filter(|(at, _)| !unknowns.are_free_of(Releasable::Joint(*at)))
+            .map(|(_, joint)| joint)
+    }
+
+    fn explain_joints(&self, scene: &Scene) -> SystemFeature {
+        let between = |joint: &&Joint| joint.partner != Partner::Ground;
+        let kinds = counted(self.holding(scene).filter(between));
+        if kinds.is_empty() {
+            return SystemFeature::left_out("joints", "no movement is shared");
+        }
+        let all: usize = self.bodies().iter().map(|body| 3 * body.degrees_of_freedom.len()).sum();
+        let shared = all - self.supports().count() - self.movements();
+        let saved = plural(shared, "unknown");
+        SystemFeature::used(
+            "joints",
+            format!("{kinds}: tied movements are one, {saved} less; no multipliers"),
+        )
+    }
+
+    fn explain_supports(&self, scene: &Scene) -> SystemFeature {
+        let on_ground = |joint: &&Joint| joint.partner == Partner::Ground;
+        let kinds = counted(self.holding(scene).filter(on_ground));
+        if kinds.is_empty() {
+            return SystemFeature::left_out("supports", "everything is free: no reactions");
+        }
+        let first_rigid = scene.first_rigid_body();
+        let of_particles = |body: usize| (scene.beams.len()..first_rigid).contains(&body);
+        let turns = |component| component == Component::Rotation;
+        let held =
+            self.supports().held().filter(|at| !(of_particles(at.body) && turns(at.component)));
+        let held = plural(held.count(), "movement");
+        let across = match self.links().rollers().count() {
+            0 => String::new(),
+            forces => {
+                format!("; {} across inclined rollers are unknowns", plural(forces, "force"))
+            }
+        };
+        SystemFeature::used(
+            "supports",
+            format!("{kinds}: {held} held and no unknowns{across}; reactions are measured"),
+        )
+    }
+
+    fn explain_sliders(&self, scene: &Scene) -> SystemFeature {
+        let width = self.constraint_shape().width;
+        if width == 0 {
+            let saved =
+                "the matrix is a plain band: no border, no contact forces, no search for ends";
+            return SystemFeature::left_out("sliders", saved);
+        }
+        let used = SLIDING_RULES.iter().filter_map(|entry| {
+            let count = scene.sliders.iter().filter(|slider| slider.rule == entry.rule).count();
+            (count > 0).then(|| format!("{count} {}", entry.name))
+        });
+        let rules = used.collect::<Vec<_>>().join(", ");
+        let solved = match self.constraint_blocks() {
+            None => format!("a border of {width} columns"),
+            Some(blocks) => {
+                let free = blocks.own.iter().filter(|own| !own.is_empty()).count();
+                let all = blocks.own.len();
+                format!("{all} blocks beside the band, {free} with their slaves")
+            }
+        };
+        let on_tracks = scene.sliders.iter().any(|slider| slider.track.is_some());
+        let seams = if on_tracks { ", steps are cut at seams of tracks" } else { "" };
+        let may_kink = |slider: &Slider| {
+            let basis = self.meshes()[slider.master].basis();
+            let is_smooth = basis.breaks().len() == 2 || basis.continuity() > 0;
+            slider.rule == SlidingRule::Conserving && slider.track.is_none() && is_smooth
+        };
+        let choice = match scene.sliders.iter().any(may_kink) {
+            true => {
+                "; the conserving rule is of first order in the length of spans, the kinked one of second to third"
+            }
+            false => "",
+        };
+        let how = format!("{rules}: {solved}; ends of their beams are watched{seams}{choice}");
+        SystemFeature::used("sliders", how)
+    }
+
+    fn explain_gravity(&self, methods: &[Method]) -> SystemFeature {
+        match self.elements().weight() {
+            Some(weight) => SystemFeature::used(weight.name(), weight.explain(methods)),
+            None => SystemFeature::left_out("gravity", "no weight; the potential energy stays 0"),
+        }
+    }
+
+    fn explain_loads(&self, methods: &[Method]) -> Vec<SystemFeature> {
+        let all = self.elements().forces();
+        let one =
+            |load: &dyn ExternalForce| SystemFeature::used(load.name(), load.explain(methods));
+        let mut parts: Vec<SystemFeature> = all.clone().take(MOST).map(one).collect();
+        if parts.is_empty() {
+            return vec![SystemFeature::left_out("loads", "no schedules, no work")];
+        }
+        let rest = all.skip(MOST).map(|load| load.functions()).collect::<Vec<_>>();
+        if !rest.is_empty() {
+            let scripts = plural(rest.iter().sum(), "function");
+            let how = format!("{} more, {scripts} of scripts among them", rest.len());
+            parts.push(SystemFeature::used("loads", how));
+        }
+        parts
+    }
+
+    fn explain_springs(&self) -> Vec<SystemFeature> {
+        let all = self.elements().resistances();
+        let one = |spring: &dyn InternalForce| SystemFeature::used(spring.name(), spring.explain());
+        let mut parts: Vec<SystemFeature> = all.clone().take(MOST).map(one).collect();
+        if parts.is_empty() {
+            return vec![SystemFeature::left_out(
+                "springs",
+                "nothing beside the beams stores energy, nothing damps",
+            )];
+        }
+        let rest = all.skip(MOST).count();
+        if rest > 0 {
+            parts.push(SystemFeature::used("springs", format!("{rest} more")));
+        }
+        parts
+    }
+
+    fn explain_angles(&self) -> SystemFeature {
+        match self.bodies().followed_sections() + self.elements().followed_sections() {
+            0 => SystemFeature::left_out("followed angles", "no section is followed"),
+            count => {
+                let how = "ends of beams, stations, and where loads turn";
+                SystemFeature::used(
+                    "followed angles",
+                    format!("{}: {how}", plural(count, "section")),
+                )
+            }
+        }
+    }
+}
+
+fn explain_drive(scene: &Scene, drive: &Drive) -> SystemFeature {
+    let names: Vec<&str> = drive.motions().map(|(component, _)| component.name()).collect();
+    let place = scene.describe(&drive.station);
+    let functions: usize = drive.schedules().map(|schedule| schedule.functions()).sum();
+    let calls = match functions {
+        0 => String::new(),
+        count => format!("; {} calls of functions in a step, or a part of one", 5 * count),
+    };
+    let beats = drive.schedules().filter_map(|schedule| schedule.beat());
+    let asked: String = beats.map(|beat| format!(", asked {beat}")).collect();
+    let given = "given and no unknown, exact in place";
+    let how = format!("{} of {place}: {given}{calls}{asked}", names.join(", "));
+    SystemFeature::used(format!("{} '{}'", drive.kind.name(), drive.name), how)
+}
+
+/// What lets go in the course of a run; nothing where nothing does.
+fn explain_releases(scene: &Scene) -> Option<SystemFeature> {
+    let told = scene.releases.iter().map(|release| {
+        let name = scene.name_of_hold(release.hold);
+        match release.trigger {
+            Trigger::Time(time) => format!("'{name}' at t = {time}"),
+            Trigger::Outside => {
+                format!("'{name}' when a function says so, asked before every step")
+            }
+        }
+    });
+    let told: Vec<String> = told.collect();
+    (!told.is_empty()).then(|| SystemFeature::used("releases", told.join("; ")))
+}
+
+fn explain_start(scene: &Scene) -> SystemFeature {
+    let is_zero = |velocity: Vec2, spin: f64| velocity == Vec2::zeros() && spin == 0.0;
+    let beams_rest = scene.beams.iter().all(|beam| is_zero(beam.motion.velocity, beam.motion.spin));
+    let nodes_rest = scene.velocities.iter().all(|at| is_zero(at.velocity, at.spin.unwrap_or(0.0)));
+    let is_projected =
+        scene.sliders.iter().any(|slider| slider.velocities == StartVelocities::Project);
+    let how = match (beams_rest && nodes_rest, is_projected) {
+        (_, true) => "made to fit the sliders, by solving once with the mass matrix",
+        (true, false) => {
+            return SystemFeature::left_out("start velocities", "everything starts at rest");
+        }
+        (false, false) if scene.sliders.is_empty() => "as given",
+        (false, false) => "as given; checked to fit the sliders",
+    };
+    SystemFeature::used("start velocities", how)
+}
+
+fn explain_particles(scene: &Scene) -> SystemFeature {
+    match scene.particles.len() {
+        0 => SystemFeature::left_out("particles", "every unknown belongs to a beam"),
+        count => SystemFeature::used("particles", format!("{count}, which do not turn")),
+    }
+}
+
+/// Masses besides those of the particles themselves.
+fn explain_masses(scene: &Scene) -> SystemFeature {
+    match scene.masses().count().saturating_sub(scene.particles.len() + scene.rigid_bodies.len()) {
+        0 => SystemFeature::left_out("point masses", "the mass matrix is that of the bodies"),
+        count => {
+            let turning = scene.masses().filter(|mass| mass.rotary_inertia > 0.0).count();
+            let how = format!("{count}, {turning} with rotary inertia; part of the mass matrix");
+            SystemFeature::used("point masses", how)
+        }
+    }
+}
+
+/// `2 hinges, 1 clamp`.
+fn counted<'a>(joints: impl Iterator<Item = &'a Joint>) -> String {
+    let mut kinds: Vec<(&str, usize)> = Vec::new();
+    for joint in joints {
+        let kind = joint.kind.describe(&joint.partner);
+        match kinds.iter_mut().find(|(other, _)| *other == kind) {
+            Some((_, count)) => *count += 1,
+            None => kinds.push((kind, 1)),
+        }
+    }
+    kinds.iter().map(|(kind, count)| plural(*count, kind)).collect::<Vec<_>>().join(", ")
+}

@@ -1,0 +1,105 @@
+//! Looking at a model: places, velocities and angles.
+
+use crate::beams::{BodyIndex, BodyPoint, Mesh, Station};
+use crate::geometry::Vec2;
+use crate::integrators::Mechanism;
+use crate::system::bodies::Body;
+use crate::system::{Scene, System, UnknownKind};
+
+impl System {
+    /// The meshes of the beams, with breaks where joints are.
+    pub fn meshes(&self) -> &[Mesh] {
+        self.bodies().meshes()
+    }
+
+    /// The control points of all bodies: beams first, then particles, then rigid bodies [length].
+    pub fn control_points(&self) -> impl Iterator<Item = &[Vec2]> {
+        self.bodies().iter().map(|body| body.dynamics.control_points())
+    }
+
+    /// Which body, control point and component, x, y or the angle, an unknown is the movement of, by its number; the first of those that share it.
+    pub fn movement(&self, unknown: usize) -> Option<(usize, usize, usize)> {
+        self.bodies().iter().enumerate().find_map(|(body, one)| {
+            let all = one.degrees_of_freedom.as_flattened();
+            let at = all.iter().position(|degree| *degree == unknown)?;
+            Some((body, at / 3, at % 3))
+        })
+    }
+
+    /// The body and its point whose rigid link an unknown is the force of, by its number.
+    pub fn linked_by(&self, unknown: usize) -> Option<(usize, usize)> {
+        let link = self.links().iter().find(|link| link.unknowns.contains(&unknown))?;
+        Some((link.body, link.point))
+    }
+
+    /// The number of unknowns that are no unknowns of contacts: movements, and forces of rigid links.
+    pub fn unknown_count(&self) -> usize {
+        self.unknown_movements().count()
+    }
+
+    /// The point where a place of the model is [length].
+    pub fn position(&self, place: &BodyPoint) -> Vec2 {
+        self.bodies().position(place)
+    }
+
+    /// The velocity of a place of the model [length/time].
+    pub fn velocity(&self, place: &BodyPoint) -> Vec2 {
+        let [x, y, _] = self.bodies()[place.body].at(place, self.rates());
+        Vec2::new(x, y)
+    }
+
+    /// The angle of the section at a station, unwrapped [rad]; none when the scene did not know it at the start.
+    pub fn angle(&self, scene: &Scene, station: &Station) -> Option<f64> {
+        self.section_angle(self.followed_section(scene, station)?)
+    }
+
+    /// The angle of a section that is followed, by its number, unwrapped [rad].
+    pub fn section_angle(&self, section: usize) -> Option<f64> {
+        self.bodies().angle(section)
+    }
+
+    /// The number of the section at a station among those that are followed; none when the scene did not know it at the start.
+    pub fn followed_section(&self, scene: &Scene, station: &Station) -> Option<usize> {
+        let beam = match station.body {
+            BodyIndex::Beam(beam) => beam,
+            BodyIndex::Particle(_) => return None,
+            BodyIndex::Rigid(body, _) => {
+                return Some(2 * scene.beams.len() + scene.stations.len() + body);
+            }
+        };
+        let length = scene.beams[beam].axis.length();
+        let is_at = |arc_length| station.is_at(&Station::on_beam(beam, arc_length), length);
+        Some(if is_at(0.0) {
+            2 * beam
+        } else if is_at(length) {
+            2 * beam + 1
+        } else {
+            let known = scene.stations.iter().position(|other| other.is_at(station, length))?;
+            2 * scene.beams.len() + known
+        })
+    }
+
+    /// The angles of the sections at the start and the end of a beam, unwrapped [rad].
+    pub fn end_angles(&self, beam: usize) -> (f64, f64) {
+        let angle = |section| self.bodies().angle(section).unwrap_or(f64::NAN);
+        (angle(2 * beam), angle(2 * beam + 1))
+    }
+
+    /// What the unknowns of the model are, one entry for each.
+    pub fn unknown_kinds(&self) -> &[UnknownKind] {
+        self.unknown_movements().kinds()
+    }
+
+    /// The displacements of the control points of all bodies in a movement [length].
+    pub fn displacements(&self, movements: &[f64]) -> Vec<Vec<Vec2>> {
+        let of_body = |body: &Body| {
+            (0..body.degrees_of_freedom.len()).map(|at| body.vector_at(at, movements)).collect()
+        };
+        self.bodies().iter().map(of_body).collect()
+    }
+
+    /// The name of the first load of the model that turns with a section, which has no potential.
+    pub fn follower(&self) -> Option<&str> {
+        self.elements().forces().find(|element| element.turns()).map(|element| element.name())
+    }
+}

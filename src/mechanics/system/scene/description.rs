@@ -1,0 +1,384 @@
+//! The editable description of what is simulated. Nothing is assembled here.
+
+use std::collections::HashSet;
+
+use serde::{Deserialize, Serialize};
+
+use super::stored::StoredScene;
+use super::ties::check_ties;
+use super::{BeamDefinition, ParticleDefinition, RigidBodyDefinition, Sensor, StationVelocity};
+use crate::beams::{BodyIndex, BodyPoint, Mesh, Station};
+use crate::geometry::{Vec2, is_on_length};
+use crate::joints::{Joint, JointKind, Partner, Release, Slider, Track};
+use crate::loads::{Load, Schedule};
+use crate::system::SystemError;
+use crate::system::elements::{Drive, Element, MaterialDamping, PointMass, SceneChecks, Spring};
+use crate::system::errors::{refusal, rounded};
+
+/// What is simulated: beams, particles, rigid bodies, joints, masses and loads.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(try_from = "StoredScene")]
+pub struct Scene {
+    /// The name of the scene, for messages and reports.
+    pub name: String,
+    /// The beams of the scene, in the order in which they were added.
+    pub beams: Vec<BeamDefinition>,
+    /// The particles of the scene, in the order in which they were added.
+    pub particles: Vec<ParticleDefinition>,
+    /// The rigid bodies of the scene, in the order in which they were added.
+    pub rigid_bodies: Vec<RigidBodyDefinition>,
+    /// The stations whose angle is followed, besides the ends of all beams.
+    pub stations: Vec<Station>,
+    /// The joints of the scene: supports and joints between beams.
+    pub joints: Vec<Joint>,
+    /// The tracks of the scene, along which sliders pass from beam to beam.
+    pub tracks: Vec<Track>,
+    /// The sliding joints of the scene.
+    pub sliders: Vec<Slider>,
+    /// The motions that are given to stations, in the order in which they were added.
+    pub drives: Vec<Drive>,
+    /// What lets go in the course of a run, in the order in which it was said.
+    pub releases: Vec<Release>,
+    /// The start velocities of single nodes.
+    pub velocities: Vec<StationVelocity>,
+    /// Masses, loads and springs, in the order in which they were added.
+    pub elements: Vec<Element>,
+    /// The acceleration of free fall [length/time²].
+    pub gravity: Vec2,
+    /// Quantities that are recorded besides those that every history has.
+    pub sensors: Vec<Sensor>,
+}
+
+impl Scene {
+    /// The length of the longest beam of the scene, if there is one [length].
+    pub fn longest_beam(&self) -> Option<f64> {
+        self.beams.iter().map(|beam| beam.axis.length()).reduce(f64::max)
+    }
+
+    /// The mass of the scene as it is drawn [mass].
+    pub fn mass(&self) -> f64 {
+        let beams: f64 = self.beams.iter().map(BeamDefinition::mass).sum();
+        beams + self.masses().map(|mass| mass.mass).sum::<f64>()
+    }
+
+    /// The speed of the fastest axial wave in the scene's beams; zero where there are no beams [length/time].
+    pub(in crate::system) fn fastest_wave(&self) -> f64 {
+        let sections = self.beams.iter().flat_map(|beam| beam.section.sections());
+        let squares = sections.map(|section| section.axial_stiffness / section.mass_per_length);
+        squares.fold(0.0, f64::max).sqrt()
+    }
+
+    /// The joints that hold a beam, by its index.
+    pub fn joints_of(&self, beam: usize) -> impl Iterator<Item = &Joint> {
+        self.joints.iter().filter(move |joint| {
+            let other = match joint.partner {
+                Partner::Ground => None,
+                Partner::Station(other) => other.beam(),
+            };
+            joint.station.beam() == Some(beam) || other == Some(beam)
+        })
+    }
+
+    /// The point masses of the scene, those of particles among them, in the order in which they were added.
+    pub fn masses(&self) -> impl Iterator<Item = &PointMass> + Clone {
+        self.elements.iter().filter_map(|element| match element {
+            Element::PointMass(mass) => Some(mass),
+            _ => None,
+        })
+    }
+
+    /// The loads of the scene, in the order in which they were added.
+    pub fn loads(&self) -> impl Iterator<Item = &Load> + Clone {
+        self.elements.iter().filter_map(|element| match element {
+            Element::Load(load) => Some(load),
+            _ => None,
+        })
+    }
+
+    /// Springs, dampers and tendons, in the order in which they were added.
+    pub fn springs(&self) -> impl Iterator<Item = &Spring> + Clone {
+        self.elements.iter().filter_map(|element| match element {
+            Element::Spring(spring) => Some(spring),
+            _ => None,
+        })
+    }
+
+    /// The schedules of the scene's elements and drives, each with the name of its owner.
+    pub fn schedules(&self) -> impl Iterator<Item = (&str, &Schedule)> {
+        let of_elements = self.elements.iter();
+        let of_elements = of_elements.filter_map(|element| element.description().schedule());
+        let of_drives = self.drives.iter();
+        let of_drives = of_drives
+            .flat_map(|drive| drive.schedules().map(|schedule| (drive.name.as_str(), schedule)));
+        of_elements.chain(of_drives)
+    }
+
+    /// An empty scene of a name.
+    pub fn new(name: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            beams: Vec::new(),
+            particles: Vec::new(),
+            rigid_bodies: Vec::new(),
+            stations: Vec::new(),
+            joints: Vec::new(),
+            tracks: Vec::new(),
+            sliders: Vec::new(),
+            drives: Vec::new(),
+            releases: Vec::new(),
+            velocities: Vec::new(),
+            elements: Vec::new(),
+            gravity: Vec2::zeros(),
+            sensors: Vec::new(),
+        }
+    }
+
+    /// Adds a beam to the scene and returns its index.
+    ///
+    /// # Errors
+    /// When something of that name exists, or the name is empty or cannot be printed.
+    pub fn add_beam(&mut self, beam: BeamDefinition) -> Result<usize, SystemError> {
+        self.check_name("beam", &beam.name)?;
+        self.beams.push(beam);
+        Ok(self.beams.len() - 1)
+    }
+
+    /// Adds a particle to the scene and returns its station.
+    ///
+    /// # Errors
+    /// When something of that name exists, the name is empty or cannot be printed, or the mass is not positive and finite.
+    pub fn add_particle(
+        &mut self,
+        particle: ParticleDefinition,
+        mass: f64,
+    ) -> Result<Station, SystemError> {
+        self.check_name("particle", &particle.name)?;
+        self.particles.push(particle);
+        let station = Station::on_particle(self.particles.len() - 1);
+        self.add_mass(PointMass { station, mass, rotary_inertia: 0.0 }).inspect_err(|_| {
+            self.particles.pop();
+        })?;
+        Ok(station)
+    }
+
+    /// Adds a sliding joint to the scene and returns its index.
+    ///
+    /// # Errors
+    /// When something of that name exists, the slave is not on the master or part of it, or it slides there already.
+    pub fn add_slider(&mut self, slider: Slider) -> Result<usize, SystemError> {
+        self.check_name("slider", &slider.name)?;
+        self.check_slider(&slider)?;
+        self.sliders.push(slider);
+        Ok(self.sliders.len() - 1)
+    }
+
+    /// What everything with a name is, and its name.
+    fn names(&self) -> impl Iterator<Item = (&'static str, &String)> {
+        let beams = self.beams.iter().map(|beam| ("beam", &beam.name));
+        let particles = self.particles.iter().map(|particle| ("particle", &particle.name));
+        let sliders = self.sliders.iter().map(|slider| ("slider", &slider.name));
+        let springs = self.springs().map(|spring| ("spring", &spring.name));
+        let drives = self.drives.iter().map(|drive| (drive.kind.name(), &drive.name));
+        let loads = self.loads().filter_map(|load| Some(("load", load.title.as_ref()?)));
+        let drags = self.drags().map(|drag| ("drag", &drag.name));
+        let bodies = self.rigid_bodies.iter().map(|body| ("body", &body.name));
+        let tracks = self.tracks.iter().map(|track| ("track", &track.name));
+        let all = beams.chain(particles).chain(bodies).chain(tracks).chain(sliders).chain(springs);
+        all.chain(drags).chain(drives).chain(loads)
+    }
+
+    pub(in crate::system) fn check_name(
+        &self,
+        new: &'static str,
+        name: &str,
+    ) -> Result<(), SystemError> {
+        if let Some(why) = refusal(name) {
+            return Err(SystemError::Unnamed { kind: new, name: name.to_owned(), why });
+        }
+        match self.names().find(|(_, other)| *other == name) {
+            Some((kind, _)) => Err(SystemError::DuplicateName { kind, new, name: name.to_owned() }),
+            None => Ok(()),
+        }
+    }
+
+    /// The first of `kind1`, `kind2`, … that nothing in the scene is called.
+    pub fn free_name(&self, kind: &str) -> String {
+        let numbered = self.names().filter_map(|(_, name)| name.strip_prefix(kind)?.parse().ok());
+        let taken: HashSet<u64> = numbered.collect();
+        let free = (1..).find(|number| !taken.contains(number)).unwrap_or_default();
+        format!("{kind}{free}")
+    }
+
+    /// The station of a beam at an arc length [length]; its angle is followed from the start.
+    ///
+    /// # Errors
+    /// When the station lies outside the beam.
+    pub fn station(&mut self, beam: usize, arc_length: f64) -> Result<Station, SystemError> {
+        self.check_station("a station", &Station::on_beam(beam, arc_length))?;
+        let length = self.beams[beam].axis.length();
+        let station = Station::on_beam(beam, arc_length.clamp(0.0, length));
+        if !self.stations.iter().any(|known| known.is_at(&station, length)) {
+            self.stations.push(station);
+        }
+        Ok(station)
+    }
+
+    /// Ties a station of the scene to the ground or to another station.
+    ///
+    /// # Errors
+    /// When both stations are one, do not meet, or one is tied already.
+    pub fn join(
+        &mut self,
+        kind: JointKind,
+        station: Station,
+        partner: Partner,
+    ) -> Result<(), SystemError> {
+        let name = format!("{} at {}", kind.describe(&partner), self.describe(&station));
+        self.joints.push(Joint { name, kind, station, partner });
+        check_ties(self).map_err(|error| {
+            self.joints.pop();
+            match error {
+                SystemError::AlreadyDriven { drive, component, place, .. } => {
+                    SystemError::HeldAndDriven { component, place, drive }
+                }
+                error => error,
+            }
+        })
+    }
+
+    /// Puts a point mass on a station of the scene.
+    ///
+    /// # Errors
+    /// When the mass is not positive and finite, or its inertia negative.
+    pub fn add_mass(&mut self, mass: PointMass) -> Result<(), SystemError> {
+        self.add_element(Element::PointMass(mass))
+    }
+
+    /// Adds an element of any kind to the scene.
+    ///
+    /// # Errors
+    /// When a number of it is out of its range, or a station is none of the scene.
+    pub fn add_element(&mut self, element: Element) -> Result<(), SystemError> {
+        element.description().check(self)?;
+        if let Element::Damping(MaterialDamping { name, .. }) = &element
+            && self.dissipating().any(|other| other == name)
+        {
+            let (kind, new) = ("damping of beam", "damping");
+            return Err(SystemError::DuplicateName { kind, new, name: name.clone() });
+        }
+        self.elements.push(element);
+        Ok(())
+    }
+
+    /// Adds a spring, a damper or a tendon.
+    ///
+    /// # Errors
+    /// When something of that name exists, a number of it is out of its range, or a station is none of the scene.
+    pub fn add_spring(&mut self, spring: Spring) -> Result<(), SystemError> {
+        self.check_name("spring", &spring.name)?;
+        self.add_element(Element::Spring(spring))
+    }
+
+    /// The length of the beam that a station is on, as drawn; the size of a rigid body, zero for a particle [length].
+    pub fn length_at(&self, station: &Station) -> f64 {
+        match station.body {
+            BodyIndex::Beam(beam) => self.beams[beam].axis.length(),
+            BodyIndex::Particle(_) => 0.0,
+            BodyIndex::Rigid(body, _) => self.rigid_bodies[body].size(),
+        }
+    }
+
+    /// The point where a station is as drawn [length].
+    ///
+    /// # Errors
+    /// When the station lies outside its beam.
+    pub fn drawn_at(&self, station: &Station) -> Result<Vec2, SystemError> {
+        match station.body {
+            BodyIndex::Beam(beam) => {
+                let BeamDefinition { axis, name, .. } = &self.beams[beam];
+                let at = axis.parameter_at(station.arc_length).and_then(|xi| axis.point(xi));
+                at.map_err(SystemError::geometry(name))
+            }
+            BodyIndex::Particle(particle) => Ok(self.particles[particle].position),
+            BodyIndex::Rigid(body, point) => Ok(self.rigid_bodies[body].control_points()[point]),
+        }
+    }
+
+    /// The place of a station on its body, given the meshes of the beams.
+    ///
+    /// # Errors
+    /// When the station lies outside its beam.
+    pub fn place(&self, station: &Station, meshes: &[Mesh]) -> Result<BodyPoint, SystemError> {
+        match station.body {
+            BodyIndex::Beam(index) => {
+                let BeamDefinition { axis, name, .. } = &self.beams[index];
+                let mesh = &meshes[index];
+                let place = station
+                    .parameter(axis, mesh)
+                    .and_then(|xi| BodyPoint::at(index, axis, mesh, xi));
+                place.map_err(SystemError::geometry(name))
+            }
+            BodyIndex::Particle(particle) => {
+                Ok(BodyPoint::of_particle(self.beams.len() + particle))
+            }
+            BodyIndex::Rigid(body, point) => {
+                let first = self.first_rigid_body();
+                Ok(BodyPoint::of_point(first + body, point, self.rigid_bodies[body].angle))
+            }
+        }
+    }
+
+    /// The body that a station is on, in words such as `beam 'arm'`.
+    pub fn name_of_body(&self, station: &Station) -> String {
+        match station.body {
+            BodyIndex::Beam(beam) => format!("beam '{}'", self.beams[beam].name),
+            BodyIndex::Particle(particle) => {
+                format!("particle '{}'", self.particles[particle].name)
+            }
+            BodyIndex::Rigid(body, _) => format!("body '{}'", self.rigid_bodies[body].name),
+        }
+    }
+
+    /// A station in words.
+    pub fn describe(&self, station: &Station) -> String {
+        if let BodyIndex::Rigid(body, point) = station.body {
+            return self.describe_point(body, point);
+        }
+        let (body, length) = (self.name_of_body(station), self.length_at(station));
+        match station.arc_length {
+            _ if station.beam().is_none() => body,
+            0.0 => format!("the start of {body}"),
+            s if s == length => format!("the end of {body}"),
+            s => format!("station {} of {body}", rounded(s)),
+        }
+    }
+}
+
+impl SceneChecks for Scene {
+    fn describe(&self, station: &Station) -> String {
+        Self::describe(self, station)
+    }
+
+    fn check_station(&self, object: &'static str, station: &Station) -> Result<(), SystemError> {
+        let (kind, index, count) = match station.body {
+            BodyIndex::Beam(index) => ("beam", index, self.beams.len()),
+            BodyIndex::Particle(index) => ("particle", index, self.particles.len()),
+            BodyIndex::Rigid(index, _) => ("body", index, self.rigid_bodies.len()),
+        };
+        if index >= count {
+            return Err(SystemError::Missing { object, kind, index, count });
+        }
+        if let BodyIndex::Rigid(body, index) = station.body
+            && index > self.rigid_bodies[body].points.len()
+        {
+            let count = self.rigid_bodies[body].points.len() + 1;
+            return Err(SystemError::Missing { object, kind: "point", index, count });
+        }
+        let length = self.length_at(station);
+        if is_on_length(station.arc_length, length) {
+            return Ok(());
+        }
+        let beam = station.beam().map_or_else(String::new, |beam| self.beams[beam].name.clone());
+        Err(SystemError::StationOutside { beam, station: station.arc_length, length })
+    }
+}

@@ -1,0 +1,158 @@
+//! How large a scene without beams is, wherever it is, and what rounding is worth in one.
+
+use super::{Scene, Ties};
+use crate::beams::{BodyIndex, Station};
+use crate::geometry::{Vec2, larger};
+use crate::joints::Partner;
+use crate::loads::LoadKind;
+use crate::system::elements::{Anchor, Origin, Spring, SpringKind, SpringLaw};
+
+/// Places that differ by less than this part of how far off they are, are one.
+const ROUNDED: f64 = 1e-9;
+
+/// Particles and rigid bodies that springs and joints hold together, with the ground that springs go to.
+#[derive(Default)]
+struct Group {
+    points: Vec<Vec2>,
+    /// The longest length at ease of a spring in it [length].
+    at_ease: f64,
+}
+
+impl Group {
+    /// Twice the largest distance of a point from the mean of all, if it is no rounding, or a length at ease that is larger: of two points their distance
+    /// [length].
+    fn extent(&self) -> f64 {
+        let count = self.points.len().max(1) as f64;
+        let centre = self.points.iter().sum::<Vec2>() / count;
+        let farthest =
+            |from: Vec2| self.points.iter().map(|at| (at - from).norm()).fold(0.0, larger);
+        let extent = 2.0 * farthest(centre);
+        let is_rounding = extent <= ROUNDED * farthest(Vec2::zeros());
+        if is_rounding { self.at_ease } else { larger(self.at_ease, extent) }
+    }
+}
+
+impl Scene {
+    /// The largest extent of particles and rigid bodies that springs or joints hold together, as drawn: it is the same wherever the scene is. Zero where
+    /// each particle is by itself, and nothing has a size [length].
+    pub fn extent(&self) -> f64 {
+        let mut groups = self.groups();
+        for (index, particle) in self.particles.iter().enumerate() {
+            groups.of(index).points.push(particle.position);
+        }
+        for (index, body) in self.rigid_bodies.iter().enumerate() {
+            groups.of(self.particles.len() + index).points.extend(body.control_points());
+        }
+        for spring in self.springs() {
+            let Some(member) = spring.stations().find_map(|at| self.member(at)) else { continue };
+            let group = groups.of(member);
+            group.at_ease = larger(group.at_ease, at_ease(spring));
+            group.points.extend(spring.anchors().iter().filter_map(|anchor| match anchor {
+                Anchor::Ground(at) => Some(*at),
+                Anchor::Station(_) => None,
+            }));
+        }
+        groups.all.iter().map(Group::extent).fold(0.0, larger)
+    }
+
+    /// How far strain energies of the scene may be off by rounding: `ε Σ (EA L + EI/L)`; without beams the energy of places that are off by it, under
+    /// the forces on them as drawn [energy].
+    pub fn rounding_energy(&self) -> f64 {
+        if self.beams.is_empty() {
+            return f64::EPSILON * self.rounded_work();
+        }
+        let stiffness = self.beams.iter().map(|beam| {
+            let length = beam.axis.length();
+            let section = beam.section.largest();
+            section.axial_stiffness * length + section.bending_stiffness / length
+        });
+        f64::EPSILON * stiffness.sum::<f64>()
+    }
+
+    /// The sum of all forces as drawn, weights, loads and springs, times the lengths that are rounded where they act [energy].
+    fn rounded_work(&self) -> f64 {
+        let extent = self.extent();
+        let reach = |at: &Station| extent + self.drawn_at(at).map_or(0.0, |place| place.norm());
+        let weights =
+            self.masses().map(|mass| mass.mass * self.gravity.norm() * reach(&mass.station));
+        let loads = self.loads().map(|load| match &load.kind {
+            LoadKind::Force { station, force, .. } => force.norm() * reach(station),
+            LoadKind::Moment { moment, .. } => moment.abs(),
+            LoadKind::Line { .. } => 0.0,
+        });
+        let springs = self.springs().filter_map(|spring| Some(self.held_by(spring)? * extent));
+        weights.chain(loads).chain(springs).sum()
+    }
+
+    /// The force of a spring along a way as drawn [force].
+    fn held_by(&self, spring: &Spring) -> Option<f64> {
+        let SpringKind::Way(anchors) = &spring.kind else { return None };
+        let places = anchors.iter().map(|anchor| match anchor {
+            Anchor::Ground(at) => Ok(*at),
+            Anchor::Station(station) => self.drawn_at(station),
+        });
+        let places: Vec<Vec2> = places.collect::<Result<_, _>>().ok()?;
+        let length: f64 = places.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
+        let drawn = if spring.origin == Origin::Zero { length } else { 0.0 };
+        Some(spring.law.as_ref()?.force(drawn).abs())
+    }
+
+    /// Which particles and rigid bodies springs and joints hold together.
+    fn groups(&self) -> Groups {
+        let mut groups = Groups::new(self.particles.len() + self.rigid_bodies.len());
+        for joint in &self.joints {
+            if let Partner::Station(other) = &joint.partner {
+                groups.join([&joint.station, other].into_iter().filter_map(|at| self.member(at)));
+            }
+        }
+        for spring in self.springs() {
+            groups.join(spring.stations().filter_map(|at| self.member(at)));
+        }
+        groups
+    }
+
+    /// The number of a particle or a rigid body among both.
+    fn member(&self, station: &Station) -> Option<usize> {
+        match station.body {
+            BodyIndex::Beam(_) => None,
+            BodyIndex::Particle(index) => Some(index),
+            BodyIndex::Rigid(index, _) => Some(self.particles.len() + index),
+        }
+    }
+}
+
+/// The length at which a spring has no force and begins to have one; zero of an angle, and where there is none [length].
+fn at_ease(spring: &Spring) -> f64 {
+    match (&spring.kind, &spring.law) {
+        (SpringKind::Torsion(_), _) | (_, None) => 0.0,
+        (_, Some(SpringLaw::Linear { natural, .. })) => natural.abs(),
+        (_, Some(law)) => {
+            let corners = law.sharp_corners().into_iter();
+            corners.filter(|at| law.is_at_ease(*at)).fold(0.0, |most, at| larger(most, at.abs()))
+        }
+    }
+}
+
+/// What members are tied to each other, and the group of each set of them.
+struct Groups {
+    ties: Ties,
+    all: Vec<Group>,
+}
+
+impl Groups {
+    fn new(count: usize) -> Self {
+        let all = (0..count).map(|_| Group::default()).collect();
+        Self { ties: Ties::new(count), all }
+    }
+
+    fn join(&mut self, mut members: impl Iterator<Item = usize>) {
+        let Some(first) = members.next() else { return };
+        for member in members {
+            self.ties.tie(first, member);
+        }
+    }
+
+    fn of(&mut self, member: usize) -> &mut Group {
+        &mut self.all[self.ties.root(member)]
+    }
+}

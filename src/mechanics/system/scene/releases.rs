@@ -1,0 +1,73 @@
+//! What a scene lets go in the course of a run.
+
+use super::Scene;
+use crate::joints::{Releasable, Release, Trigger};
+use crate::system::SystemError;
+
+impl Scene {
+    /// Lets something go in the course of a run.
+    ///
+    /// # Errors
+    /// When there is no such thing, it lets go already, or the time is not positive and finite.
+    pub fn add_release(&mut self, release: Release) -> Result<(), SystemError> {
+        let (kind, index, count) = match release.hold {
+            Releasable::Joint(index) => ("joint", index, self.joints.len()),
+            Releasable::Slider(index) => ("slider", index, self.sliders.len()),
+            Releasable::Spring(index) => ("spring", index, self.springs().count()),
+            Releasable::Drive(index) => ("drive", index, self.drives.len()),
+        };
+        if index >= count {
+            return Err(SystemError::Missing { object: "a release", kind, index, count });
+        }
+        let name = self.name_of_hold(release.hold);
+        if self.releases.iter().any(|other| other.hold == release.hold) {
+            return Err(SystemError::ReleasedTwice { name });
+        }
+        if let Trigger::Time(time) = release.trigger
+            && !(time.is_finite() && time > 0.0)
+        {
+            return Err(SystemError::Value {
+                object: format!("release of '{name}'"),
+                name: "at",
+                value: time,
+                allowed: "a positive finite time",
+            });
+        }
+        self.releases.push(release);
+        Ok(())
+    }
+
+    /// The times at which something lets go, as far as they are known beforehand [time].
+    pub fn release_times(&self) -> impl Iterator<Item = f64> {
+        self.releases.iter().filter_map(|release| match release.trigger {
+            Trigger::Time(time) => Some(time),
+            Trigger::Outside => None,
+        })
+    }
+
+    /// What something is called that may let go: a joint as in [`joint_names`](Self::joint_names), everything else by its own name.
+    pub fn name_of_hold(&self, hold: Releasable) -> String {
+        let name = match hold {
+            Releasable::Joint(index) => self.joint_names().into_iter().nth(index),
+            Releasable::Slider(index) => self.sliders.get(index).map(|slider| slider.name.clone()),
+            Releasable::Spring(index) => {
+                self.springs().nth(index).map(|spring| spring.name.clone())
+            }
+            Releasable::Drive(index) => self.drives.get(index).map(|drive| drive.name.clone()),
+        };
+        name.unwrap_or_default()
+    }
+
+    /// Everything that may let go, with its name: joints, sliders, springs, drives.
+    pub fn holds(&self) -> Vec<(String, Releasable)> {
+        let joints = self.joint_names().into_iter().enumerate();
+        let joints = joints.map(|(at, name)| (name, Releasable::Joint(at)));
+        let sliders = self.sliders.iter().enumerate();
+        let sliders = sliders.map(|(at, slider)| (slider.name.clone(), Releasable::Slider(at)));
+        let springs = self.springs().enumerate();
+        let springs = springs.map(|(at, spring)| (spring.name.clone(), Releasable::Spring(at)));
+        let drives = self.drives.iter().enumerate();
+        let drives = drives.map(|(at, drive)| (drive.name.clone(), Releasable::Drive(at)));
+        joints.chain(sliders).chain(springs).chain(drives).collect()
+    }
+}

@@ -1,0 +1,391 @@
+//! Quantities that a scene records besides those that every history has.
+//!
+//! A ready one is called by the object, the place on it and the quantity: `rod.end.x`, `rod[0.5].M`, `rod.energy`, `hinge1.force`.
+
+use serde::{Serialize, Serializer};
+
+use super::Scene;
+use crate::beams::{BodyIndex, Station};
+use crate::joints::{Joint, JointKind, Partner};
+use crate::system::SystemError;
+
+/// A quantity that is recorded.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sensor {
+    /// The name of its column.
+    pub name: String,
+    /// What is read.
+    pub probe: Probe,
+}
+
+/// What a sensor reads.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Probe {
+    /// Something of the place of a station, or of what holds it.
+    Station(Station, Quantity),
+    /// Something of a beam, a particle or a rigid body as a whole.
+    Body(BodyIndex, Quantity),
+    /// Something of a joint, by its index.
+    Joint(usize, Quantity),
+    /// Something of the contact of a slider, by its index.
+    Slider(usize, Quantity),
+    /// What somebody outside reads after every row.
+    Outside,
+}
+
+/// A quantity: what it is called, its dimension, and which value of its subject it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Quantity {
+    /// In names of sensors.
+    pub name: &'static str,
+    /// The dimension of what is sensed.
+    pub dimension: &'static str,
+    /// What is read.
+    pub value: Value,
+}
+
+/// What is read of a subject.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[allow(missing_docs, reason = "the names of the quantities say it")]
+pub enum Value {
+    X,
+    Y,
+    VelocityX,
+    VelocityY,
+    Speed,
+    AccelerationX,
+    AccelerationY,
+    Angle,
+    Spin,
+    Axial,
+    Shear,
+    Moment,
+    AxialStrain,
+    ShearStrain,
+    Curvature,
+    Force,
+    ForceX,
+    ForceY,
+    Couple,
+    MeanForce,
+    MeanForceX,
+    MeanForceY,
+    MeanCouple,
+    Energy,
+    Kinetic,
+    Strain,
+    StrainAxial,
+    StrainShear,
+    StrainBending,
+    Potential,
+}
+
+impl Value {
+    /// Whether it belongs to the last step as a whole, and not to the present moment.
+    pub fn is_of_step(self) -> bool {
+        matches!(self, Self::MeanForce | Self::MeanForceX | Self::MeanForceY | Self::MeanCouple)
+    }
+}
+
+const fn quantity(name: &'static str, dimension: &'static str, value: Value) -> Quantity {
+    Quantity { name, dimension, value }
+}
+
+/// What can be read of any station; the first seven of a particle too, the first nine of a rigid body.
+pub const OF_STATIONS: &[Quantity] = &[
+    quantity("x", "length", Value::X),
+    quantity("y", "length", Value::Y),
+    quantity("vx", "length/time", Value::VelocityX),
+    quantity("vy", "length/time", Value::VelocityY),
+    quantity("speed", "length/time", Value::Speed),
+    quantity("ax", "length/time²", Value::AccelerationX),
+    quantity("ay", "length/time²", Value::AccelerationY),
+    quantity("angle", "rad", Value::Angle),
+    quantity("spin", "1/time", Value::Spin),
+    quantity("N", "force", Value::Axial),
+    quantity("Q", "force", Value::Shear),
+    quantity("M", "force·length", Value::Moment),
+    quantity("axial_strain", "-", Value::AxialStrain),
+    quantity("shear_strain", "-", Value::ShearStrain),
+    quantity("curvature", "1/length", Value::Curvature),
+];
+
+/// How many of them a particle has.
+const OF_PARTICLES: usize = 7;
+
+/// How many of them a point of a rigid body has.
+const OF_POINTS: usize = 9;
+
+/// What can be read of a joint: what it gives to its first station, at the present moment and in the mean of the last step.
+pub const OF_JOINTS: &[Quantity] = &[
+    quantity("force", "force", Value::Force),
+    quantity("fx", "force", Value::ForceX),
+    quantity("fy", "force", Value::ForceY),
+    quantity("moment", "force·length", Value::Couple),
+    quantity("mean_force", "force", Value::MeanForce),
+    quantity("mean_fx", "force", Value::MeanForceX),
+    quantity("mean_fy", "force", Value::MeanForceY),
+    quantity("mean_moment", "force·length", Value::MeanCouple),
+];
+
+/// What can be read of a slider besides what every history has of it: its force on its master at the present moment.
+pub const OF_SLIDERS: &[Quantity] = &[
+    quantity("present_force", "force", Value::Force),
+    quantity("present_force_x", "force", Value::ForceX),
+    quantity("present_force_y", "force", Value::ForceY),
+];
+
+/// What can be read of a body as a whole.
+pub const OF_BODIES: &[Quantity] = &[
+    quantity("energy", "energy", Value::Energy),
+    quantity("kinetic", "energy", Value::Kinetic),
+    quantity("strain", "energy", Value::Strain),
+    quantity("axial", "energy", Value::StrainAxial),
+    quantity("shear", "energy", Value::StrainShear),
+    quantity("bending", "energy", Value::StrainBending),
+    quantity("potential", "energy", Value::Potential),
+];
+
+impl Sensor {
+    /// The dimension of what it reads.
+    pub fn dimension(&self) -> &'static str {
+        match &self.probe {
+            Probe::Station(_, quantity)
+            | Probe::Body(_, quantity)
+            | Probe::Joint(_, quantity)
+            | Probe::Slider(_, quantity) => quantity.dimension,
+            Probe::Outside => "-",
+        }
+    }
+
+    /// Whether what it reads belongs to the last step as a whole.
+    pub fn is_of_step(&self) -> bool {
+        matches!(&self.probe, Probe::Joint(_, quantity) if quantity.value.is_of_step())
+    }
+
+    /// Whether it can be stored: its name says all.
+    pub fn can_be_stored(&self) -> bool {
+        self.probe != Probe::Outside
+    }
+}
+
+/// A sensor is stored by its name.
+impl Serialize for Sensor {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self.can_be_stored() {
+            true => self.name.serialize(serializer),
+            false => Err(serde::ser::Error::custom("a function cannot be stored")),
+        }
+    }
+}
+
+impl Scene {
+    /// Records a ready quantity, by its name.
+    ///
+    /// # Errors
+    /// When there is no such object, place or quantity, or it is recorded already.
+    pub fn record(&mut self, name: &str) -> Result<(), SystemError> {
+        self.check_column(name)?;
+        let probe = self.probe(name)?;
+        if let Probe::Station(station, Quantity { value: Value::Angle, .. }) = probe
+            && let Some(beam) = station.beam()
+        {
+            self.station(beam, station.arc_length)?;
+        }
+        self.sensors.push(Sensor { name: name.to_owned(), probe });
+        Ok(())
+    }
+
+    /// Makes a column that somebody outside fills after every row.
+    ///
+    /// # Errors
+    /// When there is a column of that name.
+    pub fn record_outside(&mut self, name: &str) -> Result<(), SystemError> {
+        self.check_column(name)?;
+        self.sensors.push(Sensor { name: name.to_owned(), probe: Probe::Outside });
+        Ok(())
+    }
+
+    fn check_column(&self, name: &str) -> Result<(), SystemError> {
+        if name.trim().is_empty() || name.contains([',', '"', '\n', '\r']) {
+            return Err(SystemError::SensorName { name: name.to_owned() });
+        }
+        match self.sensors.iter().any(|sensor| sensor.name == name) {
+            true => Err(SystemError::DuplicateSensor { name: name.to_owned() }),
+            false => Ok(()),
+        }
+    }
+
+    /// The names of all ready sensors; of the places inside beams none.
+    pub fn sensor_names(&self) -> Vec<String> {
+        let listed = |object: String, quantities: &'static [Quantity]| {
+            quantities.iter().map(move |quantity| format!("{object}.{}", quantity.name))
+        };
+        let beams = self.beams.iter().flat_map(|beam| {
+            let ends = ["start", "end"].map(|end| format!("{}.{end}", beam.name));
+            let of_ends = ends.into_iter().flat_map(move |end| listed(end, OF_STATIONS));
+            of_ends.chain(listed(beam.name.clone(), OF_BODIES))
+        });
+        let particles = self.particles.iter().flat_map(|particle| {
+            listed(particle.name.clone(), &OF_STATIONS[..OF_PARTICLES])
+                .chain(listed(particle.name.clone(), OF_BODIES))
+        });
+        let rigid = self.rigid_bodies.iter().flat_map(|body| {
+            let points = body.points.iter().map(|(point, _)| format!("{}.{point}", body.name));
+            let places = std::iter::once(body.name.clone()).chain(points);
+            let of_places = places.flat_map(move |place| listed(place, &OF_STATIONS[..OF_POINTS]));
+            of_places.chain(listed(body.name.clone(), OF_BODIES))
+        });
+        let joints = self.joint_names().into_iter().flat_map(|joint| listed(joint, OF_JOINTS));
+        let sliders = self.sliders.iter().map(|slider| slider.name.clone());
+        let sliders = sliders.flat_map(|slider| listed(slider, OF_SLIDERS));
+        beams.chain(particles).chain(rigid).chain(joints).chain(sliders).collect()
+    }
+
+    /// What joints are called in names of sensors, in their order: `hinge1`, `clamp1`, `hinge2`, `rigid1`, `support1`.
+    pub fn joint_names(&self) -> Vec<String> {
+        let mut counts = [0; 4];
+        let name = |joint: &Joint| {
+            let (kind, at) = match (joint.kind, &joint.partner) {
+                (JointKind::Hinge, _) => ("hinge", 0),
+                (JointKind::Rigid, Partner::Ground) => ("clamp", 1),
+                (JointKind::Rigid, Partner::Station(_)) => ("rigid", 2),
+                (
+                    JointKind::Support(_)
+                    | JointKind::InclinedRoller(_)
+                    | JointKind::InclinedGuide(_),
+                    _,
+                ) => ("support", 3),
+            };
+            counts[at] += 1;
+            format!("{kind}{}", counts[at])
+        };
+        self.joints.iter().map(name).collect()
+    }
+
+    fn probe(&self, name: &str) -> Result<Probe, SystemError> {
+        let refused = |why: String| SystemError::NoSensor { name: name.to_owned(), why };
+        let of = |known: &str| {
+            let rest = name.strip_prefix(known)?;
+            (rest.starts_with('.') || rest.starts_with('[')).then_some((known.len(), rest))
+        };
+        let beams = self.beams.iter().enumerate();
+        let beams = beams.filter_map(|(at, beam)| Some((of(&beam.name)?, Object::Beam(at))));
+        let particles = self.particles.iter().enumerate();
+        let particles =
+            particles.filter_map(|(at, of_one)| Some((of(&of_one.name)?, Object::Particle(at))));
+        let names = self.joint_names();
+        let joints = names.iter().enumerate();
+        let joints = joints.filter_map(|(at, joint)| Some((of(joint)?, Object::Joint(at))));
+        let rigid = self.rigid_bodies.iter().enumerate();
+        let rigid = rigid.filter_map(|(at, body)| Some((of(&body.name)?, Object::Rigid(at))));
+        let sliders = self.sliders.iter().enumerate();
+        let sliders =
+            sliders.filter_map(|(at, slider)| Some((of(&slider.name)?, Object::Slider(at))));
+        // Names may begin alike; the first of equal ones counts.
+        let all = beams.chain(particles).chain(rigid).chain(joints).chain(sliders);
+        let longest = all.reduce(|best, other| if other.0.0 > best.0.0 { other } else { best });
+        let mut others = self.springs().map(|spring| &spring.name);
+        let Some(((_, rest), object)) = longest else {
+            if let Some(other) = others.find(|known| of(known).is_some()) {
+                return Err(refused(format!(
+                    "springs, such as '{other}', have their columns in every history without being recorded"
+                )));
+            }
+            if let Some(drive) = self.drives.iter().find(|drive| of(&drive.name).is_some()) {
+                return Err(refused(format!(
+                    "drives, such as '{}', have their columns in every history without being recorded",
+                    drive.name
+                )));
+            }
+            return Err(refused(
+                "it must begin with the name of a beam, a particle, a body, a slider or a joint (hinge1, clamp1, rigid1) that the scene has by now".to_owned(),
+            ));
+        };
+        let find = |known: &'static [Quantity], rest: &str| {
+            let wanted = rest.strip_prefix('.').unwrap_or_default();
+            known.iter().find(|quantity| quantity.name == wanted).copied().ok_or_else(|| {
+                let names: Vec<&str> = known.iter().map(|quantity| quantity.name).collect();
+                refused(format!("its last part is one of {}", names.join(", ")))
+            })
+        };
+        match object {
+            Object::Joint(at) => Ok(Probe::Joint(at, find(OF_JOINTS, rest)?)),
+            Object::Slider(at) => match find(OF_SLIDERS, rest) {
+                Ok(quantity) => Ok(Probe::Slider(at, quantity)),
+                Err(_) => Err(refused(format!(
+                    "place, speed and force of slider '{}' in the last step are in every history without being recorded; more there is of {}",
+                    self.sliders[at].name,
+                    OF_SLIDERS.iter().map(|quantity| quantity.name).collect::<Vec<_>>().join(", ")
+                ))),
+            },
+            Object::Particle(at) => match find(OF_BODIES, rest) {
+                Ok(quantity) => Ok(Probe::Body(BodyIndex::Particle(at), quantity)),
+                Err(_) => Ok(Probe::Station(
+                    Station::on_particle(at),
+                    find(&OF_STATIONS[..OF_PARTICLES], rest)?,
+                )),
+            },
+            Object::Rigid(at) => {
+                let dotted = rest.strip_prefix('.').unwrap_or_default();
+                let point = dotted.split_once('.').and_then(|(point, _)| {
+                    Some((self.rigid_bodies[at].control_point(point)?, point.len() + 1))
+                });
+                let (point, rest) = match point {
+                    Some((point, length)) => (point, &rest[length..]),
+                    None => (0, rest),
+                };
+                match find(OF_BODIES, rest) {
+                    Ok(quantity) if point == 0 => {
+                        Ok(Probe::Body(BodyIndex::Rigid(at, 0), quantity))
+                    }
+                    _ => Ok(Probe::Station(
+                        Station::on_rigid_body(at, point),
+                        find(&OF_STATIONS[..OF_POINTS], rest)?,
+                    )),
+                }
+            }
+            Object::Beam(at) => {
+                let length = self.beams[at].axis.length();
+                let (arc_length, rest) = if let Some(rest) = rest.strip_prefix(".start.") {
+                    (0.0, rest)
+                } else if let Some(rest) = rest.strip_prefix(".end.") {
+                    (length, rest)
+                } else if let Some(inside) = rest.strip_prefix('[') {
+                    let place = inside.split_once("].").and_then(|(number, rest)| {
+                        let number: f64 = number.trim().parse().ok()?;
+                        (0.0..=length).contains(&number).then_some((number, rest))
+                    });
+                    place.ok_or_else(|| {
+                        refused(format!(
+                            "write {}[s].x with s from 0 to {length}",
+                            self.beams[at].name
+                        ))
+                    })?
+                } else {
+                    let wanted = rest.strip_prefix('.').unwrap_or_default();
+                    let known = OF_BODIES.iter().find(|quantity| quantity.name == wanted);
+                    let beam = &self.beams[at].name;
+                    return known.map(|known| Probe::Body(BodyIndex::Beam(at), *known)).ok_or_else(|| {
+                        let names: Vec<&str> = OF_BODIES.iter().map(|quantity| quantity.name).collect();
+                        refused(format!(
+                            "of a beam as a whole there are {}; of a place {beam}.start.x, {beam}.end.x, {beam}[s].x and their like",
+                            names.join(", ")
+                        ))
+                    });
+                };
+                let dotted = format!(".{rest}");
+                Ok(Probe::Station(Station::on_beam(at, arc_length), find(OF_STATIONS, &dotted)?))
+            }
+        }
+    }
+}
+
+/// What the name of a sensor begins with.
+enum Object {
+    Beam(usize),
+    Particle(usize),
+    Rigid(usize),
+    Joint(usize),
+    Slider(usize),
+}

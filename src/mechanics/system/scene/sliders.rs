@@ -1,0 +1,112 @@
+//! Whether sliders are where they should be.
+
+use super::Scene;
+use super::ties::same_place;
+use crate::beams::Station;
+use crate::geometry::nearest;
+use crate::joints::{Slider, SlidingRule};
+use crate::system::SystemError;
+use crate::system::errors::{Approach, SliderError, SliderParts, written};
+
+/// Largest distance of a slave from its master when the scene starts, relative to the length of the master and the distance
+/// from the origin: a scene may be drawn in six digits, and the slave is moved onto its master exactly.
+const CLOSED: f64 = 1e-6;
+
+/// Why a law of sliding is not one for tracks, where it is not.
+fn at_seams(rule: SlidingRule) -> Option<&'static str> {
+    match rule {
+        SlidingRule::Conserving | SlidingRule::Exact => None,
+        SlidingRule::Kinked => {
+            Some("the kink of its axis has no room, and its energy would be a wall there")
+        }
+        SlidingRule::Relaxed => Some("no step closes the gap that it leaves to both beams"),
+    }
+}
+
+impl Scene {
+    /// The arc length at which a beam comes nearest to a station, both as drawn [length].
+    ///
+    /// # Errors
+    /// When the station lies outside its beam.
+    pub fn nearest_arc_length(&self, beam: usize, station: &Station) -> Result<f64, SystemError> {
+        let definition = &self.beams[beam];
+        let point = self.drawn_at(station)?;
+        nearest(&definition.axis, point)
+            .and_then(|xi| definition.axis.length_to(xi))
+            .map_err(SystemError::geometry(&definition.name))
+    }
+
+    /// The place of several beams that is nearest to a station, all as drawn: the first such beam, and the arc length along it [length].
+    pub(super) fn nearest_of(
+        &self,
+        beams: impl Iterator<Item = usize>,
+        station: &Station,
+    ) -> Result<(usize, f64), SystemError> {
+        let point = self.drawn_at(station)?;
+        let mut best = (f64::INFINITY, (0, 0.0));
+        for beam in beams {
+            let along = self.nearest_arc_length(beam, station)?;
+            let there = self.drawn_at(&Station::on_beam(beam, along))?;
+            let distance = (there - point).norm();
+            if distance < best.0 {
+                best = (distance, (beam, along));
+            }
+        }
+        Ok(best.1)
+    }
+
+    pub(in crate::system) fn check_slider(&self, slider: &Slider) -> Result<(), SystemError> {
+        let parts = self.parts(slider);
+        let masters = self.masters(slider);
+        if slider.slave.beam().is_some_and(|beam| masters.contains(&beam)) {
+            return Err(SliderError::OnItself(parts).into());
+        }
+        if let (Some(_), Some(why)) = (slider.track, at_seams(slider.rule)) {
+            let rule = slider.rule.entry().name;
+            return Err(SliderError::RuleOfOneBeam { parts, rule, why }.into());
+        }
+        if !(0.0..=1.0).contains(&slider.restitution) {
+            let (slider, restitution) = (slider.name.clone(), slider.restitution);
+            return Err(SliderError::Restitution { slider, restitution }.into());
+        }
+        let is_same = |other: &Slider| {
+            let is_on = self.masters(other).iter().any(|master| masters.contains(master));
+            is_on && same_place(&other.slave, &slider.slave, self)
+        };
+        if self.sliders.iter().any(is_same) {
+            return Err(SliderError::Twice(parts).into());
+        }
+        let on_master = Station::on_beam(slider.master, slider.arc_length);
+        let (from, to) = (self.drawn_at(&slider.slave)?, self.drawn_at(&on_master)?);
+        let length = self.beams[slider.master].axis.length();
+        let (gap, tolerance) = ((from - to).norm(), CLOSED * (length + from.norm()));
+        if gap <= tolerance {
+            return Ok(());
+        }
+        let (master, best) = self.nearest_of(masters.into_iter(), &slider.slave)?;
+        let distance = (from - self.drawn_at(&Station::on_beam(master, best))?).norm();
+        let (guide, place) = match slider.track {
+            None => ("beam", best / length),
+            Some(track) => {
+                let along = self.length_along_track(track, master, best);
+                ("track", along / self.track_length(track))
+            }
+        };
+        let nearest = match distance <= tolerance {
+            true => Approach::On { place, guide },
+            false => Approach::Apart { place, guide, distance },
+        };
+        Err(SliderError::Open { parts, from: written(from), to: written(to), gap, nearest }.into())
+    }
+
+    pub(in crate::system) fn parts(&self, slider: &Slider) -> SliderParts {
+        SliderParts {
+            slider: slider.name.clone(),
+            slave: self.describe(&slider.slave),
+            guide: match slider.track {
+                None => format!("beam '{}'", self.beams[slider.master].name),
+                Some(track) => format!("track '{}'", self.tracks[track].name),
+            },
+        }
+    }
+}

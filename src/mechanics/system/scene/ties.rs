@@ -1,0 +1,239 @@
+//! Which places joints tie to each other or to the ground.
+
+use super::Scene;
+use crate::beams::{BodyIndex, Station};
+use crate::geometry::{Vec2, cross};
+use crate::joints::{Component, JointKind, Partner};
+use crate::system::SystemError;
+use crate::system::errors::{Turning, written};
+
+/// Largest gap of a joint when the scene starts, relative to the length of its beam and its distance from the origin.
+const CLOSED: f64 = 1e-12;
+
+/// Inclined rollers are parallel whose directions differ by less than this angle [rad].
+const PARALLEL: f64 = 1e-9;
+
+/// Sets of things, by their numbers, that are one: union–find with path halving (R. E. Tarjan, Efficiency of a good but not linear set union
+/// algorithm, J. ACM 22 (1975) 215–225).
+pub struct Ties {
+    parent: Vec<usize>,
+}
+
+impl Ties {
+    pub fn new(count: usize) -> Self {
+        Self { parent: (0..count).collect() }
+    }
+
+    pub fn root(&mut self, mut at: usize) -> usize {
+        while self.parent[at] != at {
+            self.parent[at] = self.parent[self.parent[at]];
+            at = self.parent[at];
+        }
+        at
+    }
+
+    /// Makes two things, by their numbers, one; false when they were one already.
+    pub fn tie(&mut self, a: usize, b: usize) -> bool {
+        let (a, b) = (self.root(a), self.root(b));
+        // The smaller index stays the root, so that index 0, the ground, always is one.
+        self.parent[a.max(b)] = a.min(b);
+        a != b
+    }
+}
+
+/// Checks that the joints of a scene close and do not tie a place twice, without building anything.
+pub fn check_ties(scene: &Scene) -> Result<(), SystemError> {
+    let mut places: Vec<Station> = Vec::new();
+    let mut index = |station: &Station| {
+        places.iter().position(|other| same_place(other, station, scene)).unwrap_or_else(|| {
+            places.push(*station);
+            places.len() - 1
+        })
+    };
+    let pairs: Vec<(usize, Option<usize>)> = scene
+        .joints
+        .iter()
+        .map(|joint| match &joint.partner {
+            Partner::Ground => (index(&joint.station), None),
+            Partner::Station(other) => (index(&joint.station), Some(index(other))),
+        })
+        .collect();
+    let driven: Vec<usize> = scene.drives.iter().map(|drive| index(&drive.station)).collect();
+    let mut ties = Ties::new(1 + 3 * places.len());
+    // The points of a rigid body turn with it.
+    for (at, place) in places.iter().enumerate() {
+        let is_own = |other: &Station| match (place.body, other.body) {
+            (BodyIndex::Rigid(body, _), BodyIndex::Rigid(other, _)) => body == other,
+            _ => false,
+        };
+        if let Some(first) = places[..at].iter().position(is_own) {
+            let rotation = |place: usize| 1 + 3 * place + Component::Rotation as usize;
+            ties.tie(rotation(first), rotation(at));
+        }
+    }
+    for (joint, &(place, partner)) in scene.joints.iter().zip(&pairs) {
+        let stations = match &joint.partner {
+            Partner::Ground => vec![joint.station],
+            Partner::Station(other) => vec![joint.station, *other],
+        };
+        if joint.kind.ties_rotation() && stations.iter().any(|at| !at.turns()) {
+            let (object, by) = (joint.name.clone(), Turning::RigidJoint);
+            return Err(SystemError::ParticleTurned { object, by });
+        }
+        if let Partner::Station(other) = &joint.partner {
+            if partner == Some(place) {
+                let body = scene.name_of_body(&joint.station);
+                return Err(SystemError::JointWithItself { joint: joint.name.clone(), body });
+            }
+            check_closed(scene, &joint.name, &joint.station, other)?;
+        }
+        for &component in joint.kind.components() {
+            let node = |place: usize| 1 + 3 * place + component as usize;
+            if !ties.tie(node(place), partner.map_or(0, node)) {
+                let ground = ties.root(node(place)) == 0;
+                let how = match (ground, joint.kind) {
+                    (true, _) => "held by the ground",
+                    (false, JointKind::Hinge) => "joined to the other station",
+                    (false, _) => "joined to the other station in this component",
+                };
+                let place = scene.describe(&joint.station);
+                return Err(SystemError::AlreadyTied {
+                    joint: joint.name.clone(),
+                    place,
+                    how: how.to_owned(),
+                });
+            }
+        }
+    }
+    let on_rollers =
+        check_rollers(scene, &pairs.iter().map(|pair| pair.0).collect::<Vec<_>>(), &mut ties)?;
+    let mut given = Vec::new();
+    for (drive, place) in scene.drives.iter().zip(driven) {
+        for (component, _) in drive.motions() {
+            let root = ties.root(1 + 3 * place + component as usize);
+            let how = if given.contains(&root) {
+                Some("given")
+            } else if root == 0 {
+                Some("held")
+            } else if on_rollers.iter().any(|held| held.contains(&root)) {
+                Some("tied to the other component by an inclined roller")
+            } else {
+                None
+            };
+            if let Some(how) = how {
+                return Err(SystemError::AlreadyDriven {
+                    drive: drive.name.clone(),
+                    component: component.name(),
+                    place: scene.describe(&drive.station),
+                    how,
+                });
+            }
+            given.push(root);
+        }
+    }
+    Ok(())
+}
+
+/// Checks that inclined rollers hold what may move across them, and no two of them the same: the positions that they hold, as tied.
+fn check_rollers(
+    scene: &Scene,
+    places: &[usize],
+    ties: &mut Ties,
+) -> Result<Vec<[usize; 2]>, SystemError> {
+    let mut others: Vec<([usize; 2], Vec2)> = Vec::new();
+    for (joint, place) in scene.joints.iter().zip(places) {
+        let Some(along) = joint.kind.inclined() else { continue };
+        let first = 1 + 3 * place;
+        let roots = [first, first + 1].map(|at| ties.root(at));
+        let is_parallel = |(at, other): &([usize; 2], Vec2)| {
+            *at == roots && cross(*other, along).abs() < PARALLEL
+        };
+        let how = if roots == [0; 2] {
+            Some("held by the ground")
+        } else if others.iter().any(is_parallel) {
+            Some("held across that direction")
+        } else if others.iter().filter(|(at, _)| *at == roots).count() > 1 {
+            Some("held by two rollers")
+        } else {
+            None
+        };
+        if let Some(how) = how {
+            let (joint, place) = (joint.name.clone(), scene.describe(&joint.station));
+            return Err(SystemError::AlreadyTied { joint, place, how: how.to_owned() });
+        }
+        others.push((roots, along));
+    }
+    Ok(others.into_iter().map(|(roots, _)| roots).collect())
+}
+
+impl Scene {
+    /// Whether supports hold a component of a station, directly or by way of joints.
+    pub fn is_held(&self, station: &Station, component: Component) -> bool {
+        self.held_with(station, component).1
+    }
+
+    /// Whether two stations have the position of each other, whatever moves: joints tie them, directly or by way of others, or both are held.
+    pub(super) fn moves_with(&self, station: &Station, other: &Station) -> bool {
+        [Component::X, Component::Y].into_iter().all(|component| {
+            let (places, is_held) = self.held_with(station, component);
+            let is_tied = places.iter().any(|place| same_place(place, other, self));
+            is_tied || is_held && self.is_held(other, component)
+        })
+    }
+
+    /// The stations to which joints tie a component of one, with that itself, as far as is known where the ground holds it; and whether that does.
+    fn held_with(&self, station: &Station, component: Component) -> (Vec<Station>, bool) {
+        let mut places = vec![*station];
+        let mut next = 0;
+        while let Some(&at) = places.get(next) {
+            next += 1;
+            for joint in &self.joints {
+                if !joint.kind.components().contains(&component) {
+                    continue;
+                }
+                let is_here = |place: &Station| same_place(place, &at, self);
+                match &joint.partner {
+                    Partner::Ground if is_here(&joint.station) => return (places, true),
+                    Partner::Ground => {}
+                    Partner::Station(other) => {
+                        for (here, there) in [(&joint.station, other), (other, &joint.station)] {
+                            if is_here(here) && !places.contains(there) {
+                                places.push(*there);
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        (places, false)
+    }
+}
+
+/// Whether two stations are one place, but for rounding.
+pub fn same_place(a: &Station, b: &Station, scene: &Scene) -> bool {
+    a.body == b.body && (a.arc_length - b.arc_length).abs() <= 1e-10 * scene.length_at(a)
+}
+
+/// Whether a gap is none, but for rounding, at a place of a beam of such a length [length].
+pub fn is_closed(gap: f64, length: f64, at: Vec2) -> bool {
+    gap <= CLOSED * (length + at.norm())
+}
+
+fn check_closed(
+    scene: &Scene,
+    joint: &str,
+    station: &Station,
+    other: &Station,
+) -> Result<(), SystemError> {
+    let (from, to) = (scene.drawn_at(station)?, scene.drawn_at(other)?);
+    let gap = (to - from).norm();
+    if is_closed(gap, scene.length_at(station), from) {
+        return Ok(());
+    }
+    Err(SystemError::OpenJoint {
+        joint: joint.to_owned(),
+        from: written(from),
+        to: written(to),
+        gap,
+    })
+}

@@ -1,0 +1,112 @@
+//! Where slave and master of a slider stand among the unknowns, and how its contact gets there.
+
+use crate::geometry::Vec2;
+use crate::joints::{CONTACT_UNKNOWNS, Contact, Equation};
+use crate::linalg::Border;
+use crate::system::bodies::Body;
+
+/// What a slider connects, by the places of its unknowns in the vectors of the model.
+#[derive(Debug, Clone, Copy)]
+pub struct Connection {
+    /// The index of the body that is slid on.
+    pub master: usize,
+    /// The index of the body that slides, and that of its control point.
+    pub slave: (usize, usize),
+    /// The index of the slider among those of the model.
+    pub index: usize,
+}
+
+impl Connection {
+    /// The places of the unknowns of the contact, and of its equations, among those of all constraints.
+    pub fn places(&self) -> std::ops::Range<usize> {
+        let first = CONTACT_UNKNOWNS * self.index;
+        first..first + CONTACT_UNKNOWNS
+    }
+
+    /// Adds a force on the slave, and forces on control points of the master from a first one on.
+    pub fn add_forces(
+        &self,
+        bodies: &[Body],
+        on_slave: Vec2,
+        first: usize,
+        on_master: impl Iterator<Item = Vec2>,
+        out: &mut [f64],
+    ) {
+        let (body, point) = self.slave;
+        let mut add = |[x, y, _]: [usize; 3], force: Vec2| {
+            out[x] += force.x;
+            out[y] += force.y;
+        };
+        add(bodies[body].degrees_of_freedom[point], on_slave);
+        let of_master = &bodies[self.master].degrees_of_freedom[first..];
+        of_master.iter().zip(on_master).for_each(|(at, force)| add(*at, force));
+    }
+
+    /// Adds the contact forces on slave and master to a residual, those on control points of the master as given, and behind the movements the values
+    /// of the contact's equations.
+    pub fn add_values(
+        &self,
+        bodies: &[Body],
+        contact: &Contact<'_>,
+        master_forces: impl Iterator<Item = Vec2>,
+        values: [f64; CONTACT_UNKNOWNS],
+        movements: usize,
+        out: &mut [f64],
+    ) {
+        let on_master = master_forces.map(|force| -force);
+        self.add_forces(bodies, contact.unknowns.force, contact.first(), on_master, out);
+        let rows = &mut out[movements..][self.places()];
+        rows.iter_mut().zip(values).for_each(|(row, value)| *row += value);
+    }
+
+    /// Adds the derivatives of what [`add_values`](Self::add_values) adds, with those of the forces on control points of the master; supported movements
+    /// have none.
+    pub fn add_derivatives(
+        &self,
+        bodies: &[Body],
+        contact: &Contact<'_>,
+        master_force_slopes: impl Iterator<Item = (f64, f64, Vec2)>,
+        equations: &[Equation; CONTACT_UNKNOWNS],
+        movements: usize,
+        border: &mut Border,
+    ) {
+        let [force_x, force_y, couple_x, couple_y, way] =
+            std::array::from_fn(|unknown| CONTACT_UNKNOWNS * self.index + unknown);
+        let (body, point) = self.slave;
+        let [x, y, _] = bodies[body].degrees_of_freedom[point];
+        let of_master = &bodies[self.master].degrees_of_freedom[contact.first()..];
+        let mut column = |at: usize, unknown: usize, slope: f64| {
+            if at < movements {
+                border.add_to_column(at, unknown, slope);
+            }
+        };
+        column(x, force_x, 1.0);
+        column(y, force_y, 1.0);
+        for (&[x, y, _], slopes) in of_master.iter().zip(master_force_slopes) {
+            let (by_force, by_couple, by_way) = slopes;
+            column(x, force_x, -by_force);
+            column(y, force_y, -by_force);
+            column(x, couple_x, -by_couple);
+            column(y, couple_y, -by_couple);
+            column(x, way, -by_way.x);
+            column(y, way, -by_way.y);
+        }
+        for (row, equation) in self.places().zip(equations) {
+            for (unknown, slope) in self.places().zip(equation.by_unknowns.to_array()) {
+                border.add_to_corner(row, unknown, slope);
+            }
+            let mut entry = |at: usize, slope: f64| {
+                if at < movements && slope != 0.0 {
+                    border.add_to_row(row, at, slope);
+                }
+            };
+            entry(x, equation.by_slave.x);
+            entry(y, equation.by_slave.y);
+            for (&[x, y, _], weights) in of_master.iter().zip(contact.weights()) {
+                let slope = equation.by_master(weights);
+                entry(x, slope.x);
+                entry(y, slope.y);
+            }
+        }
+    }
+}

@@ -1,0 +1,186 @@
+//! A slider at rest: its contact between two equilibria, what it leans on, and how it resists small movements.
+
+use super::passing::{AtRest, Passing};
+use super::{SliderContact, would_pull};
+use crate::beams::SpanStiffness;
+use crate::geometry::Vec2;
+use crate::joints::{
+    AtStop, CONTACT_UNKNOWNS, Contact, ContactUnknowns, Equation, Released, Resting, SlidingLaw,
+};
+use crate::system::bodies::Body;
+use crate::system::sliders::master_curve::LANDED;
+use crate::system::sliders::{KinkedAxis, MasterEnd, SliderState};
+
+impl Passing for AtRest {
+    fn iterate<'s>(
+        slider: &'s mut SliderContact,
+        bodies: &[Body],
+        increments: &[f64],
+        unknowns: &[f64],
+    ) -> (Contact<'s>, [Equation; CONTACT_UNKNOWNS]) {
+        let (state, way) = (slider.state, slider.way_to_stop());
+        let contact = slider.take_at_rest(bodies, increments, unknowns);
+        let equations = SliderContact::equations_at_rest(state, way, &contact);
+        (contact, equations)
+    }
+
+    fn forces<'c>(contact: &'c Contact<'_>) -> impl Iterator<Item = Vec2> + 'c {
+        contact.master_forces_at_rest()
+    }
+
+    fn slopes<'c>(contact: &'c Contact<'_>) -> impl Iterator<Item = (f64, f64, Vec2)> + 'c {
+        contact.master_force_slopes_at_rest()
+    }
+
+    fn chord(_contact: &Contact<'_>) -> f64 {
+        1.0
+    }
+}
+
+impl SliderContact {
+    /// Guesses the unknowns of the contact for a movement between two places at rest: nothing changes.
+    pub fn stay(&self, unknowns: &mut [f64]) {
+        let guess = ContactUnknowns { force: self.contact_force(), ..ContactUnknowns::zeros() };
+        unknowns[self.connection.places()].copy_from_slice(&guess.to_array());
+    }
+
+    /// The contact at the end of an iterate of a movement.
+    fn take_at_rest(
+        &mut self,
+        bodies: &[Body],
+        movements: &[f64],
+        unknowns: &[f64],
+    ) -> Contact<'_> {
+        let unknowns = self.read(unknowns);
+        let place = self.parameter + unknowns.way;
+        self.passage.go(place, place);
+        self.contact(bodies, movements, unknowns)
+    }
+
+    /// The way to where the slider leans on an end, or none.
+    fn way_to_stop(&self) -> Option<f64> {
+        match self.state {
+            SliderState::Held(end) => Some(self.rail.end(end) - self.parameter),
+            SliderState::Sliding | SliderState::Released => None,
+        }
+    }
+
+    /// The equations of a contact at rest, for a slider that does so and has such a way to the end on which it leans, if any.
+    fn equations_at_rest(
+        state: SliderState,
+        way: Option<f64>,
+        contact: &Contact<'_>,
+    ) -> [Equation; CONTACT_UNKNOWNS] {
+        match (state, way) {
+            (SliderState::Released, _) => Released.equations(contact),
+            (_, Some(way)) => AtStop { way }.equations(contact),
+            (_, None) => Resting.equations(contact),
+        }
+    }
+
+    /// The end of the master beyond which a movement with these unknowns would lead the slider.
+    pub fn passes(&self, unknowns: &[f64]) -> Option<MasterEnd> {
+        let ends = [MasterEnd::Start, MasterEnd::End].into_iter();
+        let mut beyond = ends.filter(|end| self.beyond(unknowns, *end) > LANDED);
+        if self.is_sliding() { beyond.next() } else { None }
+    }
+
+    /// Whether the stop on which the slider leans would have to pull in an iterate, by more than rounding.
+    pub fn is_pulled(&mut self, bodies: &[Body], movements: &[f64], unknowns: &[f64]) -> bool {
+        let SliderState::Held(end) = self.state else { return false };
+        let contact = self.take_at_rest(bodies, movements, unknowns);
+        let (push, force) = (contact.push(end.outward()), contact.unknowns.force);
+        let push_beyond = self.push_beyond_seam(bodies, movements, force);
+        self.leaves_beyond = self.is_drawn_beyond([push, push_beyond], force.norm());
+        self.leaves_beyond || would_pull(push, force.norm(), self.length)
+    }
+
+    /// Leaves the slider where a movement between two places at rest has led it; the bodies are there already.
+    pub fn rest(&mut self, unknowns: &[f64]) {
+        let found = self.read(unknowns);
+        let place = self.way_to_stop().map_or(found.way, |way| way);
+        self.stand_at(self.parameter + place);
+        self.unknowns = ContactUnknowns { way: 0.0, ..found };
+        self.kinked_axis.iter_mut().for_each(|axis| axis.rest_under(found.force));
+    }
+
+    /// Whether the slider keeps slave and master from moving apart without giving way, and how many movements that takes from them.
+    pub fn movements_held(&self) -> usize {
+        match self.state {
+            SliderState::Released => 0,
+            SliderState::Held(_) => 2,
+            SliderState::Sliding => usize::from(!self.gives_way()),
+        }
+    }
+
+    /// The unknowns that the contact couples at rest: those of the slave, of the master around it, and `own`, that of its place on the master.
+    pub fn coupled_at_rest(&self, bodies: &[Body], own: usize) -> Vec<usize> {
+        let (body, point) = self.connection.slave;
+        let [x, y, _] = bodies[body].degrees_of_freedom[point];
+        let window = self.here.first()..self.here.first() + self.here.end().len();
+        let of_master = &bodies[self.connection.master].degrees_of_freedom[window];
+        let of_master = of_master.iter().flat_map(|[x, y, _]| [*x, *y]);
+        [x, y].into_iter().chain(of_master).chain([own]).collect()
+    }
+
+    /// Gives how the contact resists small movements, were it as stiff as that where its axis gives no way [force/length]; the place of the slider
+    /// on its master moves with the unknown `own`.
+    ///
+    /// ```text
+    /// r = x_s - Σ B_i x_i      s = δx_s - Σ B_i δx_i - (x' + g' λ/GA) δξ      k = GA/g
+    /// δ²Π = k |s|² - 2 λ·Σ B_i' δx_i δξ - (λ·x'' + ½ g'' |λ|²/GA) δξ²
+    /// ```
+    pub fn at_rest(
+        &self,
+        bodies: &[Body],
+        own: usize,
+        rigid: f64,
+        take: &mut dyn FnMut(&[usize], &SpanStiffness),
+    ) {
+        // Nothing asks for a place that does not move.
+        let still = SpanStiffness {
+            strains: vec![1.0],
+            stiffness: vec![rigid],
+            ..SpanStiffness::default()
+        };
+        if !self.is_sliding() {
+            take(&[own], &still);
+        }
+        if self.state == SliderState::Released {
+            return;
+        }
+        let degrees = self.coupled_at_rest(bodies, own);
+        let (width, last) = (degrees.len(), degrees.len() - 1);
+        let force = self.contact_force();
+        let slides = if self.is_sliding() { 1.0 } else { 0.0 };
+        let (compliance, slope, bend) =
+            self.kinked_axis.as_ref().map_or((0.0, Vec2::zeros(), 0.0), KinkedAxis::at_rest);
+        let tangent = (self.tangent(bodies) + slope) * slides;
+        let mut strains = vec![0.0; 2 * width];
+        let (row_x, row_y) = strains.split_at_mut(width);
+        let mut twist = vec![0.0; 2 * width];
+        for (row, (axis, component)) in
+            [row_x, row_y].into_iter().zip([(0, tangent.x), (1, tangent.y)])
+        {
+            row[axis] = 1.0;
+            for (at, value) in self.here.end().iter().enumerate() {
+                row[2 + 2 * at + axis] = -value;
+            }
+            row[last] = -component;
+        }
+        for (at, slope) in self.here.slope().iter().enumerate() {
+            (twist[2 + 2 * at], twist[3 + 2 * at]) = (-slope * force.x, -slope * force.y);
+        }
+        twist[last] = -0.5 * (force.dot(&self.bend(bodies)) + bend);
+        twist[width + last] = slides;
+        let stiffness = 1.0 / (compliance + 1.0 / rigid);
+        let span = SpanStiffness {
+            first: 0,
+            strains,
+            stiffness: vec![stiffness; 2],
+            twists: twist,
+            doubts: vec![0.0],
+        };
+        take(&degrees, &span);
+    }
+}

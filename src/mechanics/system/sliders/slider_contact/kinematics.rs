@@ -1,0 +1,137 @@
+//! Where a slider is on its master, and how it moves along.
+
+use super::SliderContact;
+use crate::geometry::{Vec2, perpendicular};
+use crate::system::bodies::Body;
+use crate::system::sliders::{Connection, KinkedAxis, MasterEnd, SliderState};
+
+impl SliderContact {
+    /// The control points of the master with their functions where the slider is.
+    fn weights(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        (self.here.first()..).zip(self.here.end().iter().copied())
+    }
+
+    /// The derivative of the place on the master by the parameter, `Σ B_i'(ξ) x_i` [length].
+    pub(super) fn tangent(&self, bodies: &[Body]) -> Vec2 {
+        slope_of(self.here.slope(), self.window(bodies))
+    }
+
+    /// The second derivative of the place on the master by the parameter, `Σ B_i''(ξ) x_i` [length].
+    pub(super) fn bend(&self, bodies: &[Body]) -> Vec2 {
+        // A way of length zero changes its divided differences by half the second derivatives.
+        slope_of(self.here.change(), self.window(bodies)) * 2.0
+    }
+
+    /// The control points of the master from the first one on that has a function where the slider is.
+    fn window<'a>(&self, bodies: &'a [Body]) -> &'a [Vec2] {
+        &bodies[self.connection.master].dynamics.control_points()[self.here.first()..]
+    }
+
+    /// The direction of the master where the slider is [-].
+    pub fn along(&self, bodies: &[Body]) -> Vec2 {
+        self.tangent(bodies).normalize()
+    }
+
+    /// The direction in which the slider moves along its master where it strikes an end: along the axis as it is kinked there [-].
+    pub fn along_contact(&self, bodies: &[Body]) -> Vec2 {
+        let kink = self.kinked_axis.as_ref().filter(|_| self.is_sliding());
+        let slope = kink.map_or(Vec2::zeros(), |axis| axis.slopes().0);
+        (self.tangent(bodies) + slope).normalize()
+    }
+
+    /// The directions in which the slider moves at an end of its kinked axis, and would move without the kink [-]; none where it has none.
+    pub fn off_kink(&self, bodies: &[Body], rates: &[f64], end: MasterEnd) -> Option<[Vec2; 2]> {
+        let axis = self.kinked_axis.as_ref().filter(|axis| self.is_sliding() && !axis.gives())?;
+        let velocity = self.relative_velocity(bodies, rates);
+        let is_straight = axis.force() == Vec2::zeros() || velocity == Vec2::zeros();
+        let axis = self.along(bodies) * end.outward();
+        (!is_straight).then(|| [velocity.normalize(), axis])
+    }
+
+    /// Takes the kink of the master away, at an end, where it has no energy.
+    pub fn straighten(&mut self) {
+        self.kinked_axis.iter_mut().for_each(KinkedAxis::straighten);
+    }
+
+    /// The direction across the master where the slider is [-].
+    pub fn across(&self, bodies: &[Body]) -> Vec2 {
+        perpendicular(self.along(bodies))
+    }
+
+    /// Adds `Gᵀ P` for an impulse `P`, or a force, of the contact to `out`: on the slave, and the opposite one on the master.
+    pub fn transmit(&self, bodies: &[Body], impulse: Vec2, out: &mut [f64]) {
+        let on_master = self.here.end().iter().map(|weight| impulse * -*weight);
+        self.connection.add_forces(bodies, impulse, self.here.first(), on_master, out);
+    }
+
+    /// The vector from the slave to its place on the master [length].
+    pub fn gap(&self, bodies: &[Body]) -> Vec2 {
+        if self.state == SliderState::Released {
+            return Vec2::zeros();
+        }
+        let (body, point) = self.connection.slave;
+        let slave = bodies[body].dynamics.control_points()[point];
+        let master = bodies[self.connection.master].dynamics.control_points();
+        let to_axis: Vec2 =
+            self.weights().map(|(index, weight)| (master[index] - slave) * weight).sum();
+        to_axis + self.kinked_axis.as_ref().map_or(Vec2::zeros(), KinkedAxis::offset)
+    }
+
+    /// The velocity of the slave relative to its place on the master [length/time].
+    pub fn relative_velocity(&self, bodies: &[Body], rates: &[f64]) -> Vec2 {
+        let Connection { master, slave: (body, point), .. } = self.connection;
+        let on_master = |(index, weight)| bodies[master].vector_at(index, rates) * weight;
+        bodies[body].vector_at(point, rates) - self.weights().map(on_master).sum::<Vec2>()
+    }
+
+    /// The velocity of the slave [length/time].
+    pub fn slave_velocity(&self, bodies: &[Body], rates: &[f64]) -> Vec2 {
+        let (body, point) = self.connection.slave;
+        bodies[body].vector_at(point, rates)
+    }
+
+    /// How its place on the master accelerates because the slave moves on: `2 ξ̇ Σ B_i' v_i + ξ̇² Σ B_i'' x_i` [length/time²].
+    pub fn carried(&self, bodies: &[Body], rates: &[f64]) -> Vec2 {
+        let rate = self.rate(bodies, rates);
+        let master = &bodies[self.connection.master];
+        let points = master.dynamics.control_points();
+        let Ok(values) = self.here.basis().evaluate(self.parameter) else { return Vec2::zeros() };
+        let turning = values.slopes().iter().zip(values.first..);
+        let turning: Vec2 = turning.map(|(by, at)| master.vector_at(at, rates) * *by).sum();
+        turning * (2.0 * rate) + values.combine(2, points) * (rate * rate)
+    }
+
+    /// The rate `dξ/dt` of the slider's parameter with the present velocities [1/time].
+    pub fn rate(&self, bodies: &[Body], rates: &[f64]) -> f64 {
+        match (self.state, &self.kinked_axis) {
+            (SliderState::Sliding, Some(axis)) => self.rate_on(axis, bodies, rates),
+            (SliderState::Sliding, None) => {
+                let tangent = self.tangent(bodies);
+                self.relative_velocity(bodies, rates).dot(&tangent) / tangent.norm_squared()
+            }
+            (SliderState::Held(_) | SliderState::Released, _) => 0.0,
+        }
+    }
+
+    /// The rate `dξ/dt` on a kinked axis, which gives way while the slider moves on: the derivative by time of `r·x' + ½ |r|² g'/g = 0`, with the offset
+    /// `r = g p/GA` of the slave from the smooth axis, solved for it.
+    fn rate_on(&self, axis: &KinkedAxis, bodies: &[Body], rates: &[f64]) -> f64 {
+        let (offset, (slope, bend)) = (axis.offset(), axis.slopes());
+        let (points, master) = (self.window(bodies), &bodies[self.connection.master]);
+        let values = self.here.basis().evaluate(self.parameter);
+        let bent = values
+            .map_or(Vec2::zeros(), |values| values.combine(2, master.dynamics.control_points()));
+        let turning = self.here.slope().iter().zip(self.here.first()..);
+        let turning: Vec2 = turning.map(|(by, at)| master.vector_at(at, rates) * *by).sum();
+        let tangent = slope_of(self.here.slope(), points);
+        let moved = self.relative_velocity(bodies, rates);
+        let stretch = tangent.norm_squared() - offset.dot(&bent) - bend;
+        (moved.dot(&(tangent + slope)) + offset.dot(&turning)) / stretch
+    }
+}
+
+/// `Σ B_i' x_i`
+fn slope_of(slopes: &[f64], points: &[Vec2]) -> Vec2 {
+    // Slopes sum to zero: an origin amid the points changes nothing but the rounding.
+    slopes.iter().zip(points).map(|(slope, point)| (point - points[0]) * *slope).sum()
+}

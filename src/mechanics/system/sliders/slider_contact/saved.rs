@@ -1,0 +1,59 @@
+//! The state of a slider in numbers.
+
+use super::SliderContact;
+use crate::joints::{CONTACT_UNKNOWNS, ContactUnknowns};
+use crate::system::sliders::{KinkedAxis, SliderState};
+
+/// How many of these are of the route of a slider on a track.
+const ROUTE: usize = 3;
+
+impl SliderContact {
+    /// How many numbers a slider saves, the parameter first; those of its route, on a track, come last.
+    pub fn saved(&self) -> usize {
+        let of_route = if self.is_on_track() { ROUTE } else { 0 };
+        10 + CONTACT_UNKNOWNS + of_route
+    }
+
+    /// Whether numbers may be those of this slider.
+    pub fn may_be(&self, numbers: &[f64]) -> bool {
+        let (parameter, rail) = (numbers[0], &self.rail);
+        match (&self.route, numbers.last_chunk::<ROUTE>()) {
+            (Some(route), Some(own)) => {
+                route.stored_leg(*own).is_some_and(|leg| leg.rail.has(parameter))
+            }
+            _ => rail.has(parameter),
+        }
+    }
+
+    /// Appends the numbers of the slider; its state is no number.
+    pub fn save(&self, numbers: &mut Vec<f64>) {
+        numbers.extend([self.parameter, self.most_spans, self.blows_in_a_step]);
+        numbers.extend(self.unknowns.to_array());
+        let kink = self.kinked_axis.as_ref().map_or([0.0; 3], KinkedAxis::numbers);
+        numbers.extend(kink);
+        numbers.extend([
+            self.stored,
+            self.lost,
+            self.left_at,
+            f64::from(u8::from(self.stop_may_pull)),
+        ]);
+        numbers.extend(self.route.iter().flat_map(|route| route.numbers()));
+    }
+
+    /// Takes state and numbers of the slider back, in the order in which these were appended.
+    pub fn restore(&mut self, state: SliderState, next: &mut dyn FnMut() -> f64) {
+        self.state = state;
+        let parameter = next();
+        (self.most_spans, self.blows_in_a_step) = (next(), next());
+        self.unknowns = ContactUnknowns::of(std::array::from_fn(|_| next()));
+        let kink = std::array::from_fn(|_| next());
+        self.kinked_axis.iter_mut().for_each(|axis| axis.take(kink));
+        (self.stored, self.lost, self.left_at) = (next(), next(), next());
+        self.stop_may_pull = next() != 0.0;
+        if let Some(route) = &mut self.route {
+            route.take(std::array::from_fn(|_| next()));
+            self.take_master();
+        }
+        self.stand_at(parameter);
+    }
+}

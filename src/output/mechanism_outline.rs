@@ -1,0 +1,41 @@
+//! What stands around beams in a picture of what is inside of them: outlines of rigid bodies, and symbols.
+
+use super::{
+    canvas::{Area, Canvas, Point},
+    colour::INK,
+    frame::Frame,
+    plane::{AxisLimits, View},
+    symbol::PlacedSymbol,
+};
+
+/// The width of an outline.
+const OUTLINE: f64 = 1.6;
+
+/// Rigid bodies as lines, and symbols over all, in the reader's units.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MechanismOutline {
+    /// The outlines of rigid bodies.
+    pub bodies: Vec<Vec<Point>>,
+    /// Supports, joints, sliders, springs and loads.
+    pub symbols: Vec<PlacedSymbol>,
+}
+
+impl MechanismOutline {
+    /// The part of the plane that points need, and the scenery that is among them.
+    pub(super) fn view(
+        &self,
+        points: impl Iterator<Item = Point> + Clone,
+        limits: &AxisLimits,
+    ) -> View {
+        let bodies = self.bodies.iter().flatten().copied();
+        PlacedSymbol::view(&self.symbols, points.chain(bodies), limits)
+    }
+
+    /// Draws it on a plot.
+    pub(super) fn draw(&self, canvas: &mut Canvas, frame: &Frame, plot: &Area) {
+        for run in self.bodies.iter().flat_map(|body| frame.curve(plot, body)) {
+            canvas.line(run, OUTLINE, INK);
+        }
+        self.symbols.iter().for_each(|symbol| symbol.draw(canvas, frame, plot));
+    }
+}

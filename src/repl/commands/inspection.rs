@@ -1,0 +1,216 @@
+//! Commands that only look.
+
+use rhai::{Dynamic, Map};
+
+use crate::output::{Cell, Colours, Glyphs, TerminalStyle, TextTable, columns, cut};
+use crate::repl::session::Reply;
+use crate::repl::shell::{CommandOutcome, ReplyTarget, Shell, no_simulation};
+use crate::script::diagnose::Diagnostic;
+use crate::script::handles::simulation::SimulationHandle;
+use crate::script::messages::error::ScriptError;
+use crate::script::messages::numbers::format_number;
+use crate::script::messages::suggest::nearest;
+use crate::script::packages::pictures::motion::motion_text;
+use crate::script::presentation::along::SectionForceProfile;
+use crate::script::presentation::plots;
+use crate::script::presentation::present::present_in_a_line;
+use crate::script::presentation::quantities::{BeamQuantity, NAMES};
+use crate::simulation::Simulation;
+
+/// Characters of a value in the list of variables, at most, and at least, however narrow the terminal is.
+const VALUE_WIDTH: usize = 70;
+const LEAST_VALUE_WIDTH: usize = 12;
+
+/// The command `:vars`: lists the variables, functions and modules of the session.
+pub fn variables(shell: &mut Shell, _: &str) -> CommandOutcome {
+    let session = shell.session();
+    let variables: Vec<_> = session.variables().iter_raw().collect();
+    let of_variables = variables.into_iter().rev().map(|(name, is_constant, value)| {
+        let of = session.engine().map_type_name(value.type_name());
+        let of = if is_constant { format!("constant {of}") } else { of.to_owned() };
+        (name.to_owned(), of, ShownVariable::Value(value))
+    });
+    let of_functions = session.functions().map(|function| {
+        let signature = format!("{}({})", function.name, function.params.join(", "));
+        (function.name.to_owned(), "function".to_owned(), ShownVariable::Words(signature))
+    });
+    let of_modules = session.modules().map(|(name, module)| {
+        // What a module keeps to itself and its closures have no place here.
+        let public = |of: &str| !of.starts_with("private ") && !of.starts_with("anon$");
+        let functions = module.gen_fn_signatures_with_mapper(|name| name.into());
+        let functions: Vec<_> = functions.filter(|signature| public(signature)).collect();
+        (name.to_owned(), "import".to_owned(), ShownVariable::Words(functions.join(", ")))
+    });
+    let rows: Vec<_> = of_variables.chain(of_functions).chain(of_modules).collect();
+    if rows.is_empty() {
+        shell.print("there are no variables yet");
+        return CommandOutcome::Good;
+    }
+    let room = match shell.screen() {
+        ReplyTarget::Terminal(style) => {
+            let longest = |texts: &mut dyn Iterator<Item = &String>| {
+                texts.map(|text| columns(text)).max().unwrap_or_default()
+            };
+            let names = longest(&mut rows.iter().map(|(name, ..)| name)).max(4);
+            let types = longest(&mut rows.iter().map(|(_, of, _)| of)).max(4);
+            // Two blanks stand between columns.
+            Some(style.width.saturating_sub(names + types + 4).max(LEAST_VALUE_WIDTH))
+        }
+        ReplyTarget::Pipe => None,
+    };
+    let mut table = TextTable::new(&["name", "type", "value"]);
+    for (name, of, shown) in rows {
+        let value = match shown {
+            ShownVariable::Value(value) => {
+                let width = room.unwrap_or(VALUE_WIDTH).min(VALUE_WIDTH);
+                present_in_a_line(session.catalog(), value, width)
+            }
+            ShownVariable::Words(words) => words,
+        };
+        let value = room.map_or_else(|| value.clone(), |room| cut(&value, room, '…'));
+        table.row([name, of, value].map(Cell::Text));
+    }
+    shell.print(table.to_string().trim_end());
+    CommandOutcome::Good
+}
+
+/// What stands behind a name in the list of variables.
+enum ShownVariable<'a> {
+    Value(&'a Dynamic),
+    Words(String),
+}
+
+/// The command `:invariants`: shows how far energy and momenta of the last simulation drift.
+pub fn invariants(shell: &mut Shell, _: &str) -> CommandOutcome {
+    shell.show_of_latest("invariants()")
+}
+
+/// The command `:view [FILE]`: writes a page on which the last simulation moves.
+pub fn view(shell: &mut Shell, operand: &str) -> CommandOutcome {
+    let file = if operand.is_empty() { "view.html" } else { operand.trim_matches('"') };
+    // What no name of a file can contain would end the text in which it stands.
+    let name: String = file.chars().filter(|letter| !matches!(letter, '"' | '\\')).collect();
+    let outcome = shell.call_latest(&format!("write_viewer(\"{name}\")"));
+    if outcome == CommandOutcome::Good {
+        let page = shell.session().context().output().folder().join(&name);
+        shell.print(&format!("open {} in a browser to see it", page.display()));
+    }
+    outcome
+}
+
+/// The command `:explain`: tells what the last simulation uses and leaves out.
+pub fn explain(shell: &mut Shell, _: &str) -> CommandOutcome {
+    shell.show_of_latest("explain()")
+}
+
+/// The command `:show [time]`: draws the configuration of the last simulation.
+pub fn show(shell: &mut Shell, operand: &str) -> CommandOutcome {
+    let (time, options) = operand.find("#{").map_or((operand, ""), |at| operand.split_at(at));
+    let time = match (time.trim().trim_end_matches(',').trim_end(), options) {
+        ("", _) => None,
+        (time, _) => match time.parse::<f64>() {
+            Ok(time) => Some(time),
+            Err(_) => {
+                let told = Diagnostic::general(format!("'{time}' is not a time"));
+                let hint = "write :show, :show T with a time that has passed, or :show #{ … } with the options of plot_motion";
+                return shell.refuse(&told.with_hint(hint));
+            }
+        },
+    };
+    let options = match options {
+        "" => None,
+        text => match options_of(shell, text, ":show #{ trace: [rod.end] }") {
+            Ok(mut map) => {
+                // A time before the options is that of the last snapshot.
+                if let Some(time) = time {
+                    map.insert("to".into(), time.into());
+                }
+                Some(map)
+            }
+            Err(outcome) => return outcome,
+        },
+    };
+    let latest = shell.latest();
+    let engine_picture = |shell: &Shell, of: &SimulationHandle, map: &Map, screen: &ReplyTarget| {
+        let style = match screen {
+            ReplyTarget::Terminal(style) => *style,
+            // What is wrong with the options is told in a pipe too.
+            ReplyTarget::Pipe => TerminalStyle {
+                glyphs: Glyphs::Ascii,
+                colours: Colours::None,
+                width: 80,
+                height: 24,
+            },
+        };
+        motion_text(shell.session().engine(), of, map, &style)
+    };
+    let drawn = match (&latest, &options) {
+        (Some(of), Some(map)) => Some(engine_picture(shell, of, map, &shell.screen())),
+        _ => None,
+    };
+    draw(shell, |simulation, screen| match (drawn, screen) {
+        _ if time.is_some_and(|time| !(0.0..=simulation.time()).contains(&time)) => {
+            let now = format_number(simulation.time());
+            Err(ScriptError::new("there is no configuration at this time")
+                .hint(format!("the simulation has run from t = 0 to {now}")))
+        }
+        (Some(Err(error)), _) => Err(error),
+        (Some(Ok(text)), ReplyTarget::Terminal(_)) => Ok(text),
+        (None, ReplyTarget::Terminal(style)) => {
+            plots::configuration_picture(simulation, time, &style)
+        }
+        (_, ReplyTarget::Pipe) => plots::configuration_summary(simulation, time),
+    })
+}
+
+/// The map of options that is typed, for example as in `example`.
+pub(super) fn options_of(
+    shell: &mut Shell,
+    text: &str,
+    example: &str,
+) -> Result<Map, CommandOutcome> {
+    match shell.session_mut().peek(text) {
+        Reply::Value(value) => value.try_cast::<Map>().ok_or_else(|| {
+            let told = Diagnostic::general(format!("'{text}' is no map of options"));
+            shell.refuse(&told.with_hint(format!("for example {example}")))
+        }),
+        failed => Err(shell.tell(failed)),
+    }
+}
+
+/// `:along [quantity]`
+pub fn along(shell: &mut Shell, operand: &str) -> CommandOutcome {
+    let name = if operand.is_empty() { "M" } else { operand.trim_matches('"') };
+    let Some(quantity) = BeamQuantity::named(name) else {
+        let told = Diagnostic::general(format!("there is no quantity '{name}' along beams"));
+        let meant = nearest(name, NAMES.iter().copied());
+        let meant = meant.map(|name| format!("did you mean {name}? ")).unwrap_or_default();
+        return shell.refuse(&told.with_hint(format!("{meant}quantities: {}", NAMES.join(", "))));
+    };
+    draw(shell, |simulation, screen| {
+        let inside = SectionForceProfile::of_simulation(simulation, &[])?;
+        Ok(match screen {
+            ReplyTarget::Terminal(style) => inside.text(quantity, &style),
+            ReplyTarget::Pipe => inside.summary(quantity),
+        })
+    })
+}
+
+/// Shows what is made of the last simulation for the screen: a picture, or words.
+pub(super) fn draw(
+    shell: &mut Shell,
+    picture: impl FnOnce(&Simulation, ReplyTarget) -> Result<String, ScriptError>,
+) -> CommandOutcome {
+    let latest = match shell.latest() {
+        Some(latest) => latest,
+        None => return shell.refuse(&no_simulation()),
+    };
+    let drawn = picture(&latest.simulation(), shell.screen());
+    match drawn {
+        Ok(text) => {
+            shell.print(text.trim_end());
+            CommandOutcome::Good
+        }
+        Err(error) => shell.refuse_native(error),
+    }
+}

@@ -1,0 +1,238 @@
+//! An expression in the states in which a simulation was: those that are kept, or else those of the run made again in a copy.
+
+use rhai::Dynamic;
+
+use super::curves::{PlotShape, shape};
+use super::session::{Reply, Rounds};
+use super::shell::{CommandOutcome, Shell};
+use crate::output::significant;
+use crate::script::diagnose::Diagnostic;
+use crate::script::handles::simulation::{Revisit, SimulationHandle};
+use crate::script::messages::error::ScriptError;
+use crate::script::state::context::Context;
+
+/// More states than a terminal has dots for are thinned out.
+const MOST_STATES: usize = 1000;
+
+/// Digits of a time in words.
+const DIGITS: usize = 6;
+
+/// What an expression was in the states of a simulation.
+pub struct Followed {
+    /// The times and values of the expression, in the order of time.
+    pub points: Vec<(f64, PlotShape)>,
+    /// In which states the expression was followed, in words.
+    pub words: String,
+}
+
+/// Evaluates an expression in every state in which a simulation was, as far as that can be had again. The simulation stays where it
+/// is.
+///
+/// # Errors
+/// When the expression fails in one of them, moves the simulation, or it is stopped; the user was told.
+pub fn follow(
+    shell: &mut Shell,
+    subject: &SimulationHandle,
+    text: &str,
+) -> Result<Followed, CommandOutcome> {
+    let kept = subject.simulation().states_kept();
+    if kept.first().is_some_and(|(first, _)| *first > 0)
+        && let Some(followed) = make_again(shell, subject, text)?
+    {
+        return Ok(followed);
+    }
+    go_back(shell, subject, text, &kept)
+}
+
+/// The states that are kept, from the last to the first: so the history is each time what it was.
+fn go_back(
+    shell: &mut Shell,
+    subject: &SimulationHandle,
+    text: &str,
+    kept: &[(usize, f64)],
+) -> Result<Followed, CommandOutcome> {
+    let every = kept.len().div_ceil(MOST_STATES);
+    let last = kept.len() - 1;
+    let chosen = (0..kept.len()).rev().filter(|at| (last - at).is_multiple_of(every) || *at == 0);
+    let steps: Vec<usize> = chosen.map(|at| kept[at].0).collect();
+    let revisit = Revisit::at_present(subject).map_err(|error| shell.refuse_native(error))?;
+    let way = PlaybackStep::Back(steps.into_iter());
+    let (mut points, _) = visit(shell, text, Visits::new(shell, revisit, way))?;
+    points.reverse();
+    let time = |at: usize| significant(kept[at].1, DIGITS);
+    let what = match (kept[0].0, points.len() == kept.len()) {
+        (0, true) => format!("all {} states", kept.len()),
+        (0, false) => format!("{} of the {} states", points.len(), kept.len()),
+        (_, true) => format!("the last {} states", kept.len()),
+        (_, false) => format!("{} of the last {} states", points.len(), kept.len()),
+    };
+    let more = match kept[0].0 {
+        0 => "",
+        _ => "; those before are forgotten (withy repl --snapshots MB keeps more)",
+    };
+    let name = subject.name();
+    let span = format!("t = {} to {}", time(0), time(last));
+    let words = format!("in {what} in which simulation '{name}' was, {span}{more}");
+    Ok(Followed { points, words })
+}
+
+/// The rows of the history, in the run made again; nothing when it was another run.
+fn make_again(
+    shell: &mut Shell,
+    subject: &SimulationHandle,
+    text: &str,
+) -> Result<Option<Followed>, CommandOutcome> {
+    let rows = subject.simulation().history().samples().len();
+    let revisit = Revisit::at_start(subject).map_err(|error| shell.refuse_native(error))?;
+    let way = PlaybackStep::Again { next: 0, rows, every: rows.div_ceil(MOST_STATES) };
+    let (points, other) = visit(shell, text, Visits::new(shell, revisit, way))?;
+    if let Some(why) = other {
+        shell.note(&format!(
+            "note: simulation '{}' has forgotten its first states, and {why}",
+            subject.name()
+        ));
+        return Ok(None);
+    }
+    let words = format!(
+        "in {} of the {rows} rows of simulation '{}': it has forgotten its first states, so the run was made again in a copy, \
+         with the same energies and momenta in each row to the last bit",
+        points.len(),
+        subject.name(),
+    );
+    Ok(Some(Followed { points, words }))
+}
+
+/// Where to go next.
+enum PlaybackStep {
+    /// To states that are kept, after so many steps each, the last first.
+    Back(std::vec::IntoIter<usize>),
+    /// On to the next row of the history; a value is wanted in every so-manieth.
+    Again { next: usize, rows: usize, every: usize },
+}
+
+/// Why it does not go on.
+enum PlaybackError {
+    /// The expression moved the simulation.
+    Moves,
+    /// It was stopped, or the copy could not go where the original went.
+    Refused(ScriptError),
+    /// It is another run.
+    Another(String),
+    /// The value cannot be drawn.
+    NoPoint(String),
+}
+
+struct Visits {
+    revisit: Revisit,
+    way: PlaybackStep,
+    context: Context,
+    place: (usize, f64),
+    points: Vec<(f64, PlotShape)>,
+    trouble: Option<PlaybackError>,
+}
+
+impl Visits {
+    fn new(shell: &Shell, revisit: Revisit, way: PlaybackStep) -> Self {
+        let (context, place) = (shell.session().context().clone(), revisit.place());
+        Self { revisit, way, context, place, points: Vec::new(), trouble: None }
+    }
+
+    /// Goes to the next state; `false` at the end.
+    fn go_on(&mut self) -> Result<bool, PlaybackError> {
+        self.context.proceed().map_err(PlaybackError::Refused)?;
+        match &mut self.way {
+            PlaybackStep::Back(steps) => match steps.next() {
+                Some(to) => self.revisit.go_back_to(to).map_err(PlaybackError::Refused),
+                None => Ok(false),
+            },
+            PlaybackStep::Again { next, rows, every } => loop {
+                let row = *next;
+                if row >= *rows {
+                    return Ok(false);
+                }
+                *next += 1;
+                match self.revisit.run_again(row, &self.context) {
+                    Ok(true) => (),
+                    Ok(false) => {
+                        let time = significant(self.revisit.place().1, DIGITS);
+                        let told = format!(
+                            "the run made again from its start is another one at t = {time}"
+                        );
+                        return Err(PlaybackError::Another(told));
+                    }
+                    Err(stopped @ ScriptError::Stopped(_)) => {
+                        return Err(PlaybackError::Refused(stopped));
+                    }
+                    Err(_) => {
+                        let told = "the run made again from its start fails";
+                        return Err(PlaybackError::Another(told.into()));
+                    }
+                }
+                if row.is_multiple_of(*every) || row + 1 == *rows {
+                    return Ok(true);
+                }
+            },
+        }
+    }
+}
+
+impl Rounds for Visits {
+    fn begin(&mut self) -> bool {
+        if self.trouble.is_some() {
+            return false;
+        }
+        let goes_on = self.go_on().unwrap_or_else(|trouble| {
+            self.trouble = Some(trouble);
+            false
+        });
+        self.place = self.revisit.place();
+        goes_on
+    }
+
+    fn end(&mut self, value: Dynamic) {
+        if self.revisit.place() != self.place {
+            self.trouble = Some(PlaybackError::Moves);
+        }
+        match shape(&value, "something else") {
+            point @ (PlotShape::Number(_) | PlotShape::Vector(_)) => {
+                self.points.push((self.place.1, point))
+            }
+            PlotShape::Whole(..) => {
+                self.trouble = Some(PlaybackError::NoPoint("it is an array".into()))
+            }
+            PlotShape::None(why) => self.trouble = Some(PlaybackError::NoPoint(why)),
+        }
+    }
+}
+
+/// The values in all states, and why they are those of another run if they are.
+type Values = (Vec<(f64, PlotShape)>, Option<String>);
+
+fn visit(shell: &mut Shell, text: &str, mut visits: Visits) -> Result<Values, CommandOutcome> {
+    let reply = shell.session_mut().peek_in_rounds(text, &mut visits);
+    let Visits { revisit, points, trouble, place, .. } = visits;
+    // From here on the simulation is itself.
+    drop(revisit);
+    let at = format!("at t = {}", significant(place.1, DIGITS));
+    match (reply, trouble) {
+        (Err(Reply::Failed(why)), _) => {
+            shell.note(&format!("'{text}' fails {at}:"));
+            Err(shell.refuse(&why))
+        }
+        (Err(stopped), _) => Err(shell.tell(stopped)),
+        (Ok(()), None) => Ok((points, None)),
+        (Ok(()), Some(PlaybackError::Another(why))) => Ok((points, Some(why))),
+        (Ok(()), Some(PlaybackError::Moves)) => Err(shell.refuse(&moves(text))),
+        (Ok(()), Some(PlaybackError::Refused(error))) => Err(shell.refuse_native(error)),
+        (Ok(()), Some(PlaybackError::NoPoint(why))) => {
+            let told = Diagnostic::general(format!("'{text}' cannot be drawn {at}: {why}"));
+            Err(shell.refuse(&told.with_hint("it must be a number, or a vector, at all times")))
+        }
+    }
+}
+
+/// The error of an expression that should be followed, and itself moves the simulation.
+pub fn moves(text: &str) -> Diagnostic {
+    Diagnostic::general(format!("'{text}' moves a simulation"))
+        .with_hint("draw what only looks; the simulation that it names stayed where it was")
+}

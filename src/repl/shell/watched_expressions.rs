@@ -1,0 +1,65 @@
+//! Expressions that are shown after every step.
+
+use super::{CommandOutcome, Shell};
+use crate::output::significant;
+use crate::repl::session::Reply;
+use crate::script::diagnose::Diagnostic;
+use crate::script::presentation::present::present;
+
+impl Shell {
+    /// Whether any expression is watched.
+    pub fn is_watching(&self) -> bool {
+        !self.watched.is_empty()
+    }
+
+    /// Watches one more expression, and shows its value.
+    pub fn watch(&mut self, expression: &str) -> CommandOutcome {
+        let expression = expression.trim_end_matches(';').to_owned();
+        if !self.watched.contains(&expression) {
+            self.watched.push(expression);
+        }
+        self.show_watched()
+    }
+
+    /// Stops watching all expressions.
+    pub fn watch_nothing(&mut self) {
+        self.watched.clear();
+    }
+
+    /// Shows the values of the watched expressions in a line.
+    pub fn show_watched(&mut self) -> CommandOutcome {
+        let mut parts = Vec::new();
+        if let Some(latest) = self.latest() {
+            parts.push(format!("t = {}", significant(latest.time(), 10)));
+        }
+        for expression in self.watched.clone() {
+            let before = self.session.whereabouts();
+            let reply = self.session.peek(&expression);
+            let has_moved = self.session.note_moved(&before);
+            let told = match reply {
+                Reply::Value(_) | Reply::Done if has_moved => {
+                    let told = format!("the watched expression '{expression}' moves a simulation");
+                    Diagnostic::general(told)
+                        .with_hint("it is watched no more; watch what only looks")
+                }
+                Reply::Value(value) => {
+                    let shown = present(self.session.catalog(), &value, self.width());
+                    parts.push(format!("{expression} = {}", shown.lines().next().unwrap_or("")));
+                    continue;
+                }
+                Reply::Done => {
+                    parts.push(format!("{expression} = nothing"));
+                    continue;
+                }
+                Reply::Failed(diagnostic) => diagnostic,
+                other => return self.tell(other),
+            };
+            self.watched.retain(|other| *other != expression);
+            return self.refuse(&told);
+        }
+        if !self.watched.is_empty() {
+            self.print(&parts.join("   "));
+        }
+        CommandOutcome::Good
+    }
+}

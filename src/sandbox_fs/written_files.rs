@@ -1,0 +1,148 @@
+//! What was written into a folder by this program, so that files of somebody else, or with changes of his, are told from them.
+
+use std::collections::BTreeMap;
+use std::io::{self, Read, Write};
+use std::path::Path;
+
+use super::Folder;
+
+/// The name of the file that keeps the record: hidden, for it is of no use to anybody else.
+const FILE: &str = ".withy-written";
+/// The largest record that is read [bytes]: without it, files count as somebody else's and are kept.
+const LARGEST: u64 = 16 << 20;
+/// How much of a file is looked at at once [bytes].
+const PIECE: usize = 1 << 16;
+
+/// By what the content of a file is known again.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FileChecksum {
+    /// The CRC-32 of the content.
+    pub checksum: u32,
+    /// The length of the content [bytes].
+    pub length: u64,
+}
+
+impl FileChecksum {
+    /// The imprint of some bytes.
+    pub fn of_bytes(bytes: &[u8]) -> Self {
+        Self { checksum: crc32fast::hash(bytes), length: bytes.len() as u64 }
+    }
+
+    /// The imprint of all that can be read, piece by piece.
+    ///
+    /// # Errors
+    /// When it cannot be read.
+    pub fn of(mut content: impl Read) -> io::Result<Self> {
+        let (mut hasher, mut length, mut piece) = (crc32fast::Hasher::new(), 0, vec![0; PIECE]);
+        loop {
+            match content.read(&mut piece)? {
+                0 => return Ok(Self { checksum: hasher.finalize(), length }),
+                count => {
+                    hasher.update(&piece[..count]);
+                    length += count as u64;
+                }
+            }
+        }
+    }
+}
+
+/// Writes bytes on, and keeps their imprint.
+pub struct ChecksumWriter<W> {
+    inner: W,
+    hasher: crc32fast::Hasher,
+    length: u64,
+}
+
+impl<W: Write> ChecksumWriter<W> {
+    /// Begins to write.
+    pub fn new(inner: W) -> Self {
+        Self { inner, hasher: crc32fast::Hasher::new(), length: 0 }
+    }
+
+    /// The imprint of all that was written.
+    pub fn imprint(&self) -> FileChecksum {
+        FileChecksum { checksum: self.hasher.clone().finalize(), length: self.length }
+    }
+}
+
+impl<W: Write> Write for ChecksumWriter<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let count = self.inner.write(bytes)?;
+        self.hasher.update(&bytes[..count]);
+        self.length += count as u64;
+        Ok(count)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.inner.flush()
+    }
+}
+
+/// Checksums and lengths of the files that this program has written into a folder, by name.
+#[derive(Debug, Default)]
+pub struct WrittenFiles {
+    files: BTreeMap<String, FileChecksum>,
+}
+
+impl WrittenFiles {
+    /// Reads the record of what this program has written into a folder; one that is damaged knows less.
+    pub fn of(folder: &Folder) -> Self {
+        // Where there is none, or none that can be read, files count as somebody else's, and are kept.
+        let text = folder.read(Path::new(FILE), LARGEST).unwrap_or_default();
+        let text = String::from_utf8_lossy(&text);
+        Self { files: text.lines().filter_map(entry).collect() }
+    }
+
+    /// Whether there is nothing of this name in the folder, or a file just as this program has written it.
+    pub fn may_replace(&self, folder: &Folder, name: &str) -> bool {
+        let path = Path::new(name);
+        if !folder.has(path) {
+            return true;
+        }
+        let Some(known) = self.files.get(name) else { return false };
+        folder.open_file(path).and_then(FileChecksum::of).is_ok_and(|found| found == *known)
+    }
+
+    /// Notes, and writes down at once, that this program wrote a file of this name into the folder.
+    ///
+    /// # Errors
+    /// When the record cannot be written.
+    pub fn note(&mut self, folder: &Folder, name: &str, written: FileChecksum) -> io::Result<()> {
+        if name.contains(['\n', '\r']) || self.files.insert(name.into(), written) == Some(written) {
+            return Ok(());
+        }
+        let line = format!("{:08x} {} {name}\n", written.checksum, written.length);
+        folder.append(Path::new(FILE))?.write_all(line.as_bytes())
+    }
+}
+
+/// `checksum length name`; later lines hold.
+fn entry(line: &str) -> Option<(String, FileChecksum)> {
+    let (checksum, rest) = line.split_once(' ')?;
+    let (length, name) = rest.split_once(' ')?;
+    let checksum = u32::from_str_radix(checksum, 16).ok()?;
+    Some((name.to_owned(), FileChecksum { checksum, length: length.parse().ok()? }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_files_just_as_they_were_written_may_be_replaced() {
+        let home = tempfile::tempdir().unwrap();
+        let folder = Folder::open(home.path()).unwrap();
+        let write = |content: &[u8]| folder.write_whole(Path::new("a b"), content).unwrap();
+        let mut record = WrittenFiles::of(&folder);
+        assert!(record.may_replace(&folder, "a b"));
+        write(b"one");
+        assert!(!record.may_replace(&folder, "a b"), "nobody has said whose it is");
+        record.note(&folder, "a b", FileChecksum::of_bytes(b"one")).unwrap();
+        assert!(record.may_replace(&folder, "a b"));
+        write(b"two");
+        record.note(&folder, "a b", FileChecksum::of_bytes(b"two")).unwrap();
+        assert!(WrittenFiles::of(&folder).may_replace(&folder, "a b"), "the last line holds");
+        write(b"2wo");
+        assert!(!WrittenFiles::of(&folder).may_replace(&folder, "a b"));
+    }
+}

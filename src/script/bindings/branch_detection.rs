@@ -1,0 +1,36 @@
+//! What functions decide by parameters: where they jump depends on these then, and derivatives do not follow.
+
+use rhai::{Array, Dynamic, FnPtr, Map, NativeCallContext};
+
+use self::search::Decision;
+use super::parameter_variants::VariantValue;
+use crate::script::state::context::Context;
+
+mod jumps;
+mod search;
+
+/// Tells once, with its place, of what a function among some values decides by what it is asked at and by something that depends on a parameter of a scene.
+pub fn tell(native: &NativeCallContext, context: &Context, given: &[Dynamic]) {
+    given.iter().for_each(|value| tell_of(native, context, value));
+}
+
+fn tell_of(native: &NativeCallContext, context: &Context, value: &Dynamic) {
+    if let Some(map) = value.read_lock::<Map>() {
+        return map.values().for_each(|element| tell_of(native, context, element));
+    }
+    if let Some(array) = value.read_lock::<Array>() {
+        return array.iter().for_each(|element| tell_of(native, context, element));
+    }
+    let Some(function) = value.read_lock::<FnPtr>() else { return };
+    let family = function.curry().iter().find_map(VariantValue::family_of);
+    let Some(family) = family else { return };
+    let Some(found) = Decision::find(native, &function) else { return };
+    let (line, column) = (found.at.line().unwrap_or(0), found.at.position().unwrap_or(0));
+    if family.is_told_first(line, column) {
+        let Decision { parameter, sign, .. } = found;
+        context.tell(&format!(
+            "note: line {line}, column {column}: {sign} decides by '{parameter}', which depends on a parameter: where the function jumps there, derivatives are wrong; give \
+             numbers that do not, or value_of(…)"
+        ));
+    }
+}

@@ -1,0 +1,327 @@
+//! Looks through the text of a function for what decides by a parameter of a scene: itself, in functions that it calls, and in those that it has captured.
+
+use std::cell::Cell;
+use std::collections::{BTreeMap, BTreeSet};
+
+use rhai::{ASTNode, BinaryExpr, Dynamic, Expr, FnCallExpr, FnPtr, NativeCallContext, Position};
+use rhai::{ScriptFuncDef, Stmt};
+
+use super::jumps::jumps_with_a_parameter;
+use crate::script::bindings::call::{body_named, defined, written_within};
+use crate::script::bindings::parameter_variants::VariantValue;
+use crate::script::source::syntax::OWN;
+
+/// Operators, functions and methods that jump where their arguments change a little.
+const JUMPS: &[&str] = &[
+    "<", ">", "<=", ">=", "==", "!=", "%", "floor", "ceiling", "round", "round_to", "int",
+    "to_int", "fraction", "quotient", "sign", "is_zero",
+];
+
+/// Functions that make a schedule which jumps at times that they are given.
+const JUMPING_SCHEDULES: &[&str] = &["pulse", "hold_for", "table"];
+
+/// The most functions that are looked into on one another's behalf.
+const DEEPEST: usize = 8;
+
+/// The most functions that are looked into in all: one that calls itself several times would have no end of them.
+const MOST: usize = 100;
+
+/// A place where a function decides by something that depends on a parameter, and by what it is asked at.
+pub(super) struct Decision {
+    /// The variable that depends on the parameter.
+    pub(super) parameter: String,
+    /// The operator, function or method.
+    pub(super) sign: String,
+    /// Where it is written.
+    pub(super) at: Position,
+}
+
+/// What is known of the variables of a function.
+#[derive(Clone, Default)]
+struct VariableFacts {
+    /// Those that depend on a parameter.
+    varied: BTreeSet<String>,
+    /// Those that depend on what the function is asked at.
+    asked: BTreeSet<String>,
+    /// Those that hold schedules which jump at times that depend on a parameter.
+    jumping: BTreeSet<String>,
+    /// Those that hold functions.
+    functions: BTreeMap<String, FnPtr>,
+}
+
+/// What is known of a value.
+#[derive(Default)]
+struct Facts {
+    is_varied: bool,
+    is_asked: bool,
+    jumps: bool,
+    function: Option<FnPtr>,
+}
+
+/// Looks through functions.
+struct BranchSearch<'s, 'n> {
+    native: &'s NativeCallContext<'n>,
+    depth: usize,
+    /// How many more functions may be looked into.
+    left: &'s Cell<usize>,
+}
+
+impl Decision {
+    /// The first one in a function, which is asked at its arguments.
+    pub(super) fn find(native: &NativeCallContext, function: &FnPtr) -> Option<Self> {
+        let definition = defined(native, function.fn_name(), None)?;
+        let (mut known, own) = VariableFacts::of(function, &definition);
+        known.asked.extend(own);
+        BranchSearch { native, depth: 0, left: &Cell::new(MOST) }.function(&definition, known)
+    }
+}
+
+impl VariableFacts {
+    /// What is known of what a function has captured, and the names of its own arguments.
+    fn of(function: &FnPtr, definition: &ScriptFuncDef) -> (Self, Vec<String>) {
+        let names: Vec<String> = definition.params.iter().map(ToString::to_string).collect();
+        let (captured, own) = names.split_at(function.curry().len().min(names.len()));
+        let mut known = Self::default();
+        for (name, value) in captured.iter().zip(function.curry()) {
+            known.hold(name, value);
+        }
+        (known, own.to_vec())
+    }
+
+    /// A variable holds a value.
+    fn hold(&mut self, name: &str, value: &Dynamic) {
+        let facts = Facts {
+            is_varied: VariantValue::family_of(value).is_some(),
+            is_asked: false,
+            jumps: jumps_with_a_parameter(value),
+            function: value.read_lock::<FnPtr>().map(|function| function.clone()),
+        };
+        self.keep(name, facts);
+    }
+
+    /// What is known of what an expression gives.
+    fn about(&self, expression: &Expr) -> Facts {
+        let function = match expression {
+            Expr::Variable(variable, ..) => self.functions.get(variable.1.as_str()).cloned(),
+            _ => None,
+        };
+        Facts {
+            is_varied: first_of(expression, &self.varied).is_some(),
+            is_asked: first_of(expression, &self.asked).is_some(),
+            jumps: self.jumping_in(expression).is_some(),
+            function,
+        }
+    }
+
+    /// What was known of a variable, and this besides.
+    fn keep(&mut self, name: &str, facts: Facts) {
+        let Facts { is_varied, is_asked, jumps, function } = facts;
+        for (names, is_one) in
+            [(&mut self.varied, is_varied), (&mut self.asked, is_asked), (&mut self.jumping, jumps)]
+        {
+            if is_one {
+                names.insert(name.to_owned());
+            }
+        }
+        if let Some(function) = function {
+            self.functions.insert(name.to_owned(), function);
+        }
+    }
+
+    /// The first variable in an expression of a schedule whose jumps depend on a parameter, or of what one is made with.
+    fn jumping_in(&self, expression: &Expr) -> Option<String> {
+        first_in(expression, |node| match node {
+            Expr::Variable(variable, ..) => self.jumping.get(variable.1.as_str()).cloned(),
+            Expr::FnCall(call, _) if JUMPING_SCHEDULES.contains(&call.name.as_str()) => {
+                call.args.iter().find_map(|of| first_of(of, &self.varied))
+            }
+            _ => None,
+        })
+    }
+
+    /// A decision by some expressions together, if they depend on a parameter and on what the function is asked at.
+    fn by<'e>(
+        &self,
+        expressions: impl Iterator<Item = &'e Expr> + Clone,
+        sign: &str,
+        at: Position,
+    ) -> Option<Decision> {
+        let parameter = expressions.clone().find_map(|of| first_of(of, &self.varied))?;
+        expressions.into_iter().find_map(|of| first_of(of, &self.asked))?;
+        Some(Decision { parameter, sign: sign.to_owned(), at })
+    }
+}
+
+impl BranchSearch<'_, '_> {
+    /// The first decision in a function of which this is known.
+    fn function(&self, definition: &ScriptFuncDef, mut known: VariableFacts) -> Option<Decision> {
+        if self.depth == DEEPEST || self.left.get() == 0 {
+            return None;
+        }
+        self.left.update(|left| left - 1);
+        let mut found = None;
+        body_named(self.native, &definition.name, definition.params.len()).walk(
+            &mut |path: &[ASTNode]| {
+                found = match path.last() {
+                    Some(ASTNode::Stmt(statement)) => self.statement(statement, &mut known),
+                    Some(ASTNode::Expr(expression)) => self.expression(expression, &known),
+                    _ => None,
+                };
+                found.is_none()
+            },
+        );
+        found
+    }
+
+    fn statement(&self, statement: &Stmt, known: &mut VariableFacts) -> Option<Decision> {
+        match statement {
+            Stmt::Var(of, ..) => known.keep(of.0.name.as_str(), known.about(&of.1)),
+            Stmt::Assignment(of) => {
+                if let Some(name) = root_of(&of.1.lhs) {
+                    known.keep(name, known.about(&of.1.rhs));
+                }
+            }
+            Stmt::Switch(of, at) => return known.by([&of.0].into_iter(), "switch", *at),
+            Stmt::FnCall(call, at) => return self.call(call, *at, known),
+            _ => {}
+        }
+        None
+    }
+
+    fn expression(&self, expression: &Expr, known: &VariableFacts) -> Option<Decision> {
+        match expression {
+            Expr::FnCall(call, at) => self.call(call, *at, known),
+            Expr::Dot(chain, ..) => self.chain(chain, known),
+            _ => None,
+        }
+    }
+
+    fn call(&self, call: &FnCallExpr, at: Position, known: &VariableFacts) -> Option<Decision> {
+        let sign = call.name.trim_start_matches(OWN);
+        if JUMPS.contains(&sign) {
+            return known.by(call.args.iter(), sign, at);
+        }
+        // A function that is written within: its first arguments are what it captures.
+        if let Some((function, captured)) = written_within(call) {
+            return self.within(&function, captured, known);
+        }
+        if let Some(function) = known.functions.get(sign) {
+            return self.held(function, &call.args, known);
+        }
+        let definition = defined(self.native, sign, Some(call.args.len()))?;
+        let mut own = VariableFacts::default();
+        for (name, argument) in definition.params.iter().zip(&call.args) {
+            own.keep(name, known.about(argument));
+        }
+        self.deeper().function(&definition, own)
+    }
+
+    /// Methods that are called one after the other.
+    fn chain(&self, chain: &BinaryExpr, known: &VariableFacts) -> Option<Decision> {
+        let mut receivers = vec![&chain.lhs];
+        let mut rest = &chain.rhs;
+        loop {
+            let (link, more) = match rest {
+                Expr::Dot(both, ..) => (&both.lhs, Some(&both.rhs)),
+                last => (last, None),
+            };
+            if let Expr::MethodCall(call, at) = link {
+                let found = self.method(&receivers, (call, *at), known);
+                if found.is_some() {
+                    return found;
+                }
+            }
+            receivers.push(link);
+            rest = more?;
+        }
+    }
+
+    fn method(
+        &self,
+        receivers: &[&Expr],
+        (call, at): (&FnCallExpr, Position),
+        known: &VariableFacts,
+    ) -> Option<Decision> {
+        let given = receivers.iter().copied().chain(&call.args);
+        match call.name.as_str() {
+            sign if JUMPS.contains(&sign) => known.by(given, sign, at),
+            "at" => {
+                let parameter = receivers.iter().find_map(|of| known.jumping_in(of))?;
+                call.args.iter().find_map(|of| first_of(of, &known.asked))?;
+                Some(Decision { parameter, sign: "at".into(), at })
+            }
+            "call" => {
+                let [Expr::Variable(variable, ..)] = receivers else { return None };
+                let function = known.functions.get(variable.1.as_str())?;
+                self.held(function, &call.args, known)
+            }
+            _ => None,
+        }
+    }
+
+    /// In a function that a variable holds, called with some arguments.
+    fn held(
+        &self,
+        function: &FnPtr,
+        arguments: &[Expr],
+        known: &VariableFacts,
+    ) -> Option<Decision> {
+        let definition = defined(self.native, function.fn_name(), None)?;
+        let (mut own, names) = VariableFacts::of(function, &definition);
+        for (name, argument) in names.iter().zip(arguments) {
+            own.keep(name, known.about(argument));
+        }
+        self.deeper().function(&definition, own)
+    }
+
+    /// In a function that is written within another one, from which it captures variables; it may be asked at anything that the outer one is.
+    fn within(
+        &self,
+        function: &FnPtr,
+        captured: &[Expr],
+        known: &VariableFacts,
+    ) -> Option<Decision> {
+        let definition = defined(self.native, function.fn_name(), None)?;
+        let mut own = VariableFacts::default();
+        for (at, name) in definition.params.iter().enumerate() {
+            match captured.get(at) {
+                Some(outer) => own.keep(name, known.about(outer)),
+                None => own.keep(name, Facts { is_asked: true, ..Facts::default() }),
+            }
+        }
+        self.deeper().function(&definition, own)
+    }
+
+    fn deeper(&self) -> Self {
+        Self { native: self.native, depth: self.depth + 1, left: self.left }
+    }
+}
+
+/// The variable to whose value, or to a part of it, is assigned.
+fn root_of(target: &Expr) -> Option<&str> {
+    match target {
+        Expr::Variable(variable, ..) => Some(variable.1.as_str()),
+        Expr::Dot(both, ..) | Expr::Index(both, ..) => root_of(&both.lhs),
+        _ => None,
+    }
+}
+
+/// The first of some variables that an expression reads.
+fn first_of(expression: &Expr, names: &BTreeSet<String>) -> Option<String> {
+    first_in(expression, |node| match node {
+        Expr::Variable(variable, ..) => names.get(variable.1.as_str()).cloned(),
+        _ => None,
+    })
+}
+
+/// The first that is found in an expression or a part of it.
+fn first_in<T>(expression: &Expr, mut what: impl FnMut(&Expr) -> Option<T>) -> Option<T> {
+    let mut found = None;
+    expression.walk(&mut Vec::new(), &mut |path: &[ASTNode]| {
+        if let Some(ASTNode::Expr(expression)) = path.last() {
+            found = what(expression);
+        }
+        found.is_none()
+    });
+    found
+}

@@ -1,0 +1,53 @@
+//! Functions as values.
+
+use crate::script::bindings::built_in::{BuiltInTable, built_in};
+use crate::script::bindings::returns::Returns;
+
+/// The table of what Rhai has for functions and closures as values.
+pub const TABLE: BuiltInTable = BuiltInTable {
+    name: "functions",
+    doc: "|x| 2 * x is a function without a name, and may be kept in a variable. Written where it stands, it sees the \
+          variables around it.",
+    rows: &[
+        built_in(
+            &["function.call(values…)"],
+            "Calls the function that a variable holds.",
+            "let twice = |x| 2 * x;\ncheck(twice.call(4) == 8);",
+        )
+        .returns(Returns::ANYTHING.words("what the function gives"))
+        .see(&["curry", "Fn"]),
+        built_in(
+            &["function.curry(values…)"],
+            "A function of fewer arguments, the first of which are fixed.",
+            "let power = |n, x| x^n;\nlet cube = power.curry(3);\ncheck(cube.call(2) == 8);",
+        )
+        .returns(Returns::FUNCTION)
+        .see(&["call"]),
+        built_in(
+            &["Fn(name)"],
+            "The function with this name as a value.",
+            "fn twice(x) { 2 * x }\ncheck([1, 2].map(Fn(\"twice\")) == [2, 4]);",
+        )
+        .returns(Returns::FUNCTION)
+        .see(&["call"]),
+        built_in(
+            &["function.name"],
+            "The name of the function.",
+            "check(Fn(\"sin\").name == \"sin\");",
+        )
+        .returns(Returns::TEXT),
+        built_in(
+            &["function.is_anonymous"],
+            "Whether the function was written as |x| … .",
+            "check((|x| x).is_anonymous);",
+        )
+        .returns(Returns::TRUTH),
+        built_in(
+            &["is_def_fn(name, count)", "is_def_fn(type, name, count)"],
+            "Whether the script defines a function with this name and so many parameters.",
+            "fn twice(x) { 2 * x }\ncheck(is_def_fn(\"twice\", 1) && !is_def_fn(\"twice\", 2));",
+        )
+        .returns(Returns::TRUTH)
+        .see(&["is_def_var"]),
+    ],
+};

@@ -1,0 +1,151 @@
+//! Option maps with a type: one table declares the keys, with kinds, units and defaults, and the fields that they are read into.
+
+use rhai::{Array, Dynamic, FnPtr};
+
+use super::arguments::Arguments;
+use super::parameter::Parameter;
+use crate::integrators::Method;
+use crate::script::messages::error::ScriptError;
+
+/// What a key of an option map can be read as.
+pub trait FromOption: Sized {
+    /// The value of a key, given or by default.
+    ///
+    /// # Errors
+    /// When its kind is not one that this can be read from: our own mistake.
+    fn read(options: &Arguments, key: &str) -> Result<Self, ScriptError>;
+}
+
+/// A key that may be left out.
+impl<T: FromOption> FromOption for Option<T> {
+    fn read(options: &Arguments, key: &str) -> Result<Self, ScriptError> {
+        options.has(key).then(|| T::read(options, key)).transpose()
+    }
+}
+
+impl FromOption for f64 {
+    fn read(options: &Arguments, key: &str) -> Result<Self, ScriptError> {
+        options.number(key)
+    }
+}
+
+impl FromOption for usize {
+    fn read(options: &Arguments, key: &str) -> Result<Self, ScriptError> {
+        options.count(key)
+    }
+}
+
+impl FromOption for String {
+    fn read(options: &Arguments, key: &str) -> Result<Self, ScriptError> {
+        Ok(options.text(key)?.into())
+    }
+}
+
+impl FromOption for Dynamic {
+    fn read(options: &Arguments, key: &str) -> Result<Self, ScriptError> {
+        options.value(key)
+    }
+}
+
+/// Values of types that the engine holds as they are.
+macro_rules! held_as_they_are {
+    ($($held:ty),*) => {
+        $(impl FromOption for $held {
+            fn read(options: &Arguments, key: &str) -> Result<Self, ScriptError> {
+                options.get(key)
+            }
+        })*
+    };
+}
+
+held_as_they_are!(FnPtr, Array, Vec<f64>, Method);
+
+/// Declares a struct whose fields are the keys of an option map: `field: Type = parameter`, where the parameter is what stands in the help.
+///
+/// The struct has `KEYS`, in the order of its fields, and is read from checked options at once by `of`.
+macro_rules! option_set {
+    (
+        $(#[$about:meta])*
+        $visible:vis struct $name:ident {
+            $($(#[$meaning:meta])* $field:ident: $kind:ty = $key:expr,)*
+        }
+    ) => {
+        $(#[$about])*
+        $visible struct $name {
+            $($(#[$meaning])* pub $field: $kind,)*
+        }
+
+        impl $name {
+            /// The keys of the option map, in the order of the help.
+            pub const KEYS: &'static [$crate::script::bindings::parameter::Parameter] = &[$($key),*];
+
+            /// Reads checked options.
+            ///
+            /// # Errors
+            /// When a key is not of the kind of its field: our own mistake.
+            pub fn of(
+                options: &$crate::script::bindings::options::Options,
+            ) -> Result<Self, $crate::script::messages::error::ScriptError> {
+                Ok(Self {
+                    $($field: {
+                        const KEY: $crate::script::bindings::parameter::Parameter = $key;
+                        $crate::script::bindings::option_set::FromOption::read(options, KEY.name)?
+                    },)*
+                })
+            }
+        }
+    };
+}
+
+pub(in crate::script) use option_set;
+
+/// The keys of two sets as one map has them: `N` in all.
+pub const fn both<const N: usize>(
+    first: &'static [Parameter],
+    second: &'static [Parameter],
+) -> [Parameter; N] {
+    assert!(first.len() + second.len() == N);
+    let mut keys = [first[0]; N];
+    let mut at = 0;
+    while at < N {
+        keys[at] = if at < first.len() { first[at] } else { second[at - first.len()] };
+        at += 1;
+    }
+    keys
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::script::bindings::options::Options;
+    use crate::script::bindings::parameter::{Presence, number, text, whole};
+
+    option_set! {
+        struct GeneratedFields {
+            width: f64 = number("width").or(Presence::Number(2.0)),
+            count: usize = whole("count").or(Presence::Whole(3)),
+            title: Option<String> = text("title").optional(),
+        }
+    }
+
+    option_set! {
+        struct FieldError {
+            width: String = number("width").or(Presence::Number(2.0)),
+        }
+    }
+
+    #[test]
+    fn what_is_left_out_is_the_default_or_nothing() {
+        let drawn =
+            GeneratedFields::of(&Options::defaults(GeneratedFields::KEYS)).expect("the defaults");
+        assert_eq!((drawn.width, drawn.count, drawn.title), (2.0, 3, None));
+        let wrong = FieldError::of(&Options::defaults(FieldError::KEYS)).map(|wrong| wrong.width);
+        assert!(matches!(wrong, Err(ScriptError::Bug(_))), "{wrong:?}");
+    }
+
+    #[test]
+    fn keys_of_two_sets_stand_one_after_the_other() {
+        const BOTH: [Parameter; 4] = both(GeneratedFields::KEYS, FieldError::KEYS);
+        assert_eq!(BOTH.map(|key| key.name), ["width", "count", "title", "width"]);
+    }
+}

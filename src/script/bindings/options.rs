@@ -1,0 +1,131 @@
+//! Option maps: known keys with kinds, units, defaults and ranges. A misspelt key is an error, never ignored.
+
+use std::ops::Deref;
+
+use rhai::{Dynamic, Engine, Map};
+
+use super::accept::accept;
+use super::arguments::Arguments;
+use super::parameter::Parameter;
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::messages::suggest::nearest;
+
+/// An option map that was checked against its keys. Read it as the arguments of a call: `options.number("EA")`.
+#[derive(Clone)]
+pub struct Options {
+    arguments: Arguments,
+}
+
+/// Options are read as arguments are.
+impl Deref for Options {
+    type Target = Arguments;
+
+    fn deref(&self) -> &Arguments {
+        &self.arguments
+    }
+}
+
+impl Options {
+    /// The options of a map in which nothing is given: all defaults.
+    pub fn defaults(keys: &'static [Parameter]) -> Self {
+        Self { arguments: Arguments::new(keys, Vec::new()) }
+    }
+
+    /// Checks `map` against `keys` on behalf of `owner`, the function or option map that asks.
+    pub fn read(
+        engine: &Engine,
+        owner: &str,
+        keys: &'static [Parameter],
+        map: &Map,
+    ) -> Result<Self, ScriptError> {
+        if let Some(unknown) =
+            map.keys().find(|name| keys.iter().all(|key| key.name != name.as_str()))
+        {
+            return Err(unknown_key(owner, keys, unknown));
+        }
+        let is_alone = |key: &&Parameter| {
+            map.contains_key(key.name) && !key.beside.is_empty() && !map.contains_key(key.beside)
+        };
+        if let Some(key) = keys.iter().find(is_alone) {
+            return Err(alone(owner, keys, key));
+        }
+        let values =
+            keys.iter().map(|key| value_of(engine, owner, key, map)).collect::<Result<_, _>>()?;
+        Ok(Self { arguments: Arguments::new(keys, values) })
+    }
+
+    /// The error about an option that must be given here, with a sentence on what the options are.
+    pub(super) fn missing(&self, owner: &str, name: &str, told: &str) -> ScriptError {
+        match self.arguments.parameter(name) {
+            Some(key) => missing(owner, name, &format!("{}; {told}", asked_for(key))),
+            None => ScriptError::bug(format!("{owner} has no option '{name}'")),
+        }
+    }
+}
+
+fn value_of(
+    engine: &Engine,
+    owner: &str,
+    key: &Parameter,
+    map: &Map,
+) -> Result<Option<Dynamic>, ScriptError> {
+    match map.get(key.name) {
+        Some(value) => accept(engine, owner, key, value.clone().flatten())
+            .map(Some)
+            .map_err(|error| blame_key(error, key.name)),
+        None if key.is_required() => Err(missing_key(owner, key)),
+        None => Ok(None),
+    }
+}
+
+fn unknown_key(owner: &str, keys: &[Parameter], unknown: &str) -> ScriptError {
+    let meant = nearest(unknown, keys.iter().map(|key| key.name));
+    let suggestion = meant.map(|name| format!("did you mean '{name}'? ")).unwrap_or_default();
+    ScriptError::new(format!("{owner}: unknown option '{unknown}'"))
+        .hint(format!("{suggestion}known options: {}", list(keys)))
+        .at(CallPart::Key(unknown.to_owned()))
+}
+
+fn missing_key(owner: &str, key: &Parameter) -> ScriptError {
+    missing(owner, key.name, &asked_for(key))
+}
+
+fn missing(owner: &str, name: &str, what_to_add: &str) -> ScriptError {
+    ScriptError::new(format!("{owner}: the option '{name}' is missing"))
+        .hint(format!("add {what_to_add}"))
+}
+
+/// A key that means something only beside another one, which is not given.
+fn alone(owner: &str, keys: &[Parameter], key: &Parameter) -> ScriptError {
+    let Parameter { name, beside, .. } = key;
+    let other = keys.iter().find(|other| other.name == *beside);
+    let other = other.map_or_else(|| (*beside).to_owned(), asked_for);
+    ScriptError::new(format!("{owner}: the option '{name}' has no meaning without '{beside}'"))
+        .hint(format!("add {other}, or leave {name} out"))
+        .at(CallPart::Key((*name).to_owned()))
+}
+
+/// A key, what may be given for it, and what it is.
+fn asked_for(key: &Parameter) -> String {
+    let meaning = if key.doc.is_empty() { String::new() } else { format!(" ({})", key.doc) };
+    format!("{}: {}{meaning}", key.name, key.expectation())
+}
+
+/// The keys in a line, with the ones that must be given marked.
+fn list(keys: &[Parameter]) -> String {
+    let names = keys.iter().map(|key| match key.is_required() {
+        true => format!("{} (required)", key.name),
+        false => key.name.to_owned(),
+    });
+    names.collect::<Vec<_>>().join(", ")
+}
+
+/// Points at the key, unless a nested map already points at one of its own.
+fn blame_key(error: ScriptError, key: &str) -> ScriptError {
+    match error {
+        ScriptError::Failure(failure) if failure.place == CallPart::Call => {
+            ScriptError::Failure(failure).at(CallPart::Key(key.to_owned()))
+        }
+        other => other,
+    }
+}

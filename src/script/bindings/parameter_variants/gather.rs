@@ -1,0 +1,88 @@
+//! From what a call gave in each variant to one value.
+
+use std::rc::Rc;
+
+use rhai::{Array, Dynamic, Map};
+
+use super::parameter_set::ParameterSet;
+use super::variant_value::VariantValue;
+use crate::geometry::Vec2;
+use crate::script::messages::error::ScriptError;
+use crate::script::messages::numbers::as_number;
+
+/// One value that is in each variant what `results` are, those of variant 0 first. What is the same in all stays as it is; things of a scene (`is_thing`)
+/// know their variants themselves; truth values, texts and whole numbers are those of variant 0.
+///
+/// # Errors
+/// When arrays or maps differ in more than numbers.
+pub fn gather(
+    family: &Rc<ParameterSet>,
+    results: &[Dynamic],
+    lost: Option<&Rc<str>>,
+    is_thing: &dyn Fn(&Dynamic) -> bool,
+) -> Result<Dynamic, ScriptError> {
+    let first = &results[0];
+    if first.is_unit() || first.is_bool() || first.is_string() || is_thing(first) {
+        return Ok(first.clone());
+    }
+    if let Some(own) = first.read_lock::<Array>() {
+        let all: Vec<Array> = results.iter().filter_map(|of| of.clone().try_cast()).collect();
+        if all.len() != results.len() || all.iter().any(|of| of.len() != own.len()) {
+            return Err(differ("array"));
+        }
+        let element = |at: usize| {
+            let each: Vec<Dynamic> = all.iter().map(|of| of[at].clone()).collect();
+            gather(family, &each, lost, is_thing)
+        };
+        return Ok((0..own.len()).map(element).collect::<Result<Array, _>>()?.into());
+    }
+    if let Some(own) = first.read_lock::<Map>() {
+        let all: Vec<Map> = results.iter().filter_map(|of| of.clone().try_cast()).collect();
+        if all.len() != results.len() || all.iter().any(|of| !of.keys().eq(own.keys())) {
+            return Err(differ("map"));
+        }
+        let entry = |(at, key): (usize, &rhai::Identifier)| {
+            let each: Vec<Dynamic> =
+                all.iter().filter_map(|of| of.values().nth(at).cloned()).collect();
+            Ok((key.clone(), gather(family, &each, lost, is_thing)?))
+        };
+        return Ok(own.keys().enumerate().map(entry).collect::<Result<Map, ScriptError>>()?.into());
+    }
+    if results.iter().all(Dynamic::is_int) {
+        return Ok(first.clone());
+    }
+    if lost.is_none() && results.iter().all(|other| are_equal(first, other)) {
+        return Ok(first.clone());
+    }
+    let undefined = || match (is_defined(first), results.iter().all(is_defined)) {
+        (false, _) => Some("it is infinite or undefined".into()),
+        (true, false) => Some("it is infinite or undefined as soon as a parameter changes".into()),
+        (true, true) => None,
+    };
+    let lost = lost.cloned().or_else(undefined);
+    Ok(Dynamic::from(VariantValue::new(family, results.to_vec(), lost)))
+}
+
+fn differ(what: &str) -> ScriptError {
+    ScriptError::new(format!("the {what} has other places when a parameter changes a little")).hint(
+        "only numbers may depend on a parameter; take central differences where more does: plain numbers in the place of scene.parameter(…)",
+    )
+}
+
+/// Whether a value is no number or vector that is infinite or undefined.
+fn is_defined(value: &Dynamic) -> bool {
+    let vector = value.read_lock::<Vec2>();
+    as_number(value).is_none_or(f64::is_finite)
+        && vector.is_none_or(|of| of.x.is_finite() && of.y.is_finite())
+}
+
+/// Whether two values are the same number or vector, to the last bit.
+fn are_equal(one: &Dynamic, other: &Dynamic) -> bool {
+    if let (Some(one), Some(other)) = (as_number(one), as_number(other)) {
+        return one.to_bits() == other.to_bits();
+    }
+    match (one.read_lock::<Vec2>(), other.read_lock::<Vec2>()) {
+        (Some(one), Some(other)) => *one == *other,
+        _ => false,
+    }
+}

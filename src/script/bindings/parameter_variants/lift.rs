@@ -1,0 +1,249 @@
+//! A call, made as often as there are variants of what it depends on.
+
+use std::rc::Rc;
+
+use rhai::{Dynamic, FnPtr, Map};
+
+use super::gather::gather;
+use super::nonsmooth::corner_of;
+use super::parameter_set::{ParameterSet, VariantGuard, of_thing, present, take_lost};
+use super::policy::Lifting;
+use super::variant_value::{VariantValue, family_of, lost_in, project};
+use crate::script::bindings::kind::Kind;
+use crate::script::bindings::parameter::Parameter;
+use crate::script::bindings::table::{CallSyntax, FunctionBinding};
+use crate::script::messages::error::{CallPart, ScriptError};
+
+/// What to do about an error that is one only beside the value of a parameter.
+const BESIDE: &str = "derivatives are found from values on both sides of a parameter: choose it within what is allowed, or give value_of(x) here, which has none";
+
+/// Makes a call of a row.
+type Make<'m> = &'m mut dyn FnMut(Option<&mut Dynamic>, &[Dynamic]) -> Result<Dynamic, ScriptError>;
+
+/// Makes a call of a row for each variant of what its receiver and its arguments depend on, as the row's domain wants it.
+///
+/// # Errors
+/// Those of the call; also where derivatives would be lost, and where parameters of two scenes meet.
+pub fn lift(
+    (row, lifting): (&FunctionBinding, Lifting),
+    mut receiver: Option<&mut Dynamic>,
+    (parameters, given): (&[Parameter], Vec<Dynamic>),
+    make: Make<'_>,
+) -> Result<Dynamic, ScriptError> {
+    if let Some(present) = present() {
+        return make_at(present.variant, receiver, &given, make);
+    }
+    let Some(family) = families(receiver.as_deref(), &given)? else {
+        return make(receiver, &given);
+    };
+    let depends = given.iter().position(|of| family_of(of).is_some());
+    match (lifting, depends) {
+        (Lifting::Each, _) => expect_plain_whole_numbers(row, parameters, &given)?,
+        (Lifting::Once, Some(_)) if row.receiver().is_none() && is_about_derivatives(row) => {
+            return make(receiver, &given);
+        }
+        (Lifting::Once, Some(number)) => {
+            return Err(refusal(row, parameters.get(number), &given[number], number));
+        }
+        (Lifting::AtValues, _) | (Lifting::Once, None) => {
+            return make_at(0, receiver, &given, make);
+        }
+        (Lifting::Refused, _) => {
+            let told = format!("{} does not follow parameters of a scene", row.name);
+            let hint = "build the scene with plain numbers in the place of scene.parameter(…), twice, and take the difference";
+            return Err(ScriptError::new(told).hint(hint));
+        }
+    }
+    family.use_variants();
+    let is_set = matches!(row.form, CallSyntax::Property(_)) && !given.is_empty();
+    let is_thing = |value: &Dynamic| !value.is::<VariantValue>() && of_thing(value).is_some();
+    let mut lost = given.iter().chain(receiver.as_deref()).find_map(lost_in);
+    let _: Option<Rc<str>> = take_lost();
+    let mut at = |variant: usize| {
+        let _within = VariantGuard::of(&family, variant);
+        let given: Vec<Dynamic> = given.iter().map(|of| project(of, variant)).collect();
+        match &mut receiver {
+            // A thing of a scene has variants of its own.
+            Some(held) if is_thing(held) => make(Some(held), &given),
+            Some(held) => {
+                let mut own = project(held, variant);
+                let made = make(Some(&mut own), &given)?;
+                Ok(if is_set { own } else { made })
+            }
+            None => make(None, &given),
+        }
+    };
+    let mut results = Vec::with_capacity(family.variants());
+    // The one at the values last: a scene begins to have variants as it was before.
+    for variant in (0..family.variants()).rev() {
+        match at(variant) {
+            Ok(made) => results.push(made),
+            Err(error) if variant == 0 => return Err(error),
+            // What is wrong at the values too is told with these.
+            Err(beside) => return Err(at(0).err().unwrap_or(beside.said(&family, variant))),
+        }
+    }
+    results.reverse();
+    let corner = || corner_of((row.name, row.corner?), &family, &given);
+    lost = lost.or_else(take_lost).or_else(corner);
+    let found = gather(&family, &results, lost.as_ref(), &is_thing)?;
+    match receiver {
+        Some(held) if is_set && !is_thing(held) => {
+            *held = found;
+            Ok(Dynamic::UNIT)
+        }
+        _ => Ok(found),
+    }
+}
+
+/// Makes a call for one variant of what it is made with.
+fn make_at(
+    variant: usize,
+    receiver: Option<&mut Dynamic>,
+    given: &[Dynamic],
+    make: Make<'_>,
+) -> Result<Dynamic, ScriptError> {
+    let given: Vec<Dynamic> = given.iter().map(|of| project(of, variant)).collect();
+    match receiver {
+        Some(held) if held.is::<VariantValue>() => make(Some(&mut project(held, variant)), &given),
+        receiver => make(receiver, &given),
+    }
+}
+
+/// Refuses what depends on parameters where a whole number must be given: between two whole numbers there is none.
+fn expect_plain_whole_numbers(
+    row: &FunctionBinding,
+    parameters: &[Parameter],
+    given: &[Dynamic],
+) -> Result<(), ScriptError> {
+    let is_wrong = |(parameter, value): &(&Parameter, &Dynamic)| {
+        value.is::<VariantValue>() && parameter.kind.is_of_whole_numbers()
+    };
+    let pairs = parameters.iter().zip(given);
+    match pairs.enumerate().find(|(_, pair)| is_wrong(pair)) {
+        None => Ok(()),
+        Some((number, (parameter, _))) => {
+            let told = format!(
+                "{}: '{}' is a whole number, and cannot depend on a parameter of a scene",
+                row.name, parameter.name
+            );
+            let hint = "int(x) and round(x) are the whole number next to its value";
+            Err(ScriptError::new(told).hint(hint).at(CallPart::Argument(number)))
+        }
+    }
+}
+
+/// The error about an argument that depends on parameters where none may: at the option that does, if it is one.
+fn refusal(
+    row: &FunctionBinding,
+    parameter: Option<&Parameter>,
+    given: &Dynamic,
+    number: usize,
+) -> ScriptError {
+    let (name, value, place) = match option_in(given) {
+        Some((key, value)) => (key.clone(), value, CallPart::Key(key)),
+        None => {
+            let name = parameter.map_or("", |of| of.name).to_owned();
+            (name, given.clone(), CallPart::Argument(number))
+        }
+    };
+    let told = format!("{}: '{name}' may not depend on parameters of a scene", row.name);
+    let hint = match value.is::<FnPtr>() {
+        true => {
+            "the function uses a variable from outside that does: let plain = value_of(x); before it is the number without its derivatives"
+        }
+        false => "value_of(x) is the number without its derivatives",
+    };
+    ScriptError::new(told).hint(hint).at(place)
+}
+
+/// The innermost option that depends on parameters, with its name.
+fn option_in(options: &Dynamic) -> Option<(String, Dynamic)> {
+    let map = options.read_lock::<Map>()?;
+    let (key, value) = map.iter().find(|(_, of)| family_of(of).is_some())?;
+    option_in(value).or_else(|| Some((key.to_string(), value.clone())))
+}
+
+impl ScriptError {
+    /// The same error of a call beside that at the values of the parameters, which says so.
+    fn said(self, family: &ParameterSet, variant: usize) -> Self {
+        match self {
+            Self::Failure(mut failure) => {
+                let at = family.describe(variant);
+                failure.message = format!("{} (with {at}, for the derivatives)", failure.message);
+                failure.hint = Some(BESIDE.to_owned());
+                Self::Failure(failure)
+            }
+            other => other,
+        }
+    }
+}
+
+/// Whether a function takes values with their derivatives as they are.
+fn is_about_derivatives(row: &FunctionBinding) -> bool {
+    row.parameters.first().is_some_and(|of| matches!(of.kind, Kind::Anything))
+}
+
+/// The parameters that a call depends on.
+fn families(
+    receiver: Option<&Dynamic>,
+    given: &[Dynamic],
+) -> Result<Option<Rc<ParameterSet>>, ScriptError> {
+    let values: Vec<&Dynamic> = receiver.into_iter().chain(given).collect();
+    ParameterSet::common(&values)
+}
+
+impl ParameterSet {
+    /// The parameters that some values depend on, if any does.
+    ///
+    /// # Errors
+    /// When they depend on those of two scenes.
+    pub fn common(values: &[&Dynamic]) -> Result<Option<Rc<Self>>, ScriptError> {
+        let own = |value: &&Dynamic| family_of(value).or_else(|| of_thing(value));
+        let mut found: Option<Rc<Self>> = None;
+        for family in values.iter().filter_map(own) {
+            match &found {
+                Some(known) if !Rc::ptr_eq(known, &family) => {
+                    let names = [known, &family].map(|of| {
+                        let names =
+                            of.parameters().into_iter().map(|(name, _)| format!("'{name}'"));
+                        names.collect::<Vec<_>>().join(", ")
+                    });
+                    let told =
+                        format!("parameters of two scenes meet: {} and {}", names[0], names[1]);
+                    let hint = "take value_of(x) of the one whose derivatives are not wanted";
+                    return Err(ScriptError::new(told).hint(hint));
+                }
+                _ => found = Some(family),
+            }
+        }
+        Ok(found)
+    }
+}
+
+/// One value of what was made of some values in each variant.
+///
+/// # Errors
+/// When arrays or maps differ in more than numbers.
+pub fn gathered(
+    family: &Rc<ParameterSet>,
+    results: &[Dynamic],
+    from: &[&Dynamic],
+) -> Result<Dynamic, ScriptError> {
+    family.use_variants();
+    let lost = from.iter().find_map(|value| lost_in(value));
+    gather(family, results, lost.as_ref(), &|_| false)
+}
+
+/// One value of what was made in each variant, without derivatives: why.
+///
+/// # Errors
+/// When arrays or maps differ in more than numbers.
+pub fn gathered_without(
+    family: &Rc<ParameterSet>,
+    results: &[Dynamic],
+    reason: Rc<str>,
+) -> Result<Dynamic, ScriptError> {
+    family.use_variants();
+    gather(family, results, Some(&reason), &|_| false)
+}

@@ -1,0 +1,295 @@
+//! Functions with corners, jumps and infinite slopes: where these lie between the variants of a parameter, or very near, there is no derivative.
+
+use std::rc::Rc;
+
+use rhai::{Array, Dynamic};
+
+use super::parameter_set::ParameterSet;
+use super::variant_value::project;
+use crate::elementary::cos;
+use crate::geometry::Vec2;
+use crate::script::bindings::accept::as_point;
+use crate::script::messages::numbers::as_number;
+
+/// So many times the change of an argument from the place where a slope is infinite, differences are off by its inverse squared, a part in 1e5.
+const NEAR: f64 = 300.0;
+
+/// The arguments of a call at the values of the parameters, and at one of them plus and minus its distance.
+pub struct Sides<'s> {
+    /// At the values.
+    pub at: &'s [Dynamic],
+    /// At one more.
+    pub plus: &'s [Dynamic],
+    /// At one less.
+    pub minus: &'s [Dynamic],
+}
+
+/// Why there is no derivative.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoDerivative {
+    /// A corner or a jump lies between the variants.
+    Broken,
+    /// The place where the slope is infinite is too near.
+    Steep,
+}
+
+/// Whether and why a function has no derivative between the arguments of its calls.
+pub type NonsmoothCheck = fn(&Sides) -> Option<NoDerivative>;
+
+/// Why what a function gives has no derivatives although it was made with what has.
+pub fn corner_of(
+    (name, corner): (&str, NonsmoothCheck),
+    family: &ParameterSet,
+    given: &[Dynamic],
+) -> Option<Rc<str>> {
+    let in_variant =
+        |variant| given.iter().map(|of| project(of, variant)).collect::<Vec<Dynamic>>();
+    let at = in_variant(0);
+    let parameters = family.parameters();
+    let mut found = parameters.iter().enumerate().filter_map(|(number, (parameter, _))| {
+        let [plus, minus] = [1, 2].map(|beside| in_variant(beside + 2 * number));
+        let rough = corner(&Sides { at: &at, plus: &plus, minus: &minus })?;
+        Some(match rough {
+            NoDerivative::Broken => format!(
+                "'{name}' has a corner or a jump just there, and no derivative by '{parameter}'"
+            ),
+            NoDerivative::Steep => format!(
+                "'{name}' is too near to where its slope is infinite or undefined for a derivative by '{parameter}'"
+            ),
+        })
+    });
+    Some(found.next()?.into())
+}
+
+impl Sides<'_> {
+    /// A number that is made of the arguments, at the values and on both sides.
+    fn each(&self, what: impl Fn(&[Dynamic]) -> f64) -> [f64; 3] {
+        [self.at, self.plus, self.minus].map(what)
+    }
+
+    /// Whether a number that is made of the arguments passes zero between both sides.
+    fn passes_zero(&self, what: impl Fn(&[Dynamic]) -> f64) -> Option<NoDerivative> {
+        let [_, plus, minus] = self.each(what);
+        (plus * minus < 0.0).then_some(NoDerivative::Broken)
+    }
+
+    /// Whether a number that is made of the arguments changes, and is zero or near it.
+    fn nears_zero(&self, what: impl Fn(&[Dynamic]) -> f64) -> Option<NoDerivative> {
+        let [at, plus, minus] = self.each(what);
+        let change = (plus - at).abs().max((minus - at).abs());
+        (change > 0.0 && at.abs() <= NEAR * change).then_some(NoDerivative::Steep)
+    }
+
+    /// Whether a vector that is made of the arguments changes, and is zero or near it.
+    fn nears_origin(&self, what: impl Fn(&[Dynamic]) -> Option<Vec2>) -> Option<NoDerivative> {
+        let (at, plus, minus) = (what(self.at)?, what(self.plus)?, what(self.minus)?);
+        let change = (plus - at).norm().max((minus - at).norm());
+        (change > 0.0 && at.norm() <= NEAR * change).then_some(NoDerivative::Steep)
+    }
+}
+
+/// At zero of the one argument, as that of `abs`.
+pub fn at_zero(sides: &Sides) -> Option<NoDerivative> {
+    sides.passes_zero(|given| number(given, 0))
+}
+
+/// Near zero of the one argument, as that of `sqrt` and `ln`.
+pub fn near_zero(sides: &Sides) -> Option<NoDerivative> {
+    sides.nears_zero(|given| number(given, 0))
+}
+
+/// Near one and minus one, as that of `acos`.
+pub fn near_one(sides: &Sides) -> Option<NoDerivative> {
+    sides.nears_zero(|given| number(given, 0).abs() - 1.0)
+}
+
+/// Near the poles of `tan`.
+pub fn near_quarters(sides: &Sides) -> Option<NoDerivative> {
+    sides.nears_zero(|given| cos(number(given, 0)))
+}
+
+/// Near zero of the argument, and near one of the base, of a logarithm.
+pub fn near_ends_of_logarithm(sides: &Sides) -> Option<NoDerivative> {
+    let base = || sides.nears_zero(|given| number(given, 1) - 1.0);
+    near_zero(sides).or_else(base).or_else(|| sides.nears_zero(|given| number(given, 1)))
+}
+
+/// Where both arguments are equal, as that of `max`.
+pub fn where_equal(sides: &Sides) -> Option<NoDerivative> {
+    sides.passes_zero(|given| number(given, 0) - number(given, 1))
+}
+
+/// Near the origin of the vector of both arguments, as that of `hypot`.
+pub fn at_origin(sides: &Sides) -> Option<NoDerivative> {
+    sides.nears_origin(|given| Some(Vec2::new(number(given, 0), number(given, 1))))
+}
+
+/// Near the origin, and where an angle goes from half a turn to minus that, of the vector of both arguments, the second of which is along.
+pub fn at_cut(sides: &Sides) -> Option<NoDerivative> {
+    cut(sides, |given| Some(Vec2::new(number(given, 1), number(given, 0))))
+}
+
+/// Near the origin, and where an angle goes from half a turn to minus that, of the vector that is the argument.
+pub fn at_cut_of_vector(sides: &Sides) -> Option<NoDerivative> {
+    cut(sides, |given| point(given, 0))
+}
+
+fn cut(sides: &Sides, what: fn(&[Dynamic]) -> Option<Vec2>) -> Option<NoDerivative> {
+    let passes = || match what(sides.at)?.x < 0.0 {
+        true => sides.passes_zero(|given| what(given).map_or(f64::NAN, |of| of.y)),
+        false => None,
+    };
+    sides.nears_origin(what).or_else(passes)
+}
+
+/// Near the origin of the argument, as that of `norm`.
+pub fn at_zero_vector(sides: &Sides) -> Option<NoDerivative> {
+    sides.nears_origin(|given| point(given, 0))
+}
+
+/// Near where both points are one, as that of `distance`.
+pub fn where_points_meet(sides: &Sides) -> Option<NoDerivative> {
+    sides.nears_origin(|given| point(given, 1).zip(point(given, 0)).map(|(b, a)| b - a))
+}
+
+/// At whole numbers, as that of `fraction`.
+pub fn at_whole_numbers(sides: &Sides) -> Option<NoDerivative> {
+    let [_, plus, minus] = sides.each(|given| number(given, 0).trunc());
+    (plus != minus).then_some(NoDerivative::Broken)
+}
+
+/// Where digits change, as those of `round_to` do.
+pub fn where_rounded_differs(sides: &Sides) -> Option<NoDerivative> {
+    let [_, plus, minus] = sides.each(|given| {
+        let digits = number(given, 1);
+        (number(given, 0) * crate::elementary::power(10.0, digits)).round()
+    });
+    (plus != minus).then_some(NoDerivative::Broken)
+}
+
+/// At multiples of the divisor, of a remainder.
+pub fn at_multiples(sides: &Sides) -> Option<NoDerivative> {
+    let [at, plus, minus] = sides.each(|given| (number(given, 0) / number(given, 1)).trunc());
+    (plus != at || minus != at).then_some(NoDerivative::Broken)
+}
+
+/// Near zero of what is divided by.
+pub fn near_zero_divisor(sides: &Sides) -> Option<NoDerivative> {
+    sides.nears_zero(|given| number(given, 1))
+}
+
+/// Near zero of the base of a power, unless its exponent is a whole number.
+pub fn near_zero_base(sides: &Sides) -> Option<NoDerivative> {
+    let exponents = sides.each(|given| number(given, 1));
+    let is_smooth = exponents[0] >= 0.0
+        && exponents[0].fract() == 0.0
+        && exponents.iter().all(|exponent| *exponent == exponents[0]);
+    if is_smooth { None } else { sides.nears_zero(|given| number(given, 0)) }
+}
+
+/// Where another number of the array becomes the largest.
+pub fn where_largest_changes(sides: &Sides) -> Option<NoDerivative> {
+    chosen_changes(sides, |x, y| x > y)
+}
+
+/// Where another number of the array becomes the smallest.
+pub fn where_smallest_changes(sides: &Sides) -> Option<NoDerivative> {
+    chosen_changes(sides, |x, y| x < y)
+}
+
+fn chosen_changes(sides: &Sides, wins: fn(f64, f64) -> bool) -> Option<NoDerivative> {
+    let chosen = |values: &[f64]| {
+        let better =
+            |best: usize, at: usize| if wins(values[at], values[best]) { at } else { best };
+        (0..values.len()).reduce(better)
+    };
+    let [plus, minus] = [sides.plus, sides.minus].map(numbers);
+    let (one, other) = (chosen(&plus)?, chosen(&minus)?);
+    let changes =
+        plus.len() == minus.len() && wins(plus[one], plus[other]) && wins(minus[other], minus[one]);
+    changes.then_some(NoDerivative::Broken)
+}
+
+fn number(given: &[Dynamic], at: usize) -> f64 {
+    given.get(at).and_then(as_number).unwrap_or(f64::NAN)
+}
+
+fn point(given: &[Dynamic], at: usize) -> Option<Vec2> {
+    given.get(at).and_then(as_point)
+}
+
+fn numbers(given: &[Dynamic]) -> Vec<f64> {
+    let array = given.first().and_then(|first| first.read_lock::<Array>());
+    array.iter().flat_map(|array| array.iter()).filter_map(as_number).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(numbers: &[f64]) -> Vec<Dynamic> {
+        numbers.iter().map(|x| Dynamic::from(*x)).collect()
+    }
+
+    fn array(numbers: &[f64]) -> Vec<Dynamic> {
+        vec![Dynamic::from(of(numbers))]
+    }
+
+    fn asked(corner: NonsmoothCheck, [at, plus, minus]: [Vec<Dynamic>; 3]) -> Option<NoDerivative> {
+        corner(&Sides { at: &at, plus: &plus, minus: &minus })
+    }
+
+    /// Of numbers that change by `h`.
+    fn about(corner: NonsmoothCheck, at: &[f64], h: f64) -> Option<NoDerivative> {
+        let moved = |by: f64| of(&[&[at[0] + by], &at[1..]].concat());
+        asked(corner, [moved(0.0), moved(h), moved(-h)])
+    }
+
+    #[test]
+    fn corners_lie_where_a_sign_changes() {
+        assert_eq!(about(at_zero, &[0.0], 1e-5), Some(NoDerivative::Broken));
+        assert_eq!(about(at_zero, &[2e-5], 1e-5), None);
+        assert_eq!(about(where_equal, &[2.0, 2.0], 0.1), Some(NoDerivative::Broken));
+        assert_eq!(about(where_equal, &[2.15, 2.0], 0.1), None);
+        assert_eq!(about(at_whole_numbers, &[2.0], 0.1), Some(NoDerivative::Broken));
+        assert_eq!(about(at_multiples, &[4.0, 2.0], 0.1), Some(NoDerivative::Broken));
+        assert_eq!(about(where_rounded_differs, &[0.125, 2.0], 1e-6), Some(NoDerivative::Broken));
+        assert_eq!(about(at_cut, &[0.0, -1.0], 1e-5), Some(NoDerivative::Broken));
+        assert_eq!(about(at_cut, &[0.0, 1.0], 1e-5), None);
+    }
+
+    #[test]
+    fn slopes_are_too_steep_near_where_they_are_infinite() {
+        for (corner, at) in [
+            (near_zero as NonsmoothCheck, vec![0.0]),
+            (near_one, vec![-1.0]),
+            (near_quarters, vec![0.5 * std::f64::consts::PI]),
+            (near_zero_base, vec![0.0, 0.5]),
+            (near_zero_base, vec![0.0, -1.0]),
+            (at_origin, vec![0.0, 0.0]),
+            (at_cut, vec![0.0, 0.0]),
+            (near_ends_of_logarithm, vec![0.0, 10.0]),
+        ] {
+            let beside = |by: f64| [&[at[0] + by], &at[1..]].concat();
+            assert_eq!(about(corner, &at, 1e-5), Some(NoDerivative::Steep));
+            assert_eq!(about(corner, &beside(2e-3), 1e-5), Some(NoDerivative::Steep));
+            assert_eq!(about(corner, &beside(0.1), 1e-5), None, "{at:?}");
+            assert_eq!(about(corner, &at, 0.0), None, "what does not change has a derivative");
+        }
+        assert_eq!(about(near_zero_base, &[0.0, 2.0], 1e-5), None);
+        let sides = [of(&[1.0, 0.0]), of(&[1.0, 1e-5]), of(&[1.0, -1e-5])];
+        assert_eq!(asked(near_zero_divisor, sides), Some(NoDerivative::Steep));
+    }
+
+    #[test]
+    fn the_largest_of_an_array_changes_where_another_overtakes() {
+        let sides = |one: &[f64], other: &[f64]| [array(one), array(one), array(other)];
+        let overtaken = sides(&[1.0, 2.1, 2.0], &[1.0, 1.9, 2.0]);
+        assert_eq!(asked(where_largest_changes, overtaken), Some(NoDerivative::Broken));
+        let together = sides(&[1.0, 2.1, 2.1], &[1.0, 1.9, 1.9]);
+        assert_eq!(asked(where_largest_changes, together), None);
+        let fallen = sides(&[1.1, 1.0], &[0.9, 1.0]);
+        assert_eq!(asked(where_smallest_changes, fallen), Some(NoDerivative::Broken));
+        assert_eq!(asked(where_smallest_changes, sides(&[], &[])), None);
+    }
+}

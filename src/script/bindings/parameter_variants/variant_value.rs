@@ -1,0 +1,175 @@
+//! A value that depends on parameters of a scene, with what it is in each variant.
+
+use std::rc::Rc;
+
+use rhai::{Array, Dynamic, FnPtr, Map};
+
+use super::parameter_set::{ParameterSet, name_of, present_variant};
+use crate::geometry::Vec2;
+use crate::output::significant;
+use crate::script::bindings::kind::Scripted;
+use crate::script::messages::error::ScriptError;
+use crate::script::messages::nouns::with_article;
+use crate::script::messages::numbers::{as_number, format_number};
+
+/// Digits of a derivative where it is shown.
+const DIGITS: usize = 5;
+
+/// A value that depends on parameters.
+#[derive(Clone)]
+pub struct VariantValue {
+    family: Rc<ParameterSet>,
+    /// In each variant; in those that came later it is what it is in the first.
+    values: Rc<[Dynamic]>,
+    /// Why derivatives are not known.
+    lost: Option<Rc<str>>,
+}
+
+impl VariantValue {
+    /// A value by what it is in each variant.
+    pub fn new(family: &Rc<ParameterSet>, values: Vec<Dynamic>, lost: Option<Rc<str>>) -> Self {
+        Self { family: Rc::clone(family), values: values.into(), lost }
+    }
+
+    /// What any value is in a variant, arrays, maps and captured values included.
+    pub fn project(value: &Dynamic, variant: usize) -> Dynamic {
+        project(value, variant)
+    }
+
+    /// The number that a value is, in the variant that the present call is made for.
+    pub fn number(value: &Dynamic) -> Option<f64> {
+        as_number(value).or_else(|| as_number(&value.read_lock::<Self>()?.at(present_variant())))
+    }
+
+    /// The parameters that any value depends on, if it does.
+    pub fn family_of(value: &Dynamic) -> Option<Rc<ParameterSet>> {
+        family_of(value)
+    }
+
+    /// The parameters that it depends on.
+    pub fn family(&self) -> &Rc<ParameterSet> {
+        &self.family
+    }
+
+    /// Why its derivatives are not known.
+    pub(super) fn lost(&self) -> Option<&Rc<str>> {
+        self.lost.as_ref()
+    }
+
+    /// What it is in a variant.
+    pub fn at(&self, variant: usize) -> Dynamic {
+        self.values.get(variant).unwrap_or(&self.values[0]).clone()
+    }
+
+    /// The derivative by a parameter, by its number.
+    ///
+    /// # Errors
+    /// When it is not known, or the value is none that has derivatives.
+    pub fn derivative(&self, parameter: usize) -> Result<Dynamic, ScriptError> {
+        if let Some(reason) = &self.lost {
+            return Err(ScriptError::new(reason.to_string()));
+        }
+        let distance = self.family.parameters().get(parameter).map_or(f64::NAN, |(_, by)| *by);
+        let [plus, minus] = [self.at(1 + 2 * parameter), self.at(2 + 2 * parameter)];
+        let per_unit = 0.5 / distance;
+        if let (Some(plus), Some(minus)) = (as_number(&plus), as_number(&minus)) {
+            return Ok(Dynamic::from((plus - minus) * per_unit));
+        }
+        let vector = |value: &Dynamic| value.read_lock::<Vec2>().map(|held| *held);
+        match (vector(&plus), vector(&minus)) {
+            (Some(plus), Some(minus)) => Ok(Dynamic::from((plus - minus) * per_unit)),
+            _ => Err(ScriptError::new("numbers and vectors have derivatives, this is neither")),
+        }
+    }
+}
+
+/// The parameters that a value depends on, if it does; arrays, maps and what functions have captured are looked into.
+pub fn family_of(value: &Dynamic) -> Option<Rc<ParameterSet>> {
+    find(value, &|varied| Some(Rc::clone(&varied.family)))
+}
+
+/// Why derivatives of something in a value are not known, if so.
+pub fn lost_in(value: &Dynamic) -> Option<Rc<str>> {
+    find(value, &|varied| varied.lost().cloned())
+}
+
+fn find<T>(value: &Dynamic, what: &dyn Fn(&VariantValue) -> Option<T>) -> Option<T> {
+    if value.is_float() || value.is_int() || value.is_string() || value.is_bool() {
+        return None;
+    }
+    if let Some(varied) = value.read_lock::<VariantValue>() {
+        return what(&varied);
+    }
+    if let Some(array) = value.read_lock::<Array>() {
+        return array.iter().find_map(|element| find(element, what));
+    }
+    if let Some(map) = value.read_lock::<Map>() {
+        return map.values().find_map(|element| find(element, what));
+    }
+    let function = value.read_lock::<FnPtr>()?;
+    function.curry().iter().find_map(|captured| find(captured, what))
+}
+
+/// What a value is in a variant.
+pub fn project(value: &Dynamic, variant: usize) -> Dynamic {
+    if let Some(varied) = value.read_lock::<VariantValue>() {
+        return varied.at(variant);
+    }
+    if family_of(value).is_none() {
+        return value.clone();
+    }
+    if let Some(array) = value.read_lock::<Array>() {
+        return array.iter().map(|element| project(element, variant)).collect::<Array>().into();
+    }
+    if let Some(map) = value.read_lock::<Map>() {
+        let pairs = map.iter().map(|(key, element)| (key.clone(), project(element, variant)));
+        return pairs.collect::<Map>().into();
+    }
+    match value.read_lock::<FnPtr>() {
+        Some(function) => {
+            let mut own = function.clone();
+            for captured in own.iter_curry_mut() {
+                if family_of(captured).is_some() {
+                    *captured = project(captured, variant);
+                }
+            }
+            own.into()
+        }
+        None => value.clone(),
+    }
+}
+
+impl Scripted for VariantValue {
+    const NAME: &'static str = "value with derivatives";
+    const DOC: &'static str =
+        "A number, a vector or a section that depends on parameters of a scene.";
+
+    fn show(&self) -> String {
+        let number = |value: &Dynamic| as_number(value).map(format_number);
+        let vector = |value: &Dynamic| value.read_lock::<Vec2>().map(|held| held.show());
+        let value = &self.values[0];
+        let shown = number(value).or_else(|| vector(value));
+        let shown = shown.unwrap_or_else(|| with_article(name_of(value).unwrap_or("value")));
+        if self.lost.is_some() {
+            return shown;
+        }
+        let by = |(at, (name, _)): (usize, (String, f64))| {
+            let derivative = self.derivative(at).ok()?;
+            let told = match as_number(&derivative) {
+                Some(number) => significant(number, DIGITS),
+                None => vector(&derivative)?,
+            };
+            Some(format!("d/d{name} {told}"))
+        };
+        let all: Vec<String> =
+            self.family.parameters().into_iter().enumerate().filter_map(by).collect();
+        match all.is_empty() {
+            true => format!("{shown}, which depends on parameters"),
+            false => format!("{shown} ({})", all.join(", ")),
+        }
+    }
+
+    fn family(&self) -> Option<Rc<ParameterSet>> {
+        Some(Rc::clone(&self.family))
+    }
+}

@@ -1,0 +1,148 @@
+//! What to write where a value of another kind was given than is asked for.
+
+use rhai::{Array, Dynamic, FnPtr, Map};
+
+use super::kind::{Kind, NumberRange};
+use crate::script::messages::numbers::{as_number, format_number};
+
+/// What to write instead of `value` for a parameter of this kind, if the mistake is a known one; `given` is the name of its type.
+pub fn hint(kind: &Kind, value: &Dynamic, given: &str) -> Option<String> {
+    match kind {
+        Kind::Number(_) if is_infinite_or_nan(value) => Some(
+            "the number comes from an overflow or an undefined operation before this line".into(),
+        ),
+        Kind::Whole(NumberRange::Finite) if value.is_float() => {
+            Some("floor(x) or round(x) makes a whole number".into())
+        }
+        Kind::Number(_) | Kind::Whole(_) | Kind::Numeric => of_number(value, given),
+        Kind::Choice(allowed) => {
+            let text = value.as_immutable_string_ref().ok()?;
+            let near = crate::script::messages::suggest::nearest(&text, allowed.iter().copied())?;
+            Some(format!("did you mean \"{near}\"?"))
+        }
+        Kind::Text | Kind::Name => {
+            as_number(value).map(|_| "write x.to_string(), or `${x}`".into())
+        }
+        Kind::Boolean => as_number(value).map(|_| "write true or false, without quotes".into()),
+        Kind::Point => of_point(value, given),
+        Kind::Array | Kind::Numbers => of_array(value),
+        Kind::Points => of_points(value),
+        Kind::Function if value.is::<Map>() => {
+            Some("options come last: give what is asked for here before them, such as |t| 1".into())
+        }
+        Kind::Function if !value.is::<FnPtr>() => Some(
+            "write |t| and what it gives, such as |t| sin(t); a named function f is |t| f(t)"
+                .into(),
+        ),
+        Kind::Options(keys) => {
+            let required = keys.iter().find(|key| key.is_required());
+            let names = || keys.iter().map(|key| format!("{}: …", key.name));
+            Some(match (required, keys.len()) {
+                (Some(required), _) => format!("write #{{ {}: … }}", required.name),
+                (None, 0) => return None,
+                (None, 1..=4) => format!(
+                    "write #{{ {} }}, or some of these",
+                    names().collect::<Vec<_>>().join(", ")
+                ),
+                (None, _) => format!("write #{{ {} }}", names().next()?),
+            })
+        }
+        Kind::Object(of) => of_object(of.name(), value, given).map(str::to_owned),
+        // A number that is refused for its size needs no other kind.
+        Kind::Either(kinds) if as_number(value).is_some() && kinds.iter().any(is_number) => {
+            kinds.iter().filter(|kind| is_number(kind)).find_map(|kind| hint(kind, value, given))
+        }
+        Kind::Either(kinds) => kinds.iter().find_map(|kind| hint(kind, value, given)),
+        _ => None,
+    }
+}
+
+fn is_number(kind: &Kind) -> bool {
+    matches!(kind, Kind::Number(_))
+}
+
+fn of_number(value: &Dynamic, given: &str) -> Option<String> {
+    if value.is_string() {
+        return Some("a number has no quotes; parse_float(text) makes a number of a text".into());
+    }
+    match given {
+        "vector" => Some("a component is v.x or v.y, the length norm(v)".into()),
+        "function" => Some("a function in a variable is called by f.call(x)".into()),
+        "array" => Some("an element is array[0]; array.map(|x| f(x)) asks for each".into()),
+        "range" => Some("for i in 0..10 { … } goes over the numbers of a range".into()),
+        _ => None,
+    }
+}
+
+fn of_point(value: &Dynamic, given: &str) -> Option<String> {
+    if as_number(value) == Some(0.0) {
+        return Some("give both components: [0, 0]".into());
+    }
+    if let Some(x) = as_number(value).filter(|x| x.is_finite()) {
+        let (plus, minus) = (format_number(x.abs()), format_number(-x.abs()));
+        return Some(format!("give both components: [{plus}, 0], or downwards [0, {minus}]"));
+    }
+    if value.read_lock::<Array>().is_some_and(|array| array.len() > 2 && array.len() % 2 == 0) {
+        return Some("+ joins arrays: write vec(1, 2) + [1, 0] to add points".into());
+    }
+    match given {
+        "station" => Some("sim.position(station) is the point where a station is".into()),
+        "beam" => Some("sim.position(rod.end) is the point where the end of a beam is".into()),
+        "map" => Some("a point is written [x, y]".into()),
+        _ => None,
+    }
+}
+
+fn of_array(value: &Dynamic) -> Option<String> {
+    if let Ok(text) = value.as_immutable_string_ref() {
+        return Some(format!("write [\"{}\"]: an array, even of one", text.as_str()));
+    }
+    if let Some(x) = as_number(value) {
+        return Some(format!("write [{}]: an array, even of one", format_number(x)));
+    }
+    value.is::<Map>().then(|| "map.keys() and map.values() are arrays".into())
+}
+
+fn of_points(value: &Dynamic) -> Option<String> {
+    let array = value.read_lock::<Array>()?;
+    let is_flat = array.iter().any(|element| as_number(element).is_some());
+    is_flat.then(|| "write an array of points: [[0, 0], [1, 0]]".into())
+}
+
+/// What to write for an object of ours.
+fn of_object(wanted: &str, value: &Dynamic, given: &str) -> Option<&'static str> {
+    let points = || value.read_lock::<Array>().is_some_and(|array| !array.is_empty());
+    Some(match (wanted, given) {
+        ("station", "beam") => "name a place of the beam: rod.start, rod.end or rod.at(s)",
+        ("station", "vector" | "array") => {
+            "a station is a place of a beam: rod.start, rod.end or rod.at(s), or a particle"
+        }
+        ("station", "number" | "whole number") => "write rod.at(s), with the beam before the dot",
+        ("beam", "station") => "name the beam itself, without .start or .end",
+        ("curve", "array") if points() => {
+            "write line([0, 0], [1, 0]), arc(…), or through(points) for a curve through many points"
+        }
+        ("curve", "vector") => "a curve has two ends: line([0, 0], [1, 0])",
+        ("section", "map") => "write section(#{ EA: … }) around the options",
+        ("section", "number" | "whole number") => {
+            "write section(#{ EA: …, GA: …, EI: …, rho_A: …, rho_I: … })"
+        }
+        ("integrator", "text") => "write it as a call, without quotes: energy_momentum()",
+        ("integrator" | "sliding rule", "function") => {
+            "call it with parentheses: energy_momentum()"
+        }
+        ("sliding rule", "text") => "write it as a call, without quotes: conserving()",
+        ("schedule", "function") => "write schedule(|t| …) around the function",
+        ("mesh" | "knots", "number" | "whole number") => "write bspline(16) for so many spans",
+        ("simulation", "scene") => {
+            "let sim = scene.start(#{ dt: 0.1 }) makes a simulation of a scene"
+        }
+        ("scene", "simulation") => "sim.scene is the scene that a simulation was started from",
+        ("history", "simulation") => "write sim.history",
+        _ => return None,
+    })
+}
+
+fn is_infinite_or_nan(value: &Dynamic) -> bool {
+    as_number(value).is_some_and(|x| !x.is_finite())
+}

@@ -1,7 +1,0 @@
-//! Names that other languages and other programs have: what is written here instead. They are asked only where a name is unknown.
-
-mod entry;
-mod languages;
-mod mechanics;
-
-pub use entry::{Elsewhere, called_with, find, find_exactly};

@@ -1,0 +1,96 @@
+//! An entry of the tables of names, and finding it.
+
+use super::{languages, mechanics};
+
+/// Some names that mean the same in other programs and languages, and what is written here.
+#[derive(Debug, PartialEq)]
+pub struct ForeignName {
+    /// The names of other programs.
+    pub words: &'static [&'static str],
+    /// What is written here in the place of these names.
+    pub cure: &'static str,
+    /// The names of this language that have help on it.
+    pub see: &'static [&'static str],
+}
+
+/// What is written here for a name of other programs; capital letters count only where the two differ in nothing else.
+pub fn find(name: &str) -> Option<&'static ForeignName> {
+    find_exactly(name).or_else(|| {
+        let lower = name.to_lowercase();
+        let same = |word: &&str| word.to_lowercase() == lower;
+        all().find(|entry| entry.words.iter().any(same))
+    })
+}
+
+/// What is written here for a name of other programs, where capital letters count.
+pub fn find_exactly(name: &str) -> Option<&'static ForeignName> {
+    all().find(|entry| entry.words.contains(&name))
+}
+
+impl ForeignName {
+    /// What is written here in the place of the names, and which names have help on it.
+    pub fn told(&self) -> String {
+        match self.see {
+            [] => self.cure.to_owned(),
+            names => format!("{}; see {}", self.cure, names.join(", ")),
+        }
+    }
+}
+
+/// What to write where a function of the language is called with so many values as its namesake elsewhere takes.
+pub fn called_with(name: &str, count: usize) -> Option<&'static str> {
+    Some(match (name, count) {
+        ("print" | "debug", 2..) => "print shows one value: print(`a = ${a}, b = ${b}`)",
+        ("range", 1) => "write 0..10, which ends with 9; range(from, to, step) makes larger steps",
+        ("append", 2) => "write array.push(value) for one value; append joins two arrays",
+        ("round", 2) => "write round_to(x, digits), or fixed(x, digits) for a text",
+        ("max", 3..) => "write max(values) with an array: max([1, 2, 3])",
+        ("min", 3..) => "write min(values) with an array: min([1, 2, 3])",
+        ("clamp", 3) => {
+            "write min(max(x, low), high) for the number between two others that is nearest to x"
+        }
+        ("sum", 2..) => "write sum(values) with an array: sum([1, 2, 3])",
+        _ => return None,
+    })
+}
+
+/// All entries.
+fn all() -> impl Iterator<Item = &'static ForeignName> {
+    languages::WORDS.iter().chain(mechanics::WORDS)
+}
+
+pub(super) const fn entry(
+    words: &'static [&'static str],
+    cure: &'static str,
+    see: &'static [&'static str],
+) -> ForeignName {
+    ForeignName { words, cure, see }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+    use crate::script::help::lookup;
+    use crate::script::packages::language;
+
+    #[test]
+    fn what_is_pointed_at_has_help() {
+        let catalog = language();
+        for entry in all() {
+            for name in entry.see {
+                assert!(!lookup::find(&catalog, name).is_empty(), "{:?}: {name}", entry.words);
+            }
+            assert!(!entry.cure.ends_with('.'), "{}", entry.cure);
+        }
+    }
+
+    #[test]
+    fn a_name_is_told_about_once() {
+        let mut seen = BTreeSet::new();
+        for word in all().flat_map(|entry| entry.words) {
+            assert!(seen.insert(word), "{word}");
+        }
+    }
+}

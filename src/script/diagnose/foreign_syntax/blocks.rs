@@ -1,0 +1,139 @@
+//! Conditions, loops and their bodies as other languages write them.
+
+use rhai::ParseErrorType;
+
+use super::fix::{ForeignSyntax, SyntaxFix};
+use super::token_window::TokenWindow;
+
+/// Habits of other languages in conditions and loops.
+pub const HABITS: &[ForeignSyntax] =
+    &[else_if, word_operator, counting_loop, colon, body, handler, case, end];
+
+fn else_if(spot: &TokenWindow) -> Option<SyntaxFix> {
+    let (at, word) = spot.find_word(&["elif", "elseif", "elsif", "elseIf"])?;
+    let told = format!("'{word}' is not a word of the language");
+    spot.cure(at, told, "write else if … { … }")
+}
+
+/// `and`, `or`, `not`, `is`.
+fn word_operator(spot: &TokenWindow) -> Option<SyntaxFix> {
+    let (at, word) = spot.find_word(&["and", "or", "not", "is", "AND", "OR", "NOT", "xor"])?;
+    let hint = match (word, spot.word(at + 1)) {
+        ("and" | "AND", _) => "write && for and: a > 0 && a < 3",
+        ("or" | "OR", _) => "write || for or: a < 0 || a > 3",
+        ("not" | "NOT", "in") => "write !in for not in: 3 !in [1, 2]",
+        ("not" | "NOT", _) => "write ! for not: !(a > 3)",
+        ("is", "not") => "write !=; the value nothing is (): x != ()",
+        ("is", _) => "write ==; the value nothing is (): x == ()",
+        _ => "write a != b for two truth values",
+    };
+    spot.cure(at, format!("'{word}' is not an operator here"), hint)
+}
+
+/// `for (let i = 0; …)`, `for i = 1:10`, `for x of xs`, `for i in range(10):`
+fn counting_loop(spot: &TokenWindow) -> Option<SyntaxFix> {
+    let (at, _) = spot.find_word(&["for", "foreach"])?;
+    let next = spot.word(at + 1);
+    let is_in_parentheses = next == "(";
+    let name = if is_in_parentheses { spot.word(at + 2) } else { next };
+    let is_type = matches!(name, "let" | "var" | "int" | "const");
+    let after = if is_in_parentheses { spot.word(at + 3) } else { spot.word(at + 2) };
+    if after == "of" || (is_type && spot.word(at + 4) == "of") {
+        let hint = "write for x in array { … }; for (x, i) in array { … } counts along";
+        return spot.cure(0, "a loop goes over something by 'in'", hint);
+    }
+    if is_type || matches!(after, "=" | ";" | "<-") {
+        let hint = "write for i in 0..10 { … }, which ends with 9, or 0..=10, which ends with 10; range(0, 10, 2) makes larger steps";
+        return spot.cure(0, "a loop goes over a range, and does not count by itself", hint);
+    }
+    None
+}
+
+/// `if a == 1:`, `while x:`, `else:`, `for i in range(3):`.
+fn colon(spot: &TokenWindow) -> Option<SyntaxFix> {
+    const WORDS: &[&str] =
+        &["if", "while", "for", "else", "try", "loop", "with", "class", "except", "finally"];
+    if spot.word(0) != ":" || spot.missing().0 == "]" {
+        return None;
+    }
+    let first = (1..20)
+        .map(|back: isize| -back)
+        .take_while(|at| !matches!(spot.word(*at), ";" | "}" | "{" | "#{" | ""))
+        .find(|at| WORDS.contains(&spot.word(*at)))?;
+    let head = match spot.word(first) {
+        "for" => "for i in 0..10 { … }",
+        "while" => "while x < 3 { … }",
+        "else" => "else { … }",
+        "try" => "try { … } catch { … }",
+        "if" => "if a == 1 { … }",
+        _ => "{ … }",
+    };
+    spot.cure(
+        0,
+        "a block does not begin with a colon, and blanks do not mark it",
+        format!("write it in braces: {head}"),
+    )
+}
+
+/// `if (a == 1) print(a)`, `if a == 1 then`.
+fn body(spot: &TokenWindow) -> Option<SyntaxFix> {
+    let (token, why) = spot.missing();
+    let is_body = token == "{" && why.contains("block");
+    is_body.then_some(())?;
+    let told = match spot.word(0) {
+        "then" | "do" => format!("'{}' does not begin a block here", spot.word(0)),
+        _ => "the body of if, else, for and while stands in braces".into(),
+    };
+    let head = match spot.in_statement(0) {
+        "else" => "else { … }",
+        "for" => "for x in array { … }",
+        "while" => "while condition { … }",
+        "fn" => "fn f(x) { … }",
+        _ => "if condition { … }",
+    };
+    spot.cure(0, told, format!("write {head}"))
+}
+
+/// `raise …`, `except …`.
+fn handler(spot: &TokenWindow) -> Option<SyntaxFix> {
+    if matches!(spot.in_statement(0), "raise" | "error") && spot.count() == 1 {
+        let told = format!("'{}' is not a word of the language", spot.in_statement(0));
+        return spot.cure(spot.first(), told, "write throw \"what is wrong\";");
+    }
+    let is_handler = matches!(spot.word(0), "except" | "finally" | "rescue" | "otherwise");
+    is_handler.then_some(())?;
+    spot.cure(
+        0,
+        format!("'{}' is not a word of the language", spot.word(0)),
+        "write try { … } catch (problem) { print(problem.message); }",
+    )
+}
+
+/// `case 1:` and `default:`.
+fn case(spot: &TokenWindow) -> Option<SyntaxFix> {
+    matches!(spot.word(0), "case" | "default").then_some(())?;
+    spot.cure(
+        0,
+        format!("'{}' is not written in a switch", spot.word(0)),
+        "write switch x { 1 => \"one\", 2 => \"two\", _ => \"many\" }",
+    )
+}
+
+/// A block that is not closed, `end` that should close it, and a bracket too many.
+fn end(spot: &TokenWindow) -> Option<SyntaxFix> {
+    if matches!(
+        spot.word(0),
+        "end" | "endif" | "endfor" | "endwhile" | "endfunction" | "fi" | "done"
+    ) {
+        let told = format!("'{}' does not end a block", spot.word(0));
+        return spot.cure(0, told, "a block stands in braces: if a == 1 { … }");
+    }
+    let closes = matches!(spot.word(0), ")" | "]" | "}");
+    let is_unexpected =
+        matches!(spot.error, ParseErrorType::MissingToken(token, _) if token == ";");
+    if closes && is_unexpected {
+        let told = format!("there is no bracket that this '{}' closes", spot.word(0));
+        return spot.cure(0, told, "take it away, or open one before it");
+    }
+    None
+}

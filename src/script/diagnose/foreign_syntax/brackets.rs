@@ -1,0 +1,62 @@
+//! Maps written as elsewhere, and brackets that are not closed.
+
+use rhai::ParseErrorType;
+
+use super::fix::{ForeignSyntax, SyntaxFix};
+use super::token_window::TokenWindow;
+
+/// Habits of other languages with brackets.
+pub const HABITS: &[ForeignSyntax] = &[map_without_sign, assigned_key, unclosed];
+
+/// `{ EA: 1e4 }`.
+fn map_without_sign(spot: &TokenWindow) -> Option<SyntaxFix> {
+    let is_key = spot.is_name(-1) || spot.is_text(-1) || spot.is_number(-1);
+    (spot.word(0) == ":" && is_key && spot.word(-2) == "{").then_some(())?;
+    spot.cure(
+        -2,
+        "{ begins a block of statements, not a map of options",
+        format!("options are written #{{ … }}: #{{ {}: … }}", spot.word(-1)),
+    )
+}
+
+/// `#{ EA = 1e4 }`.
+fn assigned_key(spot: &TokenWindow) -> Option<SyntaxFix> {
+    let (missing, why) = spot.missing();
+    let is_key = missing == ":" && why.contains("map") && spot.word(0) == "=";
+    is_key.then_some(())?;
+    let hint = format!("write {}: …", spot.word(-1));
+    spot.cure(0, "a key of a map is followed by a colon", hint)
+}
+
+/// A bracket that is still open where the script ends.
+fn unclosed(spot: &TokenWindow) -> Option<SyntaxFix> {
+    let is_missing =
+        matches!(spot.error, ParseErrorType::MissingToken(..) | ParseErrorType::UnexpectedEOF);
+    (spot.is_at_end() && is_missing).then_some(())?;
+    let mut open = Vec::new();
+    for at in -(spot.reach() as isize)..0 {
+        match spot.word(at) {
+            "{" | "(" | "[" | "#{" | "?[" => open.push(at),
+            "}" | ")" | "]" => _ = open.pop(),
+            _ => (),
+        }
+    }
+    let at = *open.last()?;
+    let closing = match spot.word(at) {
+        "(" => ")",
+        "[" | "?[" => "]",
+        _ => "}",
+    };
+    spot.cure(
+        at,
+        format!("this '{}' is never closed", spot.word(at)),
+        format!("write '{closing}' where it ends"),
+    )
+}
+
+impl TokenWindow<'_> {
+    /// How many words before the place are known.
+    fn reach(&self) -> usize {
+        (1..=40_isize).take_while(|back| !self.word(-back).is_empty()).count()
+    }
+}

@@ -1,0 +1,232 @@
+//! Variables and functions as other languages declare them, and words that are misspelt.
+
+use rhai::ParseErrorType;
+
+use super::fix::{ForeignSyntax, SyntaxFix};
+use super::token_window::TokenWindow;
+use crate::script::messages::suggest::nearest;
+
+/// Habits of other languages in declarations.
+pub const HABITS: &[ForeignSyntax] = &[
+    function,
+    function_body,
+    unnamed_function,
+    type_first,
+    tuple,
+    several_names,
+    parts,
+    declared_type,
+    compared,
+    import,
+    class,
+    misspelt,
+];
+
+/// Words that begin a function elsewhere.
+const FUNCTION_WORDS: &[&str] = &["def", "func", "function", "fun", "sub", "proc", "define"];
+
+/// `def f(x):`, `function y = f(x)`.
+fn function(spot: &TokenWindow) -> Option<SyntaxFix> {
+    let word = spot.in_statement(0);
+    if !FUNCTION_WORDS.contains(&word) || spot.count() == 0 {
+        return None;
+    }
+    let first = spot.first();
+    let is_open = |index: &isize| spot.word(*index) == "(" && spot.is_name(index - 1);
+    let open = (first + 1..first + 12).find(is_open);
+    let written = open.and_then(|open| {
+        let close = (open..open + 20).find(|index| spot.word(*index) == ")")?;
+        Some(format!("{}{}", spot.word(open - 1), spot.piece(open, close + 1)))
+    });
+    let written = written.unwrap_or_else(|| "f(x)".into());
+    spot.cure(
+        first,
+        format!("'{word}' is not a word of the language"),
+        format!("a function is written fn {written} {{ … }}; its last expression is its value"),
+    )
+}
+
+/// `fn f(x) => x`, `fn f(x) = x^2;`, `let f(x) = x^2;`, `f(x) = x^2;`, `fn f x { … }`.
+fn function_body(spot: &TokenWindow) -> Option<SyntaxFix> {
+    let is_headed = spot.in_statement(0) == "fn"
+        && matches!(
+            spot.error,
+            ParseErrorType::FnMissingBody(_) | ParseErrorType::FnMissingParams(_)
+        );
+    let is_arrow = spot.in_statement(0) == "fn" && matches!(spot.word(0), "=>" | "->");
+    let is_let = matches!(spot.word(-2), "let" | "const") && spot.word(0) == "(";
+    let is_assigned = matches!(spot.error, ParseErrorType::AssignmentToInvalidLHS(_))
+        && spot.is_name(0)
+        && spot.word(1) == "(";
+    (is_headed || is_arrow || is_let || is_assigned).then_some(())?;
+    spot.cure(
+        0,
+        "this is not how a function is defined",
+        "write fn f(x) { x^2 }: its body stands in braces, and its last expression is its value",
+    )
+}
+
+/// `let f = function(x) { … }`, `let f = fn(x) { … }`, `let f = lambda x: …`.
+fn unnamed_function(spot: &TokenWindow) -> Option<SyntaxFix> {
+    let hint = "a function without a name is written |x| …, and called by f.call(x)";
+    if let Some((at, word)) = spot.find_word(&["lambda"]) {
+        return spot.cure(at, format!("'{word}' is not a word of the language"), hint);
+    }
+    let is_value = |before: isize| matches!(spot.word(before), "=" | "(" | "," | ":");
+    if spot.word(0) == "fn" && is_value(-1) {
+        return spot.cure(0, "fn stands where a function with a name is defined", hint);
+    }
+    let back = (-12..0).find(|at| FUNCTION_WORDS.contains(&spot.word(*at)) && is_value(at - 1))?;
+    let told = format!("'{}' is not a word of the language", spot.word(back));
+    spot.cure(back, told, hint)
+}
+
+/// `var x = 3`, `int x = 3`.
+fn type_first(spot: &TokenWindow) -> Option<SyntaxFix> {
+    const WORDS: &[&str] = &[
+        "var", "val", "int", "float", "double", "auto", "bool", "string", "String", "real",
+        "local", "global", "static", "my", "dim", "real64", "number",
+    ];
+    let word = spot.in_statement(0);
+    let name = spot.in_statement(1);
+    let is_declaration = WORDS.contains(&word) && matches!(spot.in_statement(2), "=" | ";" | "");
+    (is_declaration && !name.is_empty() && name.starts_with(char::is_alphabetic)).then_some(())?;
+    spot.cure(
+        spot.first(),
+        format!("'{word}' declares no variable here"),
+        format!("a variable is made by let {name} = …, whatever it holds"),
+    )
+}
+
+/// `let a, b = 1, 2;`, `a, b = 1, 2`, `let a = 1, b = 2;`, `let x = 0,5;`, `return 1, 2`.
+fn several_names(spot: &TokenWindow) -> Option<SyntaxFix> {
+    if spot.word(0) != "," || spot.missing().0 != ";" {
+        return None;
+    }
+    let is_decimal =
+        spot.is_number(-1) && spot.is_number(1) && spot.is_joined(0) && spot.is_joined(1);
+    if is_decimal && !spot.word(-1).contains('.') && spot.in_statement(0) != "return" {
+        let (whole, fraction) = (spot.word(-1), spot.word(1));
+        let hint = format!("a number has a decimal point: {whole}.{fraction}");
+        return spot.cure(0, "a comma stands in a number", hint);
+    }
+    if spot.in_statement(0) == "return" {
+        let value = spot.piece(spot.first() + 1, 0);
+        let hint =
+            format!("give an array back: return [{value}, …]; or a map: return #{{ a: …, b: … }}");
+        return spot.cure(0, "a function gives one value", hint);
+    }
+    spot.cure(
+        0,
+        "one statement sets one variable",
+        "write a statement for each: let a = 1; let b = 2;",
+    )
+}
+
+/// `let t = (1, 2);`, `let t = {1, 2};`
+fn tuple(spot: &TokenWindow) -> Option<SyntaxFix> {
+    let is_open = matches!(spot.word(-2), "(" | "{") && matches!(spot.word(-3), "=" | "(" | ",");
+    let is_missing = spot.missing().0 == ")" || spot.word(-2) == "{";
+    (spot.word(0) == "," && is_open && is_missing).then_some(())?;
+    let hint = format!("write [{}, …]", spot.word(-1));
+    spot.cure(-2, "several values together are an array", hint)
+}
+
+/// `let [a, b] = pair;`
+fn parts(spot: &TokenWindow) -> Option<SyntaxFix> {
+    let declares = matches!(spot.word(-1), "let" | "const");
+    (declares && matches!(spot.word(0), "[" | "{" | "(" | "#{")).then_some(())?;
+    spot.cure(
+        0,
+        "an array or a map is not taken apart by let",
+        "take the parts one by one: let a = pair[0]; let b = pair[1]; or map.key",
+    )
+}
+
+/// `let x: int = 3`, `fn f(x: number)`, `fn f(x = 1)`.
+fn declared_type(spot: &TokenWindow) -> Option<SyntaxFix> {
+    let is_variable = matches!(spot.word(-2), "let" | "const") && spot.word(0) == ":";
+    if is_variable {
+        let hint = format!("leave it out: let {} = …", spot.word(-1));
+        return spot.cure(0, "variables have no declared types", hint);
+    }
+    if !spot.missing().1.contains("parameters of function") {
+        return None;
+    }
+    match spot.word(0) {
+        ":" => spot.cure(
+            0,
+            "parameters have no declared types",
+            format!("leave it out: fn f({}) {{ … }}", spot.word(-1)),
+        ),
+        "=" => spot.cure(
+            0,
+            "parameters have no values to be left out",
+            "define a second function with fewer parameters, fn f() { f(1) }, or take a map of options",
+        ),
+        _ => None,
+    }
+}
+
+/// `let a == 3;` and `if x = 3`.
+fn compared(spot: &TokenWindow) -> Option<SyntaxFix> {
+    if spot.word(0) == "==" && matches!(spot.word(-2), "let" | "const") {
+        let hint = format!("write let {} = …", spot.word(-1));
+        return spot.cure(0, "== compares; it gives no value to a variable", hint);
+    }
+    let is_condition = matches!(spot.in_statement(0), "if" | "while" | "until");
+    let else_if = spot.in_statement(0) == "else" && spot.in_statement(1) == "if";
+    if spot.word(0) == "=" && (is_condition || else_if) {
+        return spot.cure(0, "= gives a value to a variable; it does not compare", "write ==");
+    }
+    None
+}
+
+/// `from math import sin`, `using`, `#include`, `require`.
+fn import(spot: &TokenWindow) -> Option<SyntaxFix> {
+    let word = spot.in_statement(0);
+    let is_import = matches!(word, "from" | "using" | "include" | "require" | "use" | "load")
+        && spot.count() >= 1;
+    let is_reserved = matches!(word, "use") || matches!(spot.word(0), "use");
+    (is_import || is_reserved).then_some(())?;
+    spot.cure(
+        spot.first(),
+        format!("'{}' does not import here", if word.is_empty() { spot.word(0) } else { word }),
+        "sin, PI and the rest are there without import; a module is read by import \"std/sections\" as sections;",
+    )
+}
+
+/// `class Beam { … }`.
+fn class(spot: &TokenWindow) -> Option<SyntaxFix> {
+    let word = spot.in_statement(0);
+    let is_class = matches!(word, "class" | "struct" | "interface" | "enum" | "type" | "classdef");
+    (is_class && spot.count() == 1).then_some(())?;
+    spot.cure(
+        spot.first(),
+        format!("there is no '{word}' in the language"),
+        "values that belong together stand in a map, #{ length: 2, name: \"rod\" }; functions are defined by fn",
+    )
+}
+
+/// `lett y = 3`, `retrun x`, `whlie x < 3 {`.
+fn misspelt(spot: &TokenWindow) -> Option<SyntaxFix> {
+    const WORDS: &[&str] = &[
+        "let", "const", "if", "else", "for", "while", "loop", "fn", "return", "import", "export",
+        "throw", "try", "switch", "break", "continue",
+    ];
+    let word = spot.in_statement(0);
+    let reached = spot.count() == 1 && (spot.is_value(0) || matches!(spot.word(0), "(" | "{"));
+    let before = spot.word(spot.first() - 1);
+    let starts = !matches!(before, "," | "(" | "[" | "#{" | ":");
+    let is_statement = matches!(spot.error, ParseErrorType::MissingToken(token, _) if token == ";");
+    let is_word = word.chars().count() > 2 && spot.is_name(spot.first());
+    if !(reached && starts && is_statement && is_word) {
+        return None;
+    }
+    let near = nearest(word, WORDS.iter().copied())?;
+    spot.cure(
+        spot.first(),
+        format!("'{word}' is not a word of the language"),
+        format!("did you mean '{near}'?"),
+    )
+}

@@ -1,0 +1,154 @@
+//! Values as other languages write them.
+
+use rhai::ParseErrorType;
+
+use super::fix::{ForeignSyntax, SyntaxFix};
+use super::token_window::TokenWindow;
+use crate::script::bindings::table::CallSyntax;
+
+/// Habits of other languages in values.
+pub const HABITS: &[ForeignSyntax] = &[
+    choice,
+    whole_division,
+    comprehension,
+    slice,
+    range,
+    call_without_parentheses,
+    juxtaposed,
+    keyword,
+    stepping,
+];
+
+/// `a ? 1 : 2` and `1 if a else 2`.
+fn choice(spot: &TokenWindow) -> Option<SyntaxFix> {
+    let hint = "if gives a value: let x = if a > 0 { 1 } else { 2 };";
+    if spot.word(0) == "?" {
+        return spot.cure(0, "'?' does not choose here", hint);
+    }
+    let follows = spot.is_value(-1) || matches!(spot.word(-1), ")" | "]");
+    let is_behind = spot.word(0) == "if" && follows && spot.count() > 0;
+    is_behind.then_some(())?;
+    spot.cure(0, "a condition stands before what it chooses", hint)
+}
+
+/// `7 // 2`, where the rest of the line is a comment.
+fn whole_division(spot: &TokenWindow) -> Option<SyntaxFix> {
+    let is_operand = spot.is_number(-1) || spot.is_name(-1) || matches!(spot.word(-1), ")" | "]");
+    (spot.missing().0 == ";" && is_operand && spot.has_comment_before()).then_some(())?;
+    spot.cure(
+        -1,
+        "';' is missing before the comment",
+        "statements end with a semicolon; // begins a comment, quotient(n, d) divides whole numbers",
+    )
+}
+
+/// `[x^2 for x in xs]`.
+fn comprehension(spot: &TokenWindow) -> Option<SyntaxFix> {
+    let is_within = spot.word(0) == "for" && spot.missing().0 == ",";
+    is_within.then_some(())?;
+    spot.cure(
+        0,
+        "an array is not built by for inside its brackets",
+        "write [1, 2, 3].map(|x| x^2); array.filter(|x| x > 1) keeps some",
+    )
+}
+
+/// `a[0:2]`.
+fn slice(spot: &TokenWindow) -> Option<SyntaxFix> {
+    (spot.word(0) == ":" && spot.missing().0 == "]").then_some(())?;
+    spot.cure(
+        0,
+        "a piece of an array is not asked for by a colon",
+        "array.extract(0..2) gives the elements 0 and 1, text.sub_string(0, 2) two characters",
+    )
+}
+
+/// `1:10`.
+fn range(spot: &TokenWindow) -> Option<SyntaxFix> {
+    let is_range = spot.word(0) == ":" && spot.is_number(-1) && spot.is_value(1);
+    (is_range && spot.word(-2) != "{").then_some(())?;
+    let (from, to) = (spot.word(-1), spot.word(1));
+    spot.cure(
+        0,
+        "a range is not written with a colon",
+        format!("write {from}..={to}, which ends with {to}, or {from}..{to}, which ends before it; linspace(0, 1, 5) for other numbers"),
+    )
+}
+
+/// `print "hello"`, `sqrt 2`, `typeof x`, `new Scene()`.
+fn call_without_parentheses(spot: &TokenWindow) -> Option<SyntaxFix> {
+    if let ParseErrorType::Reserved(word) = spot.error {
+        match word.as_str() {
+            "new" => {
+                let hint = "nothing is made by new: call the function, such as new_scene(\"name\")";
+                return spot.cure(0, "'new' is not written here", hint);
+            }
+            "null" | "nil" | "void" => {
+                let told = format!("'{word}' is not a value here");
+                return spot.cure(0, told, "the value nothing is written (): x == ()");
+            }
+            "print" | "debug" if spot.is_value(1) => {
+                let hint = format!("write {word}({})", spot.word(1));
+                return spot.cure(0, format!("{word} is called with parentheses"), hint);
+            }
+            _ => (),
+        }
+    }
+    let name = spot.word(-1);
+    let is_known = spot.catalog.named(name).any(|row| matches!(row.form, CallSyntax::Function))
+        || spot.catalog.built_ins_named(name).any(|known| known.is_function())
+        || matches!(name, "typeof" | "disp" | "echo");
+    let is_argument = spot.is_value(0) && !spot.is_joined(0);
+    (is_known && is_argument && spot.is_name(-1) && spot.word(-2) != ".").then_some(())?;
+    let name = match name {
+        "typeof" => "type_of",
+        "disp" | "echo" => "print",
+        other => other,
+    };
+    let hint = format!("write {name}({})", spot.word(0));
+    spot.cure(-1, "a function is called with parentheses", hint)
+}
+
+/// `2x`, `2(x + 1)`, `1e3f`, `[1 2 3]`.
+fn juxtaposed(spot: &TokenWindow) -> Option<SyntaxFix> {
+    let (missing, why) = spot.missing();
+    let in_array = missing == "," && why.contains("array");
+    if in_array && spot.word(0) == ";" {
+        let hint = "rows are arrays in an array: [[1, 2], [3, 4]]";
+        return spot.cure(0, "a semicolon does not part the rows of an array", hint);
+    }
+    if in_array && (spot.is_value(0) || spot.word(0) == "-") && !spot.is_joined(0) {
+        let hint = format!("write [{}, {}, …]", spot.word(-1), spot.word(0));
+        return spot.cure(0, "commas part the elements of an array", hint);
+    }
+    let is_factor = spot.is_number(-1) && (spot.is_name(0) || spot.word(0) == "(");
+    (is_factor && spot.is_joined(0)).then_some(())?;
+    let factor = if spot.word(0) == "(" { "(…)" } else { spot.word(0) };
+    let hint = format!("write {} * {factor}; a number has no suffix", spot.word(-1));
+    spot.cure(0, "a product is written with *", hint)
+}
+
+/// `x++` where the parser only sees that something is missing.
+fn stepping(spot: &TokenWindow) -> Option<SyntaxFix> {
+    let sign = spot.word(0);
+    (matches!(sign, "+" | "-") && spot.word(1) == sign && spot.is_joined(1)).then_some(())?;
+    spot.cure(
+        0,
+        format!("'{sign}{sign}' is not part of the language"),
+        format!("write x {sign}= 1"),
+    )
+}
+
+/// `section(EA = 1e4)`, `section(EA: 1e4)`.
+fn keyword(spot: &TokenWindow) -> Option<SyntaxFix> {
+    let (missing, why) = spot.missing();
+    let is_argument = missing == "," && why.contains("argument");
+    let is_named = matches!(spot.word(0), "=" | ":") && spot.is_name(-1);
+    (is_argument && is_named).then_some(())?;
+    let called = why.split('\'').nth(1).filter(|name| !name.is_empty()).unwrap_or("f");
+    spot.cure(
+        0,
+        "arguments are given by their place, not by name",
+        format!("options are written #{{ … }}: {called}(#{{ {}: … }})", spot.word(-1)),
+    )
+}

@@ -1,0 +1,121 @@
+//! Signs that mean something in other languages, and quotes.
+
+use rhai::{LexError, ParseErrorType};
+
+use super::fix::{ForeignSyntax, SyntaxFix};
+use super::token_window::TokenWindow;
+
+/// Habits of other languages with signs and quotes.
+pub const HABITS: &[ForeignSyntax] = &[comment, sign, dotted_operator, quotes, formatted_text];
+
+/// `# …` and, where a statement begins, `% …`.
+fn comment(spot: &TokenWindow) -> Option<SyntaxFix> {
+    let hint = "a comment begins with //";
+    match spot.word(0) {
+        "#" => spot.cure(0, "# begins no comment here", hint),
+        text if text.starts_with('#') && !text.starts_with("#{") => {
+            spot.cure(0, "# begins no comment here", hint)
+        }
+        text if text.starts_with('%') && spot.count() == 0 => {
+            spot.cure(0, "% begins no comment here: it is the remainder", hint)
+        }
+        text if text.starts_with('%') && spot.is_value(1) && matches!(spot.word(-1), ";" | "}") => {
+            spot.cure(0, "% begins no comment here: it is the remainder", hint)
+        }
+        _ => None,
+    }
+}
+
+fn sign(spot: &TokenWindow) -> Option<SyntaxFix> {
+    let signs: &[(&str, &str)] = &[
+        ("===", "write == to compare"),
+        ("!==", "write != to compare"),
+        ("~=", "write != for not equal"),
+        ("<>", "write != for not equal"),
+        (":=", "write = to assign, and let where a variable is made: let x = 3;"),
+        ("++", "write x += 1"),
+        ("--", "write x -= 1"),
+        ("<-", "write = to assign, and to compare with a negative number a blank between: x < -1"),
+        ("->", "write |x| … for a function without a name; what a function gives is not declared"),
+        ("=>", ARROW),
+        ("@", "write |x| x^2 for a function without a name"),
+        ("...", "a statement goes on in the next line by itself: leave the dots out"),
+        ("..", "a range has both ends: 0..10, or 0..=10 with the last one"),
+        ("\\", "a statement goes on in the next line by itself: leave the \\ out"),
+        ("$", "names have no $; in a text between backquotes, ${x} is the value of x"),
+    ];
+    // The parser may see the first half of a sign only.
+    for (sign, hint) in signs {
+        let is_here = spot.word(0) == *sign;
+        let halves = spot.word(0).len() < sign.len()
+            && format!("{}{}", spot.word(0), spot.word(1)).starts_with(sign)
+            && spot.is_joined(1);
+        let starts = *sign == "@" && spot.word(0).starts_with('@');
+        let is_body = spot.in_statement(0) == "fn" && matches!(*sign, "=>" | "->");
+        if (is_here || halves || starts) && !is_body {
+            return spot.cure(0, format!("'{sign}' is not part of the language"), *hint);
+        }
+    }
+    (spot.word(0) == "~").then_some(())?;
+    let hint = "write ! for not, and != for not equal";
+    spot.cure(0, "'~' is not part of the language", hint)
+}
+
+/// What to write for `x => …`.
+const ARROW: &str = "write |x| … for a function without a name; in switch, => stands behind a case";
+
+/// `.*`, `./` and `.^`.
+fn dotted_operator(spot: &TokenWindow) -> Option<SyntaxFix> {
+    let operator = spot.word(0).chars().next().filter(|sign| "*/^\\'".contains(*sign))?;
+    let is_dotted = spot.word(-1) == "." && spot.is_joined(0);
+    is_dotted.then_some(())?;
+    spot.cure(
+        -1,
+        format!("there is no operator '.{operator}'"),
+        format!("array.map(|x| x {operator} 2) works on each element; points made by vec(x, y) add and scale"),
+    )
+}
+
+/// Texts in single quotes, and a quote that transposes.
+fn quotes(spot: &TokenWindow) -> Option<SyntaxFix> {
+    let is_quote = spot.word(0).starts_with('\'');
+    match spot.error {
+        ParseErrorType::BadInput(LexError::MalformedChar(text)) => spot.cure(
+            0,
+            "single quotes hold one character, and no text",
+            format!("write \"{}\": a text stands in double quotes", text.trim_matches('\'')),
+        ),
+        ParseErrorType::BadInput(_) if is_quote && spot.is_joined(0) && spot.is_transposable() => {
+            spot.cure(
+                0,
+                "' does not transpose: it begins a character",
+                "there are no rows and columns here: leave it out; texts stand in double quotes",
+            )
+        }
+        ParseErrorType::BadInput(_) if is_quote => spot.cure(
+            0,
+            "single quotes hold one character, and no text",
+            "a text stands in double quotes: \"text\"",
+        ),
+        _ => None,
+    }
+}
+
+impl TokenWindow<'_> {
+    /// Whether a quote here would follow a value.
+    fn is_transposable(&self) -> bool {
+        self.is_name(-1) || matches!(self.word(-1), "]" | ")")
+    }
+}
+
+/// `f"x = {x}"`.
+fn formatted_text(spot: &TokenWindow) -> Option<SyntaxFix> {
+    let is_prefix = matches!(spot.word(-1), "f" | "F" | "r" | "b" | "u");
+    let is_text = spot.word(0).starts_with('"') && spot.is_joined(0);
+    (is_prefix && is_text).then_some(())?;
+    spot.cure(
+        -1,
+        format!("no letter stands before a text, got {}\"", spot.word(-1)),
+        "values stand in texts between backquotes: `x = ${x}`",
+    )
+}

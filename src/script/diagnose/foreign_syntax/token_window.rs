@@ -1,0 +1,201 @@
+//! The words around the place where the parser gave up.
+
+use rhai::{ParseErrorType, Position, Token};
+
+use super::fix::SyntaxFix;
+use crate::script::bindings::catalog::Catalog;
+use crate::script::source::program::Program;
+
+/// So many words are looked at before the place, and as many behind it.
+const REACH: usize = 40;
+
+/// A token as it is written.
+struct Word {
+    text: String,
+    token: Token,
+    at: Position,
+    /// Whether it follows the word before it without a blank.
+    is_joined: bool,
+}
+
+/// The words around the place where the parser stopped, and which of them it stopped at.
+pub struct TokenWindow<'s> {
+    /// The names that the language has.
+    pub catalog: &'s Catalog,
+    /// The parser's reason to give up.
+    pub error: &'s ParseErrorType,
+    words: Vec<Word>,
+    here: usize,
+    first: usize,
+    place: Position,
+    /// What stands between the place and the word before it, comments too.
+    gap: String,
+}
+
+impl<'s> TokenWindow<'s> {
+    /// The words of `program` around `place`.
+    pub fn of(
+        program: &Program,
+        catalog: &'s Catalog,
+        error: &'s ParseErrorType,
+        place: Position,
+    ) -> Self {
+        let order = |at: Position| (at.line().unwrap_or(0), at.position().unwrap_or(0));
+        let all = program.text.tokens();
+        let found = match place.is_none() {
+            true => all.len(),
+            false => all.partition_point(|(_, at)| order(*at) < order(place)),
+        };
+        let start = found.saturating_sub(REACH);
+        let near = &all[start..all.len().min(found + REACH)];
+        let ends: Vec<usize> = near
+            .iter()
+            .map(|(_, at)| program.offset(order(*at).0, order(*at).1))
+            .chain([program.text.len()])
+            .collect();
+        let mut words: Vec<Word> = Vec::new();
+        for ((token, at), place) in near.iter().zip(ends.windows(2)) {
+            let (from, to) = (place[0], place[1].max(place[0]));
+            let text = written(token, &program.text[from..to]);
+            let is_joined = !program.text[..from].ends_with(char::is_whitespace);
+            words.push(Word { text, token: token.clone(), at: *at, is_joined });
+        }
+        let here = found - start;
+        let gap = here.checked_sub(1).and_then(|last| {
+            // Places within texts that are not closed may go back.
+            program.text.get(ends[last]..ends[last + 1])
+        });
+        let gap = gap.unwrap_or_default().to_owned();
+        let first = first_of_statement(&words, here);
+        Self { catalog, error, words, here, first, place, gap }
+    }
+
+    /// The word that stands `from_here` places behind the one that the parser stopped at, or before it; empty where there is none.
+    pub fn word(&self, from_here: isize) -> &str {
+        self.find(from_here).map_or("", |word| word.text.as_str())
+    }
+
+    /// The word that stands `index` places behind the one that the statement begins with.
+    pub fn in_statement(&self, index: usize) -> &str {
+        self.words.get(self.first + index).map_or("", |word| word.text.as_str())
+    }
+
+    /// The number of words of the statement that stand before the place.
+    pub fn count(&self) -> usize {
+        self.here - self.first
+    }
+
+    /// Whether the word that stands `from_here` places behind the parser's follows the one before it without a blank.
+    pub fn is_joined(&self, from_here: isize) -> bool {
+        self.find(from_here).is_some_and(|word| word.is_joined)
+    }
+
+    /// Whether the word that stands `from_here` places behind the parser's is a name.
+    pub fn is_name(&self, from_here: isize) -> bool {
+        matches!(self.find(from_here).map(|word| &word.token), Some(Token::Identifier(_)))
+    }
+
+    /// Whether the word that stands `from_here` places behind the parser's is a number.
+    pub fn is_number(&self, from_here: isize) -> bool {
+        self.word(from_here).starts_with(|letter: char| letter.is_ascii_digit())
+    }
+
+    /// Whether the word that stands `from_here` places behind the parser's is a number, a text, or a name: the beginning of a value.
+    pub fn is_value(&self, from_here: isize) -> bool {
+        self.is_name(from_here) || self.is_number(from_here) || self.is_text(from_here)
+    }
+
+    /// Whether the word that stands `from_here` places behind the parser's is a text.
+    pub fn is_text(&self, from_here: isize) -> bool {
+        self.word(from_here).starts_with(['"', '`', '\''])
+    }
+
+    /// The place and the text of the first word of the statement, up to two words behind the parser's place, that is one of these.
+    pub fn find_word(&self, sought: &[&str]) -> Option<(isize, &str)> {
+        let last = (self.here + 3).min(self.words.len());
+        let mut words = self.words.get(self.first..last)?.iter().enumerate();
+        let (index, word) = words.find(|(_, word)| sought.contains(&word.text.as_str()))?;
+        Some(((self.first + index) as isize - self.here as isize, word.text.as_str()))
+    }
+
+    /// The words of the statement from one place to before another, as they are written.
+    pub fn piece(&self, from: isize, to: isize) -> String {
+        let mut piece = String::new();
+        for index in from..to {
+            let blank = !piece.is_empty() && !self.is_joined(index);
+            piece.push_str(if blank { " " } else { "" });
+            piece.push_str(self.word(index));
+        }
+        piece
+    }
+
+    /// Whether a comment stands behind the word before the place.
+    pub fn has_comment_before(&self) -> bool {
+        self.gap.contains("//")
+    }
+
+    /// The place of the first word of the statement, from the one that the parser stopped at.
+    pub fn first(&self) -> isize {
+        self.first as isize - self.here as isize
+    }
+
+    /// What the parser missed at the place, and what it says about it.
+    pub fn missing(&self) -> (&str, &str) {
+        match self.error {
+            ParseErrorType::MissingToken(token, why) => (token, why),
+            _ => ("", ""),
+        }
+    }
+
+    /// Whether there is no word where the parser stopped.
+    pub fn is_at_end(&self) -> bool {
+        self.here >= self.words.len()
+    }
+
+    /// The cure at the word that stands `from_here` places behind the parser's.
+    pub fn cure(
+        &self,
+        from_here: isize,
+        message: impl Into<String>,
+        hint: impl Into<String>,
+    ) -> Option<SyntaxFix> {
+        let at = self.find(from_here).map_or(self.place, |word| word.at);
+        Some(SyntaxFix { message: message.into(), hint: hint.into(), at })
+    }
+
+    fn find(&self, from_here: isize) -> Option<&Word> {
+        self.words.get(self.here.checked_add_signed(from_here)?)
+    }
+}
+
+/// A token as it is written; `rest` is the source from it to the next one.
+fn written(token: &Token, rest: &str) -> String {
+    match token {
+        Token::Identifier(name) => name.to_string(),
+        Token::StringConstant(_) | Token::InterpolatedString(_) | Token::CharConstant(_) => {
+            rest.trim_end().to_owned()
+        }
+        _ => {
+            let end = rest.find(|letter: char| letter.is_whitespace()).unwrap_or(rest.len());
+            let end = rest[..end].find("//").unwrap_or(end);
+            rest[..end].to_owned()
+        }
+    }
+}
+
+/// The first word of the statement in which `here` stands, as far as it stands in the line of the word before.
+fn first_of_statement(words: &[Word], here: usize) -> usize {
+    let Some(last) = here.checked_sub(1) else { return here };
+    let line = words[last].at.line();
+    let opens = |word: &Word| {
+        matches!(
+            word.token,
+            Token::SemiColon | Token::LeftBrace | Token::RightBrace | Token::MapStart
+        )
+    };
+    let mut first = here;
+    while first > 0 && words[first - 1].at.line() == line && !opens(&words[first - 1]) {
+        first -= 1;
+    }
+    first
+}

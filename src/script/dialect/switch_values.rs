@@ -1,0 +1,55 @@
+//! What `switch` chooses by: numbers, texts, truth values, arrays and maps of these. Rhai takes the default for all else, without a word.
+
+use rhai::{Array, Dynamic, Engine, FnPtr, Map};
+
+use crate::script::bindings::parameter_variants::{VariantValue, present};
+use crate::script::messages::error::ScriptError;
+use crate::script::messages::numbers::describe;
+use crate::script::source::switch_rewrite;
+
+/// Refuses what `switch` cannot compare.
+pub fn install(engine: &mut Engine) {
+    switch_rewrite::install(engine, |engine, value, at| {
+        // Within a call for a variant it is what it is there.
+        let value = match present() {
+            Some(present) => VariantValue::project(&value, present.variant),
+            None => value,
+        };
+        judge(engine, &value).map_err(|error| error.into_engine(at))?;
+        Ok(value)
+    });
+}
+
+fn judge(engine: &Engine, value: &Dynamic) -> Result<(), ScriptError> {
+    if VariantValue::family_of(value).is_some() {
+        let told = "switch cannot choose by what depends on a parameter of a scene";
+        let hint = "switch int(x) { … } chooses by a whole number, switch value_of(x) by the number without its derivatives, which do not know of the choice";
+        return Err(ScriptError::new(told).hint(hint));
+    }
+    match odd_one_in(value) {
+        None => Ok(()),
+        Some(odd) => {
+            let told = format!("switch cannot choose by {}", describe(engine, &odd));
+            let hint = "it knows numbers, texts, truth values, (), and arrays and maps of these; if chooses by any condition";
+            Err(ScriptError::new(told).hint(hint))
+        }
+    }
+}
+
+/// The first value that cannot be compared.
+fn odd_one_in(value: &Dynamic) -> Option<Dynamic> {
+    if let Some(array) = value.read_lock::<Array>() {
+        return array.iter().find_map(odd_one_in);
+    }
+    if let Some(map) = value.read_lock::<Map>() {
+        return map.values().find_map(odd_one_in);
+    }
+    let is_known = value.is_unit()
+        || value.is_bool()
+        || value.is_int()
+        || value.is_float()
+        || value.is_char()
+        || value.is_string()
+        || value.is::<FnPtr>();
+    (!is_known).then(|| value.clone())
+}

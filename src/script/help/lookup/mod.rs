@@ -1,0 +1,17 @@
+//! Help: what a name means, as a page that a terminal can show.
+
+mod compose;
+mod find;
+mod library;
+mod page;
+mod rows;
+mod unknown;
+
+pub use compose::page;
+pub use find::{HelpSubject, find, names};
+pub use page::{HelpPage, HelpSection, HelpStyle, StyledText, WIDTH};
+pub use rows::{maps, presence};
+pub use unknown::UnknownTopic;
+
+#[cfg(test)]
+mod tests;

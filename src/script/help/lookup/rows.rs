@@ -1,0 +1,117 @@
+//! The parts of a page that describe rows: signature, parameters, example.
+
+use super::page::{HelpPage, StyledText};
+use crate::script::bindings::built_in::BuiltIn;
+use crate::script::bindings::kind::Kind;
+use crate::script::bindings::parameter::{Parameter, Presence};
+use crate::script::bindings::returns::Returns;
+use crate::script::bindings::table::{BindingTable, FunctionBinding};
+
+/// Adds the description of a row of ours to a page.
+pub fn row(page: &mut HelpPage, table: &BindingTable, row: &FunctionBinding) {
+    page.words(0, signature(&row.signature(), &row.returns));
+    page.paragraph(row.summary);
+    if let Some(setter) = row.setter {
+        let [value] = setter.value;
+        page.words(
+            0,
+            [vec![StyledText::plain("It can be assigned: ")], expectation(value)].concat(),
+        );
+    }
+    if !row.doc.is_empty() {
+        page.gap();
+        page.paragraph(row.doc);
+    }
+    if !row.parameters.is_empty() {
+        page.gap();
+        row.parameters.iter().for_each(|known| parameter(page, known, 2));
+    }
+    example(page, table.setup, row.example);
+    see(page, row.see);
+}
+
+/// Adds the description of a function of Rhai to a page.
+pub fn built_in(page: &mut HelpPage, built_in: &BuiltIn) {
+    for form in built_in.forms {
+        page.words(0, signature(form, &built_in.returns));
+    }
+    page.paragraph(built_in.summary);
+    if !built_in.doc.is_empty() {
+        page.gap();
+        page.paragraph(built_in.doc);
+    }
+    example(page, "", built_in.example);
+    see(page, built_in.see);
+}
+
+/// Adds a script to copy to a page, after the lines that it needs before it.
+pub fn example(page: &mut HelpPage, setup: &str, script: &str) {
+    page.gap();
+    page.heading("Example");
+    if !setup.is_empty() {
+        page.code(setup);
+    }
+    page.code(script);
+}
+
+/// Adds the names under which to read on to a page.
+pub fn see(page: &mut HelpPage, names: &[&str]) {
+    if !names.is_empty() {
+        page.gap();
+        page.words(0, vec![StyledText::plain(format!("See also {}.", names.join(", ")))]);
+    }
+}
+
+/// Adds the description of a parameter or a key to a page, and below it the keys of its map of options.
+pub fn parameter(page: &mut HelpPage, parameter: &Parameter, indent: usize) {
+    let mut spans = vec![StyledText::name(parameter.name), StyledText::plain(": ")];
+    spans.extend(expectation(parameter));
+    if !parameter.doc.is_empty() {
+        spans.push(StyledText::plain(format!(", {}", parameter.doc)));
+    }
+    spans.push(StyledText::aside(presence(parameter.presence)));
+    page.words(indent, spans);
+    for keys in maps(&parameter.kind) {
+        for key in keys {
+            self::parameter(page, key, indent + 2);
+        }
+    }
+}
+
+/// What may be given, and its dimension.
+fn expectation(parameter: &Parameter) -> Vec<StyledText> {
+    let kind = StyledText::plain(parameter.kind.to_string());
+    match parameter.unit {
+        "" => vec![kind],
+        unit => vec![kind, StyledText::plain(" "), StyledText::aside(format!("[{unit}]"))],
+    }
+}
+
+/// What holds when a parameter is left out, to be put behind its description.
+pub fn presence(presence: Presence) -> String {
+    match presence {
+        Presence::Required => String::new(),
+        Presence::Optional => "; optional".to_owned(),
+        Presence::Number(default) => format!("; {default} unless given"),
+        Presence::Whole(default) => format!("; {default} unless given"),
+        Presence::Text(default) => format!("; \"{default}\" unless given"),
+        Presence::Boolean(default) => format!("; {default} unless given"),
+    }
+}
+
+/// The maps of options that a kind allows.
+pub fn maps(kind: &Kind) -> Vec<&'static [Parameter]> {
+    match kind {
+        Kind::Options(keys) => vec![*keys],
+        Kind::Either(kinds) => kinds.iter().flat_map(maps).collect(),
+        _ => Vec::new(),
+    }
+}
+
+fn signature(written: &str, returns: &Returns) -> Vec<StyledText> {
+    let mut spans = vec![StyledText::name(written)];
+    if !returns.is_nothing() {
+        spans.push(StyledText::plain(format!(" → {returns}")));
+    }
+    spans
+}

@@ -1,0 +1,97 @@
+//! A name that nothing is known of: what may have been meant.
+
+use std::fmt;
+
+use super::find::names;
+use crate::script::bindings::catalog::Catalog;
+use crate::script::bindings::topics::TOPICS;
+use crate::script::diagnose::foreign_names::{self, ForeignName};
+use crate::script::messages::suggest::{nearest, related};
+
+/// How many places that mention a word are told.
+const MOST_MENTIONS: usize = 8;
+
+/// A name without help.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UnknownTopic {
+    /// The name that has no help.
+    pub name: String,
+    /// The nearest name that has help, if one is near.
+    pub meant: Option<&'static str>,
+    /// What is written here for a word of other programs, if it is one.
+    pub elsewhere: Option<&'static ForeignName>,
+    /// The names with help of which the word is a part.
+    pub related: Vec<&'static str>,
+    /// The names whose help mentions the word.
+    pub mentions: Vec<&'static str>,
+}
+
+impl UnknownTopic {
+    /// Looks for what may have been meant by `name`.
+    pub fn new(catalog: &Catalog, name: &str) -> Self {
+        let known = names(catalog);
+        let elsewhere = foreign_names::find(name);
+        let related = related(name, known.iter().copied());
+        // A word that is known is not misspelt.
+        let is_known = elsewhere.is_some() || !related.is_empty();
+        let meant = if is_known { None } else { nearest(name, known) };
+        Self { name: name.to_owned(), meant, elsewhere, related, mentions: mentions(catalog, name) }
+    }
+
+    /// What to do about a name without help, in words.
+    pub fn hint(&self) -> String {
+        let elsewhere = self.elsewhere.map(ForeignName::told);
+        let related = (elsewhere.is_none() && !self.related.is_empty())
+            .then(|| format!("there is {}", self.related.join(", ")));
+        let meant = self.meant.map(|near| format!("did you mean '{near}'?"));
+        let mentions = (elsewhere.is_none() && !self.mentions.is_empty()).then(|| {
+            format!("'{}' is mentioned in the help of {}", self.name, self.mentions.join(", "))
+        });
+        let told: Vec<String> =
+            [elsewhere, related, meant, mentions].into_iter().flatten().collect();
+        match told.is_empty() {
+            true => "help() lists what there is".into(),
+            false => told.join("\n"),
+        }
+    }
+
+    /// Whether nothing is known that could have been meant by the name.
+    pub fn is_strange(&self) -> bool {
+        self.elsewhere.is_none()
+            && self.related.is_empty()
+            && self.meant.is_none()
+            && self.mentions.is_empty()
+    }
+}
+
+impl fmt::Display for UnknownTopic {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "there is no help on '{}'", self.name)
+    }
+}
+
+fn mentions(catalog: &Catalog, word: &str) -> Vec<&'static str> {
+    let word = word.trim().to_lowercase();
+    // A letter or two would be found nearly everywhere.
+    if word.chars().count() < 3 {
+        return Vec::new();
+    }
+    let is_in = |text: &str| text.to_lowercase().contains(&word);
+    let topics = TOPICS.iter().filter(|topic| is_in(topic.summary) || is_in(topic.doc));
+    let rows = catalog.rows().filter(|row| is_in(row.summary) || is_in(row.doc));
+    let built_ins = catalog.built_ins().filter(|known| is_in(known.summary) || is_in(known.doc));
+    let tables = catalog.tables().filter(|table| is_in(table.doc));
+    let mut found = Vec::new();
+    for name in rows
+        .map(|row| row.name)
+        .chain(built_ins.map(|known| known.name()))
+        .chain(topics.map(|topic| topic.name))
+        .chain(tables.map(|table| table.name))
+    {
+        if !found.contains(&name) {
+            found.push(name);
+        }
+    }
+    found.truncate(MOST_MENTIONS);
+    found
+}

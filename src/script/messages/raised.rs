@@ -1,0 +1,65 @@
+//! Errors of script functions that are called from inside native loops, on their way through the layers in between.
+
+use std::cell::RefCell;
+use std::error::Error;
+use std::fmt;
+
+use rhai::EvalAltResult;
+
+/// An error of a script function as the layers below the script carry it: they tell its words; where they give it back to the script it is
+/// taken out again, with its place, its trace and what was thrown.
+#[derive(Debug)]
+pub struct Raised {
+    words: String,
+    /// The engine wants errors whole and cannot copy them: nothing once somebody has taken it.
+    error: RefCell<Option<Box<EvalAltResult>>>,
+}
+
+impl Raised {
+    /// Wraps an error of a script function with the words for it in one line.
+    pub fn new(words: String, error: Box<EvalAltResult>) -> Self {
+        Self { words, error: RefCell::new(Some(error)) }
+    }
+
+    /// Takes out the error of a script function that `error` was caused by, if it was.
+    pub fn behind(error: &(dyn Error + 'static)) -> Option<Box<EvalAltResult>> {
+        let mut cause = Some(error);
+        while let Some(error) = cause {
+            match error.downcast_ref::<Self>() {
+                Some(raised) => return raised.error.take(),
+                None => cause = error.source(),
+            }
+        }
+        None
+    }
+}
+
+impl fmt::Display for Raised {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.words)
+    }
+}
+
+impl Error for Raised {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::integrators::{ExternalError, Interval, StepError};
+    use crate::loads::{FunctionError, LoadError};
+    use crate::simulation::SimulationError;
+
+    #[test]
+    fn an_error_comes_back_whole_through_all_layers() {
+        let thrown = EvalAltResult::ErrorRuntime(42.into(), rhai::Position::NONE);
+        let raised = Raised::new("thrown".to_owned(), thrown.into());
+        let load = LoadError::Function(FunctionError::new(raised));
+        let (interval, load) = (Interval::between(0.0, 1.0), ExternalError::new(load));
+        let step = StepError::Load { interval, load: "force".to_owned(), source: load };
+        let error = SimulationError::Load { source: step };
+        assert_eq!(error.to_string(), "force: thrown (in the step from t = 0 to 1)");
+        let back = Raised::behind(&error).expect("the error of the script");
+        assert!(matches!(*back, EvalAltResult::ErrorRuntime(value, _) if value.as_int() == Ok(42)));
+        assert!(Raised::behind(&error).is_none() && Raised::behind(&fmt::Error).is_none());
+    }
+}

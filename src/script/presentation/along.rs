@@ -1,0 +1,180 @@
+//! Pictures of what is inside of beams: strips, charts and colours, from the same description.
+
+use super::quantities::BeamQuantity;
+use super::symbols::{SceneAt, uncrowded};
+use crate::geometry::Vec2;
+use crate::output::{
+    BeamStrip, FieldPicture, LineChart, MechanismOutline, Point, Series, StripPicture,
+    TerminalStyle, significant,
+};
+use crate::simulation::{Outline, Simulation};
+use crate::statics::Equilibrium;
+use crate::system::{BeamPlaces, BeamSample, System, SystemError};
+
+/// Digits of numbers in words.
+const DIGITS: usize = 6;
+
+/// What is inside of some beams at one time.
+pub struct SectionForceProfile {
+    /// What stands above pictures, before the quantity.
+    pub title: String,
+    /// When it is, in words; may be empty.
+    pub when: String,
+    beams: Vec<BeamProfile>,
+    scenery: MechanismOutline,
+}
+
+struct BeamProfile {
+    name: String,
+    line: Vec<Point>,
+    along: Vec<BeamSample>,
+}
+
+impl SectionForceProfile {
+    /// The present of a simulation; of all beams where none is named by its index.
+    ///
+    /// # Errors
+    /// When an axis has a point without a tangent.
+    pub fn of_simulation(simulation: &Simulation, beams: &[usize]) -> Result<Self, SystemError> {
+        let when = format!("t = {}", significant(simulation.time(), DIGITS));
+        let at = SceneAt::of(simulation, simulation.time());
+        Self::of_model(&at, simulation.model(), beams).map(|inside| Self { when, ..inside })
+    }
+
+    /// An equilibrium, under all of its loads.
+    ///
+    /// # Errors
+    /// When an axis has a point without a tangent.
+    pub fn of_equilibrium(rest: &Equilibrium, beams: &[usize]) -> Result<Self, SystemError> {
+        Self::of_model(&SceneAt::at_rest(rest), rest.model(), beams)
+    }
+
+    fn of_model(at: &SceneAt, model: &System, beams: &[usize]) -> Result<Self, SystemError> {
+        let SceneAt { scene, time, .. } = *at;
+        let outlines = Outline::of_scene(scene, model.meshes())?;
+        let points: Vec<&[Vec2]> = model.control_points().collect();
+        let drawn = Outline::draw(&outlines, time, &points);
+        let is_wanted = |index: &usize| beams.is_empty() || beams.contains(index);
+        let beam = |index: usize| {
+            let places = model.places_along(scene, index, BeamPlaces::WITHIN_A_SPAN)?;
+            Ok(BeamProfile {
+                name: scene.beams[index].name.clone(),
+                line: drawn.lines[index].iter().map(plain).collect(),
+                along: model.sample_along(&places),
+            })
+        };
+        let beams = (0..scene.beams.len()).filter(is_wanted).map(beam);
+        Ok(Self {
+            title: scene.name.clone(),
+            when: String::new(),
+            beams: beams.collect::<Result<_, SystemError>>()?,
+            scenery: MechanismOutline {
+                bodies: drawn.bodies.iter().map(|body| body.iter().map(plain).collect()).collect(),
+                symbols: at.symbols(model)?,
+            },
+        })
+    }
+
+    /// Leaves symbols out of which there are so many that they would hide the beams.
+    pub fn with_uncrowded_symbols(mut self) -> Self {
+        self.scenery.symbols = uncrowded(self.scenery.symbols);
+        self
+    }
+
+    /// Leaves symbols of supports and loads out.
+    pub fn without_symbols(mut self) -> Self {
+        self.scenery.symbols.clear();
+        self
+    }
+
+    fn heading(&self, quantity: &BeamQuantity) -> String {
+        let parts = [self.title.as_str(), quantity.words];
+        let parts: Vec<&str> = parts.into_iter().filter(|part| !part.is_empty()).collect();
+        match self.when.as_str() {
+            "" => parts.join(": "),
+            when => format!("{} at {when}", parts.join(": ")),
+        }
+    }
+
+    /// The quantity as strips across the beams.
+    pub fn strips(&self, quantity: &BeamQuantity) -> StripPicture {
+        let caption = match quantity.name {
+            "M" | "curvature" => {
+                "positive on the right of a beam from its start: where it is stretched"
+            }
+            _ => "positive on the left of a beam from its start",
+        };
+        let of_beam = |beam: &BeamProfile| BeamStrip {
+            line: beam.line.clone(),
+            values: beam.along.iter().map(|at| (plain(&at.position), (quantity.of)(at))).collect(),
+        };
+        let picture = StripPicture::new(self.heading(quantity))
+            .caption(format!("{}; {caption}", quantity.label()))
+            .side(quantity.side)
+            .scenery(self.scenery.clone());
+        self.beams.iter().map(of_beam).fold(picture, StripPicture::strip)
+    }
+
+    /// The quantity over the arc lengths of the beams; without a title, to stand beside strips that have it.
+    pub fn chart(&self, quantity: &BeamQuantity) -> LineChart {
+        let chart = LineChart::new("")
+            .x_label("s, from the start of the beam [length]")
+            .y_label(quantity.label());
+        self.beams.iter().fold(chart, |chart, beam| {
+            let points = beam.along.iter().map(|at| (at.arc_length, (quantity.of)(at)));
+            // A lone beam needs no legend.
+            let name = if self.beams.len() > 1 { beam.name.clone() } else { String::new() };
+            chart.series(Series::new(name, points.collect()))
+        })
+    }
+
+    /// The magnitude of the quantity as colours and widths of the beams.
+    pub fn field(&self, quantity: &BeamQuantity) -> FieldPicture {
+        let label = match quantity.sign {
+            sign if sign.len() == 1 => format!("|{sign}| [{}]", quantity.dimension),
+            // The title says it.
+            _ => format!("[{}]", quantity.dimension),
+        };
+        let picture =
+            FieldPicture::new(self.heading(quantity), label).scenery(self.scenery.clone());
+        self.beams.iter().fold(picture, |picture, beam| {
+            let value = |at: &BeamSample| (plain(&at.position), (quantity.of)(at).abs());
+            picture.beam(beam.along.iter().map(value).collect())
+        })
+    }
+
+    /// The chart as text for a terminal.
+    pub fn text(&self, quantity: &BeamQuantity, style: &TerminalStyle) -> String {
+        self.chart(quantity).title(self.heading(quantity)).x_label("s").text(style)
+    }
+
+    /// What the chart would show, in lines: where there is no terminal.
+    pub fn summary(&self, quantity: &BeamQuantity) -> String {
+        let number = |value: f64| significant(value, DIGITS);
+        let line = |beam: &BeamProfile| {
+            let values = || beam.along.iter().map(quantity.of);
+            let ends = |value: Option<f64>| value.map_or_else(String::new, number);
+            let at = |value: f64| {
+                let found = beam.along.iter().find(|at| (quantity.of)(at) == value);
+                found.map_or_else(String::new, |at| format!(" at s = {}", number(at.arc_length)))
+            };
+            let extreme = |value: Option<f64>| {
+                value.map_or_else(String::new, |value| format!("{}{}", number(value), at(value)))
+            };
+            format!(
+                "{}: {} {} at the start, least {}, most {}, {} at the end",
+                beam.name,
+                quantity.label(),
+                ends(values().next()),
+                extreme(values().reduce(f64::min)),
+                extreme(values().reduce(f64::max)),
+                ends(values().next_back()),
+            )
+        };
+        self.beams.iter().map(line).collect::<Vec<_>>().join("\n")
+    }
+}
+
+fn plain(point: &Vec2) -> Point {
+    (point.x, point.y)
+}

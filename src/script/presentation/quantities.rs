@@ -1,0 +1,82 @@
+//! What can be drawn along beams.
+
+use crate::output::BeamSide;
+use crate::system::BeamSample;
+
+/// A quantity along a beam.
+pub struct BeamQuantity {
+    /// The name of the quantity in scripts.
+    pub name: &'static str,
+    /// What it is called in titles.
+    pub words: &'static str,
+    /// How axes write it.
+    pub sign: &'static str,
+    /// The dimension of the quantity.
+    pub dimension: &'static str,
+    /// The value of the quantity at a sample of a beam.
+    pub of: fn(&BeamSample) -> f64,
+    /// The side of a beam on which strips stand where it is positive.
+    pub side: BeamSide,
+}
+
+/// All of them, in the order of [`NAMES`].
+const QUANTITIES: [BeamQuantity; 8] = [
+    quantity("N", "axial force", "force", |at| at.forces.axial),
+    quantity("Q", "shear force", "force", |at| at.forces.shear),
+    BeamQuantity {
+        // Where the beam is stretched.
+        side: BeamSide::Right,
+        ..quantity("M", "bending moment", "force·length", |at| at.forces.moment)
+    },
+    quantity("axial_strain", "axial strain", "-", |at| at.forces.axial_strain),
+    quantity("shear_strain", "shear strain", "-", |at| at.forces.shear_strain),
+    BeamQuantity {
+        side: BeamSide::Right,
+        ..quantity("curvature", "change of curvature", "1/length", |at| at.forces.curvature)
+    },
+    quantity("strain_energy", "strain energy per length", "energy/length", |at| at.strain_energy),
+    quantity("speed", "speed", "length/time", |at| at.velocity.norm()),
+];
+
+/// Their names.
+pub const NAMES: &[&str] =
+    &["N", "Q", "M", "axial_strain", "shear_strain", "curvature", "strain_energy", "speed"];
+
+const fn quantity(
+    name: &'static str,
+    words: &'static str,
+    dimension: &'static str,
+    of: fn(&BeamSample) -> f64,
+) -> BeamQuantity {
+    let sign = if name.len() == 1 { name } else { words };
+    BeamQuantity { name, words, sign, dimension, of, side: BeamSide::Left }
+}
+
+impl BeamQuantity {
+    /// The one of a name.
+    pub fn named(name: &str) -> Option<&'static Self> {
+        const ALL: &[BeamQuantity] = &QUANTITIES;
+        ALL.iter().find(|quantity| quantity.name == name)
+    }
+
+    /// The label of an axis: `M [force·length]`.
+    pub fn label(&self) -> String {
+        format!("{} [{}]", self.sign, self.dimension)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_and_quantities_agree() {
+        let names: Vec<&str> = QUANTITIES.iter().map(|quantity| quantity.name).collect();
+        assert_eq!(names, NAMES);
+        assert_eq!(
+            BeamQuantity::named("M").map(BeamQuantity::label),
+            Some("M [force·length]".into())
+        );
+        assert!(BeamQuantity::named("m").is_none());
+    }
+}

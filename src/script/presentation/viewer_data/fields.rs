@@ -1,0 +1,163 @@
+//! What beams can be coloured by in a viewer: quantities that recorded configurations tell, and those for which the states themselves are needed.
+
+use super::FrameSelection;
+use crate::geometry::Vec2;
+use crate::output::viewer::ColourField;
+use crate::script::presentation::quantities::BeamQuantity;
+use crate::simulation::{Axes, AxisStation, Outline, Simulation};
+use crate::system::{BeamPlaces, SystemError};
+
+/// A quantity along beams.
+struct FieldKind {
+    /// Its name in scripts.
+    name: &'static str,
+    source: FieldSource,
+}
+
+/// What tells a quantity.
+enum FieldSource {
+    /// The configurations before and after a frame: how fast the axis moves [length/time].
+    Neighbours,
+    /// The configuration of a frame: a quantity of the axis, and its dimension.
+    Axis(fn(&AxisStation, &[Vec2]) -> f64, &'static str),
+    /// The state at a frame: the quantity of that name along beams.
+    State,
+}
+
+const fn kind(name: &'static str, source: FieldSource) -> FieldKind {
+    FieldKind { name, source }
+}
+
+/// All of them, in the order of [`FIELDS`]. Stretch: how much longer the axis is than as drawn [-]. Curvature: how much more it bends than
+/// as drawn [1/length].
+const KINDS: [FieldKind; 7] = [
+    kind("speed", FieldSource::Neighbours),
+    kind("M", FieldSource::State),
+    kind("strain_energy", FieldSource::State),
+    kind("N", FieldSource::State),
+    kind("Q", FieldSource::State),
+    kind("stretch", FieldSource::Axis(AxisStation::stretch, "-")),
+    kind("curvature", FieldSource::Axis(AxisStation::curvature, "1/length")),
+];
+
+/// The names of what beams can be coloured by.
+pub const FIELDS: [&str; 7] = ["speed", "M", "strain_energy", "N", "Q", "stretch", "curvature"];
+
+/// What the states of a simulation tell of its beams, taken frame by frame.
+pub struct FieldReader {
+    /// At the stations of the films of the simulation.
+    beams: Vec<BeamPlaces>,
+    /// Each with its values: frame by frame, one beam after another.
+    taken: Vec<(&'static BeamQuantity, Vec<Vec<f64>>)>,
+}
+
+impl FieldReader {
+    /// For so many frames of a simulation, of fields by their names; none where the states need not be asked for any of them.
+    ///
+    /// # Errors
+    /// When an axis has a point without a tangent.
+    pub fn of(
+        simulation: &Simulation,
+        frames: usize,
+        names: &[&str],
+    ) -> Result<Option<Self>, SystemError> {
+        let is_asked = |kind: &&FieldKind| {
+            matches!(kind.source, FieldSource::State) && names.contains(&kind.name)
+        };
+        let quantities =
+            KINDS.iter().filter(is_asked).filter_map(|kind| BeamQuantity::named(kind.name));
+        let taken: Vec<_> =
+            quantities.map(|quantity| (quantity, vec![Vec::new(); frames])).collect();
+        if taken.is_empty() {
+            return Ok(None);
+        }
+        let places = |(beam, mesh): (usize, &crate::beams::Mesh)| {
+            let within = Outline::stations_within_a_span(mesh.basis().degree());
+            Ok(simulation.places_along(beam, within)?.one_at_each_arc_length())
+        };
+        let meshes = simulation.model().meshes().iter().enumerate();
+        Ok(Some(Self { beams: meshes.map(places).collect::<Result<_, SystemError>>()?, taken }))
+    }
+
+    /// Takes the values of a frame from the state that belongs to it.
+    pub fn take(&mut self, frame: usize, state: &Simulation) {
+        for places in &self.beams {
+            let samples = state.sample_along(places);
+            for (quantity, frames) in &mut self.taken {
+                frames[frame].extend(samples.iter().map(quantity.of));
+            }
+        }
+    }
+
+    /// The fields of a film.
+    pub fn fields(self) -> Vec<ColourField> {
+        let field = |(quantity, values): (&BeamQuantity, _)| ColourField {
+            name: quantity.words.to_owned(),
+            unit: quantity.dimension.to_owned(),
+            values,
+        };
+        self.taken.into_iter().map(field).collect()
+    }
+}
+
+/// The fields of these names, in the order of [`FIELDS`]; those of states have been taken.
+pub(super) fn fields(
+    simulation: &Simulation,
+    shown: &FrameSelection,
+    names: &[&str],
+    inside: Vec<ColourField>,
+) -> Result<Vec<ColourField>, SystemError> {
+    let stations = Axes::of(simulation.scene())?.stations()?;
+    let mut inside = inside.into_iter();
+    let field = |kind: &FieldKind| {
+        let (unit, values) = match kind.source {
+            FieldSource::State => return inside.next(),
+            FieldSource::Axis(value, unit) => (unit, along_axes(shown, &stations, value)),
+            FieldSource::Neighbours => {
+                let speeds = |&index: &usize| speeds(simulation, &stations, index);
+                ("length/time", shown.indices.iter().map(speeds).collect())
+            }
+        };
+        Some(ColourField { name: kind.name.to_owned(), unit: unit.to_owned(), values })
+    };
+    Ok(KINDS.iter().filter(|kind| names.contains(&kind.name)).filter_map(field).collect())
+}
+
+/// A quantity of the axes at all stations, frame by frame.
+fn along_axes(
+    shown: &FrameSelection,
+    stations: &[Vec<AxisStation>],
+    value: fn(&AxisStation, &[Vec2]) -> f64,
+) -> Vec<Vec<f64>> {
+    let of_beam = |(stations, points): (&Vec<AxisStation>, &Vec<Vec2>)| {
+        stations.iter().map(|at| value(at, points)).collect::<Vec<_>>()
+    };
+    let of_frame =
+        |bodies: &Vec<Vec<Vec2>>| stations.iter().zip(bodies).flat_map(of_beam).collect();
+    shown.frames.iter().map(of_frame).collect()
+}
+
+/// How fast stations move in a configuration, from those recorded before and after it.
+fn speeds(simulation: &Simulation, stations: &[Vec<AxisStation>], index: usize) -> Vec<f64> {
+    let times = simulation.trajectory().times();
+    let (before, after) = (index.saturating_sub(1), (index + 1).min(times.len() - 1));
+    let duration = times[after] - times[before];
+    let (start, end) = (simulation.control_points_at(before), simulation.control_points_at(after));
+    let of_beam = |(stations, (start, end)): (&Vec<AxisStation>, (&Vec<Vec2>, &Vec<Vec2>))| {
+        let speed = |at: &AxisStation| (at.position(end) - at.position(start)).norm() / duration;
+        stations.iter().map(speed).collect::<Vec<_>>()
+    };
+    stations.iter().zip(start.iter().zip(&end)).flat_map(of_beam).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_and_kinds_agree_and_states_have_their_quantities() {
+        assert_eq!(KINDS.each_ref().map(|kind| kind.name), FIELDS);
+        let of_states = KINDS.iter().filter(|kind| matches!(kind.source, FieldSource::State));
+        assert!(of_states.into_iter().all(|kind| BeamQuantity::named(kind.name).is_some()));
+    }
+}

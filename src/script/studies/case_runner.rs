@@ -1,0 +1,261 @@
+//! Where the cases of a study are worked on: in parallel or one by one, with progress and limits, and with a journal where one
+//! is wanted.
+
+use std::ops::ControlFlow;
+use std::sync::atomic::AtomicBool;
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use crate::analysis::{
+    Case, CaseOutcome, Journal, RunResult, StabilityVerdict, Timing, on_all_cores,
+};
+use crate::script::messages::error::ScriptError;
+use crate::script::state::context::Context;
+use crate::script::state::journals::{JournalLifetime, JournalNumber};
+use crate::script::state::parts::find_parts;
+use crate::script::state::settings::RunMode;
+
+/// What a study finds of a case.
+pub trait Finding: Serialize + DeserializeOwned {
+    /// Whether the journal keeps what was found: what ran out of patience may come to its end another time.
+    fn is_final(&self) -> bool;
+}
+
+impl Finding for RunResult {
+    fn is_final(&self) -> bool {
+        !matches!(self.outcome, CaseOutcome::GaveUp { .. })
+    }
+}
+
+impl Finding for StabilityVerdict {
+    fn is_final(&self) -> bool {
+        !matches!(self.outcome, CaseOutcome::GaveUp { .. })
+    }
+}
+
+impl Finding for Option<Timing> {
+    fn is_final(&self) -> bool {
+        self.is_some()
+    }
+}
+
+/// Prints the table of a study for the script, and a free line behind it; a dry build has none.
+pub fn print_table(context: &Context, table: &str) {
+    if context.mode() == RunMode::Run {
+        context.print(table);
+        context.print("");
+    }
+}
+
+/// A desk: a study at work on its cases.
+pub struct CaseRunner<'c> {
+    context: &'c Context,
+    name: String,
+    journal: Option<JournalNumber>,
+}
+
+/// A kind of work that a study does with each of some cases.
+#[derive(Clone, Copy)]
+pub struct CaseTask<'t> {
+    /// What is done with the cases, in a word or two.
+    pub name: &'t str,
+    /// What the results of the work depend on besides the cases, as bytes.
+    pub parts: &'t [u8],
+}
+
+impl CaseTask<'_> {
+    /// A number for a case under this task; none when the case cannot be written down.
+    fn fingerprint(&self, case: &Case) -> Option<u64> {
+        Some(Journal::fingerprint(&[self.name.as_bytes(), self.parts, &case.to_bytes()?]))
+    }
+}
+
+impl<'c> CaseRunner<'c> {
+    /// Makes room for a study at work, whose name is that of its files; a journal is opened where the run wants one.
+    ///
+    /// # Errors
+    /// When the name is not one of a file in the output folder, or the journal cannot be read.
+    pub fn open(context: &'c Context, name: &str) -> Result<Self, ScriptError> {
+        let wishes = context.studies();
+        let path = |file: String| context.output().path_of(&file);
+        let journal = match (wishes.part, wishes.merge.as_slice()) {
+            (Some(part), _) => {
+                let kept = (wishes.journal, JournalLifetime::Longer);
+                context.journals().open(path(part.file(name))?, kept)?
+            }
+            (None, []) => {
+                let kept = (wishes.journal, JournalLifetime::UntilTheEnd);
+                context.journals().open(path(format!("{name}.journal"))?, kept)?
+            }
+            (None, _) if context.mode() == RunMode::DryBuild => None,
+            (None, folders) => {
+                let files = find_parts(name, folders)?.into_iter().map(|(_, file)| file);
+                Some(context.journals().open_parts(files)?)
+            }
+        };
+        Ok(Self { context, name: name.to_owned(), journal })
+    }
+
+    /// Works on all cases that the journal does not know, on all cores. `steps_of` counts the steps of a result for the limits
+    /// of the run. A panic is the result of its case alone. Where only a part of the study is wanted, its cases are worked on, and nothing is given: the
+    /// others are worked on elsewhere.
+    ///
+    /// # Errors
+    /// When the run is stopped: what was finished by then is in the journal; and when parts are joined in which a case is missing.
+    pub fn in_parallel<R: Finding + Clone + Send>(
+        &self,
+        task: CaseTask,
+        cases: &[Case],
+        steps_of: fn(&R) -> usize,
+        work: impl Fn(&Case, &AtomicBool) -> R + Sync,
+    ) -> Result<Option<Vec<Result<R, String>>>, ScriptError> {
+        let Some(part) = self.context.studies().part else {
+            return self.all_in_parallel(task, cases, steps_of, work).map(Some);
+        };
+        let is_own = |(at, case): &(usize, &Case)| part.has(*at) && case.to_bytes().is_some();
+        let own: Vec<Case> =
+            cases.iter().enumerate().filter(is_own).map(|(_, case)| case.clone()).collect();
+        self.all_in_parallel(task, &own, steps_of, work).map(|_| None)
+    }
+
+    fn all_in_parallel<R: Finding + Clone + Send>(
+        &self,
+        task: CaseTask,
+        cases: &[Case],
+        steps_of: fn(&R) -> usize,
+        work: impl Fn(&Case, &AtomicBool) -> R + Sync,
+    ) -> Result<Vec<Result<R, String>>, ScriptError> {
+        let mut results: Vec<_> =
+            cases.iter().map(|case| self.recall(task, case).map(Ok)).collect();
+        self.expect_parts(task, cases, &results)?;
+        let unknown: Vec<usize> = (0..cases.len()).filter(|at| results[*at].is_none()).collect();
+        let known = cases.len() - unknown.len();
+        self.tell_known(task, known, cases.len());
+        self.context.progress().begin_cases(&self.name, cases.len());
+        let asked: Vec<Case> = unknown.iter().map(|at| cases[*at].clone()).collect();
+        let (mut done, mut trouble) = (known, None);
+        let context = self.context;
+        let stop = AtomicBool::new(false);
+        let found = on_all_cores(
+            &asked,
+            &stop,
+            |case| work(case, &stop),
+            |news| {
+                if let Some((number, result)) = news {
+                    done += 1;
+                    context.progress().reach_case(done);
+                    if let Ok(result) = result {
+                        context.meter().count_steps(steps_of(result));
+                        trouble = self.write(task, &asked[number], result).err();
+                    }
+                }
+                let has_steps = done == cases.len() || context.meter().allows_a_step();
+                let may_go_on = trouble.is_none() && has_steps && context.stopped_by().is_none();
+                if may_go_on { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+            },
+        );
+        context.progress().end();
+        trouble.map_or(Ok(()), Err)?;
+        for (at, result) in unknown.into_iter().zip(found) {
+            results[at] = result;
+        }
+        let all: Option<Vec<_>> = results.into_iter().collect();
+        all.ok_or_else(|| match context.proceed() {
+            Err(stopped) => stopped,
+            Ok(()) => ScriptError::bug("a study lost a case"),
+        })
+    }
+
+    /// Works on one case after another on this thread, so that they can be timed; on those that the journal knows not again.
+    /// `work` is given a question whether it may go on.
+    ///
+    /// # Errors
+    /// When the run is stopped: what was finished by then is in the journal.
+    pub fn one_by_one<R: Finding>(
+        &self,
+        task: CaseTask,
+        cases: &[Case],
+        mut work: impl FnMut(&Case, &mut dyn FnMut() -> bool) -> R,
+    ) -> Result<Vec<R>, ScriptError> {
+        let context = self.context;
+        context.progress().begin_cases(&format!("{}, {}", self.name, task.name), cases.len());
+        let results = cases.iter().enumerate().map(|(number, case)| {
+            context.progress().reach_case(number);
+            if let Some(known) = self.recall(task, case) {
+                return Ok(known);
+            }
+            let found = work(case, &mut || context.stopped_by().is_none());
+            context.proceed()?;
+            self.write(task, case, &found)?;
+            Ok(found)
+        });
+        let results = results.collect();
+        // The bar ends before a reason to stop is told.
+        context.progress().end();
+        results
+    }
+
+    /// Refuses parts in which a case is missing that could be in one.
+    fn expect_parts<R>(
+        &self,
+        task: CaseTask,
+        cases: &[Case],
+        results: &[Option<R>],
+    ) -> Result<(), ScriptError> {
+        if self.context.studies().merge.is_empty() {
+            return Ok(());
+        }
+        let missing = cases
+            .iter()
+            .zip(results)
+            .filter(|(case, found)| found.is_none() && task.fingerprint(case).is_some());
+        match (missing.count(), cases.len()) {
+            (0, _) => Ok(()),
+            (missing, all) => {
+                let (name, what) = (&self.name, task.name);
+                let told =
+                    format!("of the {all} {what} of the study '{name}' {missing} are in no part");
+                Err(ScriptError::new(told).hint(
+                    "they are of another script or another build of withy, or not finished: the same command with --part goes on with them",
+                ))
+            }
+        }
+    }
+
+    fn recall<R: DeserializeOwned>(&self, task: CaseTask, case: &Case) -> Option<R> {
+        self.context.journals().find(self.journal?, task.fingerprint(case)?)
+    }
+
+    fn write<R: Finding>(
+        &self,
+        task: CaseTask,
+        case: &Case,
+        result: &R,
+    ) -> Result<(), ScriptError> {
+        if !self.context.studies().merge.is_empty() {
+            return Ok(());
+        }
+        let is_part = self.context.studies().part.is_some();
+        match (self.journal, task.fingerprint(case)) {
+            (Some(journal), Some(fingerprint)) if result.is_final() || is_part => {
+                let bytes = self.context.journals().write(journal, fingerprint, result)?;
+                // The study stops before its next case where that was too much.
+                self.context.meter().allows_to_write(bytes);
+            }
+            _ => (),
+        }
+        Ok(())
+    }
+
+    fn tell_known(&self, task: CaseTask, known: usize, all: usize) {
+        if known > 0 {
+            let name = &self.name;
+            let what = task.name;
+            let told = format!(
+                "study '{name}' goes on: {known} of {all} {what} are known from an earlier run"
+            );
+            self.context.tell(&told);
+        }
+    }
+}
