@@ -1,13 +1,13 @@
-//! withy: planar dynamics of flexible beams, and the language to script it.
+//! withy: planar dynamics of flexible beams, and its scripting language.
 //!
-//! Layers, each using only those to its right:
+//! Layers; each uses only those to its right:
 //!
 //! ```text
 //! main → cli → repl, exercises → script → output, analysis → sampling, fitting, mechanics: simulation → … → model → …
 //! ```
 //!
-//! The mechanics is a crate of its own, so that a change of the language does not build it anew; its layers are named here as they are there. At the bottom
-//! stand [`folders`], which opens files for all that touch any, and [`panics`], which catches our mistakes and tells of them.
+//! The mechanics is a crate of its own, so that changes of the language do not rebuild it. Its main layers are listed here too. The bottom
+//! layers are [`folders`], which opens all files, and [`panics`], which catches and reports internal errors.
 
 #![forbid(unsafe_code)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]

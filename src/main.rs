@@ -1,4 +1,4 @@
-//! The `withy` program; all of it is in the library.
+//! The `withy` program; its code is in the library.
 
 #![forbid(unsafe_code)]
 

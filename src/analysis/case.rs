@@ -1,4 +1,4 @@
-//! A run to be made: a scene, how it is simulated, and when it is looked at.
+//! Specification of a run: scene, settings, and times of observation.
 
 use std::borrow::Cow;
 use std::num::NonZeroUsize;
@@ -13,24 +13,24 @@ use crate::simulation::{
 };
 use crate::system::{Scene, Sensor};
 
-/// A run of a study that is to be made, as data.
+/// A run of a study, as data.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Case {
-    /// The scene that is simulated.
+    /// Scene.
     pub scene: Scene,
-    /// How the scene is simulated: integrator, step size, tolerance.
+    /// Integrator, step size and tolerance.
     pub settings: SimulationSettings,
-    /// The times at which the simulation is looked at, in order; the last one ends the run [time].
+    /// Times of observation, sorted; the last one ends the run [time].
     pub stops: Vec<f64>,
 }
 
-/// About as many states of a run are recorded at most, lest long runs on all cores fill the memory.
+/// Approximate maximum number of recorded states, to limit the memory of parallel runs.
 const MOST_ROWS: f64 = 1e5;
 
-/// A step that would be longer by this part is the same.
+/// Relative tolerance for equal step sizes.
 const SAME_STEP: f64 = 1e-9;
 
-/// Watches a run: it ends when nobody wants it any more or patience is at its end.
+/// Step observer that stops a run when it is no longer needed or exceeds its limits.
 struct CaseMonitor<'a> {
     wait: CaseTimer,
     steps: usize,
@@ -47,8 +47,7 @@ impl Monitor for CaseMonitor<'_> {
 }
 
 impl Case {
-    /// The case for another thread or another day; none when a load of it has a function of a script. Columns
-    /// that a script fills are left out.
+    /// Serialised case; `None` if a load depends on a script function. User-defined columns are left out.
     pub fn to_bytes(&self) -> Option<Vec<u8>> {
         let is_data = self.scene.schedules().all(|(_, schedule)| schedule.can_be_stored())
             && self.scene.release_times().count() == self.scene.releases.len();
@@ -59,13 +58,13 @@ impl Case {
         is_data.then(|| postcard::to_stdvec(&*case).ok()).flatten()
     }
 
-    /// A case from [`to_bytes`](Self::to_bytes); none when the bytes are something else.
+    /// Case from the result of [`to_bytes`](Self::to_bytes); `None` for invalid data.
     pub fn from_bytes(bytes: &[u8]) -> Option<Self> {
         postcard::from_bytes(bytes).ok()
     }
 
-    /// Runs the case and looks at the simulation at every stop; the simulation as it was at its end is given too, unless it could not
-    /// start. A study that is stopped meanwhile leaves an unfinished run, whose outcome means nothing.
+    /// Runs the case and calls `look` at every stop. Returns the simulation in its final state too, unless it could not start. If the study
+    /// is stopped meanwhile, the outcome is meaningless.
     pub fn run(
         &self,
         patience: RunLimits,
@@ -82,8 +81,8 @@ impl Case {
         (outcome, Some(simulation))
     }
 
-    /// Whether steps of this size end only where something else ends them, such as a stop or a break of a schedule: then larger ones
-    /// make the same run.
+    /// Returns true if steps of this size are limited only by stops, schedule breaks and releases, so that larger step sizes give the same
+    /// run.
     pub fn is_one_step_from_stop_to_stop(&self, dt: f64) -> bool {
         let end = self.stops.last().copied().unwrap_or(0.0);
         let breaks = self.scene.schedules().flat_map(|(_, schedule)| schedule.breaks());
@@ -95,7 +94,7 @@ impl Case {
         starts.zip(&times).all(|(start, stop)| (stop - start) / dt <= 1.0 + SAME_STEP)
     }
 
-    /// Every state, but of a run of very many steps only as many as [`MOST_ROWS`].
+    /// Records every state, or about [`MOST_ROWS`] states of very long runs.
     fn recording(&self) -> Recording {
         let steps = match (self.settings.dt, self.stops.last()) {
             (StepSize::Fixed(dt), Some(end)) => end / dt,
@@ -105,8 +104,8 @@ impl Case {
         every.map_or_else(Recording::default, Recording::Every)
     }
 
-    /// The simulation of the case at its start, or why there is none. It keeps to one thread: the cores are busy with other cases, or
-    /// the time of this one is taken.
+    /// Simulation of the case at its start, or the reason for failure. It uses one thread, because other cases run in parallel, or the run
+    /// is timed.
     pub fn start(&self, patience: RunLimits) -> Result<Simulation, CaseOutcome> {
         let wait = patience.begin();
         let started = Simulation::start(self.scene.clone(), self.settings);
@@ -118,8 +117,8 @@ impl Case {
         Ok(simulation)
     }
 
-    /// Takes a simulation from its start to the last stop, and looks at it at every stop. `is_wanted` is asked after every
-    /// step; where it says no, the outcome means nothing.
+    /// Runs a simulation from its start to the last stop, and calls `look` at every stop. `is_wanted` is called after every step; if it
+    /// returns false, the outcome is meaningless.
     pub fn go(
         &self,
         simulation: &mut Simulation,
@@ -131,7 +130,7 @@ impl Case {
         for stop in &self.stops {
             let run = simulation.run_to(*stop, &mut watch);
             let time = simulation.time();
-            // What was stopped within a step, for it took too long, failed for no other reason.
+            // A run stopped within a step for taking too long has not failed for another reason.
             let exceeded = match run {
                 Ok(()) => watch.exceeded.take(),
                 Err(_) => watch.exceeded.take().or_else(|| watch.wait.exceeded(watch.steps)),
@@ -220,7 +219,7 @@ mod tests {
     fn a_load_that_does_not_come_back_is_given_up() {
         let mut case = spinning(0.1, &[1.0]);
         let station = case.scene.station(0, 0.0).unwrap();
-        // As a script does it, whose engine asks before every operation.
+        // Simulates a script function, whose engine checks the deadline before every operation.
         let function = Rc::new(|t: f64| match t {
             0.5.. => {
                 while !is_out_of_patience() {}

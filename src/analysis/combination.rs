@@ -1,4 +1,4 @@
-//! Meshes, integrators and step sizes in all combinations.
+//! All combinations of meshes, integrators and step sizes.
 
 use super::Case;
 use super::observable::Observable;
@@ -6,42 +6,42 @@ use crate::integrators::Method;
 use crate::simulation::SimulationSettings;
 use crate::system::Scene;
 
-/// A scene on a mesh, and what is looked at in it.
+/// A scene on a mesh, with its observables.
 #[derive(Debug, Clone)]
 pub struct ObservedScene {
-    /// The name of the mesh.
+    /// Name of the mesh.
     pub mesh: String,
-    /// The scene on the mesh.
+    /// Scene.
     pub scene: Scene,
-    /// What is looked at in the scene.
+    /// Observables.
     pub observables: Vec<Observable>,
 }
 
 impl ObservedScene {
-    /// The spans of all beams together, a measure of how fine the mesh is.
+    /// Total number of spans, a measure of the refinement.
     pub fn spans(&self) -> usize {
         self.scene.beams.iter().map(|beam| beam.mesh.spans()).sum()
     }
 }
 
-/// One way to compute something: a mesh, an integrator and its step size.
+/// A mesh, an integrator and a step size.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Combination {
-    /// The index of the subject, a scene on a mesh.
+    /// Index of the subject.
     pub subject: usize,
-    /// Integrator and step size of the combination.
+    /// Integrator and step size.
     pub settings: SimulationSettings,
 }
 
 impl Combination {
-    /// The run that the combination asks for.
+    /// Case of the combination.
     pub fn case(&self, subjects: &[ObservedScene], stops: &[f64]) -> Case {
         let scene = subjects[self.subject].scene.clone();
         Case { scene, settings: self.settings, stops: stops.to_vec() }
     }
 }
 
-/// All combinations of subjects and settings, mesh by mesh.
+/// All combinations of subjects and settings, by subject.
 pub fn all_combinations(
     subjects: &[ObservedScene],
     settings: &[SimulationSettings],
@@ -51,18 +51,18 @@ pub fn all_combinations(
     pairs.map(|(subject, settings)| Combination { subject, settings }).collect()
 }
 
-/// The index of the subject with the most spans; of equal ones the last.
+/// Index of the subject with the most spans; the last of equal ones.
 pub fn finest_mesh(subjects: &[ObservedScene]) -> Option<usize> {
     (0..subjects.len()).max_by_key(|index| subjects[*index].spans())
 }
 
-/// The method of the highest order among some; of equal ones the first.
+/// Method of the highest order; the first of equal ones.
 pub fn highest_order(methods: &[Method]) -> Option<Method> {
     methods.iter().copied().rev().max_by_key(|method| method.entry().claims.order)
 }
 
-/// The part of the smallest step size that a reference run of our own takes: at second order its error is a sixteenth of
-/// that of the best run it judges.
+/// Step size of the reference run relative to the smallest one of the study. At second order its error is a sixteenth of that of the best
+/// run.
 pub const PART_OF_THE_SMALLEST_STEP: f64 = 0.25;
 
 #[cfg(test)]

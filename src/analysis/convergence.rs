@@ -1,4 +1,4 @@
-//! Convergence: how errors fall with the step size or the size of the mesh, and at which order.
+//! Convergence: decrease of errors with the step size or mesh size, and the observed order.
 
 use super::observable::Observable;
 use super::reference::{Deviation, ReferenceSolution};
@@ -6,57 +6,57 @@ use super::run_result::RunResult;
 use crate::elementary::{ln, square};
 use crate::integrators::Method;
 
-/// What a study of convergence refines.
+/// Refined quantity of a convergence study.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RefinedParameter {
-    /// The step size is refined.
+    /// Step size.
     Step,
-    /// The mesh is refined; its size is one over the number of spans.
+    /// Mesh; its size is one over the number of spans.
     Mesh,
 }
 
-/// An error that is larger than the doubt of the reference by this factor is its own more than that of the reference.
+/// An error is significant if it exceeds the uncertainty of the reference by this factor.
 const WELL_ABOVE: f64 = 2.0;
 
-/// The errors of one quantity with one integrator, from coarse to fine.
+/// Errors of one quantity with one integrator, from coarse to fine.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ladder {
-    /// The integrator whose errors these are.
+    /// Integrator.
     pub method: Method,
-    /// The quantity that was looked at, in words.
+    /// Description of the quantity.
     pub quantity: String,
-    /// The step sizes [time] or the sizes of the mesh [-], from coarse to fine.
+    /// Step sizes [time] or mesh sizes [-], from coarse to fine.
     pub sizes: Vec<f64>,
-    /// The error at each size; none where the run failed.
+    /// Error at each size; `None` if the run failed.
     pub deviations: Vec<Option<Deviation>>,
 }
 
 impl Ladder {
-    /// The error at a rung of the ladder, by its index, if the run came to its end.
+    /// Error at the rung with this index, if the run completed.
     pub fn error(&self, rung: usize) -> Option<f64> {
         self.deviations.get(rung).copied().flatten().map(|of| of.error())
     }
 
-    /// Whether an order can be told from a rung of the ladder: its error is not zero, and well above what the reference is sure of.
+    /// Returns true if the error of a rung is usable for an order: non-zero and significant.
     pub fn tells_an_order(&self, rung: usize) -> bool {
         let deviation = self.deviations.get(rung).copied().flatten();
         deviation.is_some_and(|of| of.distance.is_finite() && of.distance > WELL_ABOVE * of.trusted)
     }
 
-    /// The size and the error of a rung from which an order can be told.
+    /// Size and error of a usable rung.
     fn point(&self, rung: usize) -> Option<(f64, f64)> {
         let deviation = (*self.deviations.get(rung)?)?;
         self.tells_an_order(rung).then(|| (self.sizes[rung], deviation.distance))
     }
 
-    /// The order observed between a rung of the ladder and the one before, `ln(e₁/e₂) / ln(h₁/h₂)`.
+    /// Order observed between a rung and the previous one, `ln(e₁/e₂) / ln(h₁/h₂)`.
     pub fn order(&self, rung: usize) -> Option<f64> {
         let ((coarse, large), (fine, small)) =
             (self.point(rung.checked_sub(1)?)?, self.point(rung)?);
         Some(ln(large / small) / ln(coarse / fine)).filter(|order| order.is_finite())
     }
 
-    /// The order of all rungs of the ladder together: the slope of a straight line through the logarithms by least squares.
+    /// Fitted order of all rungs: slope of the least-squares line through the logarithms.
     pub fn fitted_order(&self) -> Option<f64> {
         let points: Vec<(f64, f64)> = (0..self.sizes.len())
             .filter_map(|rung| self.point(rung))
@@ -71,32 +71,32 @@ impl Ladder {
     }
 }
 
-/// The results of a study of convergence.
+/// Results of a convergence study.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Convergence {
-    /// The name of the study.
+    /// Name of the study.
     pub name: String,
-    /// What the study refines.
+    /// Refined quantity.
     pub refined: RefinedParameter,
-    /// What the study does not refine, in words.
+    /// Description of the fixed quantity.
     pub fixed: String,
-    /// The times at which errors are taken [time].
+    /// Times of the comparison [time].
     pub times: Vec<f64>,
-    /// The length that errors of positions are relative to [length].
+    /// Length scale of position errors [length].
     pub length: f64,
-    /// The reference: what the quantities should be.
+    /// Reference.
     pub truth: ReferenceSolution,
-    /// The errors of all quantities with the first integrator, then with the next.
+    /// Errors by integrator and quantity.
     pub ladders: Vec<Ladder>,
-    /// The runs that failed: the size, the integrator, why.
+    /// Failed runs: size, integrator, reason.
     pub failures: Vec<(f64, Method, String)>,
 }
 
-/// The name of the error of all positions together.
+/// Name of the combined error of all positions.
 pub const ALL_POSITIONS: &str = "positions";
 
 impl Convergence {
-    /// The ladders of one integrator: all positions together, relative to the length; then what each observable does.
+    /// Ladders of one integrator: all positions together, relative to the length, then each observable.
     pub fn ladders_of(
         method: Method,
         rungs: &[(f64, RunResult)],
@@ -122,7 +122,7 @@ impl Convergence {
         std::iter::once(together).chain(each).collect()
     }
 
-    /// The quantities of the study, each once.
+    /// Quantities of the study, without duplicates.
     pub fn quantities(&self) -> Vec<&str> {
         let mut names = Vec::new();
         for name in self.ladders.iter().map(|ladder| ladder.quantity.as_str()) {
@@ -133,12 +133,12 @@ impl Convergence {
         names
     }
 
-    /// The errors of a quantity, one ladder for each integrator.
+    /// Ladders of a quantity, one per integrator.
     pub fn ladders_with<'s>(&'s self, quantity: &'s str) -> impl Iterator<Item = &'s Ladder> {
         self.ladders.iter().filter(move |ladder| ladder.quantity == quantity)
     }
 
-    /// The order that an integrator claims, where the study refines steps.
+    /// Claimed order of an integrator, if the study refines steps.
     pub fn claimed_order(&self, method: &Method) -> Option<u32> {
         (self.refined == RefinedParameter::Step).then(|| method.entry().claims.order)
     }
@@ -185,7 +185,7 @@ mod tests {
         let trial = |method: Method, dt: f64| {
             let mut case = spinning(dt, &[0.5, 1.0]);
             case.settings.method = method;
-            // So soft that steps follow all of its vibrations.
+            // Soft enough that the steps resolve all vibrations.
             let mut section = case.scene.beams[0].section.mean();
             (section.axial_stiffness, section.shear_stiffness) = (100.0, 100.0);
             (section.bending_stiffness, section.rotary_inertia) = (10.0, 1.0);

@@ -1,4 +1,4 @@
-//! What a step costs: time, and the work that it consists of.
+//! Cost of a step: time, and its components.
 
 use std::time::{Duration, Instant};
 
@@ -7,41 +7,41 @@ use super::{Case, CaseOutcome, RunLimits};
 use crate::integrators::Constraints;
 use crate::simulation::{Recording, Simulation};
 
-/// A case whose steps are measured, with all that adds to their cost.
+/// A case whose steps are timed, with settings that affect the cost.
 #[derive(Debug, Clone)]
 pub struct CostCase {
-    /// The name of the case.
+    /// Name.
     pub name: String,
-    /// The run of which steps are measured.
+    /// Run that is timed.
     pub case: Case,
-    /// Which states of the run are recorded.
+    /// Recording of states.
     pub recording: Recording,
-    /// The memory of the run for states to go back to [bytes].
+    /// Memory for snapshots [bytes].
     pub snapshots: usize,
 }
 
-/// What the steps of a case cost.
+/// Cost of the steps of a case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StepCost {
-    /// The name of the case.
+    /// Name of the case.
     pub name: String,
-    /// How the run of the case ended.
+    /// Outcome of the run.
     pub outcome: CaseOutcome,
-    /// The number of unknowns of a step.
+    /// Number of unknowns of a step.
     pub unknowns: usize,
-    /// The half-bandwidth of the matrix of a step: how far from the diagonal it has entries.
+    /// Half-bandwidth of the system matrix.
     pub half_bandwidth: usize,
-    /// The number of columns of contacts beside the band.
+    /// Number of border columns of contacts.
     pub border: usize,
-    /// The number of columns of the history.
+    /// Number of history columns.
     pub columns: usize,
-    /// The number of Newton iterations of a step, on average.
+    /// Average number of Newton iterations per step.
     pub iterations: f64,
-    /// The number of factorised matrices of a step, on average.
+    /// Average number of factorisations per step.
     pub factorisations: f64,
-    /// The time of a step, on average, in the fastest run.
+    /// Average time of a step in the fastest run.
     pub shortest: Duration,
-    /// The median over the runs of the average time of a step.
+    /// Median over the runs of the average time of a step.
     pub median: Duration,
 }
 
@@ -55,7 +55,7 @@ impl CostCase {
 }
 
 impl StepCost {
-    /// The cost of a case of which nothing is known but how it ended.
+    /// Cost of a case without measurements.
     pub fn unmeasured(case: &CostCase, outcome: CaseOutcome) -> Self {
         Self {
             name: case.name.clone(),
@@ -72,8 +72,8 @@ impl StepCost {
     }
 }
 
-/// Measures the steps of cases, on this thread, one run at a time and the cases in turn, so that what disturbs the machine for
-/// a while disturbs all of them. Building a scene is not counted. None when `is_wanted` says no on the way.
+/// Times the steps of cases on this thread, alternating between the cases, so that disturbances of the machine affect all of them. Building
+/// the scene is not counted. Returns `None` if `is_wanted` returns false.
 pub fn step_costs(
     cases: &[CostCase],
     patience: RunLimits,
@@ -102,7 +102,7 @@ pub fn step_costs(
     Some(costs.into_iter().flatten().zip(times).map(cost).collect())
 }
 
-/// Runs a case once: its work, and the time of a step.
+/// Runs a case once; returns its cost and the time of a step.
 fn measure(
     case: &CostCase,
     patience: RunLimits,

@@ -1,50 +1,50 @@
-//! Tables that others have written: CSV with `#` comment lines above.
+//! CSV tables of other programs, with `#` comment lines.
 
-/// A table in a file that cannot be used.
+/// Error of a table file.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ParsedCsvError {
-    /// A row of the table is no CSV.
+    /// Invalid CSV.
     #[error("line {line} is not a row of the table: {reason}")]
     Row {
-        /// The line of the row that is no CSV, counted from 1.
+        /// Line, from 1.
         line: u64,
-        /// The reason why the row is no CSV.
+        /// Reason.
         reason: String,
     },
-    /// Two columns of the table have the same name.
+    /// Duplicate column name.
     #[error("two of its columns are called '{column}'; give each a name of its own")]
     Duplicate {
-        /// The name that two columns have.
+        /// Name.
         column: String,
     },
-    /// The table has no such column.
+    /// Unknown column.
     #[error("it has no column '{column}'; its columns are {known}")]
     Column {
-        /// The name of the column asked for.
+        /// Requested name.
         column: String,
-        /// The names of the columns that the table has.
+        /// Existing names.
         known: String,
     },
-    /// A cell of the table is not a number.
+    /// A cell is not a number.
     #[error("line {line}, column '{column}', holds '{text}', which is not a finite number")]
     Number {
-        /// The name of the column of the cell that is not a number.
+        /// Name of the column.
         column: String,
-        /// The line of the cell that is not a number, counted from 1.
+        /// Line, from 1.
         line: u64,
-        /// The text of the cell that is not a number.
+        /// Text of the cell.
         text: String,
     },
-    /// A cell of the table is a negative number, and means a size.
+    /// A negative number where a size is expected.
     #[error(
         "line {line}, column '{column}', holds '{text}', and the size of an error is not negative"
     )]
     Negative {
-        /// The name of the column of the negative cell.
+        /// Name of the column.
         column: String,
-        /// The line of the negative cell, counted from 1.
+        /// Line, from 1.
         line: u64,
-        /// The text of the negative cell.
+        /// Text of the cell.
         text: String,
     },
 }
@@ -53,15 +53,14 @@ pub enum ParsedCsvError {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ParsedCsv {
     columns: Vec<String>,
-    /// Each with the line where it stands, counted from 1.
+    /// Cells with their line, from 1.
     rows: Vec<(u64, Vec<String>)>,
 }
 
 impl ParsedCsv {
-    /// Reads a table of comma-separated values from the text of a file.
+    /// Parses comma-separated values.
     ///
-    /// # Errors
-    /// When two columns have the same name, or a row has more or fewer cells than there are columns.
+    /// If two columns have the same name, or a row has another number of cells than there are columns.
     pub fn parse(text: &str) -> Result<Self, ParsedCsvError> {
         let mut reader = csv::ReaderBuilder::new()
             .comment(Some(b'#'))
@@ -89,49 +88,45 @@ impl ParsedCsv {
         Ok(Self { columns, rows: rows.collect::<Result<_, _>>()? })
     }
 
-    /// The names of the columns of the table, in order.
+    /// Names of the columns, in order.
     pub fn columns(&self) -> &[String] {
         &self.columns
     }
 
-    /// The number of rows of the table.
+    /// Number of rows.
     pub fn len(&self) -> usize {
         self.rows.len()
     }
 
-    /// Whether the table has no row.
+    /// Returns true if there are no rows.
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()
     }
 
-    /// Whether the table has a column of a name.
+    /// Returns true if a column exists.
     pub fn has(&self, column: &str) -> bool {
         self.columns.iter().any(|name| name == column)
     }
 
-    /// The texts in a row of the table, column by column.
+    /// Texts of a row by column.
     ///
-    /// # Panics
-    /// When there is no such row.
+    /// If there is no such row.
     pub fn texts(&self, row: usize) -> &[String] {
         &self.rows[row].1
     }
 
-    /// The line of the file where a row of the table stands, counted from 1.
+    /// Line of a row in the file, from 1.
     ///
-    /// # Panics
-    /// When there is no such row.
+    /// If there is no such row.
     pub fn line(&self, row: usize) -> u64 {
         self.rows[row].0
     }
 
-    /// The text in a row and a column of the table.
+    /// Text of a cell.
     ///
-    /// # Errors
-    /// When there is no such column.
+    /// If there is no such column.
     ///
-    /// # Panics
-    /// When there is no such row.
+    /// If there is no such row.
     pub fn text(&self, row: usize, column: &str) -> Result<&str, ParsedCsvError> {
         let found = self.columns.iter().position(|name| name == column);
         let missing =
@@ -139,10 +134,9 @@ impl ParsedCsv {
         found.map(|index| self.rows[row].1[index].as_str()).ok_or_else(missing)
     }
 
-    /// The number in a row and a column of the table.
+    /// Number in a cell.
     ///
-    /// # Errors
-    /// When there is no such column, or something else than a finite number.
+    /// If there is no such column, or the cell is not a finite number.
     pub fn number(&self, row: usize, column: &str) -> Result<f64, ParsedCsvError> {
         let text = self.text(row, column)?;
         let number = text.parse().ok().filter(|number: &f64| number.is_finite());
@@ -153,10 +147,9 @@ impl ParsedCsv {
         })
     }
 
-    /// The size of an error in a row and a column of the table, which is not negative.
+    /// Non-negative size of an error in a cell.
     ///
-    /// # Errors
-    /// When there is no such column, or something else than a finite number that is not negative.
+    /// If there is no such column, or the cell is not a finite non-negative number.
     pub fn size(&self, row: usize, column: &str) -> Result<f64, ParsedCsvError> {
         let number = self.number(row, column)?;
         let (column, line) = (column.to_owned(), self.rows[row].0);

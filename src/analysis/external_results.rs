@@ -1,4 +1,4 @@
-//! What other programs needed for the same problem, as somebody measured it.
+//! Published results of other programs for the same problem.
 
 use super::csv_table::{ParsedCsv, ParsedCsvError};
 use super::observable::Observable;
@@ -8,53 +8,52 @@ use crate::geometry::Vec2;
 /// A run of another program.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExternalResult {
-    /// The name of the other program.
+    /// Name of the program.
     pub peer: String,
-    /// The series of points that the run belongs to, such as the program with one kind of integrator.
+    /// Series of the run, such as the program with one integrator.
     pub series: String,
-    /// How the other program was run, in words.
+    /// Description of the settings.
     pub setting: String,
-    /// The time that the run of the other program took [s].
+    /// Run time [s].
     pub run_time: f64,
-    /// The largest distance of a station from where it should be in the run of the other program, relative to the length of the study [-].
+    /// Largest distance of a station from the reference, relative to the length of the study [-].
     pub error: f64,
-    /// How far the energy of the other program's run drifted [-]; NaN where that was not measured.
+    /// Energy drift [-]; NaN if not measured.
     pub energy_drift: f64,
-    /// The machine on which the other program was measured.
+    /// Machine of the measurement.
     pub machine: String,
 }
 
-/// A table of runs of other programs that cannot be used.
+/// Error of a table of other programs.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ExternalResultError {
-    /// The table of other programs cannot be read.
+    /// The table cannot be read.
     #[error(transparent)]
     Sheet(#[from] ParsedCsvError),
-    /// The table of other programs cannot be compared with the reference.
+    /// The table cannot be compared with the reference.
     #[error(transparent)]
     Truth(#[from] ReferenceError),
-    /// A run of another program was measured at another time than the study asks for.
+    /// A run was measured at another time than the study uses.
     #[error("its row {row} holds positions at t = {measured}, and the study asks for errors at t = {}", asked.join(", "))]
     Times {
-        /// The row of the run below the names, counted from 1.
+        /// Row below the header, from 1.
         row: usize,
-        /// The time at which the other program's positions were measured [time].
+        /// Time of the measured positions [time].
         measured: f64,
-        /// The times of the study, in words.
+        /// Times of the study.
         asked: Vec<String>,
     },
 }
 
-/// Cells that describe how a rival was run, with the words before them.
+/// Columns that describe the settings of a run, with prefixes.
 const SETTING: [(&str, &str); 4] =
     [("integrator", ""), ("elements", "elements "), ("dof", "unknowns "), ("dt", "dt = ")];
 
 impl ExternalResult {
-    /// Reads rivals from a table with the columns peer, series, run_time_s, t, energy_drift and machine, and positions of the
-    /// stations named as in a reference; integrator, elements, dof and dt are welcome.
+    /// Reads runs from a table with the columns peer, series, run_time_s, t, energy_drift and machine, and station positions named as in a
+    /// reference; integrator, elements, dof and dt are optional.
     ///
-    /// # Errors
-    /// When a column is missing, a number is none, or the positions belong to another time than that of the study.
+    /// If a column is missing, a number is invalid, or the positions belong to another time than that of the study.
     pub fn of_sheet(
         sheet: &ParsedCsv,
         observables: &[Observable],
@@ -95,13 +94,13 @@ impl ExternalResult {
     }
 }
 
-/// Where a rival found a station.
+/// Position of a station in a run.
 fn position(sheet: &ParsedCsv, row: usize, of: &Observable) -> Result<Vec2, ParsedCsvError> {
     let [x, y] = ["x", "y"].map(|axis| sheet.number(row, &format!("{axis}{}", of.name)));
     Ok(Vec2::new(x?, y?))
 }
 
-/// The machines that runs of other programs were measured on, each once.
+/// Machines of the measurements, without duplicates.
 pub fn machines(rivals: &[ExternalResult]) -> Vec<&str> {
     let mut machines = Vec::new();
     for rival in rivals.iter().map(|rival| rival.machine.as_str()) {
@@ -129,7 +128,7 @@ mod tests {
         let rivals =
             ExternalResult::of_sheet(&sheet, &observables, &truth, (&[1.0], 10.0)).unwrap();
         assert_eq!(rivals[0].error, 0.05);
-        // Who meets the reference errs by no more than rounding.
+        // A run that equals the reference has an error of rounding only.
         assert!(rivals[1].error < 1e-13, "{}", rivals[1].error);
         assert_eq!(rivals[0].setting, "euler, dt = 0.1");
         assert!(rivals[1].energy_drift.is_nan());

@@ -1,4 +1,4 @@
-//! Features that can be added to any scene with a beam, small enough to leave its motion much as it is.
+//! Features that can be added to any scene with a beam, with little effect on its motion.
 
 use crate::beams::Station;
 use crate::elementary::square;
@@ -7,19 +7,19 @@ use crate::joints::{EndAction, JointKind, Partner, Slider, SlidingRule, StartVel
 use crate::loads::{LoadFrame, LoadKind, Schedule};
 use crate::system::{ParticleDefinition, PointMass, Scene, SystemError};
 
-/// How large what is added is, as a part of what the first beam has.
+/// Magnitude of a feature, relative to the first beam.
 const SMALL: f64 = 1e-3;
 
-/// A feature: something that a scene may have, whose cost is measured.
+/// A feature whose cost is measured.
 #[derive(Debug, Clone, Copy)]
 pub struct Feature {
-    /// The name of the feature.
+    /// Name.
     pub name: &'static str,
     /// Adds the feature to the first beam of a scene.
     pub add: fn(&mut Scene) -> Result<(), SystemError>,
 }
 
-/// Features, each of which costs what it costs and none of which another pays for.
+/// Independent features.
 pub const FEATURES: &[Feature] = &[
     Feature {
         name: "gravity",
@@ -57,7 +57,7 @@ fn beam_mass(scene: &Scene) -> f64 {
     scene.beams[0].mass()
 }
 
-/// A part of the force that bends the beam by its length [force].
+/// A fraction of the force that would bend the beam by its length [force].
 fn small_force(scene: &Scene) -> f64 {
     SMALL * scene.beams[0].section.mean().bending_stiffness / square(length(scene))
 }
@@ -81,7 +81,7 @@ fn line_load(scene: &mut Scene, frame: LoadFrame) -> Result<(), SystemError> {
     Ok(())
 }
 
-/// A small particle that slides from a place near the middle of the beam: in the middle of one that spins it would rest.
+/// A small point mass that slides from a point off the middle of the beam, because at the middle of a spinning beam it would rest.
 fn bead(scene: &mut Scene) -> Result<(), SystemError> {
     let arc_length = 0.4 * length(scene);
     let place = scene.station(0, arc_length)?;

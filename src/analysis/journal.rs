@@ -1,7 +1,7 @@
-//! Finished cases on disk, so that a study that was interrupted goes on where it was.
+//! Finished cases on disk, so that an interrupted study can be resumed.
 //!
-//! A journal is a file of records, each with its length and checksum; a record that was cut off by a crash ends it. It is
-//! removed when the script of the study has come to its end.
+//! A journal is a file of records with length and checksum; a record cut off by a crash ends it. It is removed after the script of the
+//! study has completed.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -15,19 +15,19 @@ use serde::de::DeserializeOwned;
 
 use crate::sandbox_fs::{FileChecksum, Folder};
 
-/// Of one record; more is damage.
+/// Maximum length of a record [bytes]; longer ones are damaged.
 const LONGEST: usize = 1 << 30;
 
-/// Of a journal [bytes].
+/// Maximum length of a journal [bytes].
 const LARGEST: u64 = 1 << 32;
 
-/// How results are stored; it changes whenever that does.
+/// Version of the storage format.
 const FORMAT: u32 = 1;
 
-/// What tells this build of the program from others, and the same build on another machine is told by too.
+/// Identifies the build of the program, independent of the machine.
 type Build = (&'static str, Option<(u64, u32)>);
 
-/// The version, and the length and the checksum of the running program, where the system lets it be read.
+/// Version, and length and checksum of the executable, if readable.
 fn build() -> Build {
     static BUILD: OnceLock<Build> = OnceLock::new();
     *BUILD.get_or_init(|| {
@@ -40,7 +40,7 @@ fn build() -> Build {
     })
 }
 
-/// A journal that cannot be read or written.
+/// Error of reading or writing a journal.
 #[derive(Debug, thiserror::Error)]
 #[error("the journal '{}' of the study cannot be {action}: {source}", path.display())]
 pub struct JournalError {
@@ -49,20 +49,19 @@ pub struct JournalError {
     source: io::Error,
 }
 
-/// What is known of the cases of a study from this run of it and from earlier ones that were interrupted.
+/// Results of the cases of a study from this and earlier, interrupted runs.
 #[derive(Debug)]
 pub struct Journal {
     path: PathBuf,
-    /// Results as they are stored, by the fingerprint of their case.
+    /// Serialised results, by the fingerprint of the case.
     known: BTreeMap<u64, Vec<u8>>,
     file: Option<File>,
 }
 
 impl Journal {
-    /// Opens a journal, or begins one with the first record.
+    /// Opens a journal; a missing file is created with the first record.
     ///
-    /// # Errors
-    /// When there is a file that cannot be read.
+    /// If an existing file cannot be read.
     pub fn open(path: impl Into<PathBuf>) -> Result<Self, JournalError> {
         let path = path.into();
         let read = |(folder, name): (Folder, PathBuf)| folder.read(&name, LARGEST);
@@ -80,10 +79,9 @@ impl Journal {
         Ok(Self { known: known.collect(), path, file: None })
     }
 
-    /// What is known from several files, none of which is written or removed.
+    /// Combines several files for reading only.
     ///
-    /// # Errors
-    /// When one of them cannot be read.
+    /// If one of them cannot be read.
     pub fn of_files(paths: impl IntoIterator<Item = PathBuf>) -> Result<Self, JournalError> {
         let mut known = BTreeMap::new();
         for path in paths {
@@ -92,35 +90,33 @@ impl Journal {
         Ok(Self { path: PathBuf::new(), known, file: None })
     }
 
-    /// Forgets what earlier runs of the study found.
+    /// Removes the results of earlier runs.
     ///
-    /// # Errors
-    /// When the file cannot be removed.
+    /// If the file cannot be removed.
     pub fn clear(&mut self) -> Result<(), JournalError> {
         self.known.clear();
         self.file = None;
         remove(&self.path)
     }
 
-    /// The number of cases in the journal.
+    /// Number of cases.
     pub fn len(&self) -> usize {
         self.known.len()
     }
 
-    /// Whether the journal has no case.
+    /// Returns true if there is no case.
     pub fn is_empty(&self) -> bool {
         self.known.is_empty()
     }
 
-    /// The result of a case in the journal, by its fingerprint; none when there is none of this type.
+    /// Result of a case by its fingerprint; `None` if there is none of this type.
     pub fn find<T: DeserializeOwned>(&self, fingerprint: u64) -> Option<T> {
         postcard::from_bytes(self.known.get(&fingerprint)?).ok()
     }
 
-    /// Writes the result of a case into the journal, at once; gives the bytes that were written.
+    /// Writes the result of a case at once; returns the number of bytes.
     ///
-    /// # Errors
-    /// When the file cannot be written.
+    /// If writing fails.
     pub fn write<T: Serialize>(
         &mut self,
         fingerprint: u64,
@@ -136,25 +132,24 @@ impl Journal {
         Ok(bytes)
     }
 
-    /// Makes the file of the journal, also where there is nothing to be written yet: one that is there says that it was begun.
+    /// Creates the file of the journal, even without records, to mark the study as started.
     ///
-    /// # Errors
-    /// When the file cannot be written.
+    /// If writing fails.
     pub fn begin(&mut self) -> Result<(), JournalError> {
         let path = self.path.clone();
         let begun = self.begin_file().map(drop);
         begun.map_err(|source| JournalError { path, action: "written", source })
     }
 
-    /// Makes the file with what is known, where it is not open; gives the bytes that were written.
+    /// Creates the file with the known results, if it is not open; returns the number of bytes.
     fn begin_file(&mut self) -> io::Result<u64> {
         let mut bytes = 0;
         if self.file.is_none() {
-            // What is known is written anew: a record that was cut off would hide those behind it.
+            // The file is rewritten, because a truncated record would hide later ones.
             let known = self.known.iter().map(|(other, result)| record(*other, result));
             let known = known.collect::<io::Result<Vec<_>>>()?.concat();
             let (folder, name) = self.place()?;
-            // Beside it, and then in its place: at no time is there less on disk than was known.
+            // Written to a temporary file and renamed, so that nothing is lost in between.
             let anew = name.with_extension("journal.new");
             match folder.remove(&anew) {
                 Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
@@ -180,25 +175,24 @@ impl Journal {
         Ok(bytes)
     }
 
-    /// The folder of the journal, which is made, and its name there.
+    /// Folder of the journal, created if necessary, and file name.
     fn place(&self) -> io::Result<(Folder, PathBuf)> {
         let name = self.path.file_name().ok_or(io::ErrorKind::InvalidInput)?;
         Ok((Folder::make(self.path.parent().unwrap_or(Path::new(".")))?, name.into()))
     }
 
-    /// Removes the journal of a study that is complete: there is nothing to go on with.
+    /// Removes the journal of a completed study.
     ///
-    /// # Errors
-    /// When the file cannot be removed.
+    /// If the file cannot be removed.
     pub fn finish(self) -> Result<(), JournalError> {
         drop(self.file);
         remove(&self.path)
     }
 
-    /// The fingerprint of a case: a number made of all that its result depends on.
+    /// Fingerprint of a case: a hash of everything that its result depends on.
     ///
-    /// The program is a part of it: one that was built anew may find something else. Another compiler may give other numbers,
-    /// and cases are then run again.
+    /// The fingerprint includes the program, because another build may give different results. Another compiler may change the hash, and
+    /// cases are then run again.
     pub fn fingerprint(parts: &[&[u8]]) -> u64 {
         let mut hasher = DefaultHasher::new();
         (FORMAT, build()).hash(&mut hasher);
@@ -207,7 +201,7 @@ impl Journal {
     }
 }
 
-/// The folder of a journal, where there is one, and its name there.
+/// Folder of a journal, if it exists, and file name.
 fn found(path: &Path) -> io::Result<(Folder, PathBuf)> {
     let name = path.file_name().ok_or(io::ErrorKind::InvalidInput)?;
     Ok((Folder::find(path.parent().unwrap_or(Path::new(".")))?, name.into()))
@@ -229,7 +223,7 @@ fn record(fingerprint: u64, result: &[u8]) -> io::Result<Vec<u8>> {
     Ok([&length.to_le_bytes(), &checksum.to_le_bytes(), payload.as_slice()].concat())
 }
 
-/// The first record, if it is whole, and what is behind it.
+/// First record, if it is complete, and the rest.
 fn next_record(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
     let (length, rest) = bytes.split_first_chunk()?;
     let (checksum, rest) = rest.split_first_chunk()?;
@@ -306,13 +300,13 @@ mod tests {
         let home = tempfile::tempdir().unwrap();
         let path = home.path().join("study.journal");
         written(&path, 0..3);
-        // What cannot be written anew leaves the old file alone.
+        // If rewriting fails, the old file is kept.
         let anew = home.path().join("study.journal.new");
         fs::create_dir(&anew).unwrap();
         let mut journal = Journal::open(&path).unwrap();
         assert!(journal.write(3, &0.0).unwrap_err().to_string().contains("cannot be written"));
         assert_eq!(found_cases(&path), [0, 1, 2]);
-        // Half a file from a crash is in nobody's way.
+        // An incomplete temporary file of a crash is overwritten.
         fs::remove_dir(&anew).unwrap();
         fs::write(&anew, b"half").unwrap();
         written(&path, 3..5);

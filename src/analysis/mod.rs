@@ -1,4 +1,4 @@
-//! Studies: many runs, and what they say together. Nothing here draws or prints.
+//! Studies: series of runs and their evaluation. Nothing here draws or prints.
 //!
 //! ```text
 //! stability, cost → features

@@ -1,4 +1,4 @@
-//! What is looked at in a run, to be compared with what it should be.
+//! Observables of a run, for comparison with a reference.
 
 use serde::{Deserialize, Serialize};
 
@@ -9,29 +9,29 @@ use crate::simulation::{History, Simulation};
 /// A named quantity of a simulation at one time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Observable {
-    /// The name of the station, or of the column, that is observed; unique among those of its kind.
+    /// Name of the station or column; unique for its kind.
     pub name: String,
-    /// The quantity that is observed.
+    /// Quantity.
     pub kind: ObservableKind,
 }
 
 /// A quantity of a simulation that can be observed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum ObservableKind {
-    /// The position of a station [length].
+    /// Position of a station [length].
     Position(Station),
-    /// The angle of the section at a station [rad].
+    /// Angle of the section at a station [rad].
     Angle(Station),
-    /// A column of the history, at the present row.
+    /// Column of the history, at the current row.
     Column {
-        /// The name of the column in the history.
+        /// Name of the column.
         column: String,
-        /// The factor by which the column's value is multiplied.
+        /// Factor applied to the value.
         factor: f64,
     },
 }
 
-/// Columns of the history under the symbols that tables of solutions use for them.
+/// Symbols of history columns in tables of solutions.
 pub const SYMBOLS: [(&str, &str); 6] = [
     ("E", "energy"),
     ("KE", "kinetic"),
@@ -41,11 +41,11 @@ pub const SYMBOLS: [(&str, &str); 6] = [
     ("Lz", "angular_momentum"),
 ];
 
-/// Columns of a history that say how it was computed, not what happened.
+/// Columns of a history that describe the computation instead of the motion.
 const OF_THE_COMPUTATION: [&str; 5] = ["t", "gap", "dt", "newton_iterations", "retries"];
 
 impl Observable {
-    /// The observables of a station: its position and its angle; a particle has no angle.
+    /// Observables of a station: position and angle; point masses have no angle.
     pub fn of_station(name: &str, station: Station) -> impl Iterator<Item = Self> {
         let angle = station.turns().then_some(ObservableKind::Angle(station));
         let kinds = std::iter::once(ObservableKind::Position(station)).chain(angle);
@@ -53,24 +53,24 @@ impl Observable {
         kinds.map(move |kind| Self { name: name.clone(), kind })
     }
 
-    /// The observable of a column of the history, times a factor.
+    /// Observable of a history column, times a factor.
     pub fn of_column(name: &str, column: &str, factor: f64) -> Self {
         let kind = ObservableKind::Column { column: column.to_owned(), factor };
         Self { name: name.to_owned(), kind }
     }
 
-    /// The observables of all columns of a history that say what happened.
+    /// Observables of all columns of a history that describe the motion.
     pub fn of_history(history: &History) -> impl Iterator<Item = Self> {
         let told = history.columns().filter(|(name, _)| !OF_THE_COMPUTATION.contains(name));
         told.map(|(name, _)| Self::of_column(name, name, 1.0))
     }
 
-    /// Whether the observable is the position of a station.
+    /// Returns true for the position of a station.
     pub fn is_position(&self) -> bool {
         matches!(self.kind, ObservableKind::Position(_))
     }
 
-    /// The observable in words: `position of tip`, `angle of tip`, `kinetic`.
+    /// Description: `position of tip`, `angle of tip`, `kinetic`.
     pub fn describe(&self) -> String {
         match &self.kind {
             ObservableKind::Position(_) => format!("position of {}", self.name),
@@ -79,7 +79,7 @@ impl Observable {
         }
     }
 
-    /// The present value of the observable: a vector for a position, else in the first component; NaN where there is none.
+    /// Current value: a vector for a position, otherwise the first component; NaN if undefined.
     pub fn read(&self, simulation: &Simulation) -> Vec2 {
         let scalar = |value: Option<f64>| Vec2::new(value.unwrap_or(f64::NAN), 0.0);
         match &self.kind {

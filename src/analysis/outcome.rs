@@ -1,40 +1,40 @@
-//! What became of a run.
+//! Outcomes of runs.
 
 use serde::{Deserialize, Serialize};
 
-/// How a run of a study ended.
+/// Outcome of a run of a study.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum CaseOutcome {
-    /// The run came to its end.
+    /// The run completed.
     Finished,
-    /// The run could not start or not go on.
+    /// The run could not start or continue.
     Failed {
-        /// The end of the last good step of the failed run [time].
+        /// End of the last successful step [time].
         time: f64,
-        /// The reason why the run failed, in words.
+        /// Reason.
         reason: String,
     },
-    /// The run took more than a study lets a case take.
+    /// The run exceeded the limits of a case.
     GaveUp {
-        /// The end of the last good step of the run that was given up [time].
+        /// End of the last successful step [time].
         time: f64,
-        /// What the run took too much of, in words.
+        /// Description of the exceeded limit.
         limit: String,
     },
-    /// The run met a bug of withy.
+    /// The run panicked because of a bug.
     Panicked {
-        /// The message of the bug.
+        /// Panic message.
         message: String,
     },
 }
 
 impl CaseOutcome {
-    /// Whether the run came to its end.
+    /// Returns true if the run completed.
     pub fn is_finished(&self) -> bool {
         *self == Self::Finished
     }
 
-    /// The outcome in a few words.
+    /// Short description.
     pub fn describe(&self) -> String {
         match self {
             Self::Finished => "finished".to_owned(),

@@ -1,7 +1,7 @@
-//! Which of many results are worth their price.
+//! Pareto fronts of cost and error.
 
-/// For each pair of price and error, whether it is on the Pareto front: no other one is better in one and at least as good in
-/// the other. Of equal pairs the first is on it. What is not finite never is.
+/// For each pair of cost and error, true if it is on the Pareto front: no other pair is better in one and at least as good in the other.
+/// The first of equal pairs is on the front. Pairs that are not finite never are.
 pub fn pareto_front(points: &[(f64, f64)]) -> Vec<bool> {
     let mut order: Vec<usize> = (0..points.len())
         .filter(|index| points[*index].0.is_finite() && points[*index].1.is_finite())

@@ -1,4 +1,4 @@
-//! Error against run time: what each combination costs and what it gives, and which of them are worth it.
+//! Work-precision studies: cost and error of combinations, and their Pareto front.
 
 use super::external_results::ExternalResult;
 use super::observable::Observable;
@@ -8,28 +8,27 @@ use super::run_result::RunResult;
 use super::timing::Timing;
 use crate::simulation::{SimulationSettings, StepSize};
 
-/// A combination of mesh, integrator and step size that was run and timed.
+/// A combination of mesh, integrator and step size with its results.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PrecisionRow {
-    /// The name of the mesh.
+    /// Name of the mesh.
     pub mesh: String,
-    /// Integrator and step size of the run.
+    /// Integrator and step size.
     pub settings: SimulationSettings,
-    /// What the run showed.
+    /// Results of the run.
     pub trial: RunResult,
-    /// The time that the run took; none where it failed.
+    /// Run time; `None` if the run failed.
     pub timing: Option<Timing>,
-    /// The largest distance of a station from the reference, relative to the length of the study; none where the run failed.
+    /// Largest distance of a station from the reference, relative to the length of the study; `None` if the run failed.
     pub error: Option<Deviation>,
-    /// How far each observable is from the reference, in its own unit; none where the run failed or the reference says
-    /// nothing of it.
+    /// Error of each observable in its unit; `None` if the run failed or the reference does not contain it.
     pub deviations: Vec<Option<Deviation>>,
-    /// Whether no other combination of the study is both faster and better.
+    /// True if no other combination is both faster and more accurate.
     pub is_on_front: bool,
 }
 
 impl PrecisionRow {
-    /// The row of a combination: what its run showed and took, and how far it is from the reference.
+    /// Row of a combination.
     pub fn new(
         (mesh, settings): (String, SimulationSettings),
         trial: RunResult,
@@ -44,13 +43,13 @@ impl PrecisionRow {
         Self { mesh, settings, trial, timing, error, deviations, is_on_front: false }
     }
 
-    /// The price, the time of the run [s], and the error of the combination [-]; infinite where there are none.
+    /// Run time [s] and error [-]; infinite if missing.
     pub fn price_and_error(&self) -> (f64, f64) {
         let price = self.timing.map_or(f64::INFINITY, |timing| timing.price());
         (price, self.error.map_or(f64::INFINITY, |error| error.error()))
     }
 
-    /// Whether it is the same as another one but for its step size.
+    /// Returns true if only the step size differs, and is smaller.
     fn is_with_a_smaller_step_than(&self, other: &Self) -> bool {
         let (StepSize::Fixed(own), StepSize::Fixed(others)) = (self.settings.dt, other.settings.dt)
         else {
@@ -60,27 +59,27 @@ impl PrecisionRow {
     }
 }
 
-/// The results of a study of error against run time.
+/// Results of a work-precision study.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Precision {
-    /// The name of the study.
+    /// Name of the study.
     pub name: String,
-    /// The times at which errors are taken; the last one ends a run [time].
+    /// Times of the comparison; the last one ends a run [time].
     pub times: Vec<f64>,
-    /// The length that errors of positions are relative to [length].
+    /// Length scale of position errors [length].
     pub length: f64,
-    /// What the study looked at.
+    /// Observables.
     pub observables: Vec<Observable>,
-    /// The reference: what the observables should be.
+    /// Reference.
     pub truth: ReferenceSolution,
-    /// All combinations in their order, those that failed too.
+    /// All combinations, including failed ones.
     pub rows: Vec<PrecisionRow>,
-    /// The runs of other programs with which the study compares.
+    /// Runs of other programs for comparison.
     pub rivals: Vec<ExternalResult>,
 }
 
 impl Precision {
-    /// Marks the combinations that are worth their price.
+    /// Marks the combinations on the Pareto front.
     pub fn mark_front(&mut self) {
         let points: Vec<_> = self.rows.iter().map(PrecisionRow::price_and_error).collect();
         for (row, is_on_front) in self.rows.iter_mut().zip(pareto_front(&points)) {
@@ -88,20 +87,20 @@ impl Precision {
         }
     }
 
-    /// The combinations that are worth their price, the fastest first.
+    /// Combinations on the Pareto front, fastest first.
     pub fn front(&self) -> Vec<&PrecisionRow> {
         let mut front: Vec<_> = self.rows.iter().filter(|row| row.is_on_front).collect();
         front.sort_by(|a, b| a.price_and_error().0.total_cmp(&b.price_and_error().0));
         front
     }
 
-    /// The fastest combination whose error is at most `error` [-].
+    /// Fastest combination with an error of at most `error` [-].
     pub fn cheapest(&self, error: f64) -> Option<&PrecisionRow> {
         self.front().into_iter().find(|row| row.price_and_error().1 <= error)
     }
 
-    /// The fastest combination whose error is at most `error` [-] and of which all smaller steps on its mesh err no more, at least one: where
-    /// errors of mesh and step cancel, they do so by luck.
+    /// Fastest combination with an error of at most `error` [-] for which all smaller steps on the same mesh, at least one, are as
+    /// accurate. Otherwise mesh and step errors may cancel by chance.
     pub fn cheapest_confirmed(&self, error: f64) -> Option<&PrecisionRow> {
         let is_right = |row: &&PrecisionRow| row.price_and_error().1 <= error;
         let is_confirmed = |row: &&PrecisionRow| {
@@ -114,7 +113,7 @@ impl Precision {
         confirmed.min_by(|a, b| a.price_and_error().0.total_cmp(&b.price_and_error().0))
     }
 
-    /// The programs of the rivals, each once.
+    /// Names of the other programs, without duplicates.
     pub fn peers(&self) -> Vec<&str> {
         let mut peers = Vec::new();
         for peer in self.rivals.iter().map(|rival| rival.peer.as_str()) {
@@ -125,7 +124,7 @@ impl Precision {
         peers
     }
 
-    /// The fastest run of another program whose error is at most `error` [-].
+    /// Fastest run of another program with an error of at most `error` [-].
     pub fn cheapest_of(&self, peer: &str, error: f64) -> Option<&ExternalResult> {
         let able = self.rivals.iter().filter(|rival| rival.peer == peer && rival.error <= error);
         able.min_by(|a, b| a.run_time.total_cmp(&b.run_time))
@@ -141,7 +140,7 @@ mod tests {
     use super::*;
     use crate::beams::Station;
 
-    /// A short spinning rod with three step sizes, the first of which cannot be; the last is the reference.
+    /// A short spinning rod with three step sizes, the first of which fails; a finer run is the reference.
     fn study() -> Precision {
         let observables: Vec<_> = Observable::of_station("tip", Station::on_beam(0, 2.0)).collect();
         let trial = |dt| {
@@ -195,7 +194,7 @@ mod tests {
         let mut study = study();
         let error = study.rows[1].price_and_error().1;
         assert_eq!(study.cheapest_confirmed(error).unwrap(), &study.rows[1]);
-        // Of the smallest step nobody knows whether it is right by luck.
+        // The smallest step cannot be confirmed.
         assert!(study.cheapest_confirmed(0.5 * error).is_none());
         study.rows[2].error = study.rows[1].error.map(|error| error.divided_by(0.5));
         assert!(study.cheapest_confirmed(error).is_none());

@@ -1,32 +1,32 @@
-//! What the observables of a study should be, and how far results are from it.
+//! Reference values of the observables of a study, and the deviation of results.
 
 use super::csv_table::{ParsedCsv, ParsedCsvError};
 use super::observable::{Observable, ObservableKind};
 use crate::elementary::hypot;
 use crate::geometry::{Vec2, larger};
 
-/// Observables at the times of a study: the first index is the time, the second the observable.
+/// Observables at the times of a study: first index time, second index observable.
 pub type Readings = Vec<Vec<Vec2>>;
 
-/// How far a result is from the truth, and how well the truth is known.
+/// Deviation of a result from the reference, and the uncertainty of the reference.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Deviation {
-    /// The distance from the reference, in the unit of the observable.
+    /// Distance from the reference, in the unit of the observable.
     pub distance: f64,
-    /// An estimate of the error of the reference itself, in the unit of the observable; zero where it gives none.
+    /// Estimated error of the reference, in the unit of the observable; zero if unknown.
     pub trusted: f64,
-    /// Whether the reference is a run of our own. All errors are then told as bounds, so that none seems better than another
-    /// one only because it is closer to the reference than that is to the truth.
+    /// True for a reference run. All errors are then reported as bounds, so that no result appears better only because it shares the error
+    /// of the reference.
     pub is_of_own_run: bool,
 }
 
 impl Deviation {
-    /// Whether the reference is good enough to tell the error from none.
+    /// Returns true if the distance exceeds the uncertainty.
     pub fn is_resolved(&self) -> bool {
         self.distance > self.trusted
     }
 
-    /// The error, by which results are judged: a bound of it where the reference is a run of our own, or does not tell.
+    /// Error of the result: a bound for a reference run, or if the distance is below the uncertainty.
     pub fn error(&self) -> f64 {
         match self.is_of_own_run || !self.is_resolved() {
             true => self.distance + self.trusted,
@@ -34,7 +34,7 @@ impl Deviation {
         }
     }
 
-    /// The larger of two deviations; one that is not a number is larger than all.
+    /// The larger of two deviations; NaN counts as the largest.
     pub fn worst(self, other: Self) -> Self {
         if larger(self.distance, other.distance) == self.distance || self.distance.is_nan() {
             Self { trusted: self.trusted.max(other.trusted), ..self }
@@ -43,76 +43,76 @@ impl Deviation {
         }
     }
 
-    /// The deviation divided by a scale: the same by another measure.
+    /// Deviation divided by a scale.
     pub fn divided_by(self, scale: f64) -> Self {
         Self { distance: self.distance / scale, trusted: self.trusted / scale, ..self }
     }
 }
 
-/// A reference of a study that cannot be used.
+/// Error of a reference.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ReferenceError {
-    /// The table of the reference is wrong.
+    /// The table is invalid.
     #[error(transparent)]
     Sheet(#[from] ParsedCsvError),
-    /// The table of the reference is empty.
+    /// The table is empty.
     #[error("it has no rows")]
     Empty,
-    /// The reference says nothing about a time of the study.
+    /// The reference has no row at a time of the study.
     #[error("it has no row at t = {time}; the nearest rows are at t = {}", nearest.join(" and "))]
     Time {
-        /// The time asked for, of which the reference says nothing [time].
+        /// Missing time [time].
         time: f64,
-        /// The times of the rows before and behind it, in words.
+        /// Neighbouring times.
         nearest: Vec<String>,
     },
-    /// The reference says two things about a time of the study.
+    /// The reference has two rows at a time of the study.
     #[error("lines {first} and {second} are both about t = {time}, and they differ")]
     Twice {
-        /// The time of which the reference says two things [time].
+        /// Duplicate time [time].
         time: f64,
-        /// The line of the first row for that time.
+        /// Line of the first row.
         first: u64,
-        /// The line of the second row for that time.
+        /// Line of the second row.
         second: u64,
     },
-    /// The reference says nothing about any station of the study.
+    /// The reference contains no station of the study.
     #[error(
         "it has no station of the study: for one called '{station}' it needs the columns x{station} and y{station}; its columns are {known}"
     )]
     Stations {
-        /// The name of a station of the study.
+        /// A station of the study.
         station: String,
-        /// The names of the columns of the reference.
+        /// Columns of the reference.
         known: String,
     },
 }
 
-/// No reference of rounded numbers tells errors below this, relative to the size of an observable.
+/// Relative errors below this are not resolved by a reference of rounded numbers.
 const ROUNDING: f64 = 1e-13;
 
-/// A value that an observable should have.
+/// A reference value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct KnownValue {
     value: Vec2,
     trusted: f64,
 }
 
-/// The reference of a study: what its observables should be at its times.
+/// Reference of a study: values of its observables at its times.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReferenceSolution {
-    /// The source of the reference, in a line.
+    /// Source, in one line.
     pub source: String,
-    /// Whether the reference is a run of our own, and no independent solution.
+    /// True for a reference run instead of an independent solution.
     pub is_own: bool,
-    /// None where it says nothing.
+    /// Values by time and observable; `None` if unknown.
     known: Vec<Vec<Option<KnownValue>>>,
 }
 
-/// Times that differ by less, relative to the larger of them and one, are the same.
+/// Tolerance for equal times, relative to the larger of the time and one.
 const SAME_TIME: f64 = 1e-9;
 
-/// The row of a table at a time.
+/// Row of a table at a time.
 fn row_at(sheet: &ParsedCsv, time: f64) -> Result<usize, ReferenceError> {
     let times: Vec<f64> =
         (0..sheet.len()).map(|row| sheet.number(row, "t")).collect::<Result<_, _>>()?;
@@ -138,13 +138,13 @@ fn row_at(sheet: &ParsedCsv, time: f64) -> Result<usize, ReferenceError> {
     }
 }
 
-/// The first of these columns that a table has, as numbers of a row; zero where it has none.
+/// Number in the first existing column; zero if there is none.
 fn estimate(sheet: &ParsedCsv, row: usize, columns: &[String]) -> Result<f64, ParsedCsvError> {
     let found = columns.iter().find(|column| sheet.has(column));
     found.map_or(Ok(0.0), |column| sheet.size(row, column))
 }
 
-/// What a table says of an observable.
+/// Reference value of an observable in a table.
 fn known_of(
     sheet: &ParsedCsv,
     row: usize,
@@ -191,11 +191,10 @@ fn known_of(
 }
 
 impl ReferenceSolution {
-    /// The reference in a table of an independent solution: a column t and, for a station called A, xA, yA and thA; other columns bear the
-    /// names of observables. Estimates of its own errors stand in columns d_xA, d_A or d_pos, d_thA or d_th, d_E, ….
+    /// Reference from a table of an independent solution: a column t and, for a station A, xA, yA and thA; other columns have the names of
+    /// observables. Estimated errors are in columns d_xA, d_A or d_pos, d_thA or d_th, d_E, ….
     ///
-    /// # Errors
-    /// When it has no row at one of the times, none of the stations, or something else than numbers.
+    /// If a time or all stations are missing, or a cell is not a number.
     pub fn of_sheet(
         source: impl Into<String>,
         sheet: &ParsedCsv,
@@ -220,7 +219,7 @@ impl ReferenceSolution {
         }
     }
 
-    /// The reference that a run of our own gave.
+    /// Reference from a run.
     pub fn of_run(source: impl Into<String>, readings: &Readings) -> Self {
         let known = |value: &Vec2| {
             (value.x.is_finite() && value.y.is_finite())
@@ -230,7 +229,7 @@ impl ReferenceSolution {
         Self { source: source.into(), is_own: true, known }
     }
 
-    /// The same reference, each value trusted no further than another run, a little coarser, agrees with it.
+    /// Sets the uncertainty of each value to its difference from a coarser run.
     pub fn as_far_as(mut self, coarser: &Readings) -> Self {
         for (known, other) in self.known.iter_mut().zip(coarser) {
             for (known, other) in known.iter_mut().zip(other) {
@@ -241,12 +240,12 @@ impl ReferenceSolution {
         self
     }
 
-    /// Whether the reference says something about an observable, by its index.
+    /// Returns true if the reference contains the observable with this index.
     pub fn knows(&self, observable: usize) -> bool {
         self.known.iter().any(|at| at.get(observable).is_some_and(Option::is_some))
     }
 
-    /// The largest deviation of an observable from the reference at its times; none where the reference says nothing of it.
+    /// Largest deviation of an observable over the times; `None` if the reference does not contain it.
     pub fn deviation(&self, observable: usize, readings: &Readings) -> Option<Deviation> {
         let values = self.known.iter().filter_map(|at| (*at.get(observable)?)?.value.norm().into());
         let rounding = ROUNDING * values.fold(0.0, f64::max);
@@ -259,7 +258,7 @@ impl ReferenceSolution {
         self.known.iter().zip(readings).filter_map(at).reduce(Deviation::worst)
     }
 
-    /// The largest deviation of all positions from the reference [length].
+    /// Largest deviation of all positions [length].
     pub fn of_positions(
         &self,
         observables: &[Observable],

@@ -1,4 +1,4 @@
-//! Finished rows of a sweep on disk: written as they come, and read one after the other, so that very many take little memory.
+//! Finished rows of a sweep on disk, appended and read sequentially, so that many rows need little memory.
 
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Read, Write};
@@ -9,42 +9,42 @@ use serde::{Deserialize, Serialize};
 
 use crate::sandbox_fs::Folder;
 
-/// Of one entry; more is damage.
+/// Maximum length of an entry [bytes]; longer ones are damaged.
 const LONGEST: u32 = 1 << 20;
-/// A kill loses at most the rows of this time; a loss of power those that the system had not yet written to the disk.
+/// Flush interval. A kill loses at most the rows of this interval; a power failure those not yet written by the system.
 const DELAY: Duration = Duration::from_millis(100);
 
 /// An entry of the journal of a sweep.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum RowEntry {
-    /// What the rows are of: the first entry.
+    /// First entry: identification of the sweep.
     Sweep {
-        /// A number made of all that the rows depend on.
+        /// Hash of everything that the rows depend on.
         fingerprint: u64,
-        /// How many rows the whole sweep has.
+        /// Number of rows of the whole sweep.
         rows: u64,
-        /// Which part of them this journal is to have, counted from 1, and of how many; (1, 1) for all.
+        /// Part of the sweep, from 1, and number of parts; (1, 1) for all.
         part: (u32, u32),
     },
-    /// The names of the results, before the first row that has some.
+    /// Names of the results, before the first completed row.
     Names(Vec<String>),
-    /// What was found in a row.
+    /// Results of a row.
     Found(u64, Vec<f64>),
-    /// Why a row failed.
+    /// Reason of a failed row.
     Failed(u64, String),
 }
 
-/// The journal of a sweep, to which rows are added.
+/// Journal of a sweep, open for appending.
 #[derive(Debug)]
 pub struct RowJournal {
     file: BufWriter<File>,
     flushed: Instant,
 }
 
-/// Reads the entries of a journal up to the first that is damaged or cut off; gives the length of what is whole [bytes], and zero for none.
+/// Reads the entries of a journal up to the first damaged or incomplete one; returns the length of the valid part [bytes], zero if there is
+/// no file.
 ///
-/// # Errors
-/// When there is a file that cannot be read, or `heed` refuses an entry.
+/// If an existing file cannot be read, or `heed` returns an error.
 pub fn read_rows<E: From<io::Error>>(
     path: &Path,
     mut heed: impl FnMut(RowEntry) -> Result<(), E>,
@@ -64,10 +64,9 @@ pub fn read_rows<E: From<io::Error>>(
 }
 
 impl RowJournal {
-    /// Opens a journal to write behind the first `whole` bytes of it, which are kept; a file is made where there is none.
+    /// Opens a journal for appending after the first `whole` bytes; a missing file is created.
     ///
-    /// # Errors
-    /// When it cannot be written.
+    /// If writing fails.
     pub fn append(path: &Path, whole: u64) -> io::Result<Self> {
         let (folder, name) = place(path, Folder::make)?;
         let file = folder.append(&name)?;
@@ -75,10 +74,9 @@ impl RowJournal {
         Ok(Self { file: BufWriter::new(file), flushed: Instant::now() })
     }
 
-    /// Adds an entry; gives the bytes that it takes.
+    /// Appends an entry; returns its length [bytes].
     ///
-    /// # Errors
-    /// When it cannot be written.
+    /// If writing fails.
     pub fn write(&mut self, entry: &RowEntry) -> io::Result<u64> {
         let payload = postcard::to_stdvec(entry).map_err(io::Error::other)?;
         let length = u32::try_from(payload.len()).map_err(io::Error::other)?;
@@ -89,10 +87,9 @@ impl RowJournal {
         Ok(8 + u64::from(length))
     }
 
-    /// Hands what was written last to the system, now and then.
+    /// Flushes the buffer periodically.
     ///
-    /// # Errors
-    /// When it cannot be written.
+    /// If writing fails.
     pub fn beat(&mut self) -> io::Result<()> {
         if self.flushed.elapsed() > DELAY {
             self.flush()?;
@@ -100,20 +97,18 @@ impl RowJournal {
         Ok(())
     }
 
-    /// Hands what was written to the system.
+    /// Flushes the buffer.
     ///
-    /// # Errors
-    /// When it cannot be written.
+    /// If writing fails.
     pub fn flush(&mut self) -> io::Result<()> {
         self.flushed = Instant::now();
         self.file.flush()
     }
 }
 
-/// Removes a journal that is no longer needed, if there is one.
+/// Removes a journal, if it exists.
 ///
-/// # Errors
-/// When it cannot be removed.
+/// If removing fails.
 pub fn remove_rows(path: &Path) -> io::Result<()> {
     match place(path, Folder::find).and_then(|(folder, name)| folder.remove(&name)) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
@@ -126,7 +121,7 @@ fn place(path: &Path, open: fn(&Path) -> io::Result<Folder>) -> io::Result<(Fold
     Ok((open(path.parent().unwrap_or(Path::new(".")))?, name.into()))
 }
 
-/// The next entry, if it is whole, and the bytes that it takes.
+/// Next entry, if it is complete, and its length [bytes].
 fn next_entry(file: &mut impl Read) -> Option<(RowEntry, u64)> {
     let mut head = [0; 8];
     file.read_exact(&mut head).ok()?;

@@ -1,14 +1,14 @@
-//! How long a study waits for a run.
+//! Limits of runs in studies.
 
 use std::cell::Cell;
 use std::time::{Duration, Instant};
 
-/// How much a case of a study may take before it is given up.
+/// Limits of a case.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RunLimits {
-    /// The largest number of steps and failed tries of a case together.
+    /// Maximum number of steps, including failed ones.
     pub steps: usize,
-    /// The longest time of a case by the clock.
+    /// Maximum wall-clock time.
     pub wall: Duration,
 }
 
@@ -19,17 +19,17 @@ impl Default for RunLimits {
 }
 
 thread_local! {
-    /// When patience with the case that runs on this thread ends.
+    /// Deadline of the case that runs on this thread.
     static DEADLINE: Cell<Option<Instant>> = const { Cell::new(None) };
 }
 
-/// Whether the case that runs on this thread should have ended by now. A case asks after every step itself; this is for whoever is
-/// called within a step and may not come back, such as a load that is a function of a script.
+/// Returns true after the deadline of the case on this thread. The case itself checks after every step; this function is for code called
+/// within a step, such as script functions of loads, which may not return.
 pub fn is_out_of_patience() -> bool {
     DEADLINE.get().is_some_and(|deadline| Instant::now() > deadline)
 }
 
-/// The wait of a study for a case: it lasts as long as this lives.
+/// Guard: the deadline applies while it lives.
 pub(super) struct CaseTimer {
     begun: Instant,
     patience: RunLimits,
@@ -37,7 +37,7 @@ pub(super) struct CaseTimer {
 }
 
 impl RunLimits {
-    /// Begins to wait for a case, on this thread.
+    /// Starts the deadline for a case on this thread.
     pub(super) fn begin(self) -> CaseTimer {
         let begun = Instant::now();
         CaseTimer { begun, patience: self, before: DEADLINE.replace(begun.checked_add(self.wall)) }
@@ -45,7 +45,7 @@ impl RunLimits {
 }
 
 impl CaseTimer {
-    /// What a case took too much of after so many steps, in words, if it did.
+    /// Description of the exceeded limit after this many steps, if any.
     pub(super) fn exceeded(&self, steps: usize) -> Option<String> {
         let RunLimits { steps: most, wall } = self.patience;
         if steps > most {

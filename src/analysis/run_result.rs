@@ -1,4 +1,4 @@
-//! What a run of a study shows: the observables, the work, what drifted.
+//! Results of a run: observables, effort, and drifts.
 
 use std::sync::atomic::AtomicBool;
 
@@ -9,31 +9,31 @@ use super::reference::Readings;
 use super::{Case, CaseOutcome, RunLimits};
 use crate::simulation::{History, Invariant, Simulation};
 
-/// A run of a study that was looked at.
+/// Results of a run of a study.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunResult {
-    /// How the run ended.
+    /// Outcome.
     pub outcome: CaseOutcome,
-    /// The observables at the stops that the run reached.
+    /// Observables at the stops that were reached.
     pub readings: Readings,
-    /// The number of unknowns of a step of the run.
+    /// Number of unknowns of a step.
     pub unknowns: usize,
-    /// The number of steps of the run that succeeded.
+    /// Number of successful steps.
     pub steps: usize,
-    /// The number of Newton iterations of the steps that succeeded.
+    /// Number of Newton iterations of the successful steps.
     pub newton_iterations: usize,
-    /// The number of factorised matrices of the run, failed tries included.
+    /// Number of factorisations, including retried steps.
     pub factorisations: usize,
-    /// The number of failed tries of steps.
+    /// Number of retried steps.
     pub retries: usize,
-    /// The drifts of the whole run, loads accounted for, in the order of [`Invariant::ALL`].
+    /// Drifts of the whole run, corrected for loads, in the order of [`Invariant::ALL`].
     pub drifts: [f64; 4],
-    /// The drift of the energy after the last work of a load; NaN where loads work to the end.
+    /// Energy drift after the last work of a load; NaN if loads work until the end.
     pub free_energy_drift: f64,
 }
 
 impl RunResult {
-    /// Runs a case and looks at its observables at every stop.
+    /// Runs a case and evaluates its observables at every stop.
     pub fn of(
         case: &Case,
         observables: &[Observable],
@@ -60,7 +60,7 @@ impl RunResult {
         }
     }
 
-    /// The trial of a run that never began.
+    /// Results of a run that did not start.
     pub fn without_a_run(outcome: CaseOutcome) -> Self {
         Self {
             outcome,
@@ -76,7 +76,7 @@ impl RunResult {
     }
 }
 
-/// The drift of the energy from the last change of the work of the loads on.
+/// Energy drift since the last change of the work of the loads.
 fn free_energy_drift(history: &History) -> f64 {
     let works = || history.samples().iter().map(|row| row.measures.work);
     let Some(last) = works().next_back() else { return f64::NAN };

@@ -12,12 +12,12 @@ use crate::newton::Tolerance;
 use crate::simulation::SimulationSettings;
 use crate::system::{BeamDefinition, Scene, StartMotion};
 
-/// A flag for tests by which nobody stops a study.
+/// A stop flag that is never set.
 pub fn never() -> AtomicBool {
     AtomicBool::new(false)
 }
 
-/// A case for tests: a short free beam that spins.
+/// A short free spinning beam.
 pub fn spinning(dt: f64, stops: &[f64]) -> Case {
     let mut scene = Scene::new("spinning");
     let section = Section {
@@ -44,7 +44,7 @@ pub fn spinning(dt: f64, stops: &[f64]) -> Case {
     Case { scene, settings, stops: stops.to_vec() }
 }
 
-/// A case for tests: a short free beam that spins, with a force whose schedule only this thread can follow.
+/// A short free spinning beam with a force whose schedule cannot be sent to other threads.
 pub fn pushed_by_a_function(dt: f64, stops: &[f64]) -> Case {
     let mut case = spinning(dt, stops);
     let station = case.scene.station(0, 0.0).unwrap();

@@ -1,4 +1,4 @@
-//! What becomes of a run on the edge: whether it comes to its end, whether its energy grows, how hard it was.
+//! Verdicts on runs near the stability limit: completion, energy growth, and effort.
 
 use std::sync::atomic::AtomicBool;
 
@@ -8,21 +8,21 @@ use super::{Case, CaseOutcome, RunLimits};
 use crate::simulation::Simulation;
 use crate::system::Scene;
 
-/// The verdict on a run: how it ended, whether its energy grew, and the work of its steps.
+/// Verdict on a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StabilityVerdict {
-    /// How the run ended.
+    /// Outcome.
     pub outcome: CaseOutcome,
-    /// The largest rise of `E - W` above an earlier value after the last schedule has come to rest, relative to the largest
-    /// energy; NaN when there was no run, or it was lost in numbers that are none.
+    /// Largest rise of `E - W` above an earlier value after the last schedule break, relative to the largest energy; NaN if there was no
+    /// run or the state became NaN.
     pub energy_growth: f64,
-    /// The number of steps of the run that succeeded.
+    /// Number of successful steps.
     pub steps: usize,
-    /// The number of Newton iterations of a step, on average.
+    /// Average number of Newton iterations per step.
     pub mean_iterations: f64,
-    /// The most Newton iterations of one step.
+    /// Maximum number of Newton iterations of a step.
     pub most_iterations: usize,
-    /// The number of failed tries: steps that were halved.
+    /// Number of retried steps.
     pub retries: usize,
 }
 
@@ -50,7 +50,7 @@ impl StabilityVerdict {
         }
     }
 
-    /// The verdict on a run that never began.
+    /// Verdict on a run that did not start.
     pub fn without_a_run(outcome: CaseOutcome) -> Self {
         Self {
             outcome,
@@ -63,7 +63,7 @@ impl StabilityVerdict {
     }
 }
 
-/// When the last schedule of a scene has its last break [time].
+/// Time of the last break of all schedules [time].
 fn rest(scene: &Scene) -> f64 {
     scene.schedules().flat_map(|(_, schedule)| schedule.breaks()).fold(0.0, f64::max)
 }

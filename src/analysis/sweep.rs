@@ -1,45 +1,45 @@
-//! A sweep: a table of runs, with the parameters of each and what was found in it.
+//! Sweeps: tables of runs with parameters and results.
 
 use std::collections::{BTreeMap, HashMap};
 
 use crate::sampling::{VarianceShare, shares_by_rank, shares_of_grid, shares_of_saltelli};
 
-/// A parameter of a sweep with its values.
+/// A swept parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweptParameter {
-    /// The name of the parameter.
+    /// Name.
     pub name: String,
-    /// The values that the parameter takes.
+    /// Values.
     pub values: SweptValues,
 }
 
-/// The values of a parameter of a sweep.
+/// Values of a swept parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SweptValues {
-    /// One of few, which need not be numbers.
+    /// A few levels, not necessarily numbers.
     Levels {
-        /// A label for each of them.
+        /// Labels of the levels.
         labels: Vec<String>,
-        /// The numbers that they are, where all of them are numbers.
+        /// Numbers of the levels, if all are numbers.
         numbers: Option<Vec<f64>>,
-        /// Which of them each row has.
+        /// Level of each row.
         choice: Choice,
     },
-    /// A number for each row.
+    /// A number per row.
     Numbers(Vec<f64>),
 }
 
-/// Which of its levels a parameter has in each row.
+/// Assignment of levels to rows.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Choice {
-    /// Those of a full grid: each for so many rows, one after another and again from the start.
+    /// Full grid: each level for this many rows, repeated cyclically.
     Grid(usize),
-    /// That of each row.
+    /// Level index by row.
     Drawn(Vec<u32>),
 }
 
 impl SweptValues {
-    /// The number of the level of a row; none where the parameter has a number of its own for each row.
+    /// Level index of a row; `None` if the parameter has a number per row.
     pub fn level(&self, row: usize) -> Option<usize> {
         match self {
             Self::Levels { labels, choice: Choice::Grid(rows), .. } => {
@@ -50,7 +50,7 @@ impl SweptValues {
         }
     }
 
-    /// The value of a row as a number; none where it is something else.
+    /// Number of a row; `None` for other values.
     pub fn number(&self, row: usize) -> Option<f64> {
         match self {
             Self::Levels { numbers, .. } => numbers.as_ref()?.get(self.level(row)?).copied(),
@@ -58,7 +58,7 @@ impl SweptValues {
         }
     }
 
-    /// The label of the level of a row; none where the parameter has a number of its own for each row.
+    /// Label of a row; `None` if the parameter has a number per row.
     pub fn label(&self, row: usize) -> Option<&str> {
         match self {
             Self::Levels { labels, .. } => labels.get(self.level(row)?).map(String::as_str),
@@ -66,46 +66,46 @@ impl SweptValues {
         }
     }
 
-    /// The value of a row in words: its number, written so, or the label of its level.
+    /// Value of a row as text: the number formatted by `write`, or the label.
     pub fn in_words(&self, row: usize, write: impl Fn(f64) -> String) -> String {
         let label = || self.label(row).unwrap_or_default().to_owned();
         self.number(row).map_or_else(label, write)
     }
 }
 
-/// How the rows of a sweep lie among all that they could be.
+/// Arrangement of the rows in the parameter space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RowLayout {
-    /// Every value with every other.
+    /// Full grid.
     Grid,
-    /// Points that are independent of one another, or more even than that.
+    /// Independent or low-discrepancy points.
     Points,
-    /// Blocks of points that differ in one parameter each, for Sobol' indices.
+    /// Saltelli blocks for Sobol' indices.
     Saltelli,
 }
 
-/// What a sweep goes through: its parameters, and the number of its rows.
+/// Parameters and rows of a sweep.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepDesign {
-    /// The parameters, in the order of their names.
+    /// Parameters, in the order of their names.
     pub parameters: Vec<SweptParameter>,
-    /// How many runs there are.
+    /// Number of runs.
     pub rows: usize,
-    /// How they are arranged.
+    /// Arrangement.
     pub arrangement: RowLayout,
 }
 
-/// What was found in the rows of a sweep: a column of numbers for each result, and the reasons of rows that failed.
+/// Results of a sweep: a column of numbers per result, and the reasons of failed rows.
 #[derive(Clone, Debug, Default)]
 pub struct SweepResults {
-    /// The names of the results, which all runs give.
+    /// Names of the results.
     pub names: Vec<String>,
-    /// A column for each name; not-a-number in rows that failed.
+    /// Columns by name; NaN in failed rows.
     columns: Vec<Vec<f64>>,
     reasons: FailureReasons,
 }
 
-/// Reasons of failures, each kept once.
+/// Reasons of failures, without duplicates.
 #[derive(Clone, Debug, Default)]
 struct FailureReasons {
     texts: Vec<String>,
@@ -116,15 +116,15 @@ struct FailureReasons {
 /// A finished sweep.
 #[derive(Clone, Debug)]
 pub struct Sweep {
-    /// The name of the sweep and of its files.
+    /// Name of the sweep and its files.
     pub name: String,
-    /// What it went through.
+    /// Design.
     pub design: SweepDesign,
-    /// What was found.
+    /// Results.
     pub results: SweepResults,
 }
 
-/// What a row shows under a name.
+/// A column of a sweep.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SweepColumn<'s> {
     /// Values of a parameter.
@@ -134,7 +134,7 @@ pub enum SweepColumn<'s> {
 }
 
 impl SweepColumn<'_> {
-    /// The value of a row as a number: not-a-number where it has none.
+    /// Number in a row; NaN if there is none.
     pub fn number(&self, row: usize) -> f64 {
         match self {
             Self::Parameter(values) => values.number(row).unwrap_or(f64::NAN),
@@ -144,20 +144,20 @@ impl SweepColumn<'_> {
 }
 
 impl SweepResults {
-    /// Begins the table of so many rows with the names of the results, when the first run has told them.
+    /// Allocates the columns, once the first run has returned the names.
     pub fn begin(&mut self, names: Vec<String>, rows: usize) {
         self.columns = vec![vec![f64::NAN; rows]; names.len()];
         self.names = names;
     }
 
-    /// Writes down what was found in a row, in the order of the names.
+    /// Sets the results of a row, in the order of the names.
     pub fn find(&mut self, row: usize, values: &[f64]) {
         for (column, value) in self.columns.iter_mut().zip(values) {
             column[row] = *value;
         }
     }
 
-    /// Writes down why a row failed.
+    /// Sets the reason of a failed row.
     pub fn fail(&mut self, row: usize, reason: &str) {
         let FailureReasons { texts, known, of_rows } = &mut self.reasons;
         let number = *known.entry(reason.to_owned()).or_insert_with(|| {
@@ -167,45 +167,45 @@ impl SweepResults {
         of_rows.insert(row as u32, number);
     }
 
-    /// Why a row failed, if it did.
+    /// Reason of a failed row.
     pub fn failure(&self, row: usize) -> Option<&str> {
         let number = self.reasons.of_rows.get(&(row as u32))?;
         Some(&self.reasons.texts[*number as usize])
     }
 
-    /// The rows that failed, with their reasons.
+    /// Failed rows with their reasons.
     pub fn failures(&self) -> impl ExactSizeIterator<Item = (usize, &str)> {
         let FailureReasons { texts, of_rows, .. } = &self.reasons;
         of_rows.iter().map(|(row, number)| (*row as usize, texts[*number as usize].as_str()))
     }
 
-    /// The column of a result.
+    /// Column of a result.
     pub fn column(&self, name: &str) -> Option<&[f64]> {
         let at = self.names.iter().position(|known| known == name)?;
         self.columns.get(at).map(Vec::as_slice)
     }
 
-    /// The results of a row, in the order of the names; not-a-number where it failed.
+    /// Results of a row, in the order of the names; NaN if it failed.
     pub fn row(&self, row: usize) -> impl Iterator<Item = f64> {
         self.columns.iter().map(move |column| column[row])
     }
 }
 
 impl Sweep {
-    /// The values under a name: those of a parameter, or results.
+    /// Column of a parameter or result.
     pub fn column(&self, name: &str) -> Option<SweepColumn<'_>> {
         let of = self.design.parameters.iter().find(|of| of.name == name);
         let own = of.map(|of| SweepColumn::Parameter(&of.values));
         own.or_else(|| self.results.column(name).map(SweepColumn::Result))
     }
 
-    /// All names of columns: parameters, then results.
+    /// Names of all columns: parameters, then results.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         let parameters = self.design.parameters.iter().map(|of| of.name.as_str());
         parameters.chain(self.results.names.iter().map(String::as_str))
     }
 
-    /// From how many rows it is told what a result depends on: those that came to their end; of a Saltelli design the blocks none of whose rows failed.
+    /// Number of rows that contribute to sensitivities: completed rows; for a Saltelli design the rows of complete blocks.
     pub fn telling_rows(&self, result: &str) -> usize {
         let results = self.results.column(result).unwrap_or_default();
         let is_whole = |rows: &&[f64]| rows.iter().all(|x| x.is_finite());
@@ -216,8 +216,8 @@ impl Sweep {
         results.chunks_exact(block).filter(is_whole).count() * block
     }
 
-    /// How much of the variance of a result each parameter explains, in the order of the parameters; none where it does not vary, where rows of a grid
-    /// failed, or where there are too few points.
+    /// Fraction of the variance of a result explained by each parameter, in the order of the parameters; `None` if the result is constant,
+    /// rows of a grid failed, or there are too few points.
     pub fn shares(&self, result: &str) -> Option<Vec<VarianceShare>> {
         let results = self.results.column(result)?;
         let parameters = &self.design.parameters;
@@ -294,7 +294,7 @@ mod tests {
         assert!(sweep.shares("sum").is_none());
         assert_eq!(sweep.telling_rows("sum"), 5);
         sweep.design.arrangement = RowLayout::Saltelli;
-        // Two parameters: blocks of four rows, of which the first has a failed one, and the second is cut off.
+        // Two parameters give blocks of four rows; the first block has a failed row, and the second is incomplete.
         assert_eq!(sweep.telling_rows("sum"), 0);
     }
 }

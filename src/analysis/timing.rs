@@ -1,4 +1,4 @@
-//! How long a run of a study takes.
+//! Run times of cases.
 
 use std::time::{Duration, Instant};
 
@@ -6,26 +6,25 @@ use serde::{Deserialize, Serialize};
 
 use super::{Case, RunLimits};
 
-/// The times that a case of a study takes.
+/// Times of a case.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Timing {
-    /// The median time to build the scene and its model.
+    /// Median time to build the scene and its model.
     pub setup: Duration,
-    /// The median time of the run by the clock.
+    /// Median wall-clock time of the run.
     pub run: Duration,
-    /// The shortest time of the run by the clock.
+    /// Shortest wall-clock time of the run.
     pub shortest: Duration,
-    /// The median time that the processor worked on the run; none where the system does not tell. On a machine that is busy with
-    /// something else this is what the run itself takes.
+    /// Median processor time of the run, if available. On a busy machine this is the time of the run itself.
     pub processor: Option<Duration>,
-    /// How often the case was run.
+    /// Number of repetitions.
     pub repeats: usize,
 }
 
-/// The time after which a case is not repeated any more.
+/// Time after which a case is not repeated.
 pub const ENOUGH: Duration = Duration::from_secs(10);
 
-/// The time that the processor has worked on this thread, as Linux tells it: exact after a pause, else only at every tick.
+/// Processor time of this thread on Linux; it is exact after a pause, otherwise updated only at scheduler ticks.
 fn processor_time() -> Option<Duration> {
     std::thread::sleep(Duration::from_nanos(1));
     let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
@@ -33,13 +32,13 @@ fn processor_time() -> Option<Duration> {
 }
 
 impl Timing {
-    /// The price of the case: the time of the processor for its run, or by the clock where the system does not tell [s].
+    /// Cost of the case: processor time, or wall-clock time if not available [s].
     pub fn price(&self) -> f64 {
         self.processor.unwrap_or(self.run).as_secs_f64()
     }
 
-    /// Runs a case several times on this thread and takes medians; fewer times when that takes longer than [`ENOUGH`], but
-    /// once at least. None when `is_wanted` says no on the way, or a run fails.
+    /// Runs a case several times on this thread and takes medians. It stops repeating after [`ENOUGH`]. `None` if `is_wanted` returns false
+    /// or a run fails.
     pub fn of(
         case: &Case,
         patience: RunLimits,
@@ -64,13 +63,13 @@ impl Timing {
         }
         let shortest = runs.iter().copied().min()?;
         let repeats = runs.len();
-        // A clock of the processor that does not move is none.
+        // A processor clock that does not advance is ignored.
         let processor = median(works).filter(|time| !time.is_zero());
         Some(Self { setup: median(setups)?, run: median(runs)?, shortest, processor, repeats })
     }
 }
 
-/// The duration in the middle of some; of an even number the mean of the two in the middle; none of none.
+/// Median; the mean of the two middle values for an even number.
 pub(super) fn median(mut durations: Vec<Duration>) -> Option<Duration> {
     durations.sort_unstable();
     let upper = durations.len() / 2;

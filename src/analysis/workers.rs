@@ -1,4 +1,4 @@
-//! Cases worked on by all cores at once.
+//! Parallel execution of cases.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -10,15 +10,13 @@ use super::Case;
 use crate::panics::caught;
 use crate::simulation::cores;
 
-/// How often it is asked whether to go on while no case ends.
+/// Interval of checks for interruption while no case ends.
 const PULSE: Duration = Duration::from_millis(50);
 
-/// Works on cases on all cores; those with functions of a script in their loads wait until the others are done, and are
-/// worked on by the calling thread.
+/// Runs cases on all cores. Cases with script functions in their loads run last, on the calling thread.
 ///
-/// `heed` is called on the calling thread: with the number and the result of a case as soon as it has one, and with `None`
-/// now and then between; when it breaks off, `stop` is set, and cases that have no result by then get none. The results are
-/// in the order of the cases; that of a case that panicked is the message.
+/// `heed` is called on the calling thread with the index and result of each finished case, and periodically with `None`. If it returns
+/// `Break`, `stop` is set, and unfinished cases have no result. Results are in the order of the cases; a panic gives its message.
 pub fn on_all_cores<R: Send>(
     cases: &[Case],
     stop: &AtomicBool,
@@ -65,7 +63,7 @@ pub fn on_all_cores<R: Send>(
                     pulse(Some((number, &result)));
                     results[number] = Some(result);
                 }
-                // What a stopped worker gave is not a result.
+                // Results of stopped workers are discarded.
                 Ok(_) => (),
                 Err(mpsc::RecvTimeoutError::Timeout) => pulse(None),
                 Err(mpsc::RecvTimeoutError::Disconnected) => break,
@@ -76,7 +74,7 @@ pub fn on_all_cores<R: Send>(
     for (number, _) in waiting {
         pulse(None);
         let result = caught(|| work(&cases[number]));
-        // What stopped the study may have stopped the case before anybody else was told.
+        // The interrupt may have stopped the case before `heed` was informed.
         pulse(None);
         if is_stopped() {
             break;

@@ -1,7 +1,7 @@
-//! One process for each attempt that is graded: nothing that an attempt does to its process reaches the next one or the marks.
+//! Grading in a separate process per attempt, so that an attempt cannot affect the next one or the marks.
 //!
-//! The program starts itself, in a new folder whose name nobody can guess, with limits of the system on time, memory, and
-//! what it writes. The process says its verdict in a line of JSON; one that dies has a mark all the same.
+//! The program starts itself in a new folder with an unpredictable name, with system limits on time, memory and output. The process prints
+//! its verdict as a line of JSON; a process that dies receives a mark too.
 
 use std::io::Read;
 use std::path::Path;
@@ -26,29 +26,28 @@ use crate::script::messages::stop::Stop;
 use crate::script::state::limits::Limits;
 use crate::script::state::settings::{RunMode, RunSettings};
 
-/// How often a process is looked at.
+/// Polling interval.
 const INTERVAL: Duration = Duration::from_millis(5);
-/// What a process may take beside the attempt and its judge.
+/// Time allowed for the process besides the attempt and its judge.
 const START: Duration = Duration::from_secs(2);
-/// The longest message of a verdict, in characters: a line fits into the pipe, and a person reads it.
+/// Maximum length of a message in characters, so that a line fits into the pipe.
 const LONGEST_MESSAGE: usize = 4000;
-/// The most that is read of what a process says [bytes].
+/// Maximum size of a verdict [bytes].
 const LONGEST_VERDICT: u64 = 1 << 20;
 
-/// What the processes that judge the attempts of a class have in common.
+/// Common settings of the grading processes of a class.
 pub(super) struct JudgeLimits<'a> {
-    /// The folder in which each process gets one of its own.
+    /// Parent of the folders of the processes.
     pub scratch: &'a Scratch,
-    /// The limits of what each process may use.
+    /// Limits of each process.
     pub limits: &'a LimitOptions,
-    /// The flag that ends all the processes.
+    /// Flag that ends all processes.
     pub stop: &'a AtomicBool,
 }
 
-/// The mark of an attempt from a process of its own. Nothing when the room was told to stop before it was known.
+/// Mark of an attempt from a separate process; `None` if grading was stopped before.
 ///
-/// # Errors
-/// When no process can be started, which is not the student's fault.
+/// If no process can be started, which is not the student's fault.
 pub(super) fn mark_apart(
     submission: &Submission,
     file: &Path,
@@ -66,15 +65,15 @@ pub(super) fn mark_apart(
     })
 }
 
-/// What came of a process.
+/// Result of a process.
 enum ProcessReport {
-    /// It said its verdict.
+    /// The verdict as a line.
     Line(String),
-    /// It died without a word.
+    /// No output.
     Nothing(ExitStatus),
-    /// It had to be ended.
+    /// Killed after a timeout.
     TooLate,
-    /// It was ended because the grading was.
+    /// Killed because grading was stopped.
     Interrupted,
 }
 
@@ -147,7 +146,7 @@ fn too_late(limits: &Limits) -> String {
     limits.time.map_or_else(|| "it takes too long".into(), |time| Stop::Time(time).words().0)
 }
 
-/// What the way in which a process died says of its attempt.
+/// Mark and message for the way in which a process died.
 fn mark_of_death(status: ExitStatus, limits: &Limits) -> (Mark, String) {
     let passed = match cause_of_death(status) {
         KillReason::Time => return (Mark::Stopped, too_late(limits)),
@@ -161,7 +160,7 @@ fn mark_of_death(status: ExitStatus, limits: &Limits) -> (Mark, String) {
     }
 }
 
-/// Which limit of the system ended a process.
+/// System limit that killed a process.
 enum KillReason {
     Time,
     Memory,
@@ -176,7 +175,7 @@ fn cause_of_death(status: ExitStatus) -> KillReason {
     match status.signal().and_then(|number| Signal::try_from(number).ok()) {
         Some(Signal::SIGXCPU) => KillReason::Time,
         Some(Signal::SIGXFSZ) => KillReason::Written,
-        // An allocation that is refused aborts; the system ends who takes too much.
+        // A failed allocation aborts; the system kills processes that use too much memory.
         Some(Signal::SIGABRT | Signal::SIGKILL) => KillReason::Memory,
         _ => KillReason::Other,
     }
@@ -187,20 +186,20 @@ fn cause_of_death(_: ExitStatus) -> KillReason {
     KillReason::Other
 }
 
-/// Keeps Ctrl-C at the terminal from the process: whoever grades decides what becomes of it.
+/// Shields the process from Ctrl-C at the terminal, which the grading process handles.
 fn apart(command: &mut Command) -> &mut Command {
     #[cfg(unix)]
     std::os::unix::process::CommandExt::process_group(command, 0);
     command
 }
 
-/// Says that a limit was passed in the middle of something that does not hear of it.
+/// Reports an exceeded limit in code that does not check for limits, and exits.
 fn stopped_hard(stop: Stop) {
     say(&write(&(Mark::Stopped, stop.words().0)));
     process::exit(0)
 }
 
-/// Judges one attempt in this process, which is for nothing else, and prints the verdict.
+/// Judges one attempt in this dedicated process, and prints the verdict.
 pub(super) fn judge_one(
     folder: &Path,
     file: &Path,
@@ -225,11 +224,11 @@ pub(super) fn judge_one(
         Some(mark) => say(&write(&mark)),
         None => return Exit::Interrupted,
     }
-    // What the attempt has made is not taken apart: that may take as long as making it.
+    // Data of the attempt is not dropped, because that may take long.
     process::exit(0)
 }
 
-/// Limits of the system for this process: a net below our own, which are kept first.
+/// System limits of this process, as a fallback for the limits checked by the program.
 #[cfg(unix)]
 fn confine(limits: &Limits) -> nix::Result<()> {
     use nix::sys::resource::{Resource, getrlimit, setrlimit};
@@ -255,7 +254,7 @@ fn confine(limits: &Limits) -> nix::Result<()> {
     Ok(())
 }
 
-/// Files that may be open at once.
+/// Maximum number of open files.
 #[cfg(unix)]
 const FILES_OPEN: u64 = 64;
 /// Address space for the program itself [bytes].

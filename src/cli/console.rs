@@ -1,18 +1,18 @@
-//! Lines for the reader of the output.
+//! Output to stdout and stderr.
 
 use std::io::{self, ErrorKind, Write, stderr, stdout};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Whether something could not be written.
+/// True if some output could not be written.
 static LOST: AtomicBool = AtomicBool::new(false);
 
-/// Prints a line of output, at once; a reader who has gone away has read enough.
+/// Prints a line of output and flushes; a closed pipe is no error.
 pub(super) fn say(text: &str) {
     let mut out = stdout();
     notice(out.write_all(format!("{text}\n").as_bytes()).and_then(|()| out.flush()));
 }
 
-/// Tells a person something that is not the output, as it stands.
+/// Prints a message to stderr.
 pub(super) fn tell(text: &str) {
     notice(stderr().write_all(text.as_bytes()));
 }
@@ -23,7 +23,7 @@ fn notice(written: io::Result<()>) {
     }
 }
 
-/// Whether some output could not be written, though there was somebody to read it.
+/// Returns true if some output could not be written, except to a closed pipe.
 pub(super) fn is_output_lost() -> bool {
     LOST.load(Ordering::Relaxed)
 }

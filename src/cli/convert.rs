@@ -1,6 +1,6 @@
-//! `withy convert`: a saved simulation for other programs, without its script.
+//! `withy convert`: export of a saved simulation, without its script.
 //!
-//! It is a run of one line that loads the file and writes what is asked for.
+//! Runs a generated script that loads the file and writes the output.
 
 use std::io::{stderr, stdout};
 
@@ -15,7 +15,7 @@ use crate::script::engine::runner;
 use crate::script::packages::language;
 use crate::script::state::settings::{RunMode, RunSettings};
 
-/// Writes what a saved simulation is to become.
+/// Exports a saved simulation.
 pub fn convert(options: &ConvertOptions) -> Exit {
     let wish = if options.quiet { ProgressPreference::Hide } else { ProgressPreference::Show };
     let settings = RunSettings {
@@ -38,7 +38,7 @@ pub fn convert(options: &ConvertOptions) -> Exit {
     exit_for(&outcome)
 }
 
-/// What a script would write.
+/// Script line that writes the output.
 fn line(to: ConvertTarget, stem: &str) -> String {
     let file = |ending: &str| literal(&format!("{stem}.{ending}"));
     match to {

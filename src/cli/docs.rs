@@ -16,10 +16,10 @@ use crate::script::help::lookup::{self, WIDTH};
 use crate::script::help::reference::reference;
 use crate::script::packages::language;
 
-/// The largest definition file that is looked at before it is replaced [bytes].
+/// Maximum size of a definition file that is checked before it is replaced [bytes].
 const LARGEST_DEFINITION: u64 = 1 << 24;
 
-/// Does what `withy docs` asks for: shows help, or writes reference or definitions.
+/// Runs `withy docs`: shows help, or writes the reference or definitions.
 pub fn docs(options: &DocsOptions) -> Exit {
     let catalog = language();
     let text = match &options.definitions {
@@ -46,13 +46,13 @@ fn page(catalog: &Catalog, name: &str) -> Result<String, Diagnostic> {
     Ok(if wants_colours { page.ansi(width()) } else { page.plain(width()) })
 }
 
-/// Columns of the terminal, where the shell tells.
+/// Width of the terminal, from the environment.
 fn width() -> usize {
     let columns = std::env::var("COLUMNS").ok().and_then(|text| text.parse().ok());
     columns.filter(|columns| *columns > 0).unwrap_or(WIDTH)
 }
 
-/// Writes each file whole or not at all, and says which.
+/// Writes each file atomically, and lists them.
 fn write_definitions(catalog: &Catalog, folder: &Path) -> Result<String, Diagnostic> {
     let refused = |path: &Path, why: &dyn std::fmt::Display| {
         Diagnostic::general(format!("cannot write '{}': {why}", path.display()))
@@ -71,13 +71,13 @@ fn write_definitions(catalog: &Catalog, folder: &Path) -> Result<String, Diagnos
     Ok(told)
 }
 
-/// Whether a file is one that may be written anew: all definition files begin alike.
+/// Returns true if a file may be replaced; all definition files contain the same line.
 fn is_definition(path: &Path) -> bool {
     read_text(path, LARGEST_DEFINITION)
         .is_ok_and(|text| text.lines().any(|line| line == "module static;"))
 }
 
-/// A reader that goes away has read enough.
+/// A closed pipe is no error.
 fn show(text: &str) -> Exit {
     let mut out = stdout();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {

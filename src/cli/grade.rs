@@ -1,4 +1,4 @@
-//! `withy learn grade`: the attempts of a class.
+//! `withy learn grade`: grading of the attempts of a class.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -21,30 +21,30 @@ use crate::exercises::submissions::Submission;
 use crate::output::{Cell, TextTable, columns, padded};
 use crate::sandbox_fs::Scratch;
 
-/// How the marks of a class are shown.
+/// Output format of marks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GradeFormat {
-    /// Marks are shown as a table for people.
+    /// Table for people.
     Table,
-    /// Marks are shown as JSON for programs.
+    /// JSON for programs.
     Json,
 }
 
-/// Which class is to be graded, and how.
+/// Options of grading.
 pub struct GradeOptions<'a> {
-    /// The folder of the class.
+    /// Folder of the class.
     pub folder: &'a Path,
-    /// How marks are shown.
+    /// Output format.
     pub form: GradeFormat,
-    /// The file that gets the marks as well.
+    /// File for the marks.
     pub marks: Option<&'a Path>,
-    /// How many attempts are judged at the same time.
+    /// Number of parallel processes.
     pub jobs: Option<u16>,
-    /// The limits of what an attempt may use.
+    /// Limits of an attempt.
     pub limits: &'a LimitOptions,
 }
 
-/// Grades all submissions of a folder and prints the marks as they come. What attempts write is thrown away.
+/// Grades all submissions of a folder and prints the marks as they are known. Files written by attempts are discarded.
 pub fn grade(wishes: &GradeOptions) -> Result<Exit, ExerciseError> {
     let submissions = Submission::all_in(wishes.folder)?;
     let refused = |path: &Path, source| ExerciseError::Marks { path: path.into(), source };
@@ -103,11 +103,11 @@ pub fn grade(wishes: &GradeOptions) -> Result<Exit, ExerciseError> {
     }
 }
 
-/// A mark, and what it is known from.
+/// A mark and its origin.
 struct GradedMark {
     mark: Mark,
     message: String,
-    /// None where the same attempt may get another mark the next time.
+    /// `None` if a repeated attempt may get a different mark.
     fingerprint: Option<String>,
     origin: MarkOrigin,
 }
@@ -119,7 +119,7 @@ enum MarkOrigin {
 }
 
 impl GradedMark {
-    /// Looks for the mark of an attempt, and judges it where there is none. Nothing when that was interrupted.
+    /// Mark of an attempt from an earlier run, or by judging; `None` if interrupted.
     fn find(
         submission: &Submission,
         exercise: &'static Exercise,
@@ -141,13 +141,13 @@ impl GradedMark {
             Ok(marked) => (false, marked?),
             Err(error) => (true, (Mark::Broken, format!("cannot start a process for it: {error}"))),
         };
-        // What was changed in the meantime may not be what was judged.
+        // The attempt may have changed while it was judged.
         let fingerprint = (!is_ours && of_attempt() == before).then_some(before);
         Some(Self { mark, message, fingerprint, origin: MarkOrigin::ThisRun })
     }
 }
 
-/// What is shown, line by line for people and student by student for programs.
+/// Output of marks: by line for people, by student for programs.
 struct GradeSheet {
     form: GradeFormat,
     student_width: usize,
@@ -155,7 +155,7 @@ struct GradeSheet {
     reports: Vec<StudentReport>,
 }
 
-/// Columns of the widest student's name that lines are made for.
+/// Maximum column width for student names.
 const WIDEST: usize = 40;
 
 impl GradeSheet {
@@ -202,7 +202,7 @@ impl GradeSheet {
         }
     }
 
-    /// Tells of the last student, who is complete; what comes behind him is not known yet.
+    /// Prints the last student, whose marks are complete.
     fn tell_student(&self) {
         let Some(report) = self.reports.last() else { return };
         let comma = if self.reports.len() > 1 { "    ,\n" } else { "" };
@@ -211,7 +211,7 @@ impl GradeSheet {
         say(&format!("{comma}{}", lines.join("\n")));
     }
 
-    /// What follows the last mark, also when there are fewer than there should be.
+    /// Prints the end of the output, even if marks are missing.
     fn end(&self) {
         match self.form {
             GradeFormat::Json => say("  ]\n}"),
@@ -229,7 +229,7 @@ impl GradeSheet {
     }
 }
 
-/// Text for a line of a terminal: nothing in it moves the cursor.
+/// Text without control characters.
 fn shown(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { '\u{b7}' } else { c }).collect()
 }

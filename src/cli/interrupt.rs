@@ -1,4 +1,4 @@
-//! Ctrl-C, and being asked to end: the run is to stop after its current step; where nothing hears of it, the program ends.
+//! Handling of Ctrl-C and termination: the run stops after its current step; if it does not react, the program ends.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -11,22 +11,22 @@ use super::tui::terminal;
 use crate::repl::editor::typed_ahead;
 use crate::script::state::limits::INTERRUPT_HEARD;
 
-/// So long has a run to hear of it,
+/// Time for a run to react.
 const GRACE: Duration = Duration::from_millis(900);
 
-/// and so long one that has heard to write what ran: that takes a moment where much did.
+/// Time for a run that reacted to save its results.
 const TO_WRITE: Duration = Duration::from_secs(20);
 
-/// What is lost when Ctrl-C ends the program.
+/// Work lost when Ctrl-C ends the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InterruptLoss {
-    /// A run is at stake: what does not hear of Ctrl-C ends soon after, or with the second one.
+    /// A run: the program ends after a grace period, or with a second Ctrl-C.
     Run,
-    /// A session with everything that was built in it is at stake: a Ctrl-C ends it that comes a while after the first was not heard.
+    /// A session with all its data: the program ends only with another Ctrl-C some time after an unnoticed first one.
     Session,
 }
 
-/// A flag that Ctrl-C sets.
+/// Creates a flag that Ctrl-C sets.
 pub fn flag(at_stake: InterruptLoss) -> Arc<AtomicBool> {
     let patience = match at_stake {
         InterruptLoss::Run => Duration::ZERO,
@@ -39,7 +39,7 @@ pub fn flag(at_stake: InterruptLoss) -> Arc<AtomicBool> {
         if !set.swap(true, Ordering::Relaxed) {
             asked = Instant::now();
             if at_stake == InterruptLoss::Run {
-                // Beside this thread, which waits for the second Ctrl-C.
+                // A separate thread, because this one waits for the second Ctrl-C.
                 thread::spawn(|| {
                     thread::sleep(GRACE);
                     if INTERRUPT_HEARD.load(Ordering::Relaxed) {
@@ -53,14 +53,14 @@ pub fn flag(at_stake: InterruptLoss) -> Arc<AtomicBool> {
         }
     });
     if let Err(error) = installed {
-        // Without a handler Ctrl-C ends the process as usual: worth a word, not a failure.
+        // Without a handler Ctrl-C ends the process as usual; a warning suffices.
         tell(&format!("warning: Ctrl-C will not save what ran: {error}\n"));
     }
     flag
 }
 
-/// Lets a session end within a second when the system asks for it, as when its window is closed: Ctrl-C is for its inputs.
-/// To be called before there are other threads.
+/// Ends a session within a second on SIGTERM and SIGHUP, such as when its window is closed; Ctrl-C is reserved for its inputs. Must be
+/// called before other threads start.
 #[cfg(unix)]
 pub fn end_when_asked() {
     use nix::sys::signal::{SigSet, Signal};

@@ -1,4 +1,4 @@
-//! `withy learn`: exercises, for one who learns.
+//! `withy learn`: exercises for students.
 
 use std::io::{IsTerminal, stderr, stdout};
 use std::path::{Path, PathBuf};
@@ -26,7 +26,7 @@ use crate::panics;
 use crate::script::diagnose::{Colours, Diagnostic};
 use crate::script::state::settings::{RunMode, RunSettings};
 
-/// Does what `withy learn` asks for.
+/// Runs `withy learn`.
 pub fn learn(options: &LearnOptions) -> Exit {
     panics::silence();
     let workbook = Workbook::near(Path::new("."));
@@ -65,7 +65,7 @@ pub fn learn(options: &LearnOptions) -> Exit {
 
 type Done = Result<Exit, ExerciseError>;
 
-/// Makes what is missing of the folder of exercises.
+/// Creates missing exercise files.
 fn begin(workbook: &Workbook) -> Result<(), ExerciseError> {
     if workbook.fill()? == EXERCISES.len() {
         say(&format!(
@@ -102,7 +102,7 @@ fn list(workbook: &Workbook) -> Done {
     Ok(Exit::Good)
 }
 
-/// Says what comes next.
+/// Prints the next exercise.
 fn show_next(workbook: &Workbook) -> Done {
     match workbook.next()? {
         Some(exercise) => {
@@ -117,7 +117,7 @@ fn show_next(workbook: &Workbook) -> Done {
     Ok(Exit::Good)
 }
 
-/// Judges an attempt and says what it found.
+/// Judges an attempt and prints the result.
 fn check(
     workbook: &Workbook,
     exercise: &Exercise,
@@ -158,7 +158,7 @@ fn check(
     Ok(Exit::CheckFailed)
 }
 
-/// Notes what an attempt is worth; where that cannot be done, says so: the judgement stands.
+/// Records whether an attempt passed; a failure to record is reported.
 fn note(workbook: &Workbook, exercise: &Exercise, has_passed: bool) -> bool {
     let noted = workbook.note(exercise, has_passed);
     if let Err(error) = &noted {
@@ -174,16 +174,15 @@ fn judge_file(workbook: &Workbook, exercise: &Exercise, settings: RunSettings) -
     }
 }
 
-/// What is said when all attempts are judged.
+/// Detail of the output after judging all attempts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Detail {
-    /// How many are passed, and what comes next.
+    /// Number of passed exercises, and the next one.
     Summary,
-    /// A line for each, before.
+    /// One line per exercise, and the summary.
     Each,
 }
 
-/// Judges all attempts.
 fn check_all(workbook: &Workbook, detail: Detail, limits: &LimitOptions) -> Done {
     begin(workbook)?;
     let flag = interrupt::flag(InterruptLoss::Run);
@@ -229,7 +228,7 @@ fn check_all(workbook: &Workbook, detail: Detail, limits: &LimitOptions) -> Done
     Ok(if passed == EXERCISES.len() { Exit::Good } else { Exit::CheckFailed })
 }
 
-/// Shows the model solution of what is passed.
+/// Shows the model solution of a passed exercise.
 fn solution(workbook: &Workbook, name: &str) -> Done {
     begin(workbook)?;
     let exercise = find(name)?;
@@ -283,7 +282,7 @@ fn reset(workbook: &Workbook, name: &str) -> Done {
     Ok(Exit::Good)
 }
 
-/// Judges what is saved: on a screen where there is one, else in lines.
+/// Judges attempts when they are saved: on a full screen if possible, otherwise in lines.
 fn watch(workbook: &Workbook, limits: &LimitOptions) -> Done {
     begin(workbook)?;
     let flag = interrupt::flag(InterruptLoss::Run);
@@ -297,7 +296,7 @@ fn watch(workbook: &Workbook, limits: &LimitOptions) -> Done {
     show_next(workbook)
 }
 
-/// Judges what is saved, until all is passed or Ctrl-C comes.
+/// Judges attempts when they are saved, until all have passed or Ctrl-C is pressed.
 fn watch_in_lines(workbook: &Workbook, limits: &LimitOptions, flag: &Arc<AtomicBool>) -> Done {
     let mut watcher = Watcher::new(workbook);
     let mut current = workbook.next()?;
@@ -327,7 +326,7 @@ fn watch_in_lines(workbook: &Workbook, limits: &LimitOptions, flag: &Arc<AtomicB
     show_next(workbook)
 }
 
-/// A path as one would type it in the present folder.
+/// Path as typed from the current folder.
 pub(super) fn shown(path: &Path) -> String {
     let path: PathBuf = path.strip_prefix(".").unwrap_or(path).into();
     if path.as_os_str().is_empty() { "this folder".into() } else { path.display().to_string() }

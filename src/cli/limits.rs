@@ -1,4 +1,4 @@
-//! Options that set what a script may use; the same for all commands that run scripts.
+//! Options for resource limits, common to all commands that run scripts.
 
 use std::time::Duration;
 
@@ -34,12 +34,12 @@ pub struct LimitOptions {
     max_files: Option<u64>,
 }
 
-/// The defaults for an attempt that is graded.
+/// Defaults for graded attempts.
 const MEGABYTES_OF_AN_ATTEMPT: u64 = 100;
 const FILES_OF_AN_ATTEMPT: u64 = 100;
 
 impl LimitOptions {
-    /// The limits of a run that these options ask for.
+    /// Limits of a run.
     pub fn limits(&self) -> Limits {
         Limits {
             time: self.max_time,
@@ -51,7 +51,7 @@ impl LimitOptions {
         }
     }
 
-    /// The limits of somebody's attempt that these options ask for: it may write less and always has an end.
+    /// Limits of an attempt: less output, and always a time limit.
     pub fn for_an_attempt(&self) -> Limits {
         Limits {
             time: self.max_time.or(Some(PATIENCE)),
@@ -61,7 +61,7 @@ impl LimitOptions {
         }
     }
 
-    /// The options as they are written on a command line.
+    /// Options as command line arguments.
     pub fn words(&self) -> Vec<String> {
         let time = self.max_time.map(|time| time.as_secs_f64().to_string());
         let given = [

@@ -1,4 +1,4 @@
-//! The command line: definitions, running, sessions, and the progress bar. What it does is done by `script` and `repl`.
+//! Command line: definitions, runs, sessions, and the progress bar. The work is done by `script` and `repl`.
 
 mod args;
 mod attempt_process;

@@ -1,4 +1,4 @@
-//! The progress bar of a terminal.
+//! Progress bar in a terminal.
 
 use std::cell::{Cell, RefCell};
 use std::io::{IsTerminal, stderr};
@@ -9,16 +9,16 @@ use indicatif::{ProgressBar, ProgressStyle};
 use crate::script::messages::numbers::format_number;
 use crate::script::messages::progress::{NoProgress, Progress};
 
-/// Whether a bar of progress is wanted.
+/// Preference for a progress bar.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ProgressPreference {
-    /// The bar is wanted, where there is a terminal.
+    /// Shown, if there is a terminal.
     Show,
-    /// The bar is not wanted.
+    /// Hidden.
     Hide,
 }
 
-/// What shows progress: a bar on a terminal; nothing in a pipe or when it is not wanted.
+/// Progress display: a bar on a terminal, otherwise none.
 pub fn progress(wish: ProgressPreference) -> Box<dyn Progress + Send> {
     match wish == ProgressPreference::Show && stderr().is_terminal() {
         true => Box::new(ProgressDisplay::default()),
@@ -26,7 +26,7 @@ pub fn progress(wish: ProgressPreference) -> Box<dyn Progress + Send> {
     }
 }
 
-/// A bar over the time of one simulation, or over the cases of one study, at a time. What is over soon never makes one.
+/// A bar over the time of a simulation or the cases of a study. Short runs show none.
 #[derive(Default)]
 struct ProgressDisplay {
     begun: Cell<Option<Instant>>,
@@ -36,15 +36,15 @@ struct ProgressDisplay {
     shown: RefCell<Option<ProgressBar>>,
 }
 
-/// Parts that a bar is divided into: finer than any terminal is wide.
+/// Resolution of the bar, finer than any terminal.
 const PARTS: u64 = 1000;
-/// Nobody needs to be told that something will be ready this soon.
+/// No bar for runs shorter than this.
 const SOON: Duration = Duration::from_millis(300);
 
 impl ProgressDisplay {
     fn make(&self) -> ProgressBar {
         let bar = ProgressBar::new(PARTS);
-        // A template that does not parse would show the default bar: less pretty, as useful.
+        // An invalid template falls back to the default bar.
         let style = ProgressStyle::with_template("{prefix} {wide_bar} {msg} {eta}");
         bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
         bar.set_prefix(self.name.borrow().clone());
@@ -52,7 +52,7 @@ impl ProgressDisplay {
         bar
     }
 
-    /// Shows how far it is, unless it may be over soon.
+    /// Updates the bar, unless the run may end soon.
     fn show(&self, reached: f64, message: impl FnOnce() -> String) {
         let mut shown = self.shown.borrow_mut();
         if shown.is_none() && self.begun.get().is_none_or(|begun| begun.elapsed() < SOON) {

@@ -22,10 +22,10 @@ use crate::script::source::program::Program;
 use crate::script::state::limits::HardAbort;
 use crate::script::state::settings::{JournalPreference, RunMode, RunSettings, StudyPreferences};
 
-/// The largest report that is looked at before it is replaced [bytes].
+/// Maximum size of a report that is checked before it is replaced [bytes].
 const LARGEST_REPORT: u64 = 1 << 28;
 
-/// Does what `withy run` asks for: runs a script.
+/// Runs `withy run`.
 pub fn run(options: &RunOptions) -> Exit {
     let wish = if options.quiet { ProgressPreference::Hide } else { ProgressPreference::Show };
     if let Some(Err(diagnostic)) = options.report.as_deref().map(expect_report) {
@@ -56,7 +56,7 @@ pub fn run(options: &RunOptions) -> Exit {
     exit_for(&outcome)
 }
 
-/// Does what `withy study` asks for: runs a script whose studies keep a journal.
+/// Runs `withy study`: a script whose studies keep a journal.
 pub fn study(options: &StudyOptions) -> Exit {
     let wish = if options.quiet { ProgressPreference::Hide } else { ProgressPreference::Show };
     let studies = StudyPreferences {
@@ -88,7 +88,7 @@ pub fn study(options: &StudyOptions) -> Exit {
     }
 }
 
-/// Does what `withy check` asks for: parses a script and builds its scenes.
+/// Runs `withy check`: parses a script and builds its scenes.
 pub fn check(options: &CheckOptions) -> Exit {
     let settings = RunSettings {
         interrupt: interrupt::flag(InterruptLoss::Run),
@@ -132,7 +132,7 @@ pub(super) fn exit_for(outcome: &RunOutcome) -> Exit {
     }
 }
 
-/// The same for a script of studies that can go on: what is kept of them is told.
+/// Exit code of a run with studies; kept cases are reported.
 fn exit_for_study(outcome: &RunOutcome, out: &Path) -> Exit {
     let (cases, are) = match outcome.kept_cases {
         0 => return exit_for(outcome),
@@ -146,7 +146,7 @@ fn exit_for_study(outcome: &RunOutcome, out: &Path) -> Exit {
             Exit::Interrupted
         }
         Ending::Failed(diagnostic) => {
-            // Studies take their time: that a limit was reached says nothing of loops without an end.
+            // For long studies a time limit does not suggest an endless loop.
             let hint = match outcome.stopped_by {
                 Some(Stop::Time(_)) => Some("--max-time SECONDS allows more".to_owned()),
                 _ => diagnostic.hint.clone(),
@@ -159,7 +159,7 @@ fn exit_for_study(outcome: &RunOutcome, out: &Path) -> Exit {
     }
 }
 
-/// The same for a part of the studies of a script: what the script does behind them with results that are not known here is of no matter.
+/// Exit code of a run that computes a part of studies; errors after the studies are irrelevant, because their results are incomplete.
 fn exit_for_part(outcome: &RunOutcome, options: &StudyOptions) -> Exit {
     let cases = match outcome.kept_cases {
         1 => "1 finished case is".to_owned(),
@@ -189,7 +189,7 @@ fn exit_for_part(outcome: &RunOutcome, options: &StudyOptions) -> Exit {
     }
 }
 
-/// Shows an error on the terminal; gives the exit code for it.
+/// Prints an error; returns the exit code.
 pub(super) fn refuse(diagnostic: &Diagnostic) -> Exit {
     let wants_colours =
         stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
@@ -206,7 +206,7 @@ pub(super) fn show_summary(outcome: &RunOutcome) {
     }
 }
 
-/// What ends the program when a limit is passed in the middle of something that does not hear of it.
+/// Creates the handler that ends the program when a limit is exceeded and the run does not react.
 pub(super) fn last_resort() -> HardAbort {
     Arc::new(end_at)
 }
@@ -221,7 +221,7 @@ fn end_at(stop: Stop) {
     process::exit(Exit::Wrong as i32)
 }
 
-/// A report may take the place of another one, and of nothing else.
+/// Checks that a report file does not exist or is an earlier report.
 fn expect_report(file: &Path) -> Result<(), Diagnostic> {
     if file.symlink_metadata().is_err() {
         return Ok(());

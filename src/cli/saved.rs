@@ -1,28 +1,28 @@
-//! A run of one line about a saved simulation, for commands that need no script.
+//! Generated one-line scripts about a saved simulation.
 
 use std::path::{Path, PathBuf};
 
 use crate::script::source::program::Program;
 
-/// The folder of a file that a person has named.
+/// Folder of a file.
 pub(super) fn folder_of(file: &Path) -> PathBuf {
     let parent = file.parent().filter(|parent| !parent.as_os_str().is_empty());
     parent.unwrap_or(Path::new(".")).to_owned()
 }
 
-/// The name of a file without its folder and its ending.
+/// File name without folder and extension.
 pub(super) fn stem_of(file: &Path) -> String {
     file.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
-/// The program of a command that calls `sim` what is in the file, and goes on with a line.
+/// Generated program of a command: loads the file as `sim` and continues with a line.
 pub(super) fn program(command: &str, file: &Path, line: &str) -> Program {
     let name = file.file_name().map(|name| name.to_string_lossy()).unwrap_or_default();
     let text = format!("let sim = load_simulation({}); {line}\n", literal(&name));
     Program { folder: folder_of(file), ..Program::named(command, &text) }
 }
 
-/// A text of the language.
+/// String literal of the language.
 pub(super) fn literal(text: &str) -> String {
     let escape = |letter: char| match letter {
         '\\' | '"' => format!("\\{letter}"),

@@ -1,4 +1,4 @@
-//! `withy`, `withy repl` and `withy -e`: a session with a terminal, with a pipe, or with inputs of the command line.
+//! `withy`, `withy repl` and `withy -e`: sessions with a terminal, with a pipe, or with inputs of the command line.
 
 use std::io::{self, IsTerminal, stderr, stdin, stdout};
 use std::path::{Path, PathBuf};
@@ -23,7 +23,7 @@ use crate::script::packages::language;
 use crate::script::source::program::Program;
 use crate::script::state::settings::{RunMode, RunSettings};
 
-/// Does what `withy repl` asks for: opens a session in which a file may be evaluated first.
+/// Runs `withy repl`: opens a session, optionally after evaluating a file.
 pub fn open(options: &ReplOptions) -> Exit {
     panics::silence();
     if is_conversation(&options.session) {
@@ -40,12 +40,12 @@ pub fn start(options: SessionOptions) -> Exit {
     open(&ReplOptions { file: None, session: options })
 }
 
-/// Whether a person types.
+/// Returns true if the session is interactive.
 fn is_conversation(options: &SessionOptions) -> bool {
     options.inputs.is_empty() && stdin().is_terminal() && stdout().is_terminal()
 }
 
-/// A session from its beginning to its end.
+/// Runs a session.
 fn hold(options: &ReplOptions) -> Result<Exit, Diagnostic> {
     let ReplOptions { file, session: options } = options;
     let is_conversation = is_conversation(options);
@@ -72,7 +72,7 @@ fn hold(options: &ReplOptions) -> Result<Exit, Diagnostic> {
     Ok(exit_for(&shell, outcome))
 }
 
-/// Lets a person type.
+/// Runs an interactive session.
 fn converse(shell: &mut Shell, options: &SessionOptions) -> Result<(), Diagnostic> {
     let no_terminal = |error: io::Error| {
         Diagnostic::general(format!("cannot read from the terminal: {error}"))
@@ -132,13 +132,13 @@ fn settings(options: &SessionOptions, is_conversation: bool) -> RunSettings {
     }
 }
 
-/// A session may read where its file is, or where it was started.
+/// Folder that a session may read: that of its file, or the current one.
 fn folder_of(file: &Option<PathBuf>) -> PathBuf {
     let parent = file.as_deref().and_then(Path::parent);
     parent.filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new(".")).into()
 }
 
-/// What the terminal can show.
+/// Terminal style.
 fn style(options: &SessionOptions) -> TerminalStyle {
     let style = TerminalStyle::of_environment(|name| std::env::var(name).ok());
     match options.ascii {

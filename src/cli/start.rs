@@ -1,4 +1,4 @@
-//! From the command line to what it asks for.
+//! Dispatch of the command line.
 
 use std::io::{ErrorKind, Write, stdout};
 use std::process::ExitCode;
@@ -8,7 +8,7 @@ use clap::Parser;
 use super::args::{CliArguments, CliCommand};
 use super::{Exit, console, convert, docs, learn, run, session, view};
 
-/// Runs the program: reads the command line and does what it says.
+/// Parses the command line and runs the command.
 pub fn main() -> ExitCode {
     let arguments = match CliArguments::try_parse() {
         Ok(arguments) => arguments,
@@ -31,7 +31,7 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// Prints what the command line itself asks for, such as its help, or what is wrong with it.
+/// Prints help or errors of the command line parser.
 fn answered(answer: &clap::Error) -> Exit {
     let printed = answer.print().and_then(|()| stdout().flush());
     let is_lost = printed.is_err_and(|error| error.kind() != ErrorKind::BrokenPipe);

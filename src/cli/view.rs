@@ -1,6 +1,6 @@
-//! `withy view`: a page on which a saved simulation moves, or those that a script has left in its variables.
+//! `withy view`: viewer page of a saved simulation, or of the simulations left in the variables of a script.
 //!
-//! It is a run with one line more, which writes the page.
+//! Runs the script with an additional line that writes the page.
 
 use std::fs;
 use std::io::stdout;
@@ -25,13 +25,13 @@ use crate::script::source::program::Program;
 use crate::script::source::text::Source;
 use crate::script::state::settings::{RunMode, RunSettings};
 
-/// What is run, and where it may write.
+/// Program, and its output folder.
 struct ViewRun {
     program: Program,
     out: PathBuf,
-    /// The name of the page in that folder.
+    /// Name of the page in that folder.
     page: String,
-    /// What the page is written into first where a person has named another place for it.
+    /// Temporary folder of the page, if the user chose another location.
     _scratch: Option<Scratch>,
 }
 
@@ -63,7 +63,7 @@ fn prepare(options: &ViewOptions) -> Result<ViewRun, Diagnostic> {
     Ok(ViewRun { program, out, page, _scratch: scratch })
 }
 
-/// Lines that show all simulations which the variables of a script hold at its end, also in arrays, each once; where there is none, the last.
+/// Script lines that show all simulations in top-level variables, including arrays, without duplicates; if there are none, the last one.
 fn showing_all(program: &Program, page: &str) -> String {
     let mut names: Vec<String> = Vec::new();
     for (name, _) in ScriptOutline::of(&Source::from(&*program.text)).top_level {
@@ -111,7 +111,7 @@ fn perform(run: ViewRun, options: &ViewOptions) -> Exit {
     exit_for(&outcome)
 }
 
-/// Puts the page where a person wants it.
+/// Moves the page to the location chosen by the user.
 fn put(page: &Path, place: &Path) -> Result<(), Diagnostic> {
     let failed = |error: String| {
         Diagnostic::general(format!("cannot write the page '{}': {error}", place.display()))
@@ -122,7 +122,7 @@ fn put(page: &Path, place: &Path) -> Result<(), Diagnostic> {
     fs::remove_file(page).map_err(|error| failed(error.to_string()))
 }
 
-/// Lets the system open a page. Whether it knows how to.
+/// Opens a page with the system's default program; returns false on failure.
 fn open(page: &Path) -> bool {
     let program = match std::env::consts::OS {
         "macos" => "open",

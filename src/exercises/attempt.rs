@@ -1,4 +1,4 @@
-//! The file of an attempt: a person has put it there, and it may be anything.
+//! Reading of attempts, which are arbitrary files.
 
 use std::io::ErrorKind;
 use std::path::Path;
@@ -7,13 +7,12 @@ use crate::sandbox_fs::Folder;
 use crate::script::diagnose::Diagnostic;
 use crate::script::source::program::Program;
 
-/// The largest file that is taken for an attempt [bytes].
+/// Maximum size of an attempt [bytes].
 pub const LARGEST: u64 = 1 << 20;
 
-/// Reads an attempt at an exercise that lies in a folder.
+/// Reads an attempt in a folder.
 ///
-/// # Errors
-/// When it is no ordinary file of at most a megabyte, or a link leads to it, or it is no text.
+/// If it is not a regular UTF-8 file of at most a megabyte, or is a link.
 pub fn load(path: &Path, folder: &Path) -> Result<Program, Diagnostic> {
     let refused = |why: &str| {
         let told = format!("cannot read the attempt '{}': {why}", path.display());

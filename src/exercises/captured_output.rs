@@ -1,23 +1,23 @@
-//! What an attempt prints, heard up to a length: enough for a person to read.
+//! Captured output of an attempt, limited in length.
 
 use std::io::{self, Write};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use serde::{Deserialize, Serialize};
 
-/// The most that is kept [bytes].
+/// Maximum captured length [bytes].
 const MOST: usize = 1 << 14;
 
-/// What an attempt was heard to print.
+/// Captured output.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CapturedOutput {
-    /// The first lines that were heard.
+    /// First lines.
     pub lines: Vec<String>,
-    /// The number of lines beyond the first ones.
+    /// Number of further lines.
     pub more: usize,
 }
 
-/// A writer that remembers the beginning of what is written and counts the rest. Its clones are one.
+/// A writer that keeps the beginning of the output and counts the rest. Clones share the buffer.
 #[derive(Clone, Default)]
 pub struct CaptureWriter(Arc<Mutex<CapturedText>>);
 
@@ -28,7 +28,7 @@ struct CapturedText {
 }
 
 impl CaptureWriter {
-    /// What was written to this writer until now.
+    /// Output captured so far.
     pub fn heard(&self) -> CapturedOutput {
         let heard = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let text = String::from_utf8_lossy(&heard.kept);

@@ -1,19 +1,19 @@
-//! The table of all exercises, in the order in which they are met. Each row embeds its files in the program.
+//! Catalogue of all exercises, in order. Their files are embedded in the program.
 
 use super::error::ExerciseError;
 use super::exercise::Exercise;
 use crate::script::messages::suggest::nearest;
 
-/// A track: exercises on one subject.
+/// A series of exercises on one subject.
 #[derive(Debug, PartialEq, Eq)]
 pub struct ExerciseTrack {
-    /// The name of the track, and that of its folders.
+    /// Name of the track and its folder.
     pub name: &'static str,
-    /// What the track is about.
+    /// Title of the track.
     pub title: &'static str,
 }
 
-/// The tracks of exercises, in their order.
+/// Tracks, in order.
 pub const TRACKS: &[ExerciseTrack] = &[
     ExerciseTrack { name: "beams", title: "Beams and sections" },
     ExerciseTrack { name: "splines", title: "Splines and knot vectors" },
@@ -22,7 +22,7 @@ pub const TRACKS: &[ExerciseTrack] = &[
     ExerciseTrack { name: "studies", title: "Sweeps and fits" },
 ];
 
-/// An exercise from its files.
+/// Embeds the files of an exercise.
 macro_rules! exercise {
     ($track:literal, $name:literal) => {
         Exercise {
@@ -47,7 +47,7 @@ macro_rules! exercise {
     };
 }
 
-/// All exercises, track by track, from easy to hard.
+/// All exercises by track, from easy to hard.
 pub const EXERCISES: &[Exercise] = &[
     exercise!("beams", "change_one_number"),
     exercise!("beams", "rectangle"),
@@ -74,10 +74,9 @@ pub const EXERCISES: &[Exercise] = &[
     exercise!("studies", "whose_stiffness"),
 ];
 
-/// The exercise that is meant by `name`, `track/name`, or the path of its file.
+/// Exercise identified by `name`, `track/name`, or the path of its file.
 ///
-/// # Errors
-/// When there is none, with the one that was probably meant.
+/// If there is none; the error contains a suggestion.
 pub fn find(name: &str) -> Result<&'static Exercise, ExerciseError> {
     let wanted = name.strip_suffix(".rhai").unwrap_or(name);
     let is_meant = |exercise: &&Exercise| {

@@ -1,5 +1,4 @@
-//! The attempts of a class, on all cores: each is judged by itself, and marks are told in the order of the class as soon as they
-//! and all before them are known.
+//! Parallel grading of the attempts of a class. Each attempt is judged independently, and marks are reported in order.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -10,9 +9,9 @@ use super::catalogue::EXERCISES;
 use super::exercise::Exercise;
 use super::submissions::Submission;
 
-/// Grades a class: asks `judge` for every mark, from `workers` threads at once. Each mark is handed to `note` as soon as it is known, and to
-/// `tell` student by student in the order of the exercises. Gives whether it came to the end: `judge` gives nothing when it was
-/// interrupted, and `stop` ends it too.
+/// Grades a class: calls `judge` for every mark, from `workers` threads. Each mark is passed to `note` as soon as it is known, and to
+/// `tell` by student in the order of the exercises. Returns true if grading completed: it ends early if `judge` returns `None` or `stop` is
+/// set.
 pub fn grade<M: Send>(
     submissions: &[Submission],
     workers: usize,

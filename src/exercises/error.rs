@@ -1,19 +1,19 @@
-//! What can go wrong with the folder of a student or of a class.
+//! Errors of the folder of a student or a class.
 
 use std::io;
 use std::path::PathBuf;
 
 use crate::output::OutputError;
 
-/// Why a folder of exercises cannot be used.
+/// Error of a folder of exercises.
 #[derive(Debug, thiserror::Error)]
 pub enum ExerciseError {
-    /// No exercise has this name.
+    /// Unknown exercise.
     #[error("there is no exercise '{name}'; {}", meant(.nearest.as_deref()))]
     Unknown {
-        /// The name of an exercise that was asked for.
+        /// Requested name.
         name: String,
-        /// The name of the exercise that was probably meant.
+        /// Suggested name.
         nearest: Option<String>,
     },
     /// A file of the exercises could not be written.
@@ -22,17 +22,17 @@ pub enum ExerciseError {
     /// A file of the exercises could not be read.
     #[error("cannot read '{}': {source}; check that you may read it", path.display())]
     Read {
-        /// The file or folder that could not be read.
+        /// Path.
         path: PathBuf,
-        /// The system's reason for not reading the file or folder.
+        /// Error of the operating system.
         source: io::Error,
     },
-    /// The file of the marks could not be written.
+    /// The file of marks could not be written.
     #[error("cannot write the marks into '{}': {source}; --marks takes the name of a file that may be written", path.display())]
     Marks {
-        /// The file of the marks.
+        /// Path.
         path: PathBuf,
-        /// The system's reason for not writing the marks.
+        /// Error of the operating system.
         source: io::Error,
     },
     /// The terminal cannot be drawn on.
@@ -40,33 +40,33 @@ pub enum ExerciseError {
         "cannot go on with this terminal: {0}; 'withy learn watch | cat' tells the same in lines"
     )]
     Terminal(io::Error),
-    /// There is no folder for what attempts at exercises write.
+    /// No temporary folder for the output of attempts.
     #[error("cannot make a folder for what attempts write: {0}; TMPDIR says where it goes")]
     Scratch(io::Error),
-    /// The file of an attempt could not be renamed, to keep it.
+    /// The file of an attempt could not be renamed to keep it.
     #[error("cannot keep '{}' as '{}': {source}; nothing was changed", from.display(), to.display())]
     Keep {
-        /// The file that could not be renamed.
+        /// Old name.
         from: PathBuf,
-        /// The name that the file was to get.
+        /// New name.
         to: PathBuf,
-        /// The system's reason for not renaming the file.
+        /// Error of the operating system.
         source: io::Error,
     },
-    /// The file of the progress does not hold what this program wrote.
+    /// The progress file is invalid.
     #[error("'{}' is damaged ({why}); move it away to begin counting anew: your attempts stay", path.display())]
     Progress {
-        /// The file of the progress.
+        /// Path.
         path: PathBuf,
-        /// What is wrong with the content of the file of the progress.
+        /// Error in the content.
         why: serde_json::Error,
     },
-    /// A folder in which there is nothing to grade.
+    /// A folder without submissions.
     #[error("'{}' holds no submissions; it should have one folder for each student, with folders such as '{track}' in it", path.display())]
     NoSubmissions {
-        /// The folder in which there is nothing to grade.
+        /// Path.
         path: PathBuf,
-        /// The name of a track, whose folder it should have.
+        /// Name of a track folder that it could contain.
         track: &'static str,
     },
 }

@@ -1,39 +1,39 @@
-//! One exercise: texts that are embedded in the program, and what they say about themselves.
+//! An exercise: its embedded texts, and their metadata.
 
 use super::judge::Judge;
 
 /// An exercise with its task, solution and judge. The texts are files of `scripts/exercises`, embedded by [`catalogue`](super::catalogue).
 #[derive(Debug, PartialEq, Eq)]
 pub struct Exercise {
-    /// The track that the exercise belongs to, a folder.
+    /// Track, which is also its folder.
     pub track: &'static str,
-    /// The name of the exercise, by which no other one of any track goes.
+    /// Name, unique among all tracks.
     pub name: &'static str,
-    /// The file that a student begins the exercise with.
+    /// Start file.
     pub start: &'static str,
-    /// One right answer to the exercise.
+    /// Model solution.
     pub solution: &'static str,
-    /// The script that judges an attempt at the exercise, headed by what it needs and by hints.
+    /// Script that judges an attempt; its header contains the required variables and the hints.
     pub judge: &'static str,
 }
 
 impl Exercise {
-    /// The name of the exercise with that of its track: `track/name`.
+    /// Name with track: `track/name`.
     pub fn id(&self) -> String {
         format!("{}/{}", self.track, self.name)
     }
 
-    /// The file of the exercise below the folder of a student.
+    /// File in the folder of a student.
     pub fn file(&self) -> String {
         format!("{}/{}.rhai", self.track, self.name)
     }
 
-    /// What the exercise is about: the first line of its start file.
+    /// Title: first line of the start file.
     pub fn title(&self) -> &'static str {
         self.start.lines().next().and_then(|line| line.strip_prefix("//! ")).unwrap_or_default()
     }
 
-    /// The judge of the exercise.
+    /// Judge of the exercise.
     pub fn judge(&self) -> Judge {
         Judge::of(self.judge)
     }

@@ -1,4 +1,4 @@
-//! Whether the mark of an attempt still holds: a fingerprint of all that the mark depends on.
+//! Fingerprints of everything that the mark of an attempt depends on, to detect outdated marks.
 
 use super::attempt;
 use super::exercise::Exercise;
@@ -7,8 +7,7 @@ use crate::analysis::Journal;
 use crate::sandbox_fs::Folder;
 use crate::script::source::text::Source;
 
-/// The fingerprint of a student's attempt at an exercise, as a word, made of all that its mark depends on: its text, the files that it may
-/// read, the exercise, the limits, and this program.
+/// Fingerprint of a student's attempt: its text, the files that it may read, the exercise, the limits, and this program.
 pub fn fingerprint(submission: &Submission, exercise: &Exercise, limits: &[String]) -> String {
     let file = submission.attempt(exercise);
     let attempt = match file.as_deref().map(|path| attempt::load(path, &submission.folder)) {
@@ -27,17 +26,17 @@ pub fn fingerprint(submission: &Submission, exercise: &Exercise, limits: &[Strin
     format!("{:016x}", Journal::fingerprint(&[&parts[..], &[&beside]].concat()))
 }
 
-/// Whether an attempt may read other files.
+/// Returns true if an attempt may read other files.
 fn reads_files(attempt: &Source) -> bool {
     let reads = |name: &str| matches!(name, "load_simulation" | "Fn") || name.starts_with("study_");
     attempt.imports().next().is_some() || attempt.names().any(reads)
 }
 
-/// Most files that are looked at, and the most that is read of each [bytes]: of others the length and the time count.
+/// Maximum number of files, and maximum bytes read of each; larger files count by length and time.
 const MOST_FILES: usize = 1000;
 const MOST_READ: u64 = 1 << 20;
 
-/// Notes what lies in a folder and in those below it, by name and content. No link is followed: a script does not get there either.
+/// Records names and contents of all files in a folder and its subfolders. Links are not followed, as in scripts.
 fn note_files(folder: &Folder, noted: &mut Vec<u8>, count: &mut usize) {
     for entry in folder.entries().unwrap_or_default() {
         *count += 1;

@@ -1,4 +1,4 @@
-//! Grading submissions: every exercise of a student gets a mark, whatever the files hold.
+//! Grading of submissions: a mark for every exercise of a student, whatever the files contain.
 
 use std::path::PathBuf;
 
@@ -9,32 +9,32 @@ use super::exercise::Exercise;
 use super::judging::AttemptVerdict;
 use super::submissions::Submission;
 
-/// The mark of an attempt at an exercise.
+/// Mark of an attempt.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
-    /// The attempt does what the exercise asks for.
+    /// All checks of the judge passed.
     Passed,
-    /// The attempt runs, and something is off.
+    /// The attempt runs, but checks of the judge failed.
     Off,
-    /// The attempt does not run to its end, or is no text.
+    /// The attempt fails or is not a text file.
     Broken,
-    /// A limit stopped the attempt.
+    /// A limit was exceeded.
     Stopped,
-    /// The attempt is the start file, unchanged.
+    /// The start file is unchanged.
     Untouched,
-    /// There is no file with an attempt.
+    /// There is no file.
     Missing,
 }
 
 impl Mark {
-    /// The mark that a word stands for.
+    /// Mark of a keyword.
     pub fn of(word: &str) -> Option<Self> {
         let all =
             [Self::Passed, Self::Off, Self::Broken, Self::Stopped, Self::Untouched, Self::Missing];
         all.into_iter().find(|mark| mark.word() == word)
     }
 
-    /// The mark in one word.
+    /// Keyword of the mark.
     pub fn word(self) -> &'static str {
         match self {
             Self::Passed => "passed",
@@ -47,33 +47,33 @@ impl Mark {
     }
 }
 
-/// One exercise with the mark of a student's attempt.
+/// Mark of an exercise.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Graded {
-    /// The exercise that is graded.
+    /// Exercise.
     pub exercise: &'static Exercise,
-    /// The mark of the attempt.
+    /// Mark.
     pub mark: Mark,
-    /// What is off in the attempt; empty where nothing is.
+    /// Message; may be empty.
     pub message: String,
 }
 
-/// The marks of one student.
+/// Marks of a student.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct StudentReport {
-    /// The name of the student.
+    /// Name of the student.
     pub student: String,
-    /// The marks of all exercises, in the order of the table.
+    /// Marks of all exercises, in the order of the catalogue.
     pub graded: Vec<Graded>,
 }
 
 impl StudentReport {
-    /// The number of exercises that the student has passed.
+    /// Number of passed exercises.
     pub fn passed(&self) -> usize {
         self.graded.iter().filter(|graded| graded.mark == Mark::Passed).count()
     }
 
-    /// The marks of the student as JSON.
+    /// Marks as JSON.
     pub fn json(&self) -> Value {
         let exercises: Vec<_> = self
             .graded
@@ -86,16 +86,16 @@ impl StudentReport {
     }
 }
 
-/// What is to be done to find the mark of an attempt.
+/// Work needed to find a mark.
 pub enum GradingTask {
-    /// Nothing is to be done: the mark is known without judging, with what is off.
+    /// None: the mark and its message are known without judging.
     Known(Mark, String),
-    /// The attempt in this file, which can be read, is to be judged.
+    /// The attempt in this file must be judged.
     Judge(PathBuf),
 }
 
 impl GradingTask {
-    /// Looks at what a student has handed in for an exercise.
+    /// Inspects the submission for an exercise.
     pub fn of(submission: &Submission, exercise: &Exercise) -> Self {
         if submission.is_link() {
             let told = format!("the folder '{}' is a link", submission.folder.display());
@@ -117,7 +117,7 @@ impl GradingTask {
     }
 }
 
-/// The mark of an attempt from its verdict, and what is off. Nothing when it was interrupted.
+/// Mark and message of a verdict; `None` if interrupted.
 pub fn mark(verdict: AttemptVerdict) -> Option<(Mark, String)> {
     let (mark, message) = match verdict {
         AttemptVerdict::Passed => (Mark::Passed, String::new()),
@@ -132,7 +132,7 @@ pub fn mark(verdict: AttemptVerdict) -> Option<(Mark, String)> {
     Some((mark, message))
 }
 
-/// Whether two texts are the same but for the ends of lines.
+/// Compares texts without trailing blanks.
 fn is_same(a: &str, b: &str) -> bool {
     a.lines().map(str::trim_end).eq(b.lines().map(str::trim_end))
 }

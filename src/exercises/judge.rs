@@ -1,4 +1,4 @@
-//! The head of a judge's script: what it needs of the attempt, and hints.
+//! Header of a judge's script: required variables and hints.
 //!
 //! ```text
 //! //! needs: sim (simulation), rod (beam)
@@ -7,26 +7,26 @@
 //! //! hint: The second one says more.
 //! ```
 
-/// What stands in the head of the script that judges an exercise.
+/// Parsed header of a judge's script.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Judge {
-    /// The variables of the attempt that the judge sees, and no others.
+    /// Variables of the attempt that are visible to the judge.
     pub needs: Vec<Need>,
-    /// The hints to the exercise, each more open than the one before.
+    /// Hints, from vague to explicit.
     pub hints: Vec<String>,
 }
 
 /// A variable that an attempt must define.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Need {
-    /// The name of the variable.
+    /// Name.
     pub name: String,
-    /// The name of the type of the variable, as in messages and help.
+    /// Type name, as in messages and help.
     pub of: String,
 }
 
 impl Judge {
-    /// Reads the head of a judge's script.
+    /// Parses the header of a judge's script.
     pub fn of(script: &str) -> Self {
         let head = script.lines().map_while(|line| line.strip_prefix("//!")).map(str::trim);
         let mut entries: Vec<String> = Vec::new();
@@ -47,7 +47,7 @@ impl Judge {
     }
 }
 
-/// `name (type)`.
+/// Parses `name (type)`.
 fn need(text: &str) -> Option<Need> {
     let (name, of) = text.trim().strip_suffix(')')?.split_once(" (")?;
     Some(Need { name: name.into(), of: of.into() })

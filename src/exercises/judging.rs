@@ -1,7 +1,5 @@
-//! Judging an attempt: it runs as any script, then the judge's script runs with variables of it and looks at the physics.
-//!
-//! The judge sees the variables that it names in its head, and nothing else of the attempt: functions, constants and
-//! names of the attempt cannot take the place of what the judge calls. Only checks of the judge count.
+//! The judge sees only the variables named in its header, so that functions, constants and names of the attempt cannot replace those that
+//! the judge uses. Only checks of the judge count.
 
 use std::any::TypeId;
 use std::time::Duration;
@@ -21,25 +19,25 @@ use crate::script::packages::language;
 use crate::script::source::program::Program;
 use crate::script::state::settings::RunSettings;
 
-/// How long an attempt may take, and its judge as well, unless a limit is set.
+/// Default time limit of an attempt, and of its judge.
 pub const PATIENCE: Duration = Duration::from_secs(20);
 
-/// The verdict on an attempt at an exercise.
+/// Verdict on an attempt.
 #[derive(Debug)]
 pub enum AttemptVerdict {
-    /// The attempt does what the exercise asks for.
+    /// All checks of the judge passed.
     Passed,
-    /// The attempt runs, and this is off, in the judge's words.
+    /// The attempt runs, but these checks failed; messages of the judge.
     Off(Vec<String>),
-    /// The attempt does not run to its end.
+    /// The attempt fails.
     Broken(Diagnostic),
-    /// The attempt was stopped by a limit.
+    /// A limit was exceeded.
     Stopped(Diagnostic),
-    /// The attempt was stopped from outside.
+    /// Interrupted from outside.
     Interrupted,
 }
 
-/// Runs an attempt at an exercise, then its judge. What the attempt prints goes where the settings say.
+/// Runs an attempt, then its judge. The output of the attempt goes where the settings say.
 pub fn judge(exercise: &Exercise, attempt: &Program, settings: RunSettings) -> AttemptVerdict {
     let mut limits = settings.limits;
     limits.time = limits.time.or(Some(PATIENCE));
@@ -53,7 +51,7 @@ pub fn judge(exercise: &Exercise, attempt: &Program, settings: RunSettings) -> A
     on_large_stack(&limits, hold).unwrap_or_else(AttemptVerdict::Broken)
 }
 
-/// What attempt and judge share: the host, and who hears what they print.
+/// Engine shared by attempt and judge, and a switch for their output.
 struct JudgingContext {
     host: ScriptEngine,
     silence: SilenceSwitch,
@@ -74,7 +72,7 @@ impl JudgingContext {
     fn hold(&self, exercise: &Exercise, attempt: &Program) -> Result<(), AttemptVerdict> {
         let mut scope = Scope::new();
         let held = self.hold_within(&mut scope, exercise, attempt);
-        // Letting go of what the attempt has made may take time and memory as well.
+        // Dropping the data of the attempt may take time and memory too.
         let _limits_kept = self.host.watch().map_err(|halt| self.verdict(halt))?;
         drop(scope);
         held
@@ -113,7 +111,7 @@ impl JudgingContext {
         }
     }
 
-    /// The variables that a judge needs, or what is wrong with them.
+    /// Variables required by a judge, or the reason why one is missing.
     fn show(
         &self,
         needs: &[Need],
@@ -131,7 +129,7 @@ impl JudgingContext {
                 continue;
             };
             let value = value.flatten_clone();
-            // The engine has names of its own for text and functions.
+            // The engine has other names for texts and functions.
             let found = match value.type_id() {
                 _ if value.is_string() => "text",
                 function if function == TypeId::of::<FnPtr>() => "function",
@@ -142,7 +140,7 @@ impl JudgingContext {
                     let value = callable(value, functions);
                     _ = seen.push_dynamic(name.as_str(), value);
                 }
-                // A whole number is welcome wherever a number is.
+                // Integers are accepted as numbers.
                 "whole number" if of == "number" => {
                     let number = value.as_int().unwrap_or_default() as f64;
                     seen.push(name.as_str(), number);
@@ -183,8 +181,7 @@ impl JudgingContext {
     }
 }
 
-/// The same value; a function of the attempt takes the functions of its file with it, and can be called by the judge. It sees nothing of
-/// the judge.
+/// Makes a function of the attempt callable by the judge: it carries the functions of its file, and sees nothing of the judge.
 fn callable(value: Dynamic, functions: &AST) -> Dynamic {
     let Some(function) = value.clone().try_cast::<FnPtr>() else { return value };
     let functions = functions.clone();
@@ -197,7 +194,7 @@ fn callable(value: Dynamic, functions: &AST) -> Dynamic {
             arguments.iter_mut().map(|argument| std::mem::take(*argument)).collect();
         function.call_raw(&inner, None, arguments)
     };
-    // "Deprecated" marks it as volatile, not as going away.
+    // "Deprecated" only marks the function as volatile.
     #[allow(deprecated)]
     FnPtr::from_fn("of_the_attempt", call).map_or(value, Dynamic::from)
 }

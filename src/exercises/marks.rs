@@ -1,5 +1,4 @@
-//! The file of the marks of a class: a line of JSON for each, behind those of earlier runs. Marks of attempts that have not changed
-//! since hold.
+//! File of the marks of a class: one JSON line per mark, appended to those of earlier runs. Marks of unchanged attempts are reused.
 
 use std::collections::BTreeMap;
 use std::fs::{File, TryLockError};
@@ -13,20 +12,18 @@ use super::grading::Mark;
 use super::submissions::Submission;
 use crate::sandbox_fs::Folder;
 
-/// The largest file of marks that is read [bytes].
+/// Maximum size of the file [bytes].
 const LARGEST: u64 = 1 << 30;
 
-/// What every mark begins with.
+/// Beginning of every line.
 const HEAD: &str = "{\"student\":";
 
-/// The marks of earlier runs, by student and exercise.
+/// Marks of earlier runs, by student and exercise.
 #[derive(Debug, Default)]
 pub struct KnownMarks(BTreeMap<StudentExercise, KnownMark>);
 
-/// A student and an exercise.
 type StudentExercise = (String, String);
 
-/// A mark of an earlier run.
 #[derive(Debug)]
 struct KnownMark {
     fingerprint: String,
@@ -34,19 +31,18 @@ struct KnownMark {
     message: String,
 }
 
-/// A file of marks that further ones are written into.
+/// An open file of marks.
 #[derive(Debug)]
 pub struct MarksFile(File);
 
-/// Opens a file of marks for one run of grading, or begins one.
+/// Opens or creates a file of marks.
 ///
-/// # Errors
-/// When it cannot be read or written, another run writes it, or it is there and holds no marks: it is somebody else's.
+/// If it cannot be read or written, another run uses it, or it exists and contains no marks.
 pub fn open(path: &Path) -> io::Result<(KnownMarks, MarksFile)> {
     let folder = path.parent().unwrap_or(Path::new("."));
     let (folder, name) = (Folder::open(folder)?, Path::new(path.file_name().unwrap_or_default()));
     let mut file = folder.append(name)?;
-    // Before it is read: what another run writes meanwhile must be known here.
+    // Locked before reading, so that marks of another run are not missed.
     file.try_lock().map_err(|refused| match refused {
         TryLockError::WouldBlock => io::Error::other("another run writes its marks there"),
         TryLockError::Error(error) => error,
@@ -54,19 +50,19 @@ pub fn open(path: &Path) -> io::Result<(KnownMarks, MarksFile)> {
     let bytes = folder.read(name, LARGEST)?;
     let text = String::from_utf8_lossy(&bytes);
     let known: Vec<_> = text.lines().filter_map(read_line).collect();
-    // A kill during the very first mark leaves the beginning of one.
+    // A kill during the very first mark leaves an incomplete line.
     let begun = text.trim();
     if known.is_empty() && !begun.starts_with(HEAD) && !HEAD.starts_with(begun) {
         return Err(io::Error::other("it is there already, and holds no marks"));
     }
-    // Who reads the file reads lines that are whole: what a kill has left of the last one goes, unless only its end is missing.
+    // Completes or removes an incomplete last line left by a kill.
     let whole = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1);
     match &bytes[whole..] {
         [] => (),
         rest if read_line(&String::from_utf8_lossy(rest)).is_some() => file.write_all(b"\n")?,
         _ => file.set_len(whole as u64)?,
     }
-    // Of several marks the last one holds.
+    // The last mark of an attempt counts.
     Ok((KnownMarks(known.into_iter().collect()), MarksFile(file)))
 }
 
@@ -74,14 +70,14 @@ fn read_line(line: &str) -> Option<(StudentExercise, KnownMark)> {
     let line: Value = serde_json::from_str(line).ok()?;
     let text = |key: &str| Some(line.get(key)?.as_str()?.to_owned());
     let mark = Mark::of(&text("result")?)?;
-    // What was marked without one is judged again.
+    // Marks without a fingerprint are judged again.
     let fingerprint = text("fingerprint").unwrap_or_default();
     let known = KnownMark { fingerprint, mark, message: text("message")? };
     Some(((text("student")?, text("exercise")?), known))
 }
 
 impl KnownMarks {
-    /// The known mark of an attempt that still has this fingerprint.
+    /// Known mark of an attempt with this fingerprint.
     pub fn find(
         &self,
         submission: &Submission,
@@ -94,10 +90,9 @@ impl KnownMarks {
 }
 
 impl MarksFile {
-    /// Writes a mark into the file so that it outlasts whatever comes. Without a fingerprint the attempt is judged again the next time.
+    /// Appends a mark and syncs the file. Without a fingerprint the attempt will be judged again.
     ///
-    /// # Errors
-    /// When it cannot be written.
+    /// If writing fails.
     pub fn note(
         &mut self,
         submission: &Submission,

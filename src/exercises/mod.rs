@@ -1,7 +1,7 @@
-//! Exercises: a start file with a gap, a judge that looks at the physics of the attempt, hints in steps, a solution.
+//! Exercises: a start file with a gap, a judge that checks the physics of the attempt, hints, and a solution.
 //!
-//! [`catalogue`] is the table of all; [`judging`] runs an attempt and its judge; [`workbook`] is the folder of a student,
-//! [`submissions`] are the folders of a class, [`marks`] the file of their marks. Nothing is printed here: `cli` does that.
+//! [`catalogue`] lists all exercises; [`judging`] runs an attempt and its judge; [`workbook`] is the folder of a student, [`submissions`]
+//! are the folders of a class, [`marks`] is the file of their marks. Output is left to `cli`.
 
 pub mod attempt;
 pub mod captured_output;

@@ -1,4 +1,4 @@
-//! What a student has passed and which hints were given, in a small file that is written whole or not at all.
+//! Progress of a student: passed exercises and given hints, in a small file written atomically.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::ErrorKind;
@@ -11,27 +11,26 @@ use super::exercise::Exercise;
 use crate::output::write_whole;
 use crate::sandbox_fs::read_text;
 
-/// The largest file of a progress [bytes].
+/// Maximum size of the file [bytes].
 const LARGEST: u64 = 1 << 20;
 
-/// The name of the file of the progress, by which the folder of a student is known.
+/// Name of the progress file, which identifies the folder of a student.
 pub const FILE: &str = "withy-progress.json";
 
-/// How far a student has come. Exercises that this program does not know are kept: another version may.
+/// Progress of a student. Exercises unknown to this version are kept.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StudentProgress {
-    /// The exercises that the last check of them passed.
+    /// Exercises whose last check passed.
     passed: BTreeSet<String>,
-    /// How many hints were given.
+    /// Numbers of given hints.
     hints: BTreeMap<String, usize>,
 }
 
 impl StudentProgress {
-    /// Reads the progress of a student's folder; it is empty where there is no file.
+    /// Reads the progress from a student's folder; empty if there is no file.
     ///
-    /// # Errors
-    /// When the file cannot be read, or was damaged.
+    /// If the file cannot be read or is damaged.
     pub fn read(folder: &Path) -> Result<Self, ExerciseError> {
         let path = folder.join(FILE);
         let text = match read_text(&path, LARGEST) {
@@ -42,21 +41,20 @@ impl StudentProgress {
         serde_json::from_str(&text).map_err(|why| ExerciseError::Progress { path, why })
     }
 
-    /// Writes the progress into the file of a student's folder.
+    /// Writes the progress to a student's folder.
     ///
-    /// # Errors
-    /// When it cannot be written; the old one is still there then.
+    /// If writing fails; the old file is kept.
     pub fn write(&self, folder: &Path) -> Result<(), ExerciseError> {
         let text = format!("{:#}\n", serde_json::json!(self));
         Ok(write_whole(folder.join(FILE), text.as_bytes())?)
     }
 
-    /// Whether the last check of an exercise passed.
+    /// Returns true if the last check of an exercise passed.
     pub fn has_passed(&self, exercise: &Exercise) -> bool {
         self.passed.contains(&exercise.id())
     }
 
-    /// Notes what the last check of an exercise said.
+    /// Records the result of a check.
     pub fn note(&mut self, exercise: &Exercise, passed: bool) {
         match passed {
             true => self.passed.insert(exercise.id()),
@@ -64,17 +62,17 @@ impl StudentProgress {
         };
     }
 
-    /// How many hints were given for an exercise.
+    /// Number of given hints of an exercise.
     pub fn hints(&self, exercise: &Exercise) -> usize {
         self.hints.get(&exercise.id()).copied().unwrap_or(0)
     }
 
-    /// Notes that one more hint was given for an exercise.
+    /// Records another hint.
     pub fn note_hint(&mut self, exercise: &Exercise) {
         *self.hints.entry(exercise.id()).or_default() += 1;
     }
 
-    /// Forgets the progress in an exercise.
+    /// Removes the progress of an exercise.
     pub fn forget(&mut self, exercise: &Exercise) {
         self.passed.remove(&exercise.id());
         self.hints.remove(&exercise.id());

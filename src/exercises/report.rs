@@ -1,4 +1,4 @@
-//! A verdict as plain data, which goes from the process of an attempt to whoever shows it.
+//! Serialisable verdicts, passed from the process of an attempt to the display.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,60 +6,60 @@ use super::captured_output::CapturedOutput;
 use super::judging::AttemptVerdict;
 use crate::script::diagnose::{Diagnostic, Location};
 
-/// The longest message that is passed on, in characters: nobody reads more.
+/// Maximum length of a message in characters.
 const LONGEST: usize = 4000;
-/// Characters of a source line that are passed on, and how many of them stand before the place.
+/// Maximum length of an excerpt of a source line, and of its part before the error, in characters.
 const EXCERPT: (usize, usize) = (400, 150);
 
-/// What became of an attempt at an exercise, and what it has printed.
+/// Result and output of an attempt.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct AttemptReport {
-    /// What became of the attempt.
+    /// Result.
     pub outcome: AttemptOutcome,
-    /// What the attempt has printed.
+    /// Output.
     pub printed: CapturedOutput,
 }
 
-/// What became of an attempt at an exercise.
+/// Result of an attempt.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum AttemptOutcome {
-    /// The attempt does what the exercise asks for.
+    /// All checks of the judge passed.
     Passed,
-    /// The attempt runs, and this is off, in the judge's words.
+    /// The attempt runs, but these checks failed; messages of the judge.
     Off(Vec<String>),
-    /// The attempt does not run to its end.
+    /// The attempt fails.
     Broken(AttemptError),
-    /// A limit stopped the attempt.
+    /// A limit was exceeded.
     Stopped(AttemptError),
-    /// The attempt was stopped from outside.
+    /// Interrupted from outside.
     Interrupted,
 }
 
-/// An error of an attempt at an exercise.
+/// Error of an attempt.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct AttemptError {
-    /// What is wrong in the attempt.
+    /// Error message.
     pub message: String,
-    /// What to do about the error.
+    /// Hint.
     pub help: Option<String>,
-    /// The place of the error in a script, if it is known.
+    /// Location in a script, if known.
     pub place: Option<ScriptPosition>,
-    /// The calls that led to the error.
+    /// Calls that led to the error.
     pub calls: Vec<String>,
 }
 
-/// The place of an error in a script.
+/// Location of an error in a script.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ScriptPosition {
-    /// The name of the file with the error.
+    /// File name.
     pub file: String,
-    /// The line of the error, from 1.
+    /// Line, from 1.
     pub line: usize,
-    /// The text of the line with the error, or a part of that text about the place.
+    /// Text of the line, or an excerpt around the location.
     pub text: String,
-    /// Where the place of the error begins in the text of its line, in characters from 0.
+    /// Start of the location in `text`, in characters from 0.
     pub at: usize,
-    /// The length of the place in characters.
+    /// Length in characters.
     pub length: usize,
 }
 

@@ -1,20 +1,20 @@
-//! A writer that can be silenced: while a judge works, nothing of the attempt is heard.
+//! A writer that can be silenced, so that the attempt cannot print while its judge runs.
 
 use std::io::{self, Write};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A switch that silences all writers that were made with it.
+/// Switch that silences all its writers.
 #[derive(Clone, Default)]
 pub struct SilenceSwitch(Arc<AtomicBool>);
 
 impl SilenceSwitch {
-    /// Silences the writers from now on: nothing gets through.
+    /// Silences the writers.
     pub fn begin(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// The same writer, as long as the switch is not turned to silence.
+    /// Wraps a writer so that the switch can silence it.
     pub fn muffle(&self, writer: Box<dyn Write + Send>) -> Box<dyn Write + Send> {
         Box::new(SilencedWriter { silence: self.clone(), writer })
     }

@@ -1,4 +1,4 @@
-//! The folders of a class: which students there are, and where their attempts lie.
+//! Folders of a class: students and their attempts.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,20 +8,19 @@ use super::error::ExerciseError;
 use super::exercise::Exercise;
 use super::workbook;
 
-/// What one student has handed in.
+/// Submission of a student.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Submission {
-    /// The name of the student: that of the folder.
+    /// Name of the student: that of the folder.
     pub student: String,
-    /// The folder of what the student has handed in.
+    /// Folder of the submission.
     pub folder: PathBuf,
 }
 
 impl Submission {
-    /// The submissions in a folder, by name: each folder in it is one; or it is one itself, when attempts lie there.
+    /// Submissions in a folder, by name: each subfolder is one, or the folder itself if it contains attempts.
     ///
-    /// # Errors
-    /// When the folder cannot be read, or there is nothing to grade.
+    /// If the folder cannot be read, or there is nothing to grade.
     pub fn all_in(folder: &Path) -> Result<Vec<Self>, ExerciseError> {
         let unreadable = |source| ExerciseError::Read { path: folder.into(), source };
         let own = Self::new(folder);
@@ -48,19 +47,19 @@ impl Submission {
     }
 
     fn new(folder: &Path) -> Self {
-        // A path that cannot be followed names the student all the same; that it cannot is told when its files are read.
+        // If the path cannot be resolved, it is used as given; errors are reported when its files are read.
         let real = folder.canonicalize().unwrap_or_else(|_| folder.into());
         let name = real.file_name().map(|name| name.to_string_lossy().into_owned());
         Self { student: name.unwrap_or_else(|| ".".into()), folder: folder.into() }
     }
 
-    /// Whether the folder of the submission is a link: it would lead to what somebody else has handed in.
+    /// Returns true if the folder of the submission is a link, which could lead to the work of another student.
     pub fn is_link(&self) -> bool {
         fs::symlink_metadata(&self.folder).is_ok_and(|about| about.is_symlink())
     }
 
-    /// The file of the student's attempt at an exercise: in the folder of its track, with or without the folder that `withy learn` makes,
-    /// or beside the others.
+    /// File of the student's attempt: in the folder of its track, with or without the folder created by `withy learn`, or directly in the
+    /// submission.
     pub fn attempt(&self, exercise: &Exercise) -> Option<PathBuf> {
         let inside = self.folder.join(workbook::FOLDER);
         let places = [

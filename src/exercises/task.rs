@@ -1,21 +1,21 @@
-//! What an exercise asks for: the comment at the head of its start file, as paragraphs.
+//! Task of an exercise: the comment at the beginning of its start file, as paragraphs.
 
 use super::exercise::Exercise;
 
-/// The words with which the paragraph of a task begins that says what is to be done.
+/// Beginning of the paragraph that states what to do.
 pub const TO_DO: &str = "To do:";
 
-/// A paragraph of the task of an exercise.
+/// A paragraph of a task.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Paragraph {
-    /// A paragraph of words, which may be broken into lines anywhere between them.
+    /// Text that may be wrapped.
     Words(String),
-    /// A paragraph of lines that are set as they stand, such as formulas and tables.
+    /// Preformatted lines, such as formulas and tables.
     Set(Vec<String>),
 }
 
 impl Exercise {
-    /// The paragraphs of the exercise's task below its title; the last one says what is to be done.
+    /// Paragraphs below the title; the last one states what to do.
     pub fn task(&self) -> Vec<Paragraph> {
         let below_title = self.start.lines().skip(1);
         let mut paragraphs = Vec::new();

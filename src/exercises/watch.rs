@@ -1,8 +1,7 @@
-//! Which attempts were saved since one looked last.
+//! Detection of saved attempts.
 //!
-//! Files are read and compared: a few kilobytes a few times a second. That works on every file system and with every
-//! editor, also with those that put a new file in the place of the old one, and a file that was saved unchanged is not
-//! judged again.
+//! Files are read and compared a few times per second. This works with all file systems and editors, including those that replace the file,
+//! and files saved without changes are ignored.
 
 use std::time::Duration;
 
@@ -12,31 +11,31 @@ use super::exercise::Exercise;
 use super::workbook::Workbook;
 use crate::sandbox_fs::read_file;
 
-/// How long to wait between two looks at the attempts.
+/// Polling interval.
 pub const INTERVAL: Duration = Duration::from_millis(200);
 
-/// The attempts of a student as they were when one looked last.
+/// Contents of a student's attempts at the last check.
 pub struct Watcher<'a> {
     workbook: &'a Workbook,
     seen: Vec<Seen>,
 }
 
-/// What stood in a file.
+/// Content of a file.
 struct Seen {
     content: Option<Vec<u8>>,
-    /// Whether it was found empty or away since: some editors empty or move a file before they write it.
+    /// True if the file was empty or missing at the last check; some editors empty or move a file before writing it.
     is_away: bool,
 }
 
 impl<'a> Watcher<'a> {
-    /// Looks at the attempts of a workbook for the first time.
+    /// Reads the attempts of a workbook for the first time.
     pub fn new(workbook: &'a Workbook) -> Self {
         let look = |exercise| Seen { content: content(workbook, exercise), is_away: false };
         Self { workbook, seen: EXERCISES.iter().map(look).collect() }
     }
 
-    /// The first exercise, in the order of the table, whose file has another content than before. A file that is
-    /// empty or not there for the first time, as between the two halves of saving, has not changed.
+    /// First exercise in the order of the catalogue whose file has changed. A file that is empty or missing for one check, as during
+    /// saving, has not changed.
     pub fn changed(&mut self) -> Option<&'static Exercise> {
         EXERCISES.iter().zip(&mut self.seen).find_map(|(exercise, seen)| {
             let now = content(self.workbook, exercise);
@@ -52,7 +51,7 @@ impl<'a> Watcher<'a> {
     }
 }
 
-/// What stands in a file; nothing where it cannot be read: the run that this starts tells why.
+/// Content of a file; `None` if unreadable, which the resulting run reports.
 fn content(workbook: &Workbook, exercise: &Exercise) -> Option<Vec<u8>> {
     read_file(&workbook.file(exercise), LARGEST).ok()
 }

@@ -1,4 +1,4 @@
-//! The folder of a student: start files, attempts, progress.
+//! Folder of a student: start files, attempts, progress.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,36 +11,35 @@ use super::progress::{self, StudentProgress};
 use crate::output::write_whole;
 use crate::sandbox_fs::read_file;
 
-/// The folder of exercises that is made where there is none yet.
+/// Name of the folder that is created.
 pub const FOLDER: &str = "withy-exercises";
 
-/// A folder with a file for each exercise. What a student has written there is never overwritten.
+/// A folder with a file per exercise. Work of the student is never overwritten.
 #[derive(Debug)]
 pub struct Workbook {
     folder: PathBuf,
 }
 
-/// A hint to an exercise, or what comes after the last one.
+/// A hint, or the solution after the last hint.
 #[derive(Debug, PartialEq, Eq)]
 pub enum Advice {
-    /// A hint with its number, from 1, and how many there are.
+    /// A hint with its number and the number of hints.
     Hint {
-        /// The words of the hint.
+        /// Text.
         text: String,
-        /// The number of the hint, from 1.
+        /// Number of the hint, from 1.
         number: usize,
-        /// How many hints the exercise has.
+        /// Number of hints of the exercise.
         count: usize,
     },
-    /// All hints were given: a solution of the exercise.
+    /// All hints were given; the solution.
     Solution(&'static str),
 }
 
 impl Workbook {
-    /// The folder of a student who is in `here`: that one or one above, if it is a folder of exercises, else one below. Writes
-    /// nothing.
+    /// Folder of exercises near `here`: that folder or a parent if it is one, otherwise a subfolder. Writes nothing.
     pub fn near(here: &Path) -> Self {
-        // A folder that cannot be followed is asked as it is written; that it cannot is told when it is read.
+        // If the path cannot be resolved, it is used as given; errors are reported when it is read.
         let real = here.canonicalize().unwrap_or_else(|_| here.into());
         let is_workbook = |folder: &&Path| folder.join(progress::FILE).exists();
         match real.ancestors().find(is_workbook) {
@@ -50,10 +49,9 @@ impl Workbook {
         }
     }
 
-    /// Makes the folder of exercises, and the start files that are not there. Gives how many were written.
+    /// Creates the folder and missing start files. Returns the number of files written.
     ///
-    /// # Errors
-    /// When something cannot be written.
+    /// If writing fails.
     pub fn fill(&self) -> Result<usize, ExerciseError> {
         let missing: Vec<_> =
             EXERCISES.iter().filter(|exercise| !self.file(exercise).exists()).collect();
@@ -66,50 +64,46 @@ impl Workbook {
         Ok(missing.len())
     }
 
-    /// The path of the folder of exercises.
+    /// Path of the folder.
     pub fn folder(&self) -> &Path {
         &self.folder
     }
 
-    /// The file of the student's attempt at an exercise.
+    /// File of the attempt at an exercise.
     pub fn file(&self, exercise: &Exercise) -> PathBuf {
         self.folder.join(exercise.track).join(format!("{}.rhai", exercise.name))
     }
 
-    /// Whether the student has written anything into the file of an exercise.
+    /// Returns true if the file of an exercise differs from its start file.
     pub fn is_begun(&self, exercise: &Exercise) -> bool {
         read_file(&self.file(exercise), LARGEST).is_ok_and(|text| text != exercise.start.as_bytes())
     }
 
-    /// How far the student has come.
+    /// Progress of the student.
     ///
-    /// # Errors
-    /// When the file of the progress cannot be used.
+    /// If the progress file cannot be used.
     pub fn progress(&self) -> Result<StudentProgress, ExerciseError> {
         StudentProgress::read(&self.folder)
     }
 
-    /// The first exercise that the student has not passed; none when all are.
+    /// First exercise that has not passed; `None` if all have.
     ///
-    /// # Errors
-    /// When the file of the progress cannot be used.
+    /// If the progress file cannot be used.
     pub fn next(&self) -> Result<Option<&'static Exercise>, ExerciseError> {
         let progress = self.progress()?;
         Ok(EXERCISES.iter().find(|exercise| !progress.has_passed(exercise)))
     }
 
-    /// Notes what the student's last check of an exercise said.
+    /// Records the result of a check.
     ///
-    /// # Errors
-    /// When the file of the progress cannot be used.
+    /// If the progress file cannot be used.
     pub fn note(&self, exercise: &Exercise, passed: bool) -> Result<(), ExerciseError> {
         self.change(|progress| progress.note(exercise, passed))
     }
 
-    /// The next hint for an exercise, which then counts as given.
+    /// Next hint of an exercise, which is recorded as given.
     ///
-    /// # Errors
-    /// When the file of the progress cannot be used.
+    /// If the progress file cannot be used.
     pub fn hint(&self, exercise: &Exercise) -> Result<Advice, ExerciseError> {
         let given = self.progress()?.hints(exercise);
         let hints = exercise.judge().hints;
@@ -120,10 +114,9 @@ impl Workbook {
         Ok(Advice::Hint { text, number: given + 1, count: hints.len() })
     }
 
-    /// Begins an exercise anew. Gives the file that keeps the student's old attempt.
+    /// Restores the start file of an exercise. Returns the file that keeps the old attempt.
     ///
-    /// # Errors
-    /// When something cannot be written; the attempt is still there then.
+    /// If writing fails; the attempt is kept.
     pub fn reset(&self, exercise: &Exercise) -> Result<PathBuf, ExerciseError> {
         let file = self.file(exercise);
         let kept = free_name(&file);
@@ -137,7 +130,7 @@ impl Workbook {
         Ok(kept)
     }
 
-    /// The file is read again each time: a student may ask for a hint while another window watches.
+    /// The file is read again for each change, because another window may have changed it.
     fn change(&self, change: impl FnOnce(&mut StudentProgress)) -> Result<(), ExerciseError> {
         let before = self.progress()?;
         let mut progress = before.clone();
@@ -146,7 +139,7 @@ impl Workbook {
     }
 }
 
-/// `name.old`, or `name.old2` and so on where that is taken.
+/// `name.old`, or `name.old2` and so on if that exists.
 fn free_name(file: &Path) -> PathBuf {
     let numbered = |number: usize| match number {
         1 => file.with_extension("old"),

@@ -1,4 +1,4 @@
-//! The least of a function within constraints, where it knows its derivatives.
+//! Constrained minimisation with derivatives.
 
 use std::cell::RefCell;
 
@@ -8,38 +8,38 @@ use super::design::{PENALTY, Scaled};
 use super::gradient_check::{DISTRUST, agree, beside};
 use super::{Design, Designed, Rating};
 
-/// Rounds, each of which leaves constraints a margin if the last one missed one by a little.
+/// Number of restarts; each tightens the constraints if the last solution violated one slightly.
 const ROUNDS: usize = 4;
-/// Steps end at this part of the tolerance: near the end each is much shorter than the one before.
+/// Final step size relative to the tolerance; convergence is fast near the end.
 const SHORTER: f64 = 0.1;
 
-/// What a run says of a design, with the derivatives of that by all parameters.
+/// Objective and constraints with derivatives by all parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SlopedRating {
-    /// What the run says.
+    /// Values.
     pub rating: Rating,
-    /// The derivatives of the objective.
+    /// Derivatives of the objective.
     pub objective: Vec<f64>,
-    /// The derivatives of each of the constraints.
+    /// Derivatives of each constraint.
     pub constraints: Vec<Vec<f64>>,
 }
 
-/// What a run says of a design with its derivatives, or why it does not know these.
+/// Values with derivatives, or the reason for missing derivatives.
 pub type SlopesOfRating = Result<SlopedRating, String>;
 
-/// What asks for what a run says of a design; it gives none where the run fails.
+/// Evaluates a design; `None` if the run fails.
 pub type Rate<'r, E> = dyn FnMut(&[f64]) -> Result<Option<Rating>, E> + 'r;
 
-/// What asks for that with its derivatives.
+/// Evaluates a design with derivatives.
 pub type RateWithSlopes<'r, E> = dyn FnMut(&[f64]) -> Result<SlopesOfRating, E> + 'r;
 
-/// What is known during a descent.
+/// State of a descent.
 struct Descent<'d, 'f, E> {
     design: &'d Design,
     sloped: &'d mut RateWithSlopes<'f, E>,
     rate: &'d mut Rate<'f, E>,
     best: Option<(Vec<f64>, Rating)>,
-    /// The last one that was asked for, in parts of the sizes of the parameters.
+    /// Last evaluated design in scaled parameters.
     last: Option<(Vec<f64>, SlopedRating)>,
     worst: f64,
     runs: usize,
@@ -47,15 +47,15 @@ struct Descent<'d, 'f, E> {
     ended: Option<Ended<E>>,
 }
 
-/// Why a descent ended before it came to an end of its own.
+/// Reason for an early end of a descent.
 enum Ended<E> {
-    /// A design knows no derivatives: why.
+    /// Derivatives are missing, with the reason.
     Unknown(String),
     Error(E),
 }
 
 impl<E> Descent<'_, '_, E> {
-    /// What is said of a design that is given in parts of the sizes of the parameters.
+    /// Values at a design in scaled parameters.
     fn at(&mut self, scaled: &[f64]) -> SlopedRating {
         if let Some((at, found)) = &self.last
             && at == scaled
@@ -74,10 +74,10 @@ impl<E> Descent<'_, '_, E> {
         found
     }
 
-    /// Makes a run; none where it fails.
+    /// Runs a design; `None` if it fails.
     fn asked(&mut self, scaled: &[f64]) -> Result<Option<SlopedRating>, Ended<E>> {
         let x = self.design.unscaled(scaled);
-        // Counted once, although two calls are made where there are no derivatives.
+        // Counted once, although a missing derivative needs a second call.
         self.runs += 1;
         match (self.sloped)(&x).map_err(Ended::Error)? {
             Ok(mut found) => {
@@ -105,7 +105,7 @@ impl<E> Descent<'_, '_, E> {
         }
     }
 
-    /// Whether derivatives are those of what runs say for plain numbers: of the objective, and of each constraint.
+    /// Checks derivatives of objective and constraints against values for plain numbers.
     fn are_true(&mut self, x: &[f64], found: &SlopedRating) -> Result<bool, Ended<E>> {
         let [low, high] = beside(&self.design.ranges, x);
         self.runs += 2;
@@ -132,7 +132,7 @@ impl<E> Descent<'_, '_, E> {
         }
     }
 
-    /// What a run that failed counts as.
+    /// Penalty values of a failed run.
     fn failed(&self) -> SlopedRating {
         let Design { ranges, constraints, .. } = self.design;
         SlopedRating {
@@ -147,12 +147,11 @@ impl<E> Descent<'_, '_, E> {
 }
 
 impl Design {
-    /// Finds the design as [`solve`](Self::solve) does, where runs know derivatives: D. Kraft's SLSQP (1988), which solves quadratic models of the objective, with
-    /// second derivatives that it learns from the first ones on its way (BFGS), within linear models of the constraints. Where `sloped` does not know them, or
-    /// the method fails, it goes on with `solve` from the best design so far.
+    /// Minimises like [`solve`](Self::solve), with derivatives: D. Kraft's SLSQP (1988), which solves quadratic models of the objective,
+    /// with BFGS updates of second derivatives, under linearised constraints. If derivatives are missing or the method fails, `solve`
+    /// continues from the best design.
     ///
-    /// # Errors
-    /// The first of `sloped` and `rate`.
+    /// First error of `sloped` and `rate`.
     pub fn solve_with<'f, E>(
         &self,
         sloped: &mut RateWithSlopes<'f, E>,
@@ -189,7 +188,7 @@ impl Design {
         if without.is_none() || runs >= self.most_runs {
             return Ok(found);
         }
-        // It begins where the descent came to, which is known.
+        // Starts at the result of the descent, whose values are known.
         let mut known = found.as_ref().map(|found| found.rating.clone());
         let asked_again = usize::from(known.is_some());
         let mut rest = Self { most_runs: self.most_runs - runs + asked_again, ..self.clone() };
@@ -201,7 +200,7 @@ impl Design {
             Some(rating) => Ok(Some(rating)),
             None => rate(x),
         })?;
-        // The best of all is the best of the rest, which begins with the best so far.
+        // The result includes the best design of the descent, from which the search started.
         Ok(more.map(|more| Designed {
             runs: runs + more.runs - asked_again,
             gradient_runs,
@@ -210,7 +209,7 @@ impl Design {
         }))
     }
 
-    /// Descends as long as it is known where. Gives whether it converged.
+    /// Runs the descent while derivatives are known. Returns true if it converged.
     fn descend<E>(&self, descent: &RefCell<Descent<'_, '_, E>>) -> bool {
         let Scaled { mut start, bounds } = self.scaled();
         let mut margin = 0.0;
@@ -249,7 +248,7 @@ impl Design {
             if missed.rating.is_feasible() {
                 return true;
             }
-            // It ends near the edge, on either side of it.
+            // The solution may lie slightly on either side of the boundary.
             margin += 2.0 * missed.rating.missed();
             start = at;
         }
@@ -273,7 +272,7 @@ mod tests {
         Design { ranges: ranges.collect(), constraints, tolerance: 1e-4, most_runs: 500 }
     }
 
-    /// Powell's test problem 2 (1994): x y is least on the unit disc at -1/2.
+    /// Powell's test problem 2 (1994): x y has its minimum -1/2 on the unit disc.
     fn product(x: &[f64]) -> SlopedRating {
         SlopedRating {
             rating: Rating {
@@ -298,7 +297,7 @@ mod tests {
         assert!(2 * found.runs < without.unwrap().runs, "{found:?}");
     }
 
-    /// H. H. Rosenbrock's valley (1960), with a bound that cuts the least off: it is then at (0.5, 0.25).
+    /// H. H. Rosenbrock's valley (1960), with a bound that excludes the minimum; the solution is then (0.5, 0.25).
     #[test]
     fn a_valley_is_followed_to_its_end_or_to_a_bound() {
         let rosenbrock = |x: &[f64]| {

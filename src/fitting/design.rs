@@ -1,4 +1,4 @@
-//! The least of a function within constraints: without derivatives here, with them in [`descent`](super::descent).
+//! Constrained minimisation: without derivatives here, with derivatives in [`descent`](super::descent).
 
 use std::cell::RefCell;
 
@@ -6,61 +6,61 @@ use cobyla::{RhoBeg, StopTols, minimize};
 
 use super::SearchRange;
 
-/// The first steps, as a part of the sizes of the parameters.
+/// Initial step relative to the size of the parameters.
 const FIRST_STEP: f64 = 0.1;
-/// A constraint that is missed by less than this part of its size is met.
+/// Tolerance of constraints, relative to their size.
 const MET: f64 = 1e-6;
-/// What a run that failed counts as, beside the worst so far.
+/// Penalty of a failed run, added to the worst objective.
 pub(super) const PENALTY: f64 = 10.0;
 
-/// A search for the least of a function.
+/// A minimisation problem.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Design {
-    /// The parameters.
+    /// Parameters.
     pub ranges: Vec<SearchRange>,
-    /// How many constraints there are.
+    /// Number of constraints.
     pub constraints: usize,
-    /// How well parameters are to be known, as a part of their sizes.
+    /// Tolerance of the parameters, relative to their sizes.
     pub tolerance: f64,
-    /// The most runs.
+    /// Maximum number of runs.
     pub most_runs: usize,
 }
 
-/// What a run says of a design.
+/// Result of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rating {
-    /// What is to be least.
+    /// Objective to minimise.
     pub objective: f64,
-    /// The constraints: each is met where it is not negative, in numbers about as large as what it is about.
+    /// Constraints, met if non-negative, scaled to order one.
     pub constraints: Vec<f64>,
 }
 
-/// The best design that was found.
+/// Best design found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Designed {
-    /// The parameters of the design.
+    /// Parameters.
     pub parameters: Vec<f64>,
-    /// What the run says of the design.
+    /// Objective and constraints.
     pub rating: Rating,
-    /// Whether it meets all constraints.
+    /// True if all constraints are met.
     pub is_feasible: bool,
-    /// Whether the search came to its end before the most runs were made.
+    /// True if the search converged within the number of runs.
     pub is_settled: bool,
-    /// How often the function was called.
+    /// Number of calls.
     pub runs: usize,
-    /// How often it was called for its derivatives too, which are among all calls.
+    /// Number of calls with derivatives, included in `runs`.
     pub gradient_runs: usize,
-    /// Why it was searched without derivatives, where it was.
+    /// Reason for a derivative-free search.
     pub without: Option<String>,
 }
 
-/// Where a search begins and stays, in parts of the sizes of the parameters.
+/// Start and bounds in scaled parameters.
 pub(super) struct Scaled {
     pub(super) start: Vec<f64>,
     pub(super) bounds: Vec<(f64, f64)>,
 }
 
-/// What is known during a search.
+/// State of a search.
 struct DesignSearch<E> {
     best: Option<(Vec<f64>, Rating)>,
     last: Option<(Vec<f64>, Rating)>,
@@ -70,7 +70,7 @@ struct DesignSearch<E> {
 }
 
 impl Rating {
-    /// By how much the constraints are missed: the most of them; zero where all are met.
+    /// Largest violation of a constraint; zero if all are met.
     pub fn missed(&self) -> f64 {
         let missed = self.constraints.iter().map(|value| (-value).max(0.0));
         missed.fold(0.0, f64::max)
@@ -80,7 +80,7 @@ impl Rating {
         self.missed() <= MET
     }
 
-    /// Whether this one is better: feasible, and then less; else nearer to being feasible.
+    /// Returns true if this result is better: feasible with a lower objective, or closer to feasible.
     pub(super) fn is_better_than(&self, other: &Self) -> bool {
         match (self.is_feasible(), other.is_feasible()) {
             (true, true) => self.objective < other.objective,
@@ -91,12 +91,11 @@ impl Rating {
 }
 
 impl Design {
-    /// Finds the design with the least objective that meets the constraints: M. J. D. Powell's COBYLA (1994), which follows linear models of objective and
-    /// constraints over a simplex of designs. Of all designs that were tried the best is given. Where a run fails, `rate` gives none, and the search keeps away
-    /// from there. None where all runs fail.
+    /// Finds the feasible design with the lowest objective: M. J. D. Powell's COBYLA (1994), which uses linear models of objective and
+    /// constraints on a simplex. The best of all evaluated designs is returned. `rate` returns `None` for a failed run, which the search
+    /// then avoids. `None` if all runs fail.
     ///
-    /// # Errors
-    /// The first of `rate`.
+    /// First error of `rate`.
     pub fn solve<E>(
         &self,
         rate: impl FnMut(&[f64]) -> Result<Option<Rating>, E>,
@@ -106,7 +105,7 @@ impl Design {
         let rate = RefCell::new(rate);
         let search =
             RefCell::new(DesignSearch { best: None, last: None, worst: 0.0, runs: 0, error: None });
-        // Objective and constraints are asked for one by one at the same design.
+        // Objective and constraints are requested separately at the same design.
         let rated = |u: &[f64]| -> Rating {
             let mut search = search.borrow_mut();
             if let Some((at, rating)) = &search.last
@@ -173,7 +172,7 @@ impl Design {
         }))
     }
 
-    /// Start and bounds of the parameters, in parts of their sizes.
+    /// Start and bounds, scaled by the sizes of the parameters.
     pub(super) fn scaled(&self) -> Scaled {
         let of = |range: &SearchRange| {
             let size = range.width();
@@ -183,7 +182,7 @@ impl Design {
         Scaled { start, bounds }
     }
 
-    /// Parameters that are given in parts of their sizes, within their bounds.
+    /// Unscaled parameters, within their bounds.
     pub(super) fn unscaled(&self, scaled: &[f64]) -> Vec<f64> {
         let pairs = scaled.iter().zip(&self.ranges);
         pairs.map(|(u, range)| range.clip(u * range.width())).collect()
@@ -212,7 +211,7 @@ mod tests {
         found.unwrap()
     }
 
-    /// The largest product of two numbers on the unit circle (Powell 1994, test problem 2).
+    /// Smallest product of two numbers on the unit circle (Powell 1994, test problem 2).
     #[test]
     fn a_product_on_a_circle_is_least_where_both_are_equal() {
         let found = solved(&[(1.0, -2.0, 2.0), (0.5, -2.0, 2.0)], 1, |x| {

@@ -1,24 +1,25 @@
-//! Derivatives of runs by differences.
+//! Finite-difference derivatives of runs.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::{Evaluate, Evaluation, SearchRange};
 
-/// The distance at which differences are taken, as a part of the size of a parameter. Central differences err by `h² f‴/6` and by the noise of a run over
-/// `h`; runs repeat to about 1e-12 of their results (where Newton's method ends), so that 1e-4 makes both about 1e-8.
+/// Default step, relative to the size of a parameter. Central differences have an error of `h² f‴/6`, plus the noise of a run divided by
+/// `h`. Runs are reproducible to about 1e-12 of their results (the tolerance of Newton's method), so that 1e-4 makes both errors about
+/// 1e-8.
 pub const RELATIVE_STEP: f64 = 1e-4;
 
-/// How the derivative by a parameter is made of values beside the point.
+/// Finite-difference stencil of a parameter.
 enum Stencil {
-    /// Half the difference of the values on both sides.
+    /// Central difference.
     Central(f64),
-    /// The slope at its end of the parabola through the point and two values on one side, for a point at a bound.
+    /// Second-order one-sided difference with two points, at a bound.
     OneSided(f64),
 }
 
 impl Stencil {
     fn of(range: SearchRange, x: f64, relative: f64) -> Self {
-        // From a bound it reaches two steps inwards.
+        // A one-sided stencil reaches two steps inwards.
         let step = (relative * range.size(x)).min(0.25 * (range.high - range.low));
         match (x - step >= range.low, x + step <= range.high) {
             (true, true) => Self::Central(step),
@@ -27,7 +28,7 @@ impl Stencil {
         }
     }
 
-    /// How far from the point the values are taken.
+    /// Offsets of the evaluated points.
     fn places(&self) -> [f64; 2] {
         match self {
             Self::Central(step) => [*step, -step],
@@ -43,11 +44,10 @@ impl Stencil {
     }
 }
 
-/// The derivatives of all values at a point by all parameters, a column for each parameter: second order, two runs a parameter, all asked for at once. `here` are
-/// the values at the point.
+/// Derivatives of all values by all parameters, one column per parameter: second order, two runs per parameter, all requested at once.
+/// `here` are the values at the point.
 ///
-/// # Errors
-/// The inner one says which run gave nothing.
+/// The inner error names the run that failed.
 pub fn derivatives<E>(
     ranges: &[SearchRange],
     (x, here): (&[f64], &DVector<f64>),
@@ -75,7 +75,7 @@ pub fn derivatives<E>(
     })))
 }
 
-/// The one point of several evaluations.
+/// Single element of a list of evaluations.
 pub fn only(found: Vec<Evaluation>) -> Evaluation {
     found.into_iter().next().unwrap_or_else(|| Err("nothing was found".into()))
 }

@@ -1,29 +1,29 @@
-//! How well fitted parameters are known.
+//! Uncertainty of fitted parameters.
 
 use nalgebra::DMatrix;
 
 use super::student_quantile;
 
-/// What is known of fitted parameters, from the scatter of the residuals.
+/// Uncertainty of fitted parameters from the scatter of the residuals.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Estimate {
-    /// The standard deviation of a weighted residual: the root of the sum of their squares over the degrees of freedom.
+    /// Standard deviation of a weighted residual: root of the sum of squares over the degrees of freedom.
     pub deviation: f64,
-    /// How many more residuals than parameters there are.
+    /// Degrees of freedom: residuals minus parameters.
     pub freedom: usize,
-    /// The covariances of the parameters, row by row.
+    /// Covariance matrix of the parameters, by rows.
     pub covariance: Vec<Vec<f64>>,
 }
 
 impl Estimate {
-    /// The estimate from the derivatives of weighted residuals at the least sum of squares, `C = s² (JᵀJ)⁻¹`; none where there are no more residuals than parameters, or
-    /// the residuals do not depend on each parameter in a way of its own. Parameters at bounds, which are not `free`, count as known; those on which no residual
-    /// depends are unknown, and their covariances none.
+    /// Estimate from the derivatives of weighted residuals at the minimum, `C = s² (JᵀJ)⁻¹`; `None` without degrees of freedom, or if the
+    /// derivatives are linearly dependent. Parameters at bounds, which are not `free`, count as known; those that no residual depends on
+    /// have NaN covariances.
     pub fn of(derivatives: &DMatrix<f64>, squares: f64, free: &[bool]) -> Option<Self> {
         let columns: Vec<usize> = (0..free.len()).filter(|at| free[*at]).collect();
         let freedom = derivatives.nrows().checked_sub(columns.len()).filter(|left| *left > 0)?;
         let chosen = derivatives.select_columns(&columns);
-        // Columns of one size: parameters may have very different ones.
+        // Columns are normalised, because parameters may have very different sizes.
         let sizes: Vec<f64> = chosen.column_iter().map(|column| column.norm()).collect();
         let scaled = DMatrix::from_fn(chosen.nrows(), chosen.ncols(), |row, column| {
             chosen[(row, column)] / sizes[column]
@@ -46,13 +46,13 @@ impl Estimate {
         Some(Self { deviation: variance.sqrt(), freedom, covariance })
     }
 
-    /// The standard error of a parameter; none where no residual depends on it.
+    /// Standard error of a parameter; `None` if no residual depends on it.
     pub fn error(&self, parameter: usize) -> Option<f64> {
         Some(self.covariance[parameter][parameter].sqrt()).filter(|error| !error.is_nan())
     }
 
-    /// Half the width of the interval around a parameter in which it lies with a probability, such as 0.95, by Student's distribution; none where no residual
-    /// depends on it.
+    /// Half width of the confidence interval of a parameter for a probability such as 0.95, by Student's distribution; `None` if no
+    /// residual depends on it.
     pub fn half_width(&self, parameter: usize, probability: f64) -> Option<f64> {
         let quantile = student_quantile(0.5 + probability / 2.0, self.freedom as f64);
         Some(self.error(parameter)? * quantile)
@@ -63,7 +63,7 @@ impl Estimate {
 mod tests {
     use super::*;
 
-    /// A straight line through points: textbook formulas of the errors of its slope and its height.
+    /// Straight line fit: textbook formulas of the errors of slope and intercept.
     #[test]
     fn errors_of_a_straight_line_are_those_of_textbooks() {
         let x = [0.0, 1.0, 2.0, 3.0, 4.0];

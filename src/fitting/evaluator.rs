@@ -1,4 +1,4 @@
-//! A function that is asked for its values, and for its derivatives where it knows them; calls are counted.
+//! Evaluation of a function and its derivatives, with a count of the calls.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -6,29 +6,29 @@ use super::differences::{derivatives, only};
 use super::gradient_check::{DISTRUST, agree, beside};
 use super::{Evaluate, Evaluation, SearchRange, Slopes};
 
-/// A function with its calls so far.
+/// A function with the count of its calls.
 pub struct CountedEvaluator<'a, 'e, E> {
     evaluate: &'a mut Evaluate<'e, E>,
     slopes: &'a mut Slopes<'e, E>,
     ranges: &'a [SearchRange],
-    /// How often it was called.
+    /// Number of calls.
     pub runs: usize,
-    /// How often it was called for its derivatives too.
+    /// Number of calls with derivatives.
     pub gradient_runs: usize,
-    /// Why it is not asked for derivatives any more.
+    /// Reason why derivatives are no longer requested.
     pub differences: Option<String>,
 }
 
-/// What a function gave at a point, and its derivatives there if it knows them.
+/// Values and derivatives at a point.
 pub struct EvaluatedPoint {
-    /// Its values, or why there are none.
+    /// Values, or the reason of failure.
     pub values: Evaluation,
-    /// Its derivatives.
+    /// Derivatives, if known.
     pub derivatives: Option<DMatrix<f64>>,
 }
 
 impl<'a, 'e, E> CountedEvaluator<'a, 'e, E> {
-    /// A function that has not been called.
+    /// Wraps a function.
     pub fn new(
         evaluate: &'a mut Evaluate<'e, E>,
         slopes: &'a mut Slopes<'e, E>,
@@ -37,10 +37,9 @@ impl<'a, 'e, E> CountedEvaluator<'a, 'e, E> {
         Self { evaluate, slopes, ranges, runs: 0, gradient_runs: 0, differences: None }
     }
 
-    /// The values at a point, and the derivatives if the function knows them. The first ones are held against a difference.
+    /// Values at a point, with derivatives if the function provides them. The first derivatives are checked against finite differences.
     ///
-    /// # Errors
-    /// Those of the function.
+    /// Errors of the function.
     pub fn at(&mut self, x: &[f64]) -> Result<EvaluatedPoint, E> {
         let mut unknown = None;
         if self.differences.is_none() {
@@ -61,14 +60,14 @@ impl<'a, 'e, E> CountedEvaluator<'a, 'e, E> {
         }
         self.runs += 1;
         let values = only((self.evaluate)(&[x.to_vec()])?);
-        // Where it has no values either, that tells nothing of its derivatives.
+        // A failed evaluation says nothing about the derivatives.
         if values.is_ok() && self.differences.is_none() {
             self.differences = unknown;
         }
         Ok(EvaluatedPoint { values, derivatives: None })
     }
 
-    /// Whether derivatives are those of what the function gives for plain numbers.
+    /// Checks derivatives against values for plain numbers.
     fn are_true(&mut self, x: &[f64], here: &[f64], slopes: &DMatrix<f64>) -> Result<bool, E> {
         let [low, high] = beside(self.ranges, x);
         let way = DVector::from_fn(x.len(), |at, _| high[at] - low[at]);
@@ -79,10 +78,9 @@ impl<'a, 'e, E> CountedEvaluator<'a, 'e, E> {
         Ok(agree([low, high], here, |at| change[at]))
     }
 
-    /// The derivatives at a point, by differences: `here` are the values there.
+    /// Derivatives at a point by finite differences; `here` are the values there.
     ///
-    /// # Errors
-    /// Those of the function; the inner one tells which call gave nothing.
+    /// Errors of the function; the inner one names the call that failed.
     pub fn differences(
         &mut self,
         ranges: &[SearchRange],
@@ -99,7 +97,7 @@ impl<'a, 'e, E> CountedEvaluator<'a, 'e, E> {
     }
 }
 
-/// Values with derivatives by so many parameters, a row for each value, as values and a matrix.
+/// Splits values with derivatives into a vector and a matrix with one row per value.
 fn matrix(
     found: Vec<(f64, Vec<f64>)>,
     parameters: usize,

@@ -1,26 +1,26 @@
-//! Whether derivatives that a function knows are those of what it gives without them: it may decide or round by what it is asked at.
+//! Check of supplied derivatives against finite differences; a function that branches on or rounds its argument has wrong derivatives.
 
 use super::SearchRange;
 
-/// The parts of the sizes of parameters by which they are moved.
+/// Step of the check, relative to the sizes of the parameters.
 const DISTANCE: f64 = 1e-4;
 
-/// What differences may be off by, as a part of them: their own error is far below that, and wrong derivatives are far above.
+/// Relative tolerance, far above the error of the differences and far below that of wrong derivatives.
 const OFF: f64 = 0.02;
 
-/// Differences below this part of the values tell nothing.
+/// Differences below this fraction of the values are ignored.
 const ROUNDING: f64 = 1e-7;
 
-/// Why derivatives are not followed.
+/// Message for rejected derivatives.
 pub const DISTRUST: &str =
     "those that the runs know are not those of what they give for plain numbers";
 
-/// Two points on both sides of one, or at it and beside it where it is at a bound, each parameter moved by another part of its size.
+/// Two points on both sides of `x`, or on one side at a bound; each parameter is moved by a different fraction of its size.
 pub fn beside(ranges: &[SearchRange], x: &[f64]) -> [Vec<f64>; 2] {
     let moved = |sign: f64| {
         let parameters = x.iter().zip(ranges).enumerate();
         let moved = parameters.map(|(at, (x, range))| {
-            // No two alike, so that what is wrong does not cancel.
+            // All different, so that errors cannot cancel.
             let part = 0.5 + 0.5 * (1.0 + at as f64).recip();
             range.clip(x + sign * part * DISTANCE * range.size(*x))
         });
@@ -29,7 +29,7 @@ pub fn beside(ranges: &[SearchRange], x: &[f64]) -> [Vec<f64>; 2] {
     [moved(-1.0), moved(1.0)]
 }
 
-/// Whether values that belong together differ at two points as derivatives between them say, and lie about those there.
+/// Returns true if values at two points differ as predicted by the derivatives, and their mean is close to the values between them.
 pub fn agree(values: [&[f64]; 2], here: &[f64], change: impl Fn(usize) -> f64) -> bool {
     let [low, high] = values;
     if low.len() != here.len() || high.len() != here.len() {
@@ -42,7 +42,7 @@ pub fn agree(values: [&[f64]; 2], here: &[f64], change: impl Fn(usize) -> f64) -
     let off = norm(&|at| high[at] - low[at] - change(at));
     let aside = norm(&|at| 0.5 * (low[at] + high[at]) - here[at]);
     let floor = ROUNDING * norm(&|at| here[at]);
-    // Not finite values tell nothing against derivatives.
+    // Values that are not finite say nothing about the derivatives.
     !(off > OFF * difference.max(promised) + floor || aside > difference.max(promised) + floor)
 }
 

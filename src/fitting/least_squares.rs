@@ -1,75 +1,75 @@
-//! Least squares: K. Levenberg's and D. W. Marquardt's method within bounds, with few runs.
+//! Least squares: bounded Levenberg–Marquardt method with few runs.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::evaluator::{CountedEvaluator, EvaluatedPoint};
 use super::{Estimate, Evaluate, RELATIVE_STEP, SearchRange, Slopes};
 
-/// Rounds of steps from fresh derivatives.
+/// Maximum number of rounds with fresh derivatives.
 const MOST_ROUNDS: usize = 30;
-/// Steps from derivatives that were only corrected, for each parameter and so many more.
+/// Maximum number of steps per round with updated derivatives, besides one per parameter.
 const MORE_STEPS: usize = 6;
-/// A parameter that changes by less than this part of its size has settled.
+/// Convergence tolerance of a parameter, relative to its size.
 const SETTLED: f64 = 1e-7;
-/// As long as parameters have changed by less than this part of their sizes, derivatives are as good as fresh ones.
+/// Relative change of the parameters up to which derivatives count as fresh.
 const NEAR: f64 = 0.02;
-/// Cosine of the angle between residuals and the changes that parameters can make, below which nothing is gained.
+/// Convergence tolerance: cosine of the angle between the residuals and the columns of the Jacobian.
 const ORTHOGONAL: f64 = 1e-7;
-/// Part of the squares that a step must promise: less changes parameters by less than `1e-3 √(n - p)` of their
-/// standard errors, for `n` residuals and `p` parameters.
+/// Minimum relative reduction of the squares that a step must predict. A smaller one changes parameters by less than `1e-3 √(n - p)` of
+/// their standard errors, for `n` residuals and `p` parameters.
 const NOTHING: f64 = 1e-6;
-/// Part of the first squares below which they are rounding.
+/// Fraction of the initial squares that counts as rounding.
 const ROUNDING: f64 = 1e-26;
-/// Damping at the start, at least, and at most before it is given up.
+/// Initial, minimum and maximum damping.
 const DAMPING: (f64, f64, f64) = (1e-3, 1e-14, 1e12);
 
-/// A problem of least squares.
+/// A least-squares problem.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LeastSquares {
-    /// The parameters.
+    /// Parameters.
     pub ranges: Vec<SearchRange>,
-    /// The distance of differences as a part of the size of a parameter.
+    /// Step of finite differences, relative to the size of a parameter.
     pub relative_step: f64,
 }
 
-/// How a search ended.
+/// Reason for the end of a search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TerminationReason {
-    /// Nothing is to be gained any more.
+    /// Converged.
     Settled,
-    /// No step makes the squares less, though the derivatives promise it: they are as good as the noise of the runs allows, or the function jumps.
+    /// No step reduces the squares although the derivatives predict it: the noise of the runs or a discontinuity prevents further progress.
     Stuck,
-    /// It went on for too long.
+    /// Maximum number of rounds.
     Unfinished,
 }
 
-/// What a fit found.
+/// Result of a fit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fitted {
-    /// The parameters with the least sum of squares.
+    /// Parameters with the least sum of squares.
     pub parameters: Vec<f64>,
-    /// The residuals there.
+    /// Residuals.
     pub residuals: Vec<f64>,
-    /// How well they are known, where that can be told.
+    /// Uncertainty of the parameters, if it can be estimated.
     pub estimate: Option<Estimate>,
-    /// How it ended.
+    /// Reason for the end.
     pub settling: TerminationReason,
-    /// How often the function was called.
+    /// Number of calls.
     pub runs: usize,
-    /// How often it was called for its derivatives, which are among all calls.
+    /// Number of calls with derivatives, included in `runs`.
     pub gradient_runs: usize,
-    /// Why derivatives are differences of calls, where they are.
+    /// Reason for finite differences, if they were used.
     pub differences: Option<String>,
-    /// How many steps made the squares less.
+    /// Number of successful steps.
     pub steps: usize,
 }
 
-/// Where a search stands.
+/// State of a search.
 struct LeastSquaresState {
     x: Vec<f64>,
     residuals: DVector<f64>,
     derivatives: DMatrix<f64>,
-    /// The largest norms of the columns of derivatives so far: sizes of parameters.
+    /// Largest column norms of the derivatives so far, used for scaling.
     sizes: Vec<f64>,
     damping: f64,
 }
@@ -79,7 +79,7 @@ impl LeastSquaresState {
         self.residuals.norm_squared()
     }
 
-    /// Whether a parameter may move in the direction that makes the squares less; one on which nothing depends stays where it is.
+    /// Marks parameters that are not held by a bound and that some residual depends on.
     fn free(&self, ranges: &[SearchRange]) -> Vec<bool> {
         let gradient = self.derivatives.tr_mul(&self.residuals);
         let is_free = |at: usize| {
@@ -91,7 +91,7 @@ impl LeastSquaresState {
         (0..self.x.len()).map(is_free).collect()
     }
 
-    /// The largest cosine of an angle between the residuals and what a free parameter changes.
+    /// Largest cosine between the residuals and the Jacobian columns of free parameters.
     fn cosine(&self, ranges: &[SearchRange]) -> f64 {
         let length = self.residuals.norm();
         let columns = self.derivatives.column_iter().zip(self.free(ranges));
@@ -102,8 +102,8 @@ impl LeastSquaresState {
         cosines.fold(0.0, f64::max)
     }
 
-    /// The step of the free parameters that makes `|r + J δ|² + λ |D δ|²` least; those that it would take beyond a bound go there, and the others do what is best
-    /// then.
+    /// Step of the free parameters that minimises `|r + J δ|² + λ |D δ|²`; parameters that would exceed a bound are fixed there, and the
+    /// others are recomputed.
     fn step(&self, ranges: &[SearchRange]) -> DVector<f64> {
         let mut free = self.free(ranges);
         let mut step = DVector::zeros(self.x.len());
@@ -132,7 +132,7 @@ impl LeastSquaresState {
         }
     }
 
-    /// The step of some parameters from given residuals.
+    /// Step of some parameters for given residuals.
     fn step_of(&self, columns: &[usize], residuals: &DVector<f64>) -> DVector<f64> {
         let (rows, count) = (residuals.len(), columns.len());
         let root = self.damping.sqrt();
@@ -153,7 +153,7 @@ impl LeastSquaresState {
         DVector::from_fn(count, |at, _| solution[at] / self.sizes[columns[at]])
     }
 
-    /// Keeps what a step has shown of the derivatives: C. G. Broyden's correction (1965), in the sizes of the parameters.
+    /// Updates the derivatives after a step: C. G. Broyden's rank-one correction (1965), in scaled parameters.
     fn learn(&mut self, step: &DVector<f64>, change: &DVector<f64>) {
         let scaled =
             DVector::from_fn(step.len(), |at, _| step[at] * self.sizes[at] * self.sizes[at]);
@@ -172,13 +172,13 @@ impl LeastSquaresState {
     }
 }
 
-/// How far a round of steps has come.
+/// State of a round.
 enum Round {
-    /// The parameters no longer move, or nothing more is promised.
+    /// Converged, or no further reduction is predicted.
     Rests,
-    /// Derivatives are to be found anew, or are known.
+    /// New derivatives are needed, or given.
     Goes(Option<DMatrix<f64>>),
-    /// Fresh derivatives promise what no step finds.
+    /// Fresh derivatives predict a reduction that no step achieves.
     Sticks,
 }
 
@@ -188,19 +188,17 @@ impl LeastSquares {
         Self { ranges, relative_step: RELATIVE_STEP }
     }
 
-    /// Makes the sum of the squares of what the function gives least: derivatives by central differences at the start, after that corrected by what each step
-    /// shows, and found anew where that no longer helps and at the end. Steps that fail are shortened.
+    /// Minimises the sum of squares. Derivatives are central differences at the start, are then updated after each step, and are recomputed
+    /// when that no longer helps and at the end. Steps that fail are shortened.
     ///
-    /// # Errors
-    /// Those of the function; the inner one tells why it gave nothing where it must.
+    /// Errors of the function; the inner one is the reason of a failure at a required point.
     pub fn solve<E>(&self, evaluate: &mut Evaluate<'_, E>) -> Result<Result<Fitted, String>, E> {
         self.solve_with(evaluate, &mut |_| Ok(Err("differences are wanted".into())))
     }
 
-    /// Makes the squares least as [`solve`](Self::solve) does, with the derivatives that the function knows; where it does not, with differences.
+    /// Minimises like [`solve`](Self::solve), with derivatives provided by the function, or finite differences if they are missing.
     ///
-    /// # Errors
-    /// As those of [`solve`](Self::solve), and those of the derivatives.
+    /// See [`solve`](Self::solve); also errors of the derivatives.
     pub fn solve_with<E>(
         &self,
         evaluate: &mut Evaluate<'_, E>,
@@ -262,7 +260,7 @@ impl LeastSquares {
         }))
     }
 
-    /// Steps from fresh derivatives on.
+    /// Steps from fresh derivatives.
     fn round<E>(
         &self,
         state: &mut LeastSquaresState,
@@ -288,7 +286,7 @@ impl LeastSquares {
                 return Ok(if is_near { Round::Rests } else { Round::Goes(None) });
             }
             let x: Vec<f64> = state.x.iter().zip(step.iter()).map(|(x, step)| x + step).collect();
-            // A bound may stand in the way of what the others promise: a shorter step does not reach it.
+            // A bound may prevent the predicted reduction; a shorter step may not reach it.
             let nothing =
                 || EvaluatedPoint { values: Err("nothing is promised".into()), derivatives: None };
             let EvaluatedPoint { values: found, derivatives } =
@@ -305,7 +303,7 @@ impl LeastSquares {
             }
             let share = gained / promised;
             let Some(found) = found.filter(|_| share > 1e-4) else {
-                // The derivatives may be too old for the step that they promise.
+                // The derivatives may be outdated.
                 if !is_fresh {
                     return Ok(Round::Goes(None));
                 }
@@ -326,7 +324,7 @@ impl LeastSquares {
             *steps += 1;
             taken += 1;
             is_fresh = false;
-            // Derivatives that are known are better than corrected ones.
+            // Exact derivatives replace updated ones.
             if state.squares() <= least || derivatives.is_some() {
                 return Ok(Round::Goes(derivatives));
             }

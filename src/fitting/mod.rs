@@ -1,4 +1,4 @@
-//! Parameters found by runs: least squares, the least of a function within constraints, a root. It sees numbers, and a function that gives some.
+//! Parameter estimation from runs: least squares, constrained minimisation, root finding. The functions are opaque and return numbers.
 //!
 //! ```text
 //! least_squares → asking → differences
@@ -29,14 +29,14 @@ pub use range::SearchRange;
 pub use root::{Root, RootError, root};
 pub use student::student_quantile;
 
-/// What a function gave at a point: numbers, or why there are none.
+/// Values of a function at a point, or the reason of failure.
 pub type Evaluation = Result<Vec<f64>, String>;
 
-/// The values of a function at a point, each with its derivatives by all parameters, or why it does not know them.
+/// Values with derivatives by all parameters, or the reason for missing derivatives.
 pub type Sloped = Result<Vec<(f64, Vec<f64>)>, String>;
 
-/// A function that may know its derivatives, asked at a point; an error ends the whole search.
+/// A function with optional derivatives; an error ends the whole search.
 pub type Slopes<'s, E> = dyn FnMut(&[f64]) -> Result<Sloped, E> + 's;
 
-/// A function that is asked at several points at once, so that they can be worked on beside each other; an error ends the whole search.
+/// A function evaluated at several points at once, for parallel execution; an error ends the whole search.
 pub type Evaluate<'e, E> = dyn FnMut(&[Vec<f64>]) -> Result<Vec<Evaluation>, E> + 'e;

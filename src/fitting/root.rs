@@ -1,35 +1,34 @@
-//! Where a function of one number is zero.
+//! Root finding in one dimension.
 
-/// Calls at most.
+/// Maximum number of calls.
 const MOST_CALLS: usize = 200;
 
-/// A root that was found.
+/// A root.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Root {
-    /// Where the function is zero, or changes its sign.
+    /// Argument at which the function is zero or changes its sign.
     pub at: f64,
-    /// The value there.
+    /// Value there.
     pub value: f64,
-    /// How often the function was called.
+    /// Number of calls.
     pub calls: usize,
 }
 
-/// Why no root was found.
+/// Error of root finding.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RootError<E> {
-    /// The function has the same sign at both ends: the values there.
+    /// The function has the same sign at both ends; the values there.
     SameSign(f64, f64),
-    /// The function gave something that is not finite at a place.
+    /// The function is not finite; argument and value.
     NotFinite(f64, f64),
     /// The function failed.
     Function(E),
 }
 
-/// Where `function` is zero between two places at which its signs differ, to within `tolerance`: R. P. Brent's method (Algorithms for Minimization without Derivatives, 1973,
-/// chapter 4), which keeps the root between two places and takes parabolas and secants where they help.
+/// Root of `function` in an interval with a change of sign, within `tolerance`: R. P. Brent's method (Algorithms for Minimization without
+/// Derivatives, 1973, chapter 4), which brackets the root and uses inverse quadratic interpolation and secants.
 ///
-/// # Errors
-/// When the signs do not differ, a value is not finite, or the function fails.
+/// If the signs do not differ, a value is not finite, or the function fails.
 pub fn root<E>(
     (from, to): (f64, f64),
     tolerance: f64,
@@ -52,7 +51,7 @@ pub fn root<E>(
     let (mut c, mut fc) = (a, fa);
     let (mut last, mut step) = (b - a, b - a);
     for _ in 0..MOST_CALLS {
-        // b is the best place, and c lies on the other side of the root.
+        // b is the best estimate, and c lies on the other side of the root.
         if fb.signum() == fc.signum() {
             (c, fc) = (a, fa);
             step = b - a;
@@ -104,7 +103,7 @@ mod tests {
 
     #[test]
     fn roots_are_found_to_the_tolerance_in_few_calls() {
-        // The first frequency of a cantilever: cos x cosh x = -1.
+        // First frequency of a cantilever: cos x cosh x = -1.
         let found = root((1.0, 3.0), 1e-12, |x| good(cos(x) * cosh(x) + 1.0)).unwrap();
         assert!((found.at - 1.875_104_068_711_961).abs() < 1e-12 && found.calls < 12, "{found:?}");
         let found = root((3.0, 1.0), 1e-10, |x| good(x * x * x - 8.0)).unwrap();

@@ -2,12 +2,12 @@
 
 use crate::elementary::{exp, ln, power};
 
-/// Terms of the continued fraction at most.
+/// Maximum number of terms of the continued fraction.
 const TERMS: usize = 500;
-/// Halvings of the interval in which the quantile lies.
+/// Number of bisections for the quantile.
 const HALVINGS: usize = 200;
 
-/// The logarithm of the gamma function for positive numbers: C. Lanczos (1964), with nine terms and g = 7, to about 1e-15.
+/// Logarithm of the gamma function for positive numbers: C. Lanczos (1964), with nine terms and g = 7, to about 1e-15.
 fn ln_gamma(x: f64) -> f64 {
     const TERMS: [f64; 9] = [
         0.999_999_999_999_809_9,
@@ -27,7 +27,7 @@ fn ln_gamma(x: f64) -> f64 {
     0.5 * ln(2.0 * std::f64::consts::PI) + (x + 0.5) * ln(base) - base + ln(sum)
 }
 
-/// The regularised incomplete beta function, by the continued fraction of Lentz's method (W. H. Press et al., Numerical Recipes, section 6.4).
+/// Regularised incomplete beta function, by Lentz's method for its continued fraction (W. H. Press et al., Numerical Recipes, section 6.4).
 fn incomplete_beta(x: f64, a: f64, b: f64) -> f64 {
     if x <= 0.0 || x >= 1.0 {
         return x.clamp(0.0, 1.0);
@@ -56,10 +56,10 @@ fn incomplete_beta(x: f64, a: f64, b: f64) -> f64 {
     front * fraction
 }
 
-/// The number below which a variable of Student's distribution with so many degrees of freedom lies with a probability above one half.
+/// Quantile of Student's distribution for a probability above one half.
 pub fn student_quantile(probability: f64, freedom: f64) -> f64 {
     let tail = 2.0 * (1.0 - probability);
-    // Where the tails beyond ±t have together that probability: I_x(ν/2, 1/2) at x = ν/(ν + t²).
+    // Solves for both tails together: I_x(ν/2, 1/2) = tail probability at x = ν/(ν + t²).
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..HALVINGS {
         let middle = (low + high) / 2.0;
@@ -76,7 +76,7 @@ pub fn student_quantile(probability: f64, freedom: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Of tables; with one degree of freedom it is tan(π (p - 1/2)).
+    /// Values of tables; with one degree of freedom it is tan(π (p - 1/2)).
     #[test]
     fn quantiles_are_those_of_tables() {
         for (probability, freedom, expected) in [

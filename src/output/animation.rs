@@ -1,7 +1,7 @@
-//! Pictures one after the other in one file: an animated PNG, which browsers and Markdown play.
+//! Animated PNG files, which browsers and Markdown viewers play.
 //!
-//! All frames share a palette, the 256 colours that are met most, to which all others go that are nearest; of each only the box in which it differs from the
-//! one before is kept.
+//! All frames share a palette of the 256 most frequent colours; other colours map to the nearest of them. Of each frame
+//! only the bounding box of its changes is stored.
 
 use std::collections::BTreeMap;
 
@@ -9,27 +9,22 @@ use png::{BitDepth, BlendOp, ColorType, Compression, DisposeOp, Encoder, FilterT
 
 use super::{OutputError, figure::Figure};
 
-/// Most colours of a palette.
 const MOST_COLOURS: usize = 256;
-/// Most pixels of all frames together.
 const MOST_PIXELS: f64 = 2e9;
 
-/// Red, green and blue.
 type Rgb = [u8; 3];
-/// The pixels of a picture, each as an index of the palette.
 type Pixels = Vec<u8>;
 
-/// Pictures of one size, one after the other, drawn when they are asked for.
+/// Sequence of equally sized pictures, drawn on demand.
 pub struct Animation<'a> {
-    /// How many.
+    /// Number of frames.
     pub frames: usize,
-    /// How many in a second.
+    /// Frames per second.
     pub frames_per_second: u16,
-    /// Draws one of them. It is asked for twice: first for its colours.
+    /// Draws the frame of the given index. Called twice per frame; the first pass collects the colours.
     pub draw: &'a dyn Fn(usize) -> Result<Figure, OutputError>,
 }
 
-/// A part of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Region {
     left: u32,
@@ -39,10 +34,10 @@ struct Region {
 }
 
 impl Animation<'_> {
-    /// The file. It is repeated without end, and programs that know nothing of animations show the first picture.
+    /// Returns the file. It loops without end; programs that do not support animations show the first frame.
     ///
     /// # Errors
-    /// When a picture cannot be painted, or there are too many pixels or no picture at all.
+    /// If a frame cannot be painted, there are too many pixels, or there is no frame at all.
     pub fn to_png(&self) -> Result<Vec<u8>, OutputError> {
         let (width, height) = (self.draw)(0)?.size();
         let pixels = f64::from(width) * f64::from(height) * self.frames as f64;
@@ -55,7 +50,7 @@ impl Animation<'_> {
         encoder.set_color(ColorType::Indexed);
         encoder.set_depth(BitDepth::Eight);
         encoder.set_compression(Compression::Best);
-        // Indices are no amounts: differences of neighbours say nothing.
+        // Palette indices have no order, so differencing filters do not help.
         encoder.set_filter(FilterType::NoFilter);
         encoder.set_palette(palette.colours.concat());
         encoder.set_animated(self.frames as u32, 0).map_err(refused)?;
@@ -71,7 +66,7 @@ impl Animation<'_> {
                 Some(before) => changed(before, &now, width),
             };
             if before.is_some() {
-                // A box is compared with the place of the one before: from the corner any size fits.
+                // The frame box must fit at the previous offset. At the corner any size fits.
                 writer.set_frame_position(0, 0).map_err(refused)?;
                 writer.set_frame_dimension(region.width, region.height).map_err(refused)?;
                 writer.set_frame_position(region.left, region.top).map_err(refused)?;
@@ -83,12 +78,11 @@ impl Animation<'_> {
         Ok(bytes)
     }
 
-    /// The colours that are met most in all frames.
     fn palette(&self) -> Result<Palette, OutputError> {
         let mut counts: BTreeMap<Rgb, u64> = BTreeMap::new();
         for frame in 0..self.frames {
             let pixels = (self.draw)(frame)?.to_pixels()?;
-            // Most pixels have the colour of the one before.
+            // Neighbouring pixels mostly have the same colour.
             for run in pixels.as_chunks().0.chunk_by(|a: &Rgb, b| a == b) {
                 *counts.entry(run[0]).or_default() += run.len() as u64;
             }
@@ -106,19 +100,16 @@ impl Animation<'_> {
     }
 }
 
-/// The square of the distance of two colours.
 fn distance(a: Rgb, b: Rgb) -> u32 {
     a.iter().zip(b).map(|(a, b)| u32::from(a.abs_diff(b)).pow(2)).sum()
 }
 
 struct Palette {
     colours: Vec<Rgb>,
-    /// The index of the nearest of them, for each colour that there is.
     nearest: BTreeMap<Rgb, u8>,
 }
 
 impl Palette {
-    /// The indices of the colours of a picture that was looked at for the palette.
     fn indices(&self, pixels: &[u8]) -> Pixels {
         let runs = pixels.as_chunks().0.chunk_by(|a: &Rgb, b| a == b);
         let index = |colour: &Rgb| self.nearest.get(colour).copied().unwrap_or(0);
@@ -126,7 +117,7 @@ impl Palette {
     }
 }
 
-/// The box in which two pictures differ; one pixel where they are the same, for a frame must have one.
+/// Box in which two frames differ. Equal frames give one pixel, because a frame cannot be empty.
 fn changed(before: &[u8], now: &[u8], width: u32) -> Region {
     let columns = width as usize;
     let (mut left, mut right) = (columns, 0);
@@ -167,7 +158,6 @@ mod tests {
     use crate::output::canvas::Canvas;
     use crate::output::colour::{INK, hue};
 
-    /// A disc that goes to the right, ten pixels a frame.
     fn disc(frame: usize) -> Result<Figure, OutputError> {
         let mut canvas = Canvas::default();
         canvas.line([(0.0, 20.0), (120.0, 20.0)], 1.0, INK);

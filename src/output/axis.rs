@@ -1,9 +1,9 @@
-//! Axes: from numbers to places along a side of a chart, and to the labels beside it.
+//! Chart axes: mapping from numbers to positions, and tick labels.
 
 use super::number::{format_number, significant};
 use crate::elementary::{log10, power, whole_power};
 
-/// How numbers are laid out along an axis of a chart.
+/// Layout of numbers along a chart axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum AxisScale {
     /// Equal differences of numbers are equally long on the axis.
@@ -16,18 +16,18 @@ pub enum AxisScale {
 /// The floor of a logarithmic axis unless a chart sets another: well below the rounding of any double near one.
 pub const DEFAULT_FLOOR: f64 = 1e-18;
 
-/// Numbers beyond it are shown at it: the widest range whose length is still a finite number.
+/// Numbers are clamped to this magnitude, so that the length of any range is finite.
 const LARGEST: f64 = 1e300;
 
-/// A range narrower than this part of its numbers is rounding, and is shown as the constant it stands for.
+/// A range narrower than this fraction of its numbers is rounding and is shown as a constant.
 const ROUNDING: f64 = 1e-10;
 
 /// A tick: a place on an axis that carries a label.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tick {
-    /// The place of the tick, from 0 at the low end of its axis to 1 at the high end.
+    /// Position of the tick, from 0 at the low end of its axis to 1 at the high end.
     pub place: f64,
-    /// The label beside the tick.
+    /// Label of the tick.
     pub label: String,
 }
 
@@ -35,10 +35,9 @@ pub struct Tick {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axis {
     scale: AxisScale,
-    /// The ends; on a logarithmic axis those of the exponents.
+    /// Ends of the axis; on a logarithmic axis the exponents of the ends.
     low: f64,
     high: f64,
-    /// Whether numbers were cut at the low end of a logarithmic axis.
     cut: AxisCut,
 }
 
@@ -79,8 +78,8 @@ impl Axis {
         Self::linear([low, high], 0.0)
     }
 
-    /// A logarithmic axis over whole powers of ten. What lies at or below `floor` is shown at the bottom, one power of
-    /// ten below the least number that is above it.
+    /// A logarithmic axis over whole powers of ten. Values at or below `floor` are shown at the bottom, one power of
+    /// ten below the least value above `floor`.
     pub fn logarithmic(values: impl IntoIterator<Item = f64>, floor: f64) -> Self {
         let floor = if floor > 0.0 && floor.is_finite() { floor } else { DEFAULT_FLOOR };
         let mut cut = AxisCut::Nothing;
@@ -105,7 +104,8 @@ impl Axis {
         Self { scale: AxisScale::Logarithmic, low, high, cut: AxisCut::Nothing }
     }
 
-    /// The place of `x` on the axis, from 0 at the low end to 1 at the high end; beyond them outside the range, `nan` for `nan`.
+    /// Position of `x` on the axis, from 0 at the low end to 1 at the high end. Values outside the range lie beyond 0
+    /// or 1; `nan` gives `nan`.
     pub fn place(&self, x: f64) -> f64 {
         match self.scale {
             AxisScale::Linear => (x.clamp(-LARGEST, LARGEST) - self.low) / (self.high - self.low),
@@ -115,7 +115,7 @@ impl Axis {
         }
     }
 
-    /// At most about `count` labelled places of the axis, and the factor that their labels have been freed of.
+    /// About `count` labelled ticks of the axis, and the power of ten that is taken out of their labels.
     pub fn ticks(&self, count: usize) -> (Vec<Tick>, Factor) {
         let count = count.max(2) as f64;
         match self.scale {
@@ -136,7 +136,7 @@ impl Axis {
             other => other,
         };
         let decimals = (factor - power).max(0) as usize;
-        // A hair of a step keeps the ends of the range, which rounding may have moved.
+        // Rounding may have moved the ends of the range; the tolerance keeps their ticks.
         let (first, last) = ((self.low / step - 1e-6).ceil(), (self.high / step + 1e-6).floor());
         let ticks = (0..=(last - first).clamp(0.0, 100.0) as usize).map(|index| {
             let multiple = first + index as f64;
@@ -165,7 +165,6 @@ impl Axis {
         ticks
     }
 
-    /// Round numbers, where there is no power of ten or one alone.
     fn ticks_within_a_power(&self, count: f64) -> (Vec<Tick>, Factor) {
         let ends = [self.low, self.high].map(|exponent| power(10.0, exponent));
         let even = Self::between(ends[0], ends[1]);
@@ -220,7 +219,6 @@ fn ten_to(power: i32) -> f64 {
     whole_power(10.0, power)
 }
 
-/// A number with a fixed count of decimals and a true minus sign.
 fn typeset(x: f64, decimals: usize) -> String {
     let x = if x == 0.0 { 0.0 } else { x };
     format!("{x:.decimals$}").replace('-', "−")

@@ -1,4 +1,4 @@
-//! Bar charts: level bars from zero, with a name before and a number behind each.
+//! Bar charts: horizontal bars from zero, each with a name before and a number after it.
 
 use super::{
     canvas::{Align, Area, Canvas},
@@ -11,12 +11,10 @@ use super::{
 const TITLE: f64 = 16.0;
 const TEXT: f64 = 12.5;
 const EDGE: f64 = 14.0;
-/// The height of a bar with the paper around it, and of the bar alone.
+/// Height of a row, and of the bar in it.
 const ROW: (f64, f64) = (26.0, 16.0);
-/// The most room for a name.
 const NAME: f64 = 260.0;
 
-/// A bar.
 #[derive(Clone, Debug, PartialEq)]
 struct Bar {
     name: String,
@@ -34,18 +32,18 @@ pub struct BarChart {
 }
 
 impl BarChart {
-    /// An empty chart of bars; the label says what their lengths are.
+    /// An empty bar chart; `label` names the quantity that the bars show.
     pub fn new(title: impl Into<String>, label: impl Into<String>) -> Self {
         Self { title: title.into(), label: label.into(), ..Self::default() }
     }
 
-    /// Adds a bar below the others, as long as its value; the text stands behind it.
+    /// Adds a bar of length `value` below the others; `text` is written after it.
     pub fn bar(mut self, name: impl Into<String>, value: f64, text: impl Into<String>) -> Self {
         self.bars.push(Bar { name: name.into(), value, text: text.into() });
         self
     }
 
-    /// Marks a length in the chart, to compare all bars with.
+    /// Marks a reference value across all bars.
     pub fn mark(mut self, value: f64) -> Self {
         self.mark = Some(value);
         self
@@ -95,7 +93,7 @@ impl Panel for BarChart {
             canvas.line([(x, plot.top), (x, plot.bottom)], 1.0, GREY);
         }
         for (text, (left, baseline)) in texts {
-            // The mark passes behind the texts of shorter bars.
+            // White boxes keep the reference line from crossing the texts of shorter bars.
             let (top, bottom) = (baseline - TEXT, baseline + 0.3 * TEXT);
             let right = left + fonts::width(&text, TEXT);
             canvas.fill(Area { left: left - 2.0, top, right: right + 2.0, bottom }, WHITE);

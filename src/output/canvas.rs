@@ -1,17 +1,16 @@
-//! What a picture is made of: lines, discs, filled boxes and texts, in pixels from the top left corner.
+//! Shapes that make up a picture: lines, discs, filled boxes and texts, in pixels from the top left corner.
 //!
-//! Charts draw on a canvas; painters turn the canvas into a file. The two know nothing of each other, so the drawing
-//! library behind the painters can be replaced.
+//! Charts draw on a canvas; painters turn the canvas into a file. Charts and painters are independent, so that the
+//! drawing library can be replaced.
 
 use super::{colour::Colour, fonts};
 
-/// A point of a picture: in pixels on a canvas, in the reader's units in a chart.
+/// A point: pixels on a canvas, data units in a chart.
 pub type Point = (f64, f64);
 
-/// Coordinates beyond this many pixels are drawn at it: far outside every picture, and safe to compute with.
+/// Coordinates are clamped to this many pixels, far outside every picture, to keep the arithmetic safe.
 const FAR: f64 = 20_000.0;
 
-/// A box with sides along the axes of the picture; `top` is less than `bottom`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Area {
     /// The least x of the box, its left side.
@@ -25,7 +24,7 @@ pub struct Area {
 }
 
 impl Area {
-    /// The part of it that lies in another area.
+    /// Intersection with another area.
     pub fn within(&self, other: &Self) -> Self {
         Self {
             left: self.left.clamp(other.left, other.right),
@@ -35,7 +34,7 @@ impl Area {
         }
     }
 
-    /// The square around a point with sides twice as long as `reach`.
+    /// Square centred on a point, with sides of twice `reach`.
     pub fn around((x, y): Point, reach: f64) -> Self {
         Self { left: x - reach, top: y - reach, right: x + reach, bottom: y + reach }
     }
@@ -51,7 +50,7 @@ impl Area {
     }
 }
 
-/// Where a text stands relative to its anchor.
+/// Alignment of a text relative to its anchor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Align {
     /// The text begins at the anchor.
@@ -74,9 +73,9 @@ pub enum TextDirection {
 /// A text of a picture on its line; `anchor` is on the baseline.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Text {
-    /// The words that are written.
+    /// Text to write.
     pub text: String,
-    /// The place where the baseline of the text begins, after alignment [pixels].
+    /// Left end of the baseline, after alignment [pixels].
     pub start: Point,
     /// The size of the text [pixels per em].
     pub size: f64,
@@ -86,10 +85,10 @@ pub struct Text {
     pub direction: TextDirection,
 }
 
-/// One thing that is drawn on a canvas.
+/// A shape on a canvas.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
-    /// A line through points is drawn, with round ends and corners.
+    /// A polyline with round ends and corners.
     Line {
         /// The corners of the line [pixels].
         points: Vec<Point>,
@@ -98,7 +97,7 @@ pub enum Shape {
         /// The colour of the line.
         colour: Colour,
     },
-    /// A filled circle is drawn.
+    /// A filled circle.
     Disc {
         /// The centre of the circle [pixels].
         centre: Point,
@@ -107,25 +106,25 @@ pub enum Shape {
         /// The colour of the circle.
         colour: Colour,
     },
-    /// A filled box is drawn, with sides along the axes.
+    /// A filled box, with sides along the axes.
     Fill {
-        /// The box that is filled.
+        /// Area of the box.
         area: Area,
         /// The colour of the box.
         colour: Colour,
     },
-    /// A text is drawn on its line.
+    /// A line of text.
     Text(Text),
 }
 
-/// A picture in the making: shapes, the later ones over the earlier ones.
+/// A picture under construction: shapes from back to front.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Canvas {
     shapes: Vec<Shape>,
 }
 
 impl Canvas {
-    /// The shapes that have been drawn on the canvas, from back to front.
+    /// Shapes on the canvas, from back to front.
     pub fn shapes(&self) -> &[Shape] {
         &self.shapes
     }
@@ -200,7 +199,6 @@ impl Canvas {
     }
 }
 
-/// A finite point within reach of the painters.
 fn reachable((x, y): Point) -> Option<Point> {
     (x.is_finite() && y.is_finite()).then(|| (x.clamp(-FAR, FAR), y.clamp(-FAR, FAR)))
 }

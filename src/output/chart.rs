@@ -14,7 +14,7 @@ use super::{
 
 const LINE: f64 = 2.0;
 const MARK: f64 = 3.5;
-/// Width of lines and radius of marks of series of lesser weight, and how much of their colour is left.
+/// Line width and marker radius of faint series, and the fraction of their colour that is kept.
 const FAINT: (f64, f64, f64) = (0.9, 2.4, 0.15);
 const THIN: f64 = 1.3;
 const NOTE: f64 = 12.0;
@@ -22,26 +22,26 @@ const NOTE: f64 = 12.0;
 /// The colour of a series of a chart.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum SeriesColour {
-    /// The series gets the next colour of the palette.
+    /// The next colour of the palette.
     #[default]
     Next,
-    /// The series gets the colour of the one with this number, counted from 0: they belong together.
+    /// The colour of the series with this index, for series that belong together.
     OfSeries(usize),
-    /// The series gets the colour of titles, for it is about all series.
+    /// The colour of titles, for series that summarise all others.
     Black,
-    /// The series gets the colour of labels, for it guides the eye.
+    /// The colour of labels, for guide lines.
     Grey,
 }
 
-/// How much a series of a chart catches the eye.
+/// Visual weight of a series.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum SeriesEmphasis {
-    /// The line of the series is as thick as usual.
+    /// A line of normal width.
     #[default]
     Full,
-    /// The line of the series is thin; it is drawn before what is faint.
+    /// A thin line.
     Thin,
-    /// The line of the series is thin and pale, behind what matters.
+    /// A thin and pale line, drawn in the background.
     Faint,
 }
 
@@ -52,29 +52,29 @@ pub struct Series {
     pub name: String,
     /// The points of the series, in the order in which they are joined.
     pub points: Vec<Point>,
-    /// How the line of the series is drawn; `None` leaves the choice to the chart, which draws unbroken lines while colours last.
+    /// Line style of the series; with `None` the chart chooses, which draws unbroken lines while colours last.
     pub stroke: Option<Stroke>,
-    /// The shape of the marks of the series, where it has some.
+    /// Shape of the markers, if the stroke has any.
     pub marker: Marker,
     /// The colour of the series.
     pub ink: SeriesColour,
-    /// How much the series catches the eye.
+    /// Visual weight of the series.
     pub weight: SeriesEmphasis,
 }
 
 impl Series {
-    /// A series of a chart: a named curve through `points`; one without a name is not in the legend.
+    /// A series through `points`; a series with an empty name is not in the legend.
     pub fn new(name: impl Into<String>, points: Vec<Point>) -> Self {
         Self { name: name.into(), points, ..Self::default() }
     }
 
-    /// Chooses the shape of the marks of the series.
+    /// Sets the shape of the markers.
     pub fn marker(mut self, marker: Marker) -> Self {
         self.marker = marker;
         self
     }
 
-    /// Chooses the colour of the series.
+    /// Sets the colour of the series.
     pub fn ink(mut self, ink: SeriesColour) -> Self {
         self.ink = ink;
         self
@@ -92,7 +92,7 @@ impl Series {
         self
     }
 
-    /// Chooses how the line of the series is drawn.
+    /// Sets the line style of the series.
     pub fn stroke(mut self, stroke: Stroke) -> Self {
         self.stroke = Some(stroke);
         self
@@ -116,7 +116,7 @@ pub struct LineChart {
 }
 
 impl LineChart {
-    /// An empty line chart, 900 by 560 pixels large when it is alone.
+    /// An empty line chart of 900 by 560 pixels.
     pub fn new(title: impl Into<String>) -> Self {
         Self {
             title: title.into(),
@@ -133,7 +133,7 @@ impl LineChart {
         }
     }
 
-    /// Says what stands above it.
+    /// Sets the title.
     pub fn title(mut self, title: impl Into<String>) -> Self {
         self.title = title.into();
         self
@@ -151,31 +151,33 @@ impl LineChart {
         self
     }
 
-    /// Chooses the scale of the horizontal axis of the chart.
+    /// Sets the scale of the horizontal axis.
     pub fn x_scale(mut self, scale: AxisScale) -> Self {
         self.x_scale = scale;
         self
     }
 
-    /// Chooses the scale of the vertical axis of the chart.
+    /// Sets the scale of the vertical axis.
     pub fn y_scale(mut self, scale: AxisScale) -> Self {
         self.y_scale = scale;
         self
     }
 
-    /// Shows numbers at or below `floor` at the bottom of the chart's logarithmic axes; [`DEFAULT_FLOOR`] unless it is positive.
+    /// Sets the bottom of logarithmic axes: values at or below `floor` are shown there. A `floor` that is not positive
+    /// selects [`DEFAULT_FLOOR`].
     pub fn floor(mut self, floor: f64) -> Self {
         self.floor = floor;
         self
     }
 
-    /// Fixes the ends of axes; what lies beyond is cut off. An axis without limits fits what is seen of the series.
+    /// Fixes the ends of the axes and clips the data to them. An axis without limits fits the visible part of the
+    /// series.
     pub fn limits(mut self, limits: AxisLimits) -> Self {
         self.limits = limits;
         self
     }
 
-    /// Sets the size in pixels that the chart has when it is alone.
+    /// Sets the size of the chart as a stand-alone picture [pixels].
     pub fn sized(mut self, width: f64, height: f64) -> Self {
         self.size = (width, height);
         self
@@ -187,8 +189,9 @@ impl LineChart {
         self
     }
 
-    /// All series of charts in the axes of the first; each has the name of its chart, and its own where a chart has several. Lines of the second
-    /// chart are dashed, those of the third dotted.
+    /// Combines the series of several charts in the axes of the first. Each series takes the name of its chart,
+    /// followed by its own name if its chart has several. Lines of the second chart are dashed, those of the third
+    /// dotted.
     pub fn shared(
         title: impl Into<String>,
         charts: impl IntoIterator<Item = (String, Self)>,
@@ -201,27 +204,27 @@ impl LineChart {
             chart.series.into_iter().fold(shared, |shared, series| {
                 let name =
                     if is_alone { whose.clone() } else { format!("{whose}: {}", series.name) };
-                // Dashes let a curve below be seen that is the same.
+                // Dashes leave an equal curve below visible.
                 let stroke = series.stroke.or((which > 0).then(|| Stroke::of_round(which)));
                 shared.series(Series { name, stroke, ..series })
             })
         })
     }
 
-    /// Changes each series, given with its number.
+    /// Maps each series, called with its index.
     pub fn each(mut self, change: impl Fn(usize, Series) -> Series) -> Self {
         let series = self.series.into_iter().enumerate();
         self.series = series.map(|(index, series)| change(index, series)).collect();
         self
     }
 
-    /// Adds a line of small words below the title of the chart.
+    /// Adds a caption line below the title of the chart.
     pub fn caption(mut self, words: impl Into<String>) -> Self {
         self.captions.push(words.into());
         self
     }
 
-    /// Writes a few words into the chart, to the right of a point of the data and a little below it.
+    /// Writes a text into the chart, to the right of a data point and slightly below it.
     pub fn note(mut self, at: Point, text: impl Into<String>) -> Self {
         self.notes.push((at, text.into()));
         self
@@ -265,7 +268,7 @@ impl LineChart {
         }
     }
 
-    /// One series whose name is the title or the label of the axis needs no legend.
+    /// No legend is needed for a single series whose name is the title or the axis label.
     fn legend(&self) -> Vec<LegendEntry> {
         let entry = |(index, series): (usize, &Series)| {
             let (colour, stroke) = look(index, series);

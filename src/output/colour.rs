@@ -1,4 +1,4 @@
-//! Colours that can be told apart by colour-blind readers and in print, on white paper.
+//! Colours that colour-blind readers and black-and-white prints can distinguish, on white paper.
 
 /// An opaque colour: red, green and blue from 0 to 255.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,7 +15,7 @@ pub const AXIS: Colour = Colour(150, 156, 163);
 /// The colour of the grid behind the data of a chart.
 pub const GRID: Colour = Colour(229, 232, 236);
 
-/// The palette of Okabe and Ito (2008) without its yellow, which white paper swallows.
+/// Palette of Okabe and Ito (2008) without its yellow, which is invisible on white paper.
 const HUES: [Colour; 7] = [
     Colour(0, 114, 178),
     Colour(213, 94, 0),
@@ -26,8 +26,8 @@ const HUES: [Colour; 7] = [
     Colour(60, 60, 60),
 ];
 
-/// Nine even stations of the viridis ramp (Smith and van der Walt, matplotlib), from its pale end to its dark one.
-/// The palest tenth is left out: white paper swallows it.
+/// Nine equidistant samples of the viridis colour map (Smith and van der Walt, matplotlib), from pale to dark. The
+/// palest tenth is left out, because it is invisible on white paper.
 const RAMP: [Colour; 9] = [
     Colour(189, 223, 38),
     Colour(128, 211, 75),
@@ -60,7 +60,7 @@ pub fn tint(full: Colour, part: f64) -> Colour {
     mix(WHITE, full, 0.25 + 0.75 * clamp_part(part))
 }
 
-/// The colour `part` of the way from `from` to `to`.
+/// Linear blend from `from` (`part` 0) to `to` (`part` 1).
 pub fn mix(from: Colour, to: Colour, part: f64) -> Colour {
     let part = clamp_part(part);
     let blend = |a: u8, b: u8| (f64::from(a) + part * (f64::from(b) - f64::from(a))).round() as u8;

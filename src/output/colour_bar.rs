@@ -1,4 +1,4 @@
-//! The bar that says which shade stands for which number: times of a motion, values along beams.
+//! Colour bars: the legend of a continuous colour scale.
 
 use super::{
     axis::{Axis, extent},
@@ -9,24 +9,22 @@ use super::{
 
 const TEXT: f64 = 12.0;
 const LABEL: f64 = 13.0;
-/// The bar's distance from the plot, its breadth, and the distance of the numbers from it.
+/// Distance of the bar from the plot, width of the bar, and distance of the numbers from it.
 const GAP: f64 = 22.0;
 const BREADTH: f64 = 12.0;
 const NUMBERS: f64 = 8.0;
-/// Free paper at the right.
 const EDGE: f64 = 14.0;
-/// In how many even pieces the bar is filled.
 const PIECES: usize = 100;
 
-/// How broad a bar is from its low end to its high one.
+/// Width of the bar from its low end to its high end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum BarWidth {
     Even,
-    /// As broad as the lines that it explains.
+    /// The widths of the lines that it explains.
     Wedge(f64, f64),
 }
 
-/// Numbers and their shades. With fewer than two different numbers there is nothing to tell apart, and no bar.
+/// Colour scale with its bar. With fewer than two different numbers no bar is drawn.
 pub struct ColourBar {
     label: String,
     axis: Option<Axis>,
@@ -35,7 +33,7 @@ pub struct ColourBar {
 }
 
 impl ColourBar {
-    /// The bar over all finite `numbers`; `shade` takes the part of the way from the least to the largest.
+    /// A colour bar over all finite `numbers`; `shade` maps 0 (least) to 1 (largest) to a colour.
     pub fn new(
         label: &str,
         numbers: impl IntoIterator<Item = f64>,
@@ -47,18 +45,18 @@ impl ColourBar {
         Self { label: label.into(), axis, shade, form: BarWidth::Even }
     }
 
-    /// Makes it as broad as lines are: from the first width, in pixels, for the least number to the second for the largest.
+    /// Makes the bar a wedge: its width goes from `least` to `most` [pixels].
     pub fn wedge(mut self, least: f64, most: f64) -> Self {
         self.form = BarWidth::Wedge(least, most);
         self
     }
 
-    /// How far a number is from the least to the largest; a lone one is the largest.
+    /// Position of a number between the least (0) and the largest (1); 1 if there is only one number.
     pub fn part(&self, number: f64) -> f64 {
         self.axis.map_or(1.0, |axis| axis.place(number))
     }
 
-    /// The room that the bar of times needs at the right of the plot [pixels].
+    /// Space that the bar needs to the right of the plot [pixels].
     pub fn width(&self) -> f64 {
         let Some(axis) = self.axis else { return 0.0 };
         let (ticks, factor) = axis.ticks(8);
@@ -67,14 +65,14 @@ impl ColourBar {
         GAP + BREADTH + NUMBERS + numbers.max(label) + EDGE
     }
 
-    /// Draws the bar of times at the right of `plot`.
+    /// Draws the bar to the right of `plot`.
     pub fn draw(&self, canvas: &mut Canvas, plot: &Area) {
         let Some(axis) = self.axis else { return };
         let (left, top) = (plot.right + GAP, plot.top + LABEL + 10.0);
         let height = plot.bottom - top;
         for piece in 0..PIECES {
             let (low, high) = (piece as f64 / PIECES as f64, (piece + 1) as f64 / PIECES as f64);
-            // Each piece reaches down to the bar's end, under the ones below: no seams.
+            // Pieces overlap the ones below, to avoid visible seams.
             let (piece_top, bottom) = (plot.bottom - height * high, plot.bottom - height * low);
             let under = if piece == 0 { 0.0 } else { 0.5 };
             let right = left

@@ -1,15 +1,15 @@
-//! Tables of numbers for other programs: columns of equal length with `#` comment lines above them.
+//! CSV tables of numbers: columns of equal length below `#` comment lines.
 
 use std::path::Path;
 
 use super::{OutputError, files::write_whole};
 
-/// A table of named columns of numbers, written so that every number reads back bit for bit.
+/// A table of named columns of numbers. Every number reads back bit for bit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CsvTable {
-    /// The lines put above the table, each behind a `#`: what it is, its units, how it was made.
+    /// Lines written above the table, each after a `#`: title, units, origin.
     pub comments: Vec<String>,
-    /// The names and values of the table's columns, from left to right.
+    /// Names and values of the columns, from left to right.
     pub columns: Vec<(String, Vec<f64>)>,
 }
 
@@ -31,7 +31,7 @@ impl CsvTable {
         self
     }
 
-    /// The text of the file with the table. Columns of different lengths are refused.
+    /// Text of the CSV file. Columns of different lengths are an error.
     pub fn to_text(&self) -> Result<String, OutputError> {
         let rows = self.common_length()?;
         let mut bytes = Vec::new();
@@ -50,7 +50,7 @@ impl CsvTable {
         Ok(String::from_utf8_lossy(&bytes).into_owned())
     }
 
-    /// Writes the table to the file `path`, whole or not at all.
+    /// Writes the table to the file `path` atomically.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), OutputError> {
         write_whole(path, self.to_text()?.as_bytes())
     }
@@ -70,7 +70,6 @@ impl CsvTable {
     }
 }
 
-/// 17 significant digits, which determine a double.
 pub(super) fn exact(x: f64) -> String {
     if x.is_finite() { format!("{x:.16e}") } else { super::number::format_number(x) }
 }

@@ -1,12 +1,12 @@
-//! Curves made ready for paper: gaps where there is no number, nothing outside the plot, no more points than pixels.
+//! Preparation of curves for drawing: split at gaps, clipped to the plot, thinned to the resolution.
 
 use super::canvas::{Area, Point};
 use crate::elementary::hypot;
 
-/// Width of the strips in which a long curve is thinned, in pixels.
+/// Width of the strips in which a long curve is thinned [pixels].
 const STRIP: f64 = 0.5;
 
-/// Curves with fewer points are drawn as they are.
+/// Number of points from which on curves are thinned.
 const LONG: usize = 2000;
 
 /// Splits a curve, given in pixels, at its gaps and at the sides of `window`, and thins it when it is long.
@@ -17,7 +17,6 @@ pub fn pieces(points: impl IntoIterator<Item = Point>, window: &Area) -> Vec<Vec
     runs.iter().flat_map(|run| inside(run, window)).collect()
 }
 
-/// Cuts `points` into runs of finite ones.
 fn runs(points: impl IntoIterator<Item = Point>) -> Vec<Vec<Point>> {
     let mut runs = Vec::new();
     let mut run = Vec::new();
@@ -32,7 +31,7 @@ fn runs(points: impl IntoIterator<Item = Point>) -> Vec<Vec<Point>> {
     runs
 }
 
-/// Keeps, of neighbours within one upright strip, the first, the lowest, the highest and the last: the same ink.
+/// Keeps the first, lowest, highest and last point of each vertical strip, which cover the same pixels as all.
 fn thinned(run: &[Point]) -> Vec<Point> {
     let strip = |point: &Point| (point.0 / STRIP).floor();
     let mut kept = Vec::new();
@@ -48,7 +47,6 @@ fn thinned(run: &[Point]) -> Vec<Point> {
     kept
 }
 
-/// The parts of a run that lie in `window`.
 fn inside(run: &[Point], window: &Area) -> Vec<Vec<Point>> {
     if let [dot] = run {
         return clipped(*dot, *dot, window).map(|_| vec![*dot]).into_iter().collect();
@@ -88,7 +86,7 @@ fn clipped(a: Point, b: Point, window: &Area) -> Option<(Point, Point)> {
         .then(|| (if enter > 0.0 { at(enter) } else { a }, if leave < 1.0 { at(leave) } else { b }))
 }
 
-/// A curve broken into strokes of the lengths in `pattern`, which alternate with gaps: drawn, left out, drawn, …
+/// Dashed version of a curve; `pattern` holds alternating lengths of strokes and gaps.
 pub fn dashes(run: &[Point], pattern: &[f64]) -> Vec<Vec<Point>> {
     let whole =
         run.windows(2).map(|pair| hypot(pair[1].0 - pair[0].0, pair[1].1 - pair[0].1)).sum::<f64>();

@@ -1,4 +1,4 @@
-//! Tables of numbers, truths and words that other programs take in at once: names in the first line and nothing above it.
+//! Tables of numbers, booleans and texts for other programs: a header line and no comment lines.
 
 use super::OutputError;
 use super::csv::exact;
@@ -15,9 +15,9 @@ pub struct DataTable {
 pub struct DataColumn {
     /// The name of the column.
     pub name: String,
-    /// The dimension of the column; `-` for a pure number, empty where it has none or none is known.
+    /// Dimension of the column; `-` for a pure number, empty if unknown or not applicable.
     pub dimension: String,
-    /// What stands in it.
+    /// Values of the column.
     pub values: DataValues,
 }
 
@@ -28,23 +28,23 @@ pub enum DataValues {
     Numbers(Vec<Option<f64>>),
     /// Whole numbers.
     Whole(Vec<Option<i64>>),
-    /// Truth values.
+    /// Booleans.
     Truths(Vec<Option<bool>>),
     /// Texts.
     Texts(Vec<Option<String>>),
 }
 
-/// What stands above the rows.
+/// Header lines above the rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TableHeading {
-    /// A line of names.
+    /// One line of names.
     Names,
-    /// A line of names, and one of dimensions.
+    /// One line of names and one of dimensions.
     NamesAndUnits,
 }
 
 impl DataValues {
-    /// How many there are.
+    /// Number of values.
     pub fn length(&self) -> usize {
         match self {
             Self::Numbers(values) => values.len(),
@@ -54,7 +54,6 @@ impl DataValues {
         }
     }
 
-    /// A value as it is written; nothing where it is missing.
     fn written(&self, row: usize) -> String {
         let written = match self {
             Self::Numbers(values) => values[row].map(exact),
@@ -67,10 +66,10 @@ impl DataValues {
 }
 
 impl DataTable {
-    /// The text of a CSV file; numbers have 17 digits, which determine a double.
+    /// Text of the CSV file; numbers have 17 digits, which determine a double.
     ///
     /// # Errors
-    /// When the columns are not equally long.
+    /// If the columns differ in length.
     pub fn to_csv(&self, heading: TableHeading) -> Result<String, OutputError> {
         let rows = self.rows()?;
         let mut writer = ::csv::Writer::from_writer(Vec::new());
@@ -85,10 +84,10 @@ impl DataTable {
         Ok(String::from_utf8_lossy(&bytes).into_owned())
     }
 
-    /// The length of all columns.
+    /// Common length of the columns.
     ///
     /// # Errors
-    /// When they are not equally long.
+    /// If the columns differ in length.
     pub(super) fn rows(&self) -> Result<usize, OutputError> {
         let Some(first) = self.columns.first() else { return Ok(0) };
         let expected = first.values.length();

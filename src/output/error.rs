@@ -1,18 +1,18 @@
-//! What can go wrong between a result and its file.
+//! Errors of writing tables and pictures.
 
 use std::{io, path::PathBuf};
 
 /// A table or picture could not be written. Every message names the file, the reason and the next action.
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
-    /// The folder of the file is missing and could not be made.
+    /// The folder of the file is missing and could not be created.
     #[error("cannot make the folder '{}' for '{}': {source}; choose a folder you may write to", folder.display(), path.display())]
     Folder {
-        /// The folder that could not be made.
+        /// Folder that could not be created.
         folder: PathBuf,
-        /// The file that was to go into the folder.
+        /// File to be written into the folder.
         path: PathBuf,
-        /// The system's reason for not making the folder.
+        /// Error of the operating system.
         source: io::Error,
     },
     /// The file could not be written; an older file of that name is untouched.
@@ -20,7 +20,7 @@ pub enum OutputError {
     Write {
         /// The file that could not be written.
         path: PathBuf,
-        /// The system's reason for not writing the file.
+        /// Error of the operating system.
         source: io::Error,
     },
     /// The path has no file name, or a folder stands where the file should go.
@@ -29,15 +29,15 @@ pub enum OutputError {
         /// The path that names no file.
         path: PathBuf,
     },
-    /// The ending of a picture file names no known kind of picture.
+    /// The extension of a picture file is not a known format.
     #[error("picture '{}': its ending is {ending}; use '.svg' (sharp at every size) or '.png' (pixels)", path.display())]
     PictureKind {
-        /// The file whose ending names no picture.
+        /// File with the unknown extension.
         path: PathBuf,
-        /// The ending of the file, in words.
+        /// Extension of the file, as text.
         ending: String,
     },
-    /// The columns of a table are not all equally long.
+    /// The columns of a table differ in length.
     #[error(
         "column '{name}' has {length} values but column '{first}' has {expected}; give every column one value per row"
     )]
@@ -51,45 +51,45 @@ pub enum OutputError {
         /// The number of values of the first column.
         expected: usize,
     },
-    /// A table of numbers could not be turned into text.
+    /// A table could not be written as CSV.
     #[error("cannot form the table: {0}; check its column names")]
     Csv(#[from] ::csv::Error),
-    /// Arrays could not be put into one file.
+    /// Arrays could not be written into one archive.
     #[error("cannot form the archive of arrays: {0}; check that no two things have one name")]
     Archive(#[from] zip::result::ZipError),
-    /// A table could not be turned into Parquet.
+    /// A table could not be written as Parquet.
     #[cfg(feature = "parquet")]
     #[error("cannot form the table: {reason}; check that no two columns have one name")]
     Parquet {
-        /// What is wrong.
+        /// Reason given by the Parquet library.
         reason: String,
     },
-    /// A picture is too small or too large to be painted.
+    /// A picture is too small or too large.
     #[error(
         "a picture of {width} by {height} pixels cannot be painted; use 100 to 8000 pixels each way"
     )]
     PictureSize {
-        /// The width asked for, of a picture that cannot be painted [pixels].
+        /// Requested width [pixels].
         width: f64,
-        /// The height asked for, of a picture that cannot be painted [pixels].
+        /// Requested height [pixels].
         height: f64,
     },
-    /// An animation has more pixels than it should.
+    /// An animation has too many pixels.
     #[error(
         "{frames} frames of {width} by {height} pixels are too many for an animation; make fewer frames, or smaller ones"
     )]
     ManyPixels {
-        /// How many frames.
+        /// Number of frames.
         frames: usize,
-        /// The width of each.
+        /// Width of a frame [pixels].
         width: u32,
-        /// The height of each.
+        /// Height of a frame [pixels].
         height: u32,
     },
-    /// The drawing library refused a picture.
+    /// The drawing library failed.
     #[error("cannot paint the picture: {reason}; try the other kind ('.svg' or '.png')")]
     Paint {
-        /// The drawing library's reason for refusing the picture.
+        /// Reason given by the drawing library.
         reason: String,
     },
 }

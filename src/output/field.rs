@@ -1,4 +1,4 @@
-//! Beams coloured by a magnitude along them: the larger it is, the darker and the broader is the line.
+//! Beams coloured by a magnitude along them. Larger values are drawn darker and wider.
 
 use super::{
     axis::typeset_number,
@@ -16,13 +16,13 @@ use crate::elementary::hypot;
 
 /// Widths of the line for the least and for the largest value.
 const WIDTHS: (f64, f64) = (2.0, 10.0);
-/// A piece of one colour is so long, in pixels, where there are not too many.
+/// Length of a piece of one colour [pixels], unless there are too many pieces.
 const PIECE: f64 = 3.0;
 const MOST_PIECES: f64 = 4000.0;
 const NUMBER: f64 = 12.0;
 const DIGITS: usize = 4;
 
-/// Beams with values of zero or more along them.
+/// Beams with non-negative values along them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FieldPicture {
     title: String,
@@ -34,30 +34,30 @@ pub struct FieldPicture {
 }
 
 impl FieldPicture {
-    /// A picture without beams; `label` says what the colours show.
+    /// A picture without beams; `label` names the quantity that the colours show.
     pub fn new(title: impl Into<String>, label: impl Into<String>) -> Self {
         Self { title: title.into(), label: label.into(), ..Self::default() }
     }
 
-    /// Adds a line of small words below the title.
+    /// Adds a caption line below the title.
     pub fn caption(mut self, words: impl Into<String>) -> Self {
         self.captions.push(words.into());
         self
     }
 
-    /// Adds a beam: places along it with their values.
+    /// Adds a beam: points along it with their values.
     pub fn beam(mut self, values: Vec<(Point, f64)>) -> Self {
         self.beams.push(values);
         self
     }
 
-    /// Draws rigid bodies, supports, joints, sliders and loads over all.
+    /// Draws rigid bodies, supports, joints, sliders and loads over the beams.
     pub fn scenery(mut self, scenery: MechanismOutline) -> Self {
         self.scenery = scenery;
         self
     }
 
-    /// Fixes the ends of axes. Units stay equally long, so one of the axes may show more.
+    /// Fixes the ends of the axes. Both axes keep the same scale, so one of them may show more.
     pub fn limits(mut self, limits: AxisLimits) -> Self {
         self.limits = limits;
         self
@@ -67,9 +67,9 @@ impl FieldPicture {
         self.beams.iter().flatten().filter(|(_, value)| value.is_finite())
     }
 
-    /// Where the largest value is.
+    /// Point with the largest value.
     fn largest(&self) -> Option<(Point, f64)> {
-        // Of equal ones the first.
+        // The first of equal values.
         self.places().copied().reduce(|a, b| if b.1 > a.1 { b } else { a })
     }
 
@@ -110,7 +110,7 @@ impl FieldPicture {
         }
     }
 
-    /// Marks where the largest value is, and writes it beside the mark, where no beam is, if there is such a place near.
+    /// Marks the largest value, and writes it next to the mark, clear of all beams if possible.
     fn draw_largest(
         &self,
         canvas: &mut Canvas,
@@ -147,7 +147,7 @@ impl FieldPicture {
     }
 }
 
-/// Where a number may stand beside its mark: above to the right first.
+/// Directions of a number from its mark, in order of preference.
 const AROUND: [(f64, f64); 8] = [
     (1.0, -1.0),
     (-1.0, -1.0),
@@ -159,7 +159,7 @@ const AROUND: [(f64, f64); 8] = [
     (0.0, 1.0),
 ];
 
-/// Whether a beam on paper comes into a box, its breadth included.
+/// Returns true if a drawn beam, including its width, overlaps a box.
 fn crosses(beam: &[(Point, f64)], area: &Area) -> bool {
     beam.windows(2).any(|pair| {
         let (a, b) = (pair[0].0, pair[1].0);
@@ -212,7 +212,7 @@ impl Panel for FieldPicture {
             (plot.left..=plot.right).contains(&at.0) && (plot.top..=plot.bottom).contains(&at.1)
         };
         for beam in &beams {
-            // Where limits cut a beam, the whole of the spans that are seen is drawn.
+            // If limits clip a beam, the spans that are partly visible are drawn in full.
             for seen in beam.chunk_by(|(a, _), (b, _)| is_inside(*a) && is_inside(*b)) {
                 Self::draw_beam(canvas, piece, seen);
             }

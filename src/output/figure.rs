@@ -1,23 +1,23 @@
-//! A finished picture, and the files it can become.
+//! Finished pictures and their file formats.
 
 use std::path::Path;
 
 use super::{OutputError, canvas::Canvas, files::write_whole, png, svg};
 
-/// Least and greatest length of a picture's sides, in pixels.
+/// Range of the width and height [pixels].
 const SIDES: std::ops::RangeInclusive<f64> = 100.0..=8000.0;
 
-/// The kinds of picture, told apart by the ending of the file.
+/// File formats of pictures, by file extension.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PictureKind {
-    /// A picture of scalable lines, `.svg`.
+    /// Vector graphics, `.svg`.
     Svg,
-    /// A picture of pixels, `.png`.
+    /// Pixel graphics, `.png`.
     Png,
 }
 
 impl PictureKind {
-    /// The kind of picture that the ending of `path` stands for.
+    /// File format of the extension of `path`.
     pub fn of(path: &Path) -> Result<Self, OutputError> {
         let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
         match ending.as_deref() {
@@ -31,7 +31,7 @@ impl PictureKind {
     }
 }
 
-/// A drawn picture of fixed size. Equal drawings give equal bytes, on every machine and with any fonts or none.
+/// A drawn picture of fixed size. Equal drawings give equal bytes on every machine, independent of installed fonts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
     canvas: Canvas,
@@ -40,7 +40,7 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// The picture of `canvas` with the given size in pixels, rounded up to whole ones.
+    /// A picture of `canvas` with the given size [pixels], rounded up to whole pixels.
     pub fn new(canvas: Canvas, (width, height): (f64, f64)) -> Result<Self, OutputError> {
         if !SIDES.contains(&width) || !SIDES.contains(&height) {
             return Err(OutputError::PictureSize { width, height });
@@ -53,22 +53,22 @@ impl Figure {
         (self.width, self.height)
     }
 
-    /// The picture as an SVG document.
+    /// SVG document of the picture.
     pub fn to_svg(&self) -> Result<String, OutputError> {
         svg::paint(&self.canvas, self.width, self.height)
     }
 
-    /// The picture as the bytes of a PNG file.
+    /// Bytes of the PNG file of the picture.
     pub fn to_png(&self) -> Result<Vec<u8>, OutputError> {
         png::paint(&self.canvas, self.width, self.height)
     }
 
-    /// The pixels of the picture, row by row from the top, each as red, green and blue.
+    /// Pixels of the picture, row by row from the top, as red, green and blue.
     pub(super) fn to_pixels(&self) -> Result<Vec<u8>, OutputError> {
         png::pixels(&self.canvas, self.width, self.height)
     }
 
-    /// Writes the picture to the file `path`, whole or not at all; the ending, `.svg` or `.png`, says as what.
+    /// Writes the picture to the file `path` atomically; the extension, `.svg` or `.png`, selects the format.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), OutputError> {
         let path = path.as_ref();
         match PictureKind::of(path)? {

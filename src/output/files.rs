@@ -1,18 +1,18 @@
-//! Files are written whole or not at all.
+//! Atomic writing of files.
 //!
-//! The bytes go to a hidden file beside the target, which takes the target's name only when it is complete and on the disk. A reader
-//! never sees half a file, and a failure leaves an older file as it was.
+//! The bytes go to a hidden file next to the target, which is renamed to the target when it is complete and synced. A
+//! reader never sees half a file, and a failure leaves an older file unchanged.
 
 use std::{fs, path::Path};
 
 use super::OutputError;
 use crate::sandbox_fs::Folder;
 
-/// Writes `bytes` to `path`, a person's own word, making missing folders on the way. What stands there is replaced if it is a
-/// file; a link is replaced too, and not followed.
+/// Writes `bytes` to the path `path` given by the user, and creates missing folders. An existing file or link is
+/// replaced; links are not followed.
 ///
 /// # Errors
-/// When the folder cannot be made, the file cannot be written, or a folder, a pipe or a device has its name.
+/// If the folder cannot be created, the file cannot be written, or the path names a folder, a pipe or a device.
 pub fn write_whole(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), OutputError> {
     let path = path.as_ref();
     let not_a_file = || OutputError::NotAFile { path: path.into() };

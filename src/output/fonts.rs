@@ -1,4 +1,4 @@
-//! Text as shapes, from the embedded DejaVu Sans: pictures look the same on a machine without any font.
+//! Text rendering with the embedded DejaVu Sans, so that pictures do not depend on installed fonts.
 //!
 //! Sizes are in pixels per em, lengths in pixels, `x` to the right and `y` downwards from the start of the baseline.
 
@@ -9,25 +9,25 @@ use ab_glyph::{Font, FontRef, GlyphId, Outline, OutlineCurve, OutlinedGlyph, PxS
 use super::canvas::Point;
 use crate::elementary::{hypot, square};
 
-/// Longest text that is set; what follows is dropped. No label of a picture comes near it.
+/// Maximum number of characters of a text; the rest is dropped.
 const LONGEST: usize = 400;
 
-/// Farthest a flattened curve may leave the true one, in pixels.
+/// Maximum deviation of a flattened curve [pixels].
 const FLATNESS: f64 = 0.03;
 
-/// The face. It is part of the program, so it loads; were it damaged, pictures would lack their text.
+/// The embedded font always loads; if it were damaged, pictures would lack their text.
 static FACE: LazyLock<Option<FontRef<'static>>> =
     LazyLock::new(|| FontRef::try_from_slice(dejavu::sans::regular()).ok());
 
-/// The length of `text` on the line when it is set with `size` pixels per em [pixels].
+/// Width of `text` at `size` pixels per em [pixels].
 pub fn width(text: &str, size: f64) -> f64 {
     set(text, size).1
 }
 
-/// The size at which `text` fits into `room` [pixels]: `size`, or as much smaller as it takes, down to 60 %.
+/// Largest size up to `size` at which `text` fits into `room` [pixels], at least 60 % of `size`.
 pub fn shrunk(text: &str, size: f64, room: f64) -> f64 {
     const SMALLEST: f64 = 0.6;
-    // Rounding must not make a text that fits a little too long.
+    // Rounding must not make a fitting text slightly too long.
     const ROUNDING: f64 = 1.0 - 1e-9;
     let wanted = width(text, size);
     if wanted <= room { size } else { size * (ROUNDING * room / wanted).max(SMALLEST) }
@@ -48,7 +48,7 @@ pub fn fit(text: &str, size: f64, room: f64) -> String {
     }
 }
 
-/// `text` in as many lines as `room` asks for, broken between words, and within those that are longer than a line.
+/// Breaks `text` into lines of at most `room` pixels, between words where possible.
 pub fn lines(text: &str, size: f64, room: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     let mut line = String::new();
@@ -70,7 +70,7 @@ pub fn lines(text: &str, size: f64, room: f64) -> Vec<String> {
     lines
 }
 
-/// The glyphs of `text`, set with `size` pixels per em, ready to be drawn as pixels.
+/// Glyphs of `text` at `size` pixels per em, for rasterisation.
 pub fn glyphs(text: &str, size: f64) -> Vec<OutlinedGlyph> {
     let Some(face) = FACE.as_ref() else { return Vec::new() };
     let scale = PxScale::from((f64::from(face.height_unscaled()) * per_unit(face, size)) as f32);
@@ -79,7 +79,7 @@ pub fn glyphs(text: &str, size: f64) -> Vec<OutlinedGlyph> {
     set(text, size).0.into_iter().filter_map(|glyph| face.outline_glyph(place(glyph))).collect()
 }
 
-/// The outlines of `text`, set with `size` pixels per em: per glyph its closed contours, holes turning against their surroundings.
+/// Outlines of `text` at `size` pixels per em: closed contours per glyph, with holes in the opposite direction.
 pub fn outlines(text: &str, size: f64) -> Vec<Vec<Vec<Point>>> {
     let Some(face) = FACE.as_ref() else { return Vec::new() };
     let per_unit = per_unit(face, size);
@@ -91,7 +91,7 @@ pub fn outlines(text: &str, size: f64) -> Vec<Vec<Vec<Point>>> {
     set(text, size).0.into_iter().filter_map(outline).collect()
 }
 
-/// Sets `text` on a line: its glyphs with their places, and its length.
+/// Glyphs of `text` with their positions, and the total width.
 fn set(text: &str, size: f64) -> (Vec<(GlyphId, f64)>, f64) {
     let Some(face) = FACE.as_ref() else { return (Vec::new(), 0.0) };
     let per_unit = per_unit(face, size);
@@ -112,7 +112,6 @@ fn per_unit(face: &FontRef<'static>, size: f64) -> f64 {
     size / f64::from(face.units_per_em().unwrap_or(2048.0))
 }
 
-/// Splits an outline into closed contours of straight pieces.
 fn contours(outline: &Outline, place: impl Fn(ab_glyph::Point) -> Point) -> Vec<Vec<Point>> {
     let mut contours: Vec<Vec<Point>> = Vec::new();
     let mut pen = None;
@@ -136,7 +135,7 @@ fn contours(outline: &Outline, place: impl Fn(ab_glyph::Point) -> Point) -> Vec<
     contours
 }
 
-/// Adds the points strictly inside the quadratic curve `a b c`. TrueType faces have no cubic ones.
+/// Appends the interior points of the quadratic curve `a b c`. TrueType fonts have no cubic curves.
 fn bend(contour: &mut Vec<Point>, a: Point, b: Point, c: Point) {
     let sag = hypot(a.0 - 2.0 * b.0 + c.0, a.1 - 2.0 * b.1 + c.1) / 4.0;
     let pieces = (sag / FLATNESS).sqrt().ceil().clamp(1.0, 8.0) as usize;

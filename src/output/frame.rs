@@ -12,32 +12,31 @@ const TITLE: f64 = 16.0;
 const CAPTION: f64 = 12.0;
 const LABEL: f64 = 13.0;
 const NUMBER: f64 = 12.0;
-/// Free paper around a panel.
 const EDGE: f64 = 14.0;
-/// A text is set in several lines before it is set smaller than this part of its size.
+/// A text is broken into lines before it is set smaller than this fraction of its size.
 const SMALLEST: f64 = 0.8;
-/// A text with more lines than this would leave no paper for the data.
+/// Limit that leaves space for the data.
 const MOST_LINES: usize = 4;
-/// Of more points those that make a long curve are marked.
+/// With more points, only those of the thinned curve are marked.
 const MOST_MARKS: usize = 2000;
-/// Pixels per labelled place along a horizontal and along a vertical axis.
+/// Pixels per tick along the horizontal and the vertical axis.
 const TICK_EVERY: (f64, f64) = (85.0, 50.0);
 
-/// The room between a panel's border and its plot [pixels].
+/// Space between the border of a panel and its plot [pixels].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Margins {
-    /// The room at the left of the plot [pixels].
+    /// Space to the left of the plot [pixels].
     pub left: f64,
-    /// The room above the plot [pixels].
+    /// Space above the plot [pixels].
     pub top: f64,
-    /// The room at the right of the plot [pixels].
+    /// Space to the right of the plot [pixels].
     pub right: f64,
-    /// The room below the plot [pixels].
+    /// Space below the plot [pixels].
     pub bottom: f64,
 }
 
 impl Margins {
-    /// The margins that are large enough for two panels: of both the larger, side by side.
+    /// Maximum of the margins of two panels, side by side.
     pub fn widest(self, other: Self) -> Self {
         Self {
             left: self.left.max(other.left),
@@ -47,7 +46,7 @@ impl Margins {
         }
     }
 
-    /// The box that the margins leave of `area`; some of it, however small the area is.
+    /// The box that remains inside the margins of `area`; never empty.
     pub fn inside(&self, area: &Area) -> Area {
         let (left, top) = (area.left + self.left, area.top + self.top);
         let (right, bottom) = (area.right - self.right, area.bottom - self.bottom);
@@ -60,17 +59,17 @@ impl Margins {
 pub struct Frame {
     /// The title above the panel.
     pub title: String,
-    /// The small words below the title of the panel, line by line.
+    /// Captions below the title of the panel, line by line.
     pub captions: Vec<String>,
-    /// The label of the horizontal axis: what it shows.
+    /// Label of the horizontal axis.
     pub x_label: String,
-    /// The label of the vertical axis: what it shows.
+    /// Label of the vertical axis.
     pub y_label: String,
     /// The horizontal axis of the panel.
     pub x: Axis,
     /// The vertical axis of the panel.
     pub y: Axis,
-    /// The entries of the legend: names of the lines; none when they need none.
+    /// Entries of the legend; empty if no legend is needed.
     pub legend: Vec<LegendEntry>,
 }
 
@@ -98,20 +97,20 @@ impl Frame {
         }
     }
 
-    /// The margins where a bar at the right needs so much room: it narrows the plot, and with it the legend.
+    /// The margins with a colour bar of width `bar` at the right, which narrows the plot and the legend.
     pub fn margins_beside(&self, bar: f64, width: f64, height: f64) -> Margins {
         let alone = self.margins(width, height).right;
         let right = alone.max(bar);
         Margins { right, ..self.margins(width - (right - alone), height) }
     }
 
-    /// Says in the middle of a plot that there is nothing to show.
+    /// Writes "no data" into the middle of a plot.
     pub fn say_no_data(&self, canvas: &mut Canvas, plot: &Area) {
         let middle = ((plot.left + plot.right) / 2.0, (plot.top + plot.bottom) / 2.0);
         canvas.text("no data", middle, 14.0, Align::Middle, GREY);
     }
 
-    /// Draws the frame, all but the data; `plot` is what the margins leave of `area`.
+    /// Draws the frame without the data; `plot` is the part of `area` inside the margins.
     pub fn draw(&self, canvas: &mut Canvas, area: &Area, plot: &Area) {
         let room = area.right - plot.left - EDGE;
         let title = FittedText::of(&self.title, TITLE, room);
@@ -132,21 +131,21 @@ impl Frame {
         canvas.line(corner.map(crisp), 1.0, AXIS);
     }
 
-    /// The place on the canvas [pixels] of a point of the data.
+    /// Position of a data point on the canvas [pixels].
     pub fn place(&self, plot: &Area, (x, y): Point) -> Point {
         (plot.left + self.x.place(x) * plot.width(), plot.bottom - self.y.place(y) * plot.height())
     }
 
-    /// The visible runs of a curve of the data, as points on the canvas [pixels].
+    /// Visible runs of a data curve, as points on the canvas [pixels].
     pub fn curve(&self, plot: &Area, points: &[Point]) -> Vec<Vec<Point>> {
-        // A hair wider than the plot: rounding must not cut a line that runs along its side.
+        // The window is slightly wider than the plot, because rounding must not clip a line along its side.
         let window = Area {
             left: plot.left - 0.01,
             top: plot.top - 0.01,
             right: plot.right + 0.01,
             bottom: plot.bottom + 0.01,
         };
-        // Axes show what is beyond them at their ends; what is not finite is nowhere.
+        // Axes clamp infinite values to their ends, but a curve must have a gap there.
         let place = |&(x, y): &Point| {
             let is_somewhere = x.is_finite() && y.is_finite();
             if is_somewhere { self.place(plot, (x, y)) } else { (f64::NAN, f64::NAN) }
@@ -154,7 +153,7 @@ impl Frame {
         curve::pieces(points.iter().map(place), &window)
     }
 
-    /// The places of the marks of a curve: of its own points, not of those where the sides of the plot cut it.
+    /// Positions of the markers of a curve: the data points, without the points where the curve is clipped.
     pub fn marks(&self, plot: &Area, points: &[Point]) -> Vec<Point> {
         if points.len() > MOST_MARKS {
             return self.curve(plot, points).concat();
@@ -213,10 +212,10 @@ impl Frame {
     }
 }
 
-/// A title or a label: set smaller where it is too long for a line, and then in several.
+/// A title or label: set smaller if it is too long for a line, then broken into several lines.
 struct FittedText {
     lines: Vec<String>,
-    /// The size of its letters, and that of a text which is not too long.
+    /// Size of the letters, and the size without shrinking.
     size: f64,
     full: f64,
 }
@@ -238,12 +237,11 @@ impl FittedText {
         Self { lines, size, full }
     }
 
-    /// The distance of its lines.
     fn apart(&self) -> f64 {
         1.25 * self.size
     }
 
-    /// What it takes with some paper; nothing where there are no words.
+    /// Height with some paper below; zero if there is no text.
     fn height(&self, paper: f64) -> f64 {
         match self.lines.len() {
             0 => 0.0,
@@ -256,7 +254,7 @@ fn count(length: f64, every: f64) -> usize {
     (length / every).clamp(2.0, 16.0) as usize
 }
 
-/// Moves a point to the middle of its pixel, where a thin upright or level line is sharp.
+/// Moves a point to the centre of its pixel, which makes thin vertical and horizontal lines sharp.
 fn crisp((x, y): Point) -> Point {
     (x.floor() + 0.5, y.floor() + 0.5)
 }

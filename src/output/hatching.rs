@@ -1,19 +1,17 @@
-//! Areas that have no colour: slanted lines, and an edge.
+//! Hatched areas and outlines.
 
 use super::{
     canvas::{Area, Canvas},
     colour::AXIS,
 };
 
-/// Between the lines of a hatching.
 const HATCH: f64 = 6.0;
 
-/// Fills an area with slanted lines.
+/// Fills an area with diagonal lines.
 pub fn hatch(canvas: &mut Canvas, area: &Area) {
     let (width, height) = (area.width(), area.height());
     let count = ((width + height) / HATCH) as usize;
     for index in 1..=count {
-        // From the left or lower side to the upper or right one.
         let along = index as f64 * HATCH;
         let from = if along <= height {
             (area.left, area.top + along)
@@ -29,7 +27,7 @@ pub fn hatch(canvas: &mut Canvas, area: &Area) {
     }
 }
 
-/// Draws the edge of an area.
+/// Draws the outline of an area.
 pub fn outline(canvas: &mut Canvas, area: &Area) {
     let Area { left, top, right, bottom } = *area;
     let corners = [(left, top), (right, top), (right, bottom), (left, bottom), (left, top)];

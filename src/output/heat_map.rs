@@ -1,4 +1,5 @@
-//! Heat maps: cells in rows and columns, each coloured by a number on a logarithmic scale; cells that have none are hatched.
+//! Heat maps: cells in rows and columns, each coloured by a number on a logarithmic scale; cells without a number are
+//! hatched.
 
 use super::{
     axis::power_of_ten,
@@ -14,47 +15,38 @@ use crate::elementary::log10;
 const TITLE: f64 = 16.0;
 const LABEL: f64 = 13.0;
 const TEXT: f64 = 12.0;
-/// Free paper around a panel.
 const EDGE: f64 = 14.0;
-/// The strip that explains the colours.
 const KEY: f64 = 26.0;
-/// Width and height of the bar of colours in it.
 const BAR: (f64, f64) = (110.0, 13.0);
-/// The width of the sample of a hatching in it.
 const SAMPLE: f64 = 24.0;
-/// Between the parts of the strip, and before the hatching.
 const GAP: (f64, f64) = (7.0, 10.0);
-/// A cell when the map is alone on its page, and where it shares one.
 const CELL: (f64, f64) = (104.0, 52.0);
 const CELL_IN_COLUMNS: (f64, f64) = (76.0, 50.0);
-/// The most width of a cell.
 const WIDEST_CELL: f64 = 200.0;
-/// Free paper around a text in a cell, and around the name of a column.
+/// White space around a text in a cell, and around the name of a column.
 const AROUND_TEXT: f64 = 8.0;
 const AROUND_NAME: f64 = 5.0;
-/// Lines of the text of a cell are so far apart.
 const LINE: f64 = 14.0;
 
-/// A cell of a heat map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeatCell {
-    /// The number that colours the cell; a cell without one is hatched.
+    /// Number that sets the colour; a cell without a number is hatched.
     pub value: Option<f64>,
-    /// The text that is written in the cell, in few words; a line break begins another line.
+    /// Text in the cell; line breaks are kept.
     pub text: String,
 }
 
-/// A heat map: cells in rows and columns, with names for both, and a key to the colours.
+/// A heat map: cells in named rows and columns, with a colour key.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeatMap {
     title: String,
-    /// What the columns of the heat map stand for, and their names.
+    /// Label and names of the columns.
     pub(super) columns: (String, Vec<String>),
-    /// What the rows of the heat map stand for, and their names, from above.
+    /// Label and names of the rows, from the top.
     pub(super) rows: (String, Vec<String>),
-    /// What the colours of the heat map show, and the powers of ten at which they begin and end.
+    /// Quantity that the colours show, and the powers of ten at the ends of the colour scale.
     pub(super) scale: (String, i32, i32),
-    /// What a hatched cell of the heat map is.
+    /// Meaning of a hatched cell.
     pub(super) hatched: String,
     pub(super) cells: Vec<Vec<HeatCell>>,
 }
@@ -72,25 +64,25 @@ impl HeatMap {
         }
     }
 
-    /// Says what the columns of the heat map stand for, and names them.
+    /// Sets the label and the names of the columns.
     pub fn columns(mut self, label: impl Into<String>, names: Vec<String>) -> Self {
         self.columns = (label.into(), names);
         self
     }
 
-    /// Says what the rows of the heat map stand for.
+    /// Sets the label of the rows.
     pub fn rows(mut self, label: impl Into<String>) -> Self {
         self.rows.0 = label.into();
         self
     }
 
-    /// Says what a hatched cell of the heat map is.
+    /// Sets the meaning of a hatched cell.
     pub fn hatched(mut self, meaning: impl Into<String>) -> Self {
         self.hatched = meaning.into();
         self
     }
 
-    /// Adds a row to the heat map below the others; a cell too few is left white, one too many is not shown.
+    /// Adds a row below the others; missing cells stay white, surplus cells are not shown.
     pub fn row(mut self, name: impl Into<String>, cells: Vec<HeatCell>) -> Self {
         self.rows.1.push(name.into());
         self.cells.push(cells);
@@ -102,20 +94,20 @@ impl HeatMap {
         &self.title
     }
 
-    /// How far a number is on the heat map's scale of colours, from 0 to 1; none for what is no number.
+    /// Position of a number on the colour scale, from 0 to 1; `None` for NaN.
     pub(super) fn part(&self, value: f64) -> Option<f64> {
         let (low, high) = (f64::from(self.scale.1), f64::from(self.scale.2));
         let place = (log10(value.max(0.0)) - low) / (high - low);
         (!value.is_nan()).then(|| place.clamp(0.0, 1.0))
     }
 
-    /// The ends of the heat map's scale of colours in words.
+    /// Texts at the ends of the colour scale.
     pub(super) fn ends(&self) -> (String, String) {
         let power = |power: i32| power_of_ten(f64::from(power));
         (format!("≤ {}", power(self.scale.1)), format!("≥ {}", power(self.scale.2)))
     }
 
-    /// The size of a map with cells of a size, or larger ones where their texts, their names or the key ask for it.
+    /// Size of the map, with cells of at least the given size and large enough for texts, names and key.
     fn with_cells(&self, cell: (f64, f64)) -> (f64, f64) {
         let Margins { left, top, right, bottom } = self.margins(0.0, 0.0);
         let lines = self.cells.iter().flatten().flat_map(|cell| cell.text.lines());
@@ -127,7 +119,7 @@ impl HeatMap {
         (left + right + width, top + bottom + cell.1 * rows as f64)
     }
 
-    /// What the key takes when nothing of it is cut.
+    /// Width of the key when nothing is cut off.
     fn key_width(&self) -> f64 {
         let (low, high) = self.ends();
         let written = |text: &str| fonts::width(text, TEXT) + GAP.0;
@@ -141,7 +133,7 @@ impl HeatMap {
     }
 
     fn colour(&self, part: f64) -> Colour {
-        // Cells are large: paler than lines may be, so that their texts are read easily.
+        // Cells are large, so they may be paler than lines; their texts stay readable.
         if part < 0.06 { mix(WHITE, ramp(0.0), 0.35) } else { ramp(part) }
     }
 
@@ -156,7 +148,7 @@ impl HeatMap {
             *x += fonts::width(&text, TEXT) + GAP.0;
         };
         let shows = fonts::width(&self.scale.0, TEXT);
-        // Rounding must not cost a letter.
+        // One extra pixel, so that rounding does not cut off a letter.
         write(canvas, &self.scale.0, &mut x, room - (self.key_width() - shows) + 1.0);
         write(canvas, &low, &mut x, f64::INFINITY);
         let steps = 22;

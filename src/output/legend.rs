@@ -1,4 +1,4 @@
-//! The legend: a strip of names between the title and the plot, where it hides no data.
+//! Legends: a strip of names between the title and the plot, where it hides no data.
 
 use super::{
     canvas::{Align, Area, Canvas},
@@ -13,37 +13,33 @@ const ROW: f64 = 20.0;
 const SAMPLE: f64 = 24.0;
 const GAP: f64 = 7.0;
 const BETWEEN: f64 = 20.0;
-/// From line to line of a name that is longer than a row.
 const LINE: f64 = 16.0;
-/// What "and 12 more" takes.
 const REST: f64 = 110.0;
 
-/// More rows than this would leave no room for the plot; the last one then says how many names are missing.
+/// Limit that leaves space for the plot; the last row then states the number of missing names.
 const MOST_ROWS: usize = 4;
-/// A name has not more lines than this.
 const MOST_LINES: usize = 3;
 
-/// An entry of a legend: a name with a sample of its line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LegendEntry {
     /// The name of the entry.
     pub name: String,
     /// The colour of the line of the entry.
     pub colour: Colour,
-    /// How the line of the entry is drawn.
+    /// Line style of the entry.
     pub stroke: Stroke,
-    /// The shape of the marks of the entry, if it has some.
+    /// Marker shape of the entry.
     pub marker: Marker,
 }
 
-/// A name in its lines, with the entry that it is of.
+/// An entry with its name broken into lines.
 struct Item<'a> {
     entry: &'a LegendEntry,
     lines: Vec<String>,
 }
 
 impl<'a> Item<'a> {
-    /// A name is set in several lines where it is longer than a row.
+    /// Breaks the name into lines if it is longer than a row.
     fn of(entry: &'a LegendEntry, width: f64) -> Self {
         let room = (width - SAMPLE - GAP).max(ROW);
         let mut lines = fonts::lines(&entry.name, TEXT, room);
@@ -72,7 +68,7 @@ impl<'a> Item<'a> {
     }
 }
 
-/// The height that a legend takes when it is `width` wide [pixels].
+/// Height of a legend of width `width` [pixels].
 pub fn height(entries: &[LegendEntry], width: f64) -> f64 {
     rows(entries, width).iter().map(|row| height_of(row)).sum()
 }
@@ -106,7 +102,7 @@ fn rows(entries: &[LegendEntry], width: f64) -> Vec<Vec<Item<'_>>> {
     let mut rows: Vec<Vec<Item>> = Vec::new();
     let mut used = f64::INFINITY;
     for entry in entries {
-        // The last row keeps room to say how many names are missing.
+        // The last row keeps space for the number of missing names.
         let is_last = rows.len() == MOST_ROWS;
         let room = if is_last { width - REST } else { width };
         let item = Item::of(entry, width);

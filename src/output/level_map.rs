@@ -1,4 +1,5 @@
-//! Level maps: a field of cells over two axes of numbers, each coloured by a number on a linear scale; cells that have none are hatched.
+//! Level maps: cells over two numeric axes, each coloured by a number on a linear scale; cells without a number are
+//! hatched.
 
 use super::{
     axis::{Axis, AxisScale},
@@ -11,17 +12,18 @@ use super::{
 };
 use crate::elementary::ln;
 
-/// Ratios of neighbours that differ by less than this part of themselves are equal.
+/// Relative tolerance for equal ratios of neighbours.
 const EQUAL_RATIOS: f64 = 1e-6;
-/// The most cells along an axis that are drawn: more are smaller than the eye tells apart, and a picture of millions takes many megabytes.
+/// Maximum number of cells drawn along an axis. Smaller cells are not visible, and a picture of millions takes many
+/// megabytes.
 const MOST_CELLS: usize = 160;
 
-/// An axis of a level map: what it shows, and the numbers at the middles of its cells, ascending.
+/// Axis of a level map: its label and the ascending midpoints of its cells.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LevelAxis {
-    /// What the axis shows.
+    /// Label of the axis.
     pub label: String,
-    /// The numbers at the middles of the cells, ascending.
+    /// Midpoints of the cells, ascending.
     pub middles: Vec<f64>,
 }
 
@@ -33,11 +35,11 @@ pub struct LevelMap {
     label: String,
     x: LevelAxis,
     y: LevelAxis,
-    /// Those of drawn cells, row by row of the vertical axis, from below.
+    /// Values of the drawn cells, by rows of the vertical axis, from the bottom.
     values: Vec<Vec<f64>>,
 }
 
-/// The means of the finite values of neighbours, so many across and up; not-a-number where none is.
+/// Means of the finite values of blocks of `across` by `up` cells; NaN if a block has none.
 fn means(values: &[Vec<f64>], (across, up): (usize, usize)) -> Vec<Vec<f64>> {
     let row = |rows: &[Vec<f64>]| {
         let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
@@ -55,7 +57,7 @@ fn means(values: &[Vec<f64>], (across, up): (usize, usize)) -> Vec<Vec<f64>> {
 }
 
 impl LevelAxis {
-    /// How the axis is laid out: by ratios where all of its numbers are positive and follow one another by equal ones.
+    /// Scale of the axis: logarithmic if all numbers are positive with equal ratios, otherwise linear.
     pub fn scale(&self) -> AxisScale {
         let ratios: Vec<f64> = self.middles.windows(2).map(|pair| pair[1] / pair[0]).collect();
         let is_equal = |ratio: &f64| (ratio / ratios[0] - 1.0).abs() < EQUAL_RATIOS;
@@ -66,12 +68,12 @@ impl LevelAxis {
         }
     }
 
-    /// The numbers at which cells end: halfway between their middles, of a logarithmic axis by ratios.
+    /// Boundaries of the cells: halfway between the midpoints, by ratios on a logarithmic axis.
     fn ends(&self) -> Vec<f64> {
         self.ends_by(self.scale())
     }
 
-    /// The numbers halfway between the middles, and beyond the first and the last as far.
+    /// Arithmetic means of neighbouring midpoints, extrapolated at both ends.
     pub fn ends_halfway(&self) -> Vec<f64> {
         self.ends_by(AxisScale::Linear)
     }
@@ -82,7 +84,7 @@ impl LevelAxis {
             AxisScale::Logarithmic => (a * b).sqrt(),
         };
         let beyond = |a: f64, end: f64| match scale {
-            // Twice the largest numbers are none.
+            // Twice the largest double would be infinite.
             AxisScale::Linear => Some(2.0 * a - end).filter(|far| far.is_finite()).unwrap_or(a),
             AxisScale::Logarithmic => a * a / end,
         };
@@ -102,12 +104,11 @@ impl LevelAxis {
         ends
     }
 
-    /// How many neighbours are drawn as one cell.
+    /// Number of neighbours that are drawn as one cell.
     fn merged(&self) -> usize {
         self.middles.len().div_ceil(MOST_CELLS).max(1)
     }
 
-    /// The numbers at which drawn cells end.
     fn drawn_ends(&self) -> Vec<f64> {
         let ends = self.ends();
         let inner = ends.iter().copied().step_by(self.merged());
@@ -119,7 +120,7 @@ impl LevelAxis {
         let ends = self.ends();
         let (low, high) = (ends[0], ends[ends.len() - 1]);
         match self.scale() {
-            // Less than a hair of a power of ten is no axis.
+            // A narrower range than this is no usable axis.
             AxisScale::Logarithmic if ln(high / low) > 1e-3 => Axis::powers_between(low, high),
             _ => Axis::between(low, high),
         }
@@ -127,8 +128,9 @@ impl LevelAxis {
 }
 
 impl LevelMap {
-    /// A map over two axes: `values` row by row of the vertical axis, from below; `label` says what they are. A value that is not finite is hatched. Of axes
-    /// with more than 160 numbers neighbours are drawn as one cell, which has the mean of their values, and that is said below the title.
+    /// A map over two axes: `values` by rows of the vertical axis, from the bottom; `label` names their quantity.
+    /// Values that are not finite are hatched. On axes with more than 160 numbers neighbouring cells are merged into
+    /// one cell with the mean value, and a caption states this.
     pub fn new(
         title: impl Into<String>,
         label: impl Into<String>,
@@ -146,7 +148,6 @@ impl LevelMap {
         Self { title: title.into(), captions, label: label.into(), x, y, values }
     }
 
-    /// Adds a line of small words below the title.
     pub fn caption(mut self, words: impl Into<String>) -> Self {
         self.captions.push(words.into());
         self
@@ -195,7 +196,7 @@ impl Panel for LevelMap {
                 let (right, top) = frame.place(plot, (x[1], y[1]));
                 let cell = Area { left, top, right, bottom };
                 match value.is_finite() {
-                    // A hair more, so that no seams show.
+                    // Cells overlap slightly, to avoid visible seams.
                     true => {
                         let cell = Area {
                             right: (right + 0.3).min(plot.right),
@@ -204,7 +205,7 @@ impl Panel for LevelMap {
                         };
                         canvas.fill(cell, ramp(bar.part(*value)));
                     }
-                    // Cells of numbers that are as large as numbers get reach far beyond the plot.
+                    // Cells at the largest numbers reach far beyond the plot.
                     false => hatch(canvas, &cell.within(plot)),
                 }
             }

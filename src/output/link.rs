@@ -1,21 +1,21 @@
-//! What is drawn from one place to another: springs and dampers, in pixels.
+//! Symbols between two points: springs and dampers, in pixels.
 
 use super::canvas::Point;
 use crate::elementary::hypot;
 
-/// The width of their lines.
+/// Line width of the symbols.
 pub const LINK: f64 = 1.2;
-/// The straight piece at either end of a spring, at most, and as a part of its length.
+/// Length of the straight lead at either end of a spring: maximum, and fraction of its length.
 const LEAD: (f64, f64) = (8.0, 0.15);
-/// A turn of a spring is about so long, and there are so many.
+/// Length of a turn of a spring, and the range of the number of turns.
 const TURN: f64 = 12.0;
 const TURNS: (f64, f64) = (3.0, 12.0);
-/// Half the breadth of a spring or of the cylinder of a damper.
+/// Half width of a spring and of the cylinder of a damper.
 const BREADTH: f64 = 5.0;
-/// Half the length of a cylinder, at most, and as a part of the length of the damper.
+/// Half length of a cylinder: maximum, and fraction of the length of the damper.
 const CYLINDER: (f64, f64) = (9.0, 0.2);
 
-/// The way between two places.
+/// Directed line between two points.
 pub struct Link {
     from: Point,
     along: Point,
@@ -23,7 +23,7 @@ pub struct Link {
 }
 
 impl Link {
-    /// The link from one place to another.
+    /// A link from one point to another.
     pub fn between(from: Point, to: Point) -> Self {
         let (x, y) = (to.0 - from.0, to.1 - from.1);
         let length = hypot(x, y);
@@ -41,7 +41,7 @@ impl Link {
         vec![self.from, self.at((self.length, 0.0))]
     }
 
-    /// A zigzag, in as many turns as fit.
+    /// A zigzag, with as many turns as fit.
     pub fn spring(&self) -> Vec<Vec<Point>> {
         let lead = LEAD.0.min(LEAD.1 * self.length);
         let teeth = 2.0 * (self.length / TURN).round().clamp(TURNS.0, TURNS.1);

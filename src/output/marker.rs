@@ -1,39 +1,38 @@
-//! Marks at points of a curve, told apart by their shape also where colours are not.
+//! Marker shapes, which distinguish series without colours.
 
 use super::{
     canvas::{Area, Canvas, Point},
     colour::{Colour, WHITE},
 };
 
-/// The shape of the marks of a series of a chart.
+/// Marker shape of a series.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Marker {
-    /// Each mark is a filled circle.
+    /// A filled circle.
     #[default]
     Disc,
-    /// Each mark is a filled square.
+    /// A filled square.
     Square,
-    /// Each mark is an outlined square on its corner.
+    /// An outlined square standing on its corner.
     Diamond,
-    /// Each mark is an outlined triangle.
+    /// An outlined triangle.
     Triangle,
-    /// Each mark is an outlined circle.
+    /// An outlined circle.
     Ring,
-    /// Each mark is two strokes, like an x.
+    /// Two crossed strokes, like an x.
     Cross,
 }
 
 impl Marker {
-    /// All of them, in the order in which series take them.
     const ALL: [Self; 6] =
         [Self::Disc, Self::Square, Self::Diamond, Self::Triangle, Self::Ring, Self::Cross];
 
-    /// The shape of the marks of series number `index`; shapes repeat.
+    /// Marker of the series with the given index; shapes repeat.
     pub fn of_index(index: usize) -> Self {
         Self::ALL[index % Self::ALL.len()]
     }
 
-    /// Draws a mark of this shape around a point, with the reach of a disc of this radius [pixels].
+    /// Draws a marker centred on a point, of about the size of a disc of this radius [pixels].
     pub fn draw(self, canvas: &mut Canvas, (x, y): Point, radius: f64, colour: Colour) {
         let width = 0.5 * radius;
         let half = 0.9 * radius;

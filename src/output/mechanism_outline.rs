@@ -1,4 +1,4 @@
-//! What stands around beams in a picture of what is inside of them: outlines of rigid bodies, and symbols.
+//! Mechanism around the beams in pictures of section results: outlines of rigid bodies and symbols.
 
 use super::{
     canvas::{Area, Canvas, Point},
@@ -8,10 +8,9 @@ use super::{
     symbol::PlacedSymbol,
 };
 
-/// The width of an outline.
 const OUTLINE: f64 = 1.6;
 
-/// Rigid bodies as lines, and symbols over all, in the reader's units.
+/// Rigid bodies as lines, and symbols on top, in data units.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MechanismOutline {
     /// The outlines of rigid bodies.
@@ -21,7 +20,7 @@ pub struct MechanismOutline {
 }
 
 impl MechanismOutline {
-    /// The part of the plane that points need, and the scenery that is among them.
+    /// Visible part of the plane for the points and the symbols near them.
     pub(super) fn view(
         &self,
         points: impl Iterator<Item = Point> + Clone,
@@ -31,7 +30,6 @@ impl MechanismOutline {
         PlacedSymbol::view(&self.symbols, points.chain(bodies), limits)
     }
 
-    /// Draws it on a plot.
     pub(super) fn draw(&self, canvas: &mut Canvas, frame: &Frame, plot: &Area) {
         for run in self.bodies.iter().flat_map(|body| frame.curve(plot, body)) {
             canvas.line(run, OUTLINE, INK);

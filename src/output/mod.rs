@@ -1,4 +1,4 @@
-//! Tables, files and pictures from plain data. Nothing here knows what a simulation is.
+//! Tables, files and pictures from plain data. This module knows nothing about simulations.
 //!
 //! ```text
 //! chart, heat_map, level_map, bars, motion, strips, field → page → scenery → plane, symbol → frame, hatching, legend, colour_bar → axis, curve, stroke, marker → canvas → figure

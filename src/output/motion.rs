@@ -1,4 +1,4 @@
-//! Pictures of motion: beams and particles at several times, one over the other, early ones pale and late ones dark.
+//! Pictures of motion: snapshots at several times in one plot, early ones pale and late ones dark.
 
 use super::{
     canvas::{Area, Canvas, Point},
@@ -19,22 +19,22 @@ const TRACE: f64 = 1.4;
 const MARK: f64 = 2.4;
 const PARTICLE: f64 = 4.5;
 
-/// A snapshot of a motion picture: the beams at one time.
+/// The mechanism at one time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MotionFrame {
     /// The time of the snapshot.
     pub time: f64,
     /// The centre line of each beam in the snapshot, always in the same order.
     pub lines: Vec<Vec<Point>>,
-    /// The places of the snapshot that are marked by dots: knots, nodes, joints.
+    /// Points marked by dots: knots, nodes, joints.
     pub marks: Vec<Point>,
-    /// The bodies without extent in the snapshot, drawn as larger dots.
+    /// Point masses, drawn as larger dots.
     pub particles: Vec<Point>,
     /// The outlines of rigid bodies in the snapshot.
     pub bodies: Vec<Vec<Point>>,
 }
 
-/// A motion picture: snapshots of a motion in the plane. One unit of x is as long on the paper as one unit of y.
+/// Snapshots of a motion in the plane, with equal scales of both axes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MotionPicture {
     title: String,
@@ -61,14 +61,14 @@ impl MotionPicture {
         }
     }
 
-    /// Says what the axes of the motion picture show; `x` and `y` without it.
+    /// Sets the labels of the axes; the default is `x` and `y`.
     pub fn labels(mut self, x_label: impl Into<String>, y_label: impl Into<String>) -> Self {
         self.x_label = x_label.into();
         self.y_label = y_label.into();
         self
     }
 
-    /// Says what the bar of times of the motion picture shows; `t` without it.
+    /// Sets the label of the time bar; the default is `t`.
     pub fn time_label(mut self, label: impl Into<String>) -> Self {
         self.time_label = label.into();
         self
@@ -80,19 +80,19 @@ impl MotionPicture {
         self
     }
 
-    /// Names the beams of the motion picture, in the order of the lines of each snapshot.
+    /// Names the beams, in the order of the lines of each snapshot.
     pub fn beams(mut self, names: impl IntoIterator<Item = impl Into<String>>) -> Self {
         self.beams = names.into_iter().map(Into::into).collect();
         self
     }
 
-    /// Adds a snapshot to the motion picture. Later snapshots are drawn over earlier ones, whatever the order they come in.
+    /// Adds a snapshot. Later snapshots are drawn over earlier ones, whatever the order of the calls.
     pub fn snapshot(mut self, snapshot: MotionFrame) -> Self {
         self.snapshots.push(snapshot);
         self
     }
 
-    /// Adds the path of a station to the motion picture.
+    /// Adds the path of a station.
     pub fn trace(mut self, name: impl Into<String>, points: Vec<Point>) -> Self {
         self.traces.push((name.into(), points));
         self
@@ -104,19 +104,19 @@ impl MotionPicture {
         self
     }
 
-    /// Adds a line of small words below the title.
+    /// Adds a caption line below the title.
     pub fn caption(mut self, words: impl Into<String>) -> Self {
         self.captions.push(words.into());
         self
     }
 
-    /// Fixes the ends of axes. Units stay equally long, so one of the axes may show more.
+    /// Fixes the ends of the axes. Both axes keep the same scale, so one of them may show more.
     pub fn limits(mut self, limits: AxisLimits) -> Self {
         self.limits = limits;
         self
     }
 
-    /// Motion pictures side by side, all with the same view, for comparing two integrators.
+    /// Motion pictures side by side with common axes, for example for comparing integrators.
     pub fn side_by_side(pictures: impl IntoIterator<Item = MotionPicture>) -> Page {
         let pictures: Vec<MotionPicture> = pictures.into_iter().collect();
         let limits = Self::shared_limits(&pictures);
@@ -124,7 +124,7 @@ impl MotionPicture {
         framed.fold(Page::row(), Page::panel)
     }
 
-    /// The ends of axes with which each of some pictures shows what all of them do; the limits of the first one hold.
+    /// Common axis limits that show everything in all pictures; limits set on the first one take precedence.
     pub fn shared_limits(pictures: &[Self]) -> AxisLimits {
         let given = pictures.first().map_or_else(AxisLimits::default, |first| first.limits);
         let points = pictures.iter().flat_map(Self::points);
@@ -146,7 +146,7 @@ impl MotionPicture {
         PlacedSymbol::view(&self.symbols, self.points(), &self.limits)
     }
 
-    /// The frame of a plot of the given size in pixels.
+    /// Frame for a plot of the given size [pixels].
     fn frame(&self, width: f64, height: f64) -> Frame {
         let (x, y) = self.view().axes(width, height);
         Frame {
@@ -180,18 +180,20 @@ impl MotionPicture {
         self.snapshots.iter().map(|snapshot| snapshot.lines.len()).max().unwrap_or(0)
     }
 
-    /// Paths are dashed; their colours are none of the beams'. Vermilion stands out from the ramp of a lone beam.
+    /// Paths are dashed, in colours that no beam has. With a single beam they are vermilion, which stands out from the
+    /// colour ramp.
     fn trace_look(&self, index: usize) -> (Colour, Stroke) {
         let first = if self.beam_count() > 1 { self.beam_count() } else { 1 };
         (hue(first + index), if index < HUE_COUNT { Stroke::Dashed } else { Stroke::Dotted })
     }
 
-    /// The colour of beam `index` at `part` of the motion. One beam runs through the ramp; of several, each has a hue.
+    /// Colour of beam `index` at the fraction `part` of the motion: the colour ramp for a single beam, otherwise a tint
+    /// of the hue of the beam.
     fn colour(&self, index: usize, part: f64) -> Colour {
         if self.beam_count() > 1 { tint(hue(index), part) } else { ramp(part) }
     }
 
-    /// When the hues are used up, beams differ in their strokes.
+    /// Beams beyond the number of hues differ by their stroke.
     fn stroke(&self, index: usize) -> Stroke {
         if self.beam_count() > 1 { Stroke::of_round(index / HUE_COUNT) } else { Stroke::Solid }
     }

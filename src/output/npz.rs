@@ -1,4 +1,4 @@
-//! Archives of arrays for NumPy: a ZIP file, not compressed, with an `.npy` file for each array (NEP 1, format 1.0).
+//! Array archives for NumPy: an uncompressed ZIP file with one `.npy` file per array (NEP 1, format 1.0).
 
 use std::io::{Cursor, Write};
 
@@ -7,15 +7,15 @@ use zip::{CompressionMethod, DateTime, ZipWriter};
 
 use super::OutputError;
 
-/// What every `.npy` file begins with: its mark and its version.
+/// Magic bytes and version of `.npy` files.
 const MARK: &[u8; 8] = b"\x93NUMPY\x01\x00";
-/// Numbers begin at a multiple of this [bytes].
+/// Alignment of the data [bytes].
 const ALIGNMENT: usize = 64;
 
-/// Arrays of numbers under names, as `numpy.load` gives them.
+/// Named arrays, as `numpy.load` returns them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct NpzArchive {
-    /// The arrays, no two of one name.
+    /// Arrays with distinct names.
     pub arrays: Vec<NpzArray>,
 }
 
@@ -24,17 +24,17 @@ pub struct NpzArchive {
 pub struct NpzArray {
     /// The name of the array.
     pub name: String,
-    /// How long it is in each direction, the slowest first.
+    /// Lengths of the dimensions, slowest first.
     pub shape: Vec<usize>,
-    /// The numbers of the array, the last index fastest.
+    /// Numbers of the array, last index fastest.
     pub values: Vec<f64>,
 }
 
 impl NpzArchive {
-    /// The bytes of a `.npz` file; equal arrays give equal bytes.
+    /// Bytes of the `.npz` file; equal arrays give equal bytes.
     ///
     /// # Errors
-    /// When an array has not as many numbers as its shape says, or two have one name.
+    /// If the number of values contradicts the shape, or two arrays have the same name.
     pub fn to_bytes(&self) -> Result<Vec<u8>, OutputError> {
         let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
         let options = SimpleFileOptions::default()
@@ -60,7 +60,7 @@ impl NpzArchive {
 }
 
 impl NpzArray {
-    /// Numbers in a row.
+    /// A one-dimensional array.
     pub fn row(name: impl Into<String>, values: Vec<f64>) -> Self {
         Self { name: name.into(), shape: vec![values.len()], values }
     }
@@ -90,7 +90,7 @@ mod tests {
         let array = NpzArray { name: "a".into(), shape: vec![2, 3], values: vec![0.5; 6] };
         let bytes = array.to_npy();
         assert_eq!(bytes.len(), 128 + 48);
-        // numpy.save of np.full((2, 3), 0.5) begins so; the comma behind the last length of a tuple is as good as none.
+        // Header that numpy.save writes for np.full((2, 3), 0.5), apart from the trailing comma of the tuple.
         let header = "\u{93}NUMPY\u{1}\u{0}v\u{0}{'descr': '<f8', 'fortran_order': False, 'shape': (2, 3,), }";
         let header: Vec<u8> = header.chars().map(|letter| letter as u8).collect();
         assert!(bytes.starts_with(&header), "{:?}", String::from_utf8_lossy(&bytes[..80]));

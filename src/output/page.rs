@@ -1,4 +1,4 @@
-//! Panels, and pages on which several of them stand below or beside each other.
+//! Panels, and pages that arrange panels in a grid.
 
 use std::path::Path;
 
@@ -11,12 +11,12 @@ use super::{
     frame::Margins,
 };
 
-/// A panel: a picture, or a part of one, that fits itself into the area it is given.
+/// A picture or a part of one, which fits itself into a given area.
 pub trait Panel {
-    /// The width and height that the panel looks best at when it is alone [pixels].
+    /// Preferred size as a stand-alone picture [pixels].
     fn size(&self) -> (f64, f64);
 
-    /// The width and height that the panel takes on a page of so many rows and columns [pixels]: panels that share one are smaller than alone.
+    /// Preferred size on a page with so many rows and columns [pixels]; smaller than alone.
     fn size_among(&self, rows: usize, columns: usize) -> (f64, f64) {
         let (width, height) = self.size();
         let width = if columns > 1 { width * SIZE_IN_COLUMNS.0 } else { width };
@@ -28,18 +28,18 @@ pub trait Panel {
         (width, height)
     }
 
-    /// The room that the panel needs around its plot when it is `width` by `height` large [pixels].
+    /// Space around the plot in a panel of the given size [pixels].
     fn margins(&self, width: f64, height: f64) -> Margins;
 
     /// Draws the panel in `area`, with its plot in `plot`.
     fn draw(&self, canvas: &mut Canvas, area: &Area, plot: &Area);
 
-    /// The panel as a picture of its own.
+    /// The panel as a stand-alone picture.
     fn figure(&self) -> Result<Figure, OutputError> {
         self.figure_of(self.size())
     }
 
-    /// The panel as a picture of its own of another size in pixels.
+    /// The panel as a stand-alone picture of the given size [pixels].
     fn figure_of(&self, (width, height): (f64, f64)) -> Result<Figure, OutputError> {
         let area = Area { left: 0.0, top: 0.0, right: width.ceil(), bottom: height.ceil() };
         let mut canvas = Canvas::default();
@@ -47,7 +47,7 @@ pub trait Panel {
         Figure::new(canvas, (width, height))
     }
 
-    /// Writes the panel as a picture of its own to a `.svg` or `.png` file.
+    /// Writes the panel as a stand-alone picture to a `.svg` or `.png` file.
     fn save(&self, path: impl AsRef<Path>) -> Result<(), OutputError>
     where
         Self: Sized,
@@ -56,14 +56,14 @@ pub trait Panel {
     }
 }
 
-/// Panels that share a page are smaller than alone: this part of their height when several rows share it, …
+/// Scale of the height of panels when several rows share a page.
 const HEIGHT_IN_ROWS: f64 = 0.6;
-/// … and this part of their width and height when it is one row of several columns.
+/// Scale of width and height of panels in one row of several columns.
 const SIZE_IN_COLUMNS: (f64, f64) = (0.72, 0.85);
 /// Pixels per em of the title of a page.
 const TITLE: f64 = 18.0;
 
-/// A page: panels in a grid. The plots of a column are equally wide, those of a row equally high.
+/// Panels in a grid. The plots of a column have equal widths, those of a row equal heights.
 #[derive(Default)]
 pub struct Page {
     title: String,
@@ -72,22 +72,22 @@ pub struct Page {
 }
 
 impl Page {
-    /// An empty page whose panels stand below each other.
+    /// An empty page with panels below each other.
     pub fn column() -> Self {
         Self::grid(1)
     }
 
-    /// An empty page whose panels stand beside each other.
+    /// An empty page with panels next to each other.
     pub fn row() -> Self {
         Self::grid(usize::MAX)
     }
 
-    /// An empty page that is filled row by row with at most `columns` panels in each.
+    /// An empty page, filled row by row with at most `columns` panels each.
     pub fn grid(columns: usize) -> Self {
         Self { title: String::new(), columns: columns.max(1), panels: Vec::new() }
     }
 
-    /// Puts a title above all panels of the page.
+    /// Sets a title above all panels.
     pub fn title(mut self, title: impl Into<String>) -> Self {
         self.title = title.into();
         self
@@ -99,7 +99,6 @@ impl Page {
         self
     }
 
-    /// The widths of the columns and the heights of the rows.
     fn tracks(&self) -> (Vec<f64>, Vec<f64>) {
         let columns = self.columns.min(self.panels.len()).max(1);
         let rows = self.panels.len().div_ceil(columns);
@@ -117,7 +116,7 @@ impl Page {
         if self.title.is_empty() { 0.0 } else { TITLE + 22.0 }
     }
 
-    /// The panels whose index gives `track` by `index_of`, and what they have to fit around their plots.
+    /// Common margins of all panels that `index_of` maps to `track`.
     fn common_margins(&self, track: usize, index_of: impl Fn(usize) -> usize) -> Margins {
         let (widths, heights) = self.tracks();
         let members = self.panels.iter().enumerate().filter(|(index, _)| index_of(*index) == track);

@@ -1,4 +1,4 @@
-//! Tables as Apache Parquet: columns with their kinds, in one row group, and their dimensions among the metadata of the file.
+//! Apache Parquet files: typed columns in one row group, with the dimensions as file metadata.
 
 use std::sync::Arc;
 
@@ -13,10 +13,10 @@ use parquet::schema::types::{Type, TypePtr};
 use super::{DataColumn, DataTable, DataValues, OutputError};
 
 impl DataTable {
-    /// The bytes of a `.parquet` file, not compressed; `dimension.NAME` of its metadata is the dimension of a column.
+    /// Bytes of an uncompressed `.parquet` file; the metadata `dimension.NAME` holds the dimension of a column.
     ///
     /// # Errors
-    /// When the columns are not equally long, or two have one name.
+    /// If the columns differ in length, or two have the same name.
     pub fn to_parquet(&self) -> Result<Vec<u8>, OutputError> {
         self.rows()?;
         self.written_to_parquet()

@@ -1,18 +1,18 @@
-//! The part of the plane that a picture shows: one unit of x is as long on the paper as one unit of y.
+//! Visible part of the plane, with equal scales of both axes.
 
 use super::{
     axis::{Axis, extent},
     canvas::Point,
 };
 
-/// The width of the plot that a lone picture aims at, and the limits of its height and least width.
+/// Preferred width of a single plot, the range of its height, and its minimum width.
 const WIDTH: f64 = 740.0;
 const HEIGHTS: (f64, f64) = (220.0, 700.0);
 const LEAST_WIDTH: f64 = 300.0;
-/// Free paper around the data, as a part of its size.
+/// White space around the data, as a fraction of its size.
 const SPARE: f64 = 0.05;
 
-/// The ends of the axes, where a reader asks for others than those that fit the data.
+/// User-defined ends of the axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AxisLimits {
     /// The least and the largest value of the horizontal axis.
@@ -21,7 +21,7 @@ pub struct AxisLimits {
     pub y: Option<(f64, f64)>,
 }
 
-/// A box in the plane: its centre and its width and height, neither of them zero.
+/// A box in the plane: centre, width and height, both non-zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
     centre: Point,
@@ -29,8 +29,8 @@ pub struct View {
 }
 
 impl View {
-    /// The box that points need with some paper around them, or that limits ask for; an axis without limits fits what is between those of the
-    /// other one.
+    /// A box that contains the points with some margin, or the box of the limits. An axis without limits fits the
+    /// points inside the limits of the other axis.
     pub fn of(points: impl Iterator<Item = Point> + Clone, limits: &AxisLimits) -> Self {
         let within = |value: f64, ends: Option<(f64, f64)>| {
             ends.is_none_or(|(low, high)| (low..=high).contains(&value))
@@ -49,13 +49,13 @@ impl View {
         };
         let (x, width) = side(|point| point.0, limits.x);
         let (y, height) = side(|point| point.1, limits.y);
-        // A straight line has no height, and a point no size: show as much as keeps the place readable.
+        // A straight line has no height and a point no size; the box is enlarged to keep the axes readable.
         let size = width.max(height).max(1e-6 * x.abs().max(y.abs()));
         let size = if size > 1e-280 { size } else { 1.0 };
         Self { centre: (x, y), needs: (width.max(0.05 * size), height.max(0.05 * size)) }
     }
 
-    /// A box with so much paper around places that what is drawn about them in pixels is not cut; limits cut it all the same.
+    /// Enlarges the box so that symbols drawn around points, in pixels, are not cut off. Limits still take precedence.
     pub fn with_room(
         self,
         about: impl Iterator<Item = Point> + Clone,
@@ -83,19 +83,19 @@ impl View {
         Self { centre: (x, y), needs: (width, height) }
     }
 
-    /// Whether a point is in the box.
+    /// Returns true if a point is in the box.
     pub fn shows(&self, (x, y): Point) -> bool {
         let is_within = |at: f64, centre: f64, size: f64| (at - centre).abs() <= size / 2.0;
         is_within(x, self.centre.0, self.needs.0) && is_within(y, self.centre.1, self.needs.1)
     }
 
-    /// The ends of axes between which it is all that is seen.
+    /// Axis limits of the box.
     pub fn limits(&self) -> AxisLimits {
         let ends = |centre: f64, size: f64| Some((centre - size / 2.0, centre + size / 2.0));
         AxisLimits { x: ends(self.centre.0, self.needs.0), y: ends(self.centre.1, self.needs.1) }
     }
 
-    /// The axes of a plot of the given size in pixels.
+    /// Axes of a plot of the given size [pixels].
     pub fn axes(&self, width: f64, height: f64) -> (Axis, Axis) {
         let per_pixel = (self.needs.0 / width).max(self.needs.1 / height);
         let axis = |centre: f64, pixels: f64| {
@@ -105,7 +105,7 @@ impl View {
         (axis(self.centre.0, width), axis(self.centre.1, height))
     }
 
-    /// The size in pixels of the plot of a lone picture.
+    /// Size of a single plot [pixels].
     pub fn size(&self) -> (f64, f64) {
         let aspect = self.needs.1 / self.needs.0;
         let tall = (WIDTH * aspect).clamp(HEIGHTS.0, HEIGHTS.1);

@@ -1,8 +1,8 @@
-//! Paints a canvas as PNG: every edge is smooth, because each pixel is mixed by how much of it a shape covers.
+//! PNG painter with anti-aliasing: each pixel is blended by the fraction that a shape covers.
 //!
-//! plotters fills boxes and mixes pixels; its own thick lines and polygons have ragged edges, so lines are covered
-//! here by distance: a pixel at distance `d` from the middle of a line of half width `r` is covered by `r + ½ − d`,
-//! and a pixel near several pieces of the line by the nearest one.
+//! plotters fills boxes and blends pixels, but its thick lines and polygons have ragged edges. Therefore lines are
+//! covered by distance: a pixel at distance `d` from the centre line of half width `r` is covered by `r + ½ − d`, and a
+//! pixel near several segments by the nearest one.
 
 use plotters::prelude::{BitMapBackend, DrawingBackend, RGBColor};
 use plotters::style::Color;
@@ -15,12 +15,12 @@ use super::{
 };
 use crate::elementary::hypot;
 
-/// The bytes of the PNG file of `canvas`, `width` by `height` pixels large.
+/// Bytes of the PNG file of `canvas`.
 pub fn paint(canvas: &Canvas, width: u32, height: u32) -> Result<Vec<u8>, OutputError> {
     encode(&pixels(canvas, width, height)?, width, height).map_err(refused)
 }
 
-/// The pixels of `canvas`, row by row from the top, each as red, green and blue.
+/// Pixels of `canvas`, row by row from the top, as red, green and blue.
 pub fn pixels(canvas: &Canvas, width: u32, height: u32) -> Result<Vec<u8>, OutputError> {
     let Colour(paper, ..) = WHITE;
     let mut pixels = vec![paper; width as usize * height as usize * 3];
@@ -49,7 +49,6 @@ fn refused(error: impl std::fmt::Display) -> OutputError {
     OutputError::Paint { reason: error.to_string() }
 }
 
-/// The paper with its size in pixels.
 struct PngPage<'a> {
     backend: BitMapBackend<'a>,
     width: u32,
@@ -99,7 +98,7 @@ impl PngPage<'_> {
                 covered.push((corner.x as i32 + x as i32, corner.y as i32 + y as i32, amount))
             });
             for (x, y, amount) in covered {
-                // A pixel is a box: turned upwards, the box right of the start lies above it.
+                // A pixel is a box: after the turn, the box to the right of the start lies above it.
                 let (x, y) = match text.direction {
                     TextDirection::Level => (start.0 + x, start.1 + y),
                     TextDirection::Upwards => (start.0 + y, start.1 - x - 1),
@@ -125,7 +124,7 @@ impl PngPage<'_> {
     }
 }
 
-/// How much of each pixel a line covers, over the part of the picture that the line can reach.
+/// Coverage of pixels by a line, within its bounding box.
 struct PixelCoverage {
     left: usize,
     top: usize,
@@ -147,7 +146,6 @@ impl PixelCoverage {
         Self { left, top, columns, rows, amounts: vec![0.0; columns * rows] }
     }
 
-    /// Covers the straight piece from `a` to `b`.
     fn piece(&mut self, a: Point, b: Point, radius: f64) {
         let reach = radius + 0.5;
         let (dx, dy) = (b.0 - a.0, b.1 - a.1);
@@ -155,7 +153,8 @@ impl PixelCoverage {
         let rows = clip(a.1.min(b.1) - reach, a.1.max(b.1) + reach, self.top, self.rows);
         for row in rows {
             let y = (self.top + row) as f64 + 0.5;
-            // Where the row can meet the piece: around its crossing with the middle line, within the ends.
+            // Pixels of this row within reach of the segment: around the crossing with the centre line, between the
+            // ends.
             let (mut low, mut high) = (a.0.min(b.0), a.0.max(b.0));
             if dy != 0.0 {
                 let crossing = a.0 + (y - a.1) * dx / dy;
@@ -176,7 +175,7 @@ impl PixelCoverage {
     }
 }
 
-/// The pixels from `low` to `high`, counted from `first`, of which there are `count`.
+/// Indices of the pixels from `low` to `high`, within the `count` pixels from `first` on.
 fn clip(low: f64, high: f64, first: usize, count: usize) -> std::ops::Range<usize> {
     let whole = |x: f64| (x - first as f64).clamp(0.0, count as f64) as usize;
     whole(low.floor())..whole(high.ceil())

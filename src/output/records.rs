@@ -1,20 +1,20 @@
-//! Tables of words and numbers for other programs: CSV with `#` comment lines above.
+//! CSV tables of texts and numbers with `#` comment lines above.
 
 use super::OutputError;
 
-/// A table for other programs: rows of texts under names of columns.
+/// Rows of texts under named columns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CsvRecords {
-    /// The lines put above the table, each behind a `#`.
+    /// Lines written above the table, each after a `#`.
     pub comments: Vec<String>,
     /// The names of the table's columns.
     pub names: Vec<String>,
-    /// The rows of the table, each with a text for every column.
+    /// Rows with one text per column.
     pub rows: Vec<Vec<String>>,
 }
 
 impl CsvRecords {
-    /// The text of the file with the table. Rows that are shorter or longer than the names are refused.
+    /// Text of the CSV file. Rows that are shorter or longer than the header are an error.
     pub fn to_text(&self) -> Result<String, OutputError> {
         let comments = self.comments.iter().flat_map(|comment| comment.lines());
         let mut bytes: Vec<u8> =

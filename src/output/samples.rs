@@ -1,10 +1,9 @@
-//! Sample pictures with the content of real studies, checked to be whole; set `WITHY_SAMPLES` to a folder to keep them
-//! and look at them.
+//! Sample pictures with realistic content. Set `WITHY_SAMPLES` to a folder to keep the files.
 
 use super::*;
 
-/// Writes both kinds of the picture, to the folder that is asked for or to one that vanishes. Labels must be told in the drawing, and
-/// the pixels must be as many as it says, the paper white and something drawn on it.
+/// Writes the picture in both formats and checks that the labels are in the SVG description, and that the PNG has the
+/// stated size, white paper and some ink.
 fn show(name: &str, panel: &impl Panel, labels: &[&str]) {
     let vanishing = tempfile::tempdir().unwrap();
     let folder =

@@ -1,4 +1,4 @@
-//! Diagrams of what beams transmit: values as strips across the beams, in a piece of the plane with equal units.
+//! Diagrams of section forces: values as strips perpendicular to the beams, in the plane with equal scales.
 
 use super::{
     axis::typeset_number,
@@ -15,22 +15,22 @@ use crate::elementary::hypot;
 const BEAM: f64 = 2.4;
 const EDGE: f64 = 1.5;
 const ORDINATE: f64 = 1.0;
-/// Ordinates are so far apart, in pixels.
+/// Distance of ordinates [pixels].
 const APART: f64 = 7.0;
 const NUMBER: f64 = 12.0;
-/// The largest strip, as a part of the size of all beams.
+/// Largest ordinate, as a fraction of the size of all beams.
 const LARGEST: f64 = 0.2;
-/// Extremes below this part of the largest one have no number.
+/// Extremes below this fraction of the largest one are not labelled.
 const TELLING: f64 = 0.03;
 const DIGITS: usize = 4;
 
-/// The side of a beam, seen along it, on which positive values stand.
+/// Side of a beam, seen along it, for positive values.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum BeamSide {
-    /// At the left.
+    /// Left side.
     #[default]
     Left,
-    /// At the right.
+    /// Right side.
     Right,
 }
 
@@ -39,11 +39,11 @@ pub enum BeamSide {
 pub struct BeamStrip {
     /// The centre line.
     pub line: Vec<Point>,
-    /// Places along it with their values; two at one place where the value jumps.
+    /// Points along the beam with their values; two entries at a point where the value jumps.
     pub values: Vec<(Point, f64)>,
 }
 
-/// Strips across beams.
+/// Diagrams along beams.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StripPicture {
     title: String,
@@ -54,7 +54,7 @@ pub struct StripPicture {
     limits: AxisLimits,
 }
 
-/// A value at its place, and the tip of its ordinate, in the reader's units.
+/// A value at its point, and the tip of its ordinate, in data units.
 #[derive(Clone, Copy)]
 struct Ordinate {
     foot: Point,
@@ -68,7 +68,7 @@ impl StripPicture {
         Self { title: title.into(), ..Self::default() }
     }
 
-    /// Adds a line of small words below the title.
+    /// Adds a caption line below the title.
     pub fn caption(mut self, words: impl Into<String>) -> Self {
         self.captions.push(words.into());
         self
@@ -86,25 +86,24 @@ impl StripPicture {
         self
     }
 
-    /// Draws rigid bodies, supports, joints, sliders and loads over all.
+    /// Draws rigid bodies, supports, joints, sliders and loads over the diagrams.
     pub fn scenery(mut self, scenery: MechanismOutline) -> Self {
         self.scenery = scenery;
         self
     }
 
-    /// Fixes the ends of axes. Units stay equally long, so one of the axes may show more.
+    /// Fixes the ends of the axes. Both axes keep the same scale, so one of them may show more.
     pub fn limits(mut self, limits: AxisLimits) -> Self {
         self.limits = limits;
         self
     }
 
-    /// The largest magnitude of all values.
     fn largest(&self) -> f64 {
         let values = self.strips.iter().flat_map(|strip| &strip.values);
         values.map(|(_, value)| value.abs()).filter(|value| value.is_finite()).fold(0.0, f64::max)
     }
 
-    /// The ordinates of a strip, run by run: a run ends where the value jumps.
+    /// Ordinates of a strip, split where the value jumps.
     fn runs(&self, strip: &BeamStrip) -> Vec<Vec<Ordinate>> {
         let largest = self.largest();
         let scale = if largest > 0.0 { LARGEST * self.beam_size() / largest } else { 0.0 };
@@ -128,7 +127,7 @@ impl StripPicture {
         runs.map(run).collect()
     }
 
-    /// The size of all beams, or that of the longest one where they are many small ones: strips of neighbours must not cover each other.
+    /// Size of all beams, or of the longest one if there are many small ones: diagrams of neighbours must not overlap.
     fn beam_size(&self) -> f64 {
         let points = || self.strips.iter().flat_map(|strip| strip.line.iter().copied());
         let side = |pick: fn(Point) -> f64| {
@@ -163,7 +162,6 @@ impl StripPicture {
         }
     }
 
-    /// Draws a run in the colour of its beam: ordinates, and their tips.
     fn draw_run(
         canvas: &mut Canvas,
         frame: &Frame,
@@ -188,7 +186,7 @@ impl StripPicture {
         line(canvas, &edge, EDGE, colour);
     }
 
-    /// Places along the beams on paper, so close that nothing written passes between them.
+    /// Points along the drawn beams, dense enough that no label fits between them.
     fn on_beams(&self, frame: &Frame, plot: &Area) -> Vec<Point> {
         let lines = self.strips.iter().flat_map(|strip| frame.curve(plot, &strip.line));
         let dense = |run: Vec<Point>| {
@@ -205,7 +203,7 @@ impl StripPicture {
         lines.flat_map(dense).collect()
     }
 
-    /// Writes the extremes of a beam beside their ordinates, where no beam and no other number is.
+    /// Labels the extremes of a beam, clear of beams and other labels.
     fn draw_extremes(
         &self,
         canvas: &mut Canvas,

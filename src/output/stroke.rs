@@ -1,4 +1,4 @@
-//! How the line of a series is drawn, beside its colour.
+//! Line styles of series.
 
 use super::{
     canvas::{Canvas, Point},
@@ -6,34 +6,34 @@ use super::{
     curve,
 };
 
-/// The look of a line, which tells series apart when their colours do not.
+/// Line style, which distinguishes series of the same colour.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Stroke {
-    /// The line is unbroken.
+    /// An unbroken line.
     #[default]
     Solid,
-    /// The line has long dashes.
+    /// Long dashes.
     Dashed,
-    /// The line has short dashes, nearly dots.
+    /// Short dashes, nearly dots.
     Dotted,
-    /// The line is unbroken with a mark at every point, for measured or computed points that are few.
+    /// An unbroken line with a marker at every point, for few measured or computed points.
     Marked,
-    /// There are marks without a line between them.
+    /// Markers without a line.
     Unjoined,
 }
 
 impl Stroke {
-    /// The stroke of the series that get their colours in a pass through the palette, from pass 0 on.
+    /// Stroke of the series in the given pass through the palette, counted from 0.
     pub fn of_round(round: usize) -> Self {
         [Stroke::Solid, Stroke::Dashed, Stroke::Dotted][round % 3]
     }
 
-    /// Whether a line of this look has a mark at every point.
+    /// Returns true if every point has a marker.
     pub fn has_marks(self) -> bool {
         matches!(self, Stroke::Marked | Stroke::Unjoined)
     }
 
-    /// Draws one unbroken run of a curve, given in pixels, with this look. The marks of a line are not part of it.
+    /// Draws one unbroken run of a curve, given in pixels. Markers are drawn separately.
     pub fn draw(self, canvas: &mut Canvas, run: &[Point], width: f64, colour: Colour) {
         let pattern: &[f64] = match self {
             Stroke::Solid | Stroke::Marked => {

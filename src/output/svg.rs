@@ -1,7 +1,7 @@
-//! Paints a canvas as SVG through plotters. Text becomes outlines, so no reader needs a font; what it says is kept in
-//! the description of the picture.
+//! SVG painter based on plotters. Text becomes outlines, so that no fonts are needed; the texts are kept in the
+//! description of the picture.
 //!
-//! plotters' coordinates are whole numbers: the picture is drawn on a grid of [`GRID`] steps per pixel.
+//! plotters' coordinates are integers: the picture is drawn on a grid of [`GRID`] steps per pixel.
 
 use plotters::prelude::{DrawingBackend, RGBColor, SVGBackend, ShapeStyle};
 
@@ -12,10 +12,9 @@ use super::{
     fonts,
 };
 
-/// Steps of the drawing grid per pixel.
 const GRID: f64 = 20.0;
 
-/// The SVG document of `canvas`, `width` by `height` pixels large.
+/// SVG document of `canvas`.
 pub fn paint(canvas: &Canvas, width: u32, height: u32) -> Result<String, OutputError> {
     let mut body = String::new();
     let size = (width * GRID as u32, height * GRID as u32);
@@ -31,12 +30,12 @@ pub fn paint(canvas: &Canvas, width: u32, height: u32) -> Result<String, OutputE
     let opening = opening(size);
     let drawn =
         body.strip_prefix(&opening).ok_or_else(|| refused("the document begins otherwise"))?;
-    // All is opaque; no text stands in the document, so this can only be the attribute.
+    // Everything is opaque and texts are outlines, so this string can only be the attribute.
     Ok(head(canvas, width, height, size) + drawn.replace(" opacity=\"1\"", "").as_str())
 }
 
-/// How plotters begins a document on a grid of this size, which is what it writes of an empty one but the end. It takes the grid for
-/// the pixels and knows neither title nor description, so [`head`] stands in its place.
+/// The opening that plotters writes for a grid of this size. It has the wrong size and neither title nor description,
+/// so [`head`] replaces it.
 fn opening(grid: (u32, u32)) -> String {
     let mut empty = String::new();
     drop(SVGBackend::with_string(&mut empty, grid));
@@ -44,10 +43,9 @@ fn opening(grid: (u32, u32)) -> String {
     empty
 }
 
-/// How a document ends.
 const END: &str = "</svg>";
 
-/// The opening of the document: its size in pixels, round corners for all lines, and all of its text.
+/// Opening of the document: size in pixels, round line joins, and all texts as description.
 fn head(canvas: &Canvas, width: u32, height: u32, grid: (u32, u32)) -> String {
     let texts: Vec<String> = canvas.shapes().iter().filter_map(text_of).collect();
     let title = texts.first().cloned().unwrap_or_default();
@@ -74,7 +72,7 @@ fn refused(error: impl std::fmt::Display) -> OutputError {
 fn paint_shape(backend: &mut SVGBackend<'_>, shape: &Shape) -> Result<(), OutputError> {
     match shape {
         Shape::Line { points, width, colour } => {
-            // A line of one point is a dot; its round end needs a second point to show.
+            // A dot is a line whose second point equals the first.
             let end = points.last().filter(|_| points.len() == 1);
             backend.draw_path(
                 points.iter().chain(end).copied().map(on_grid),
@@ -95,7 +93,7 @@ fn paint_shape(backend: &mut SVGBackend<'_>, shape: &Shape) -> Result<(), Output
     .map_err(refused)
 }
 
-/// The contours of a glyph as one polygon: bridges without area lead from the first contour to the others and back.
+/// Contours of a glyph as one polygon, with zero-width bridges from the first contour to the others.
 fn one_polygon(contours: &[Vec<Point>], text: &Text) -> Vec<(i32, i32)> {
     let home = contours.first().and_then(|contour| contour.first());
     let walk = contours

@@ -15,56 +15,56 @@ use super::{
 
 use crate::elementary::hypot;
 
-/// Paper around a symbol, so that nothing of it is cut.
+/// White space around a symbol, so that it is not cut off.
 const ROOM: f64 = 20.0;
 
-/// A thing of a mechanism that has a symbol.
+/// Kinds of symbols.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Symbol {
-    /// A support that holds a position.
+    /// A support that fixes the position.
     Hinge,
-    /// A support that holds position and angle; its direction is that of the beam that leaves it.
+    /// A support that fixes position and angle; its direction is that of the beam that leaves it.
     Clamp,
-    /// A support that holds one component of the position, along its direction, away from the ground.
+    /// A support that fixes one component of the position, along its direction, which points away from the ground.
     Roller,
-    /// A support that holds one component of the position and the angle, likewise.
+    /// A support that fixes one component of the position and the angle.
     Guided,
-    /// A support that holds the angle alone.
+    /// A support that fixes the angle only.
     HeldAngle,
-    /// What turns a section as a function of time.
+    /// A prescribed rotation of a section as a function of time.
     Motor,
-    /// What moves a place along a direction as a function of time.
+    /// A prescribed movement along a direction as a function of time.
     Carriage,
-    /// A joint between beams that turns.
+    /// A revolute joint between beams.
     Joint,
-    /// A joint between beams that does not.
+    /// A rigid joint between beams.
     RigidJoint,
-    /// A place that slides along a beam.
+    /// A point that slides along a beam.
     Slider,
     /// A force, along its direction.
     Force,
-    /// A part of a force that is spread along a beam.
+    /// A part of a force that is distributed along a beam.
     LineForce,
-    /// A moment: counter-clockwise when its direction is to the right, clockwise when to the left.
+    /// A moment: counter-clockwise if its direction points to the right, clockwise if to the left.
     Moment,
-    /// A spring, from its place as far as its direction goes.
+    /// A spring from its point to the end of its direction vector.
     Spring,
-    /// A damper, likewise.
+    /// A damper, between the same points as a spring.
     Damper,
-    /// A part of a tendon, likewise.
+    /// A piece of a tendon, between the same points as a spring.
     Tendon,
-    /// A spring against the turning of a section.
+    /// A rotational spring at a section.
     TorsionSpring,
 }
 
 impl Symbol {
-    /// Whether it is that of a support, a joint or a slider.
+    /// Returns true for supports, joints and sliders.
     pub fn holds(self) -> bool {
         use Symbol::{Clamp, Guided, HeldAngle, Hinge, Joint, RigidJoint, Roller, Slider};
         matches!(self, Hinge | Clamp | Roller | Guided | HeldAngle | Joint | RigidJoint | Slider)
     }
 
-    /// The name of the symbol in the data of pages.
+    /// Name of the symbol in viewer data.
     pub fn name(self) -> &'static str {
         match self {
             Self::Hinge => "hinge",
@@ -88,31 +88,31 @@ impl Symbol {
     }
 }
 
-/// A symbol at a place, in the reader's units.
+/// A symbol at a point, in data units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlacedSymbol {
-    /// What it is.
+    /// Kind of symbol.
     pub symbol: Symbol,
     /// The place of the symbol.
     pub at: Point,
-    /// The direction in which the symbol points; of any length, zero for what has no direction. Springs, dampers and tendons end there.
+    /// Direction of the symbol, of any length; zero if it has none. Springs, dampers and tendons end at `at +
+    /// direction`.
     pub direction: Point,
 }
 
 impl PlacedSymbol {
-    /// The places between which it is drawn, of a spring, a damper or a part of a tendon.
+    /// Both ends of a spring, a damper or a piece of a tendon.
     pub fn link(&self) -> Option<[Point; 2]> {
         self.end().map(|end| [self.at, end])
     }
 
-    /// Where it ends, if it has another end than its place.
     fn end(&self) -> Option<Point> {
         use Symbol::{Damper, Spring, Tendon};
         matches!(self.symbol, Spring | Damper | Tendon)
             .then_some((self.at.0 + self.direction.0, self.at.1 + self.direction.1))
     }
 
-    /// The part of the plane that points need, and the symbols that are among them.
+    /// Visible part of the plane for the points and the symbols near them.
     pub(super) fn view(
         symbols: &[Self],
         points: impl Iterator<Item = Point> + Clone,
@@ -133,7 +133,7 @@ impl PlacedSymbol {
         View::of(points.chain(ends), limits).with_room(about, ROOM, limits)
     }
 
-    /// Draws it on a plot; not at all where the plot does not show its place.
+    /// Draws the symbol, unless its point lies outside the plot.
     pub(super) fn draw(&self, canvas: &mut Canvas, frame: &Frame, plot: &Area) {
         if let Some(end) = self.end() {
             let link = Link::between(frame.place(plot, self.at), frame.place(plot, end));

@@ -5,12 +5,12 @@ use std::fmt;
 use super::number::format_number;
 use super::width::{columns, padded};
 
-/// An entry of a table that is shown as text.
+/// A cell of a text table.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cell {
-    /// An entry of words, set flush left.
+    /// A text, flush left.
     Text(String),
-    /// An entry of a number in a text of its own, set flush right.
+    /// A number as text, flush right.
     Number(String),
 }
 
@@ -52,7 +52,7 @@ impl From<i64> for Cell {
     }
 }
 
-/// A table that is shown as text with [`Display`](fmt::Display): rows under a header.
+/// Rows under a header, formatted by [`Display`](fmt::Display).
 #[derive(Clone, Debug, Default)]
 pub struct TextTable {
     title: String,
@@ -61,7 +61,7 @@ pub struct TextTable {
 }
 
 impl TextTable {
-    /// A table with the given heads of columns and no rows.
+    /// A table with the given column heads and no rows.
     pub fn new(header: &[&str]) -> Self {
         Self { header: header.iter().map(|head| (*head).to_string()).collect(), ..Self::default() }
     }
@@ -72,7 +72,7 @@ impl TextTable {
         self
     }
 
-    /// Adds a row to the table. A row shorter than the header is filled with blanks; a longer one widens the table.
+    /// Adds a row. A row shorter than the header is padded with blanks; a longer one widens the table.
     pub fn row<C: Into<Cell>>(&mut self, cells: impl IntoIterator<Item = C>) -> &mut Self {
         self.rows.push(cells.into_iter().map(Into::into).collect());
         self
@@ -89,7 +89,7 @@ impl TextTable {
         cells.chain(heads).max().unwrap_or(0)
     }
 
-    /// A column is numeric when it holds a number; its head is then set flush right as well.
+    /// A column with a number in it is numeric; its head is then flush right too.
     fn is_numeric(&self, column: usize) -> bool {
         self.rows.iter().any(|row| matches!(row.get(column), Some(Cell::Number(_))))
     }
@@ -123,7 +123,7 @@ impl fmt::Display for TextTable {
     }
 }
 
-/// Writes one line of (text, flush right) cells, without blanks at its end.
+/// Writes one line of (text, flush right) cells, without trailing blanks.
 fn write_line<'a>(
     f: &mut fmt::Formatter<'_>,
     cells: impl Iterator<Item = (&'a str, bool)>,
@@ -139,12 +139,11 @@ fn write_line<'a>(
     writeln!(f, "{}", padded.collect::<Vec<_>>().join("  ").trim_end())
 }
 
-/// The columns that a cell takes when it is on its line.
 fn width_of(text: &str) -> usize {
     columns(&one_line(text))
 }
 
-/// A cell stays on its line whatever it holds.
+/// Keeps a cell on one line.
 fn one_line(text: &str) -> String {
     text.replace(char::is_control, " ")
 }

@@ -1,32 +1,34 @@
-//! Files for ParaView and whatever else reads VTK: a grid for each frame, and a collection that gives the frames their times.
+//! VTK files for ParaView and other programs: one grid per frame, and a collection with the times of the frames.
 //!
-//! They are XML with the numbers inline, as base64 of their bytes behind a count of them: so every bit is kept, of denormal numbers and NaN too, which
-//! readers of the text form stumble over. (VTK User's Guide, "VTK File Formats": XML file formats; uncompressed, `header_type="UInt64"`.)
+//! The files are XML with inline base64 data after a byte count, which keeps every bit, including denormal numbers and
+//! NaN, on which readers of the text format fail. (VTK User's Guide, "VTK File Formats": XML file formats;
+//! uncompressed, `header_type="UInt64"`.)
 
 use std::fmt::Write;
 
 use super::base64::base64;
 use super::{OutputError, Point};
 
-/// VTK's number of a cell of one point, and of one between two. A body is as many of these as it has pieces: not all readers know polylines.
+/// VTK cell types of a point and of a line segment. A body is several such cells, because not all readers support
+/// polylines.
 const VERTEX: u8 = 1;
 const LINE: u8 = 3;
 
-/// The bodies of one frame, and fields on their points.
+/// Bodies of one frame, and fields on their points.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct VtkGrid {
-    /// The bodies; the cell field `body` has their numbers, from 0, for each of their pieces.
+    /// Bodies; the cell field `body` holds the index of the body for each of its pieces.
     pub cells: Vec<VtkCell>,
-    /// Fields over the points of all cells, one after another.
+    /// Fields over the points of all cells, in order.
     pub fields: Vec<VtkField>,
 }
 
-/// A body: a line through its points, or a dot where there is only one.
+/// A body: a polyline, or a dot if there is only one point.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct VtkCell {
-    /// The name of the grid, which a comment of the file tells.
+    /// Name of the body, which is written as a comment.
     pub name: String,
-    /// The points of the grid in the plane.
+    /// Points in the plane.
     pub points: Vec<Point>,
 }
 
@@ -44,11 +46,11 @@ pub struct VtkField {
 pub enum VtkValues {
     /// Numbers.
     Numbers(Vec<f64>),
-    /// Vectors in the plane; the file has a third component, zero.
+    /// Vectors in the plane; the third component in the file is zero.
     Vectors(Vec<Point>),
 }
 
-/// A piece of a body: the number of the body, and the numbers of the points of the piece.
+/// A piece of a body: index of the body and range of its points.
 struct VtkPiece {
     body: usize,
     points: std::ops::Range<usize>,
@@ -64,10 +66,10 @@ impl VtkField {
 }
 
 impl VtkGrid {
-    /// The text of a `.vtu` file: an unstructured grid in one piece.
+    /// Text of a `.vtu` file: an unstructured grid in one piece.
     ///
     /// # Errors
-    /// When a field has not one value for each point.
+    /// If a field does not have one value per point.
     pub fn to_vtu(&self) -> Result<String, OutputError> {
         let points: Vec<Point> = self.cells.iter().flat_map(|cell| cell.points.clone()).collect();
         if let Some(field) = self.fields.iter().find(|field| field.length() != points.len()) {
@@ -108,7 +110,7 @@ impl VtkGrid {
         Ok(text)
     }
 
-    /// What bodies are made of, in their order: from each point to the next one, or the only point.
+    /// Pieces of all bodies, in order: the segments between points, or the only point.
     fn pieces(&self) -> Vec<VtkPiece> {
         let mut first = 0;
         let of_body = |(body, cell): (usize, &VtkCell)| {
@@ -121,7 +123,7 @@ impl VtkGrid {
         self.cells.iter().enumerate().flat_map(of_body).collect()
     }
 
-    /// Which body has which number, in words.
+    /// Comment that lists the indices and names of the bodies.
     fn names(&self) -> String {
         let bodies = self.cells.iter().enumerate();
         let told: Vec<String> = bodies.map(|(at, cell)| format!("{at} {}", cell.name)).collect();
@@ -129,7 +131,7 @@ impl VtkGrid {
     }
 }
 
-/// The text of a `.pvd` file: times of frames, and the names of their files beside it.
+/// Text of a `.pvd` file: times and file names of the frames.
 pub fn vtk_collection(frames: &[(f64, String)]) -> String {
     let mut text = heading("frames and their times", "Collection", "");
     text += "<Collection>\n";
@@ -141,7 +143,7 @@ pub fn vtk_collection(frames: &[(f64, String)]) -> String {
 }
 
 fn heading(comment: &str, kind: &str, more: &str) -> String {
-    // Two hyphens end a comment, and a control character ends the file.
+    // Two hyphens would end a comment, and control characters are invalid in XML.
     let comment = comment.replace('-', "\u{2010}").replace(char::is_control, " ");
     format!(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!-- {comment} -->\n\
@@ -166,7 +168,7 @@ fn push_whole(text: &mut String, name: &str, values: impl Iterator<Item = usize>
     push(text, "Int64", name, 1, values.map(|value| (value as u64).to_le_bytes()));
 }
 
-/// An array: the number of its bytes, then the bytes.
+/// An array: number of bytes, then the bytes.
 fn push<const N: usize>(
     text: &mut String,
     kind: &str,
@@ -179,7 +181,7 @@ fn push<const N: usize>(
     let length = (bytes.len() - 8) as u64;
     bytes[..8].copy_from_slice(&length.to_le_bytes());
     let (name, letters) = (escaped(name), base64(&bytes));
-    // Some readers make a table of one column of a number of components that is one.
+    // Some readers turn an array with one component into a table with one column.
     let many = match components {
         1 => String::new(),
         many => format!(" NumberOfComponents=\"{many}\""),

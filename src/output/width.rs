@@ -1,20 +1,20 @@
-//! How many columns a text takes at a terminal, where 漢 stands in two and a combining accent in none.
+//! Display width of texts in a terminal, in columns.
 //!
-//! Widths are those of Unicode Standard Annex #11 (East Asian Width), of characters one by one, as terminals count.
+//! Widths follow Unicode Standard Annex #11 (East Asian Width), character by character, as terminals do.
 
 use unicode_width::UnicodeWidthChar;
 
-/// The columns of a terminal that a character takes; what moves the cursor, such as a tab, takes none.
+/// Columns that a character takes; control characters, such as a tab, take none.
 pub fn columns_of(letter: char) -> usize {
     letter.width().unwrap_or(0)
 }
 
-/// The columns of a terminal that a text of one line takes.
+/// Columns that a text of one line takes.
 pub fn columns(text: &str) -> usize {
     text.chars().map(columns_of).sum()
 }
 
-/// The longest beginning of a text that takes no more than so many columns.
+/// Longest beginning of a text of at most `most` columns.
 pub fn beginning(text: &str, most: usize) -> &str {
     let mut taken = 0;
     let beyond = text.char_indices().find(|(_, letter)| {
@@ -24,7 +24,7 @@ pub fn beginning(text: &str, most: usize) -> &str {
     beyond.map_or(text, |(end, _)| &text[..end])
 }
 
-/// A text that takes no more than so many columns: one that is wider ends with `mark` in the last of them.
+/// A text of at most `most` columns; a wider text is cut and ends with `mark`.
 pub fn cut(text: &str, most: usize, mark: char) -> String {
     match beginning(text, most) {
         whole if whole.len() == text.len() => text.to_owned(),
@@ -33,9 +33,9 @@ pub fn cut(text: &str, most: usize, mark: char) -> String {
     }
 }
 
-/// A text with blanks behind it up to so many columns.
+/// A text padded with blanks to `width` columns.
 pub fn padded(text: &str, width: usize) -> String {
-    // Rust's own widths count characters, and end at 65 535.
+    // Rust's own padding counts characters and is limited to 65 535.
     format!("{text}{}", " ".repeat(width.saturating_sub(columns(text))))
 }
 

@@ -1,15 +1,15 @@
-//! A panic is a mistake of withy: who catches it tells of it in its own words and says where it was, not in Rust's words.
+//! Catching of panics, which are internal errors, with a message and location instead of Rust's output.
 
 use std::any::Any;
 use std::cell::RefCell;
 use std::panic::{self, AssertUnwindSafe};
 
 thread_local! {
-    /// Where the last panic of this thread was.
+    /// Location of the last panic of this thread.
     static PLACE: RefCell<String> = const { RefCell::new(String::new()) };
 }
 
-/// Lets panics be silent and remember their place; whoever [catches](caught) one tells of it.
+/// Silences panics and stores their location; whoever [catches](caught) a panic reports it.
 pub fn silence() {
     panic::set_hook(Box::new(|panic| {
         let place = panic.location().map(|place| format!(" ({place})")).unwrap_or_default();
@@ -17,12 +17,11 @@ pub fn silence() {
     }));
 }
 
-/// Does some work and catches its panic.
+/// Calls `work` and catches a panic.
 ///
-/// What the work was changing is as the panic left it: the caller lets go of it, or knows that it may be used.
+/// Data modified by `work` is left as the panic left it; the caller must discard it or know that it is valid.
 ///
-/// # Errors
-/// What the panic said, and where it was if panics are [silenced](silence).
+/// Panic message, with the location if panics are [silenced](silence).
 pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     panic::catch_unwind(AssertUnwindSafe(work)).map_err(|panic| message(&*panic))
 }

@@ -1,4 +1,4 @@
-//! Panics: our mistakes, caught and told as words with their place.
+//! Panics: catching and reporting of internal errors.
 
 mod caught;
 

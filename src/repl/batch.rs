@@ -1,4 +1,4 @@
-//! A session without a terminal: inputs come from a pipe or from the command line, and the first that fails ends it.
+//! Sessions without a terminal: inputs come from a pipe or the command line, and the first error ends the session.
 
 use std::io::{self, BufRead, Read};
 
@@ -7,7 +7,7 @@ use super::shell::{CommandOutcome, Shell};
 use crate::script::diagnose::Diagnostic;
 use crate::script::source::program::LARGEST_SCRIPT;
 
-/// Whether a line belongs to the one before, complete as that may be.
+/// Returns true if a line continues the previous input, even if that input is complete.
 fn continues(line: &str) -> bool {
     let line = line.trim_start();
     let is_word = |word: &str| {
@@ -20,7 +20,7 @@ fn continues(line: &str) -> bool {
         || is_word("catch")
 }
 
-/// The lines of a reader without their ends; one that does not end is an error, not a flood.
+/// Lines of a reader without line ends. A line that exceeds the limit is an error.
 fn lines_of(mut reader: impl BufRead) -> impl Iterator<Item = io::Result<String>> {
     std::iter::from_fn(move || {
         let mut line = String::new();
@@ -38,7 +38,7 @@ fn lines_of(mut reader: impl BufRead) -> impl Iterator<Item = io::Result<String>
     })
 }
 
-/// Reads inputs of a session from `lines` until they end, one fails, or the user leaves.
+/// Evaluates inputs from `lines` until they end, one fails, or the user quits.
 pub fn run(shell: &mut Shell, lines: impl BufRead) -> CommandOutcome {
     let mut input = String::new();
     let mut lines = lines_of(lines).peekable();
@@ -57,8 +57,8 @@ pub fn run(shell: &mut Shell, lines: impl BufRead) -> CommandOutcome {
             let told = Diagnostic::general("an input is longer than 16 megabytes");
             return shell.refuse(&told.with_hint("is a bracket or a quotation mark never closed?"));
         }
-        // Only what is complete looks ahead: a program that talks through the pipe ends what it asks with a semicolon or an
-        // empty line.
+        // The next line is read ahead only if the input is complete. Programs that use the pipe interactively end an
+        // input with a semicolon or an empty line.
         let is_complete = is_command(&input)
             || completeness_of_script(&input) == Completeness::Complete
                 && (input.trim_end().ends_with(';')
@@ -72,7 +72,7 @@ pub fn run(shell: &mut Shell, lines: impl BufRead) -> CommandOutcome {
     }
     match input.trim() {
         "" => CommandOutcome::Good,
-        // It is not complete, and the session says why.
+        // The input is incomplete; the session reports the error.
         _ => shell.submit(&input),
     }
 }

@@ -1,14 +1,14 @@
-//! What times are taken with.
+//! Clocks for timing.
 
 use std::time::{Duration, Instant};
 
-/// A clock: something that tells the time since a moment that does not change.
+/// A clock that measures time since a fixed moment.
 pub trait Clock {
-    /// The time that has passed since the clock's fixed moment.
+    /// Time since the fixed moment of the clock.
     fn now(&self) -> Duration;
 }
 
-/// The clock of the machine.
+/// The monotonic clock of the machine.
 pub struct Stopwatch(Instant);
 
 impl Default for Stopwatch {

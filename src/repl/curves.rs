@@ -1,4 +1,4 @@
-//! Curves that values make: which numbers are to be drawn over which.
+//! Conversion of script values to curves.
 
 use rhai::{Array, Dynamic};
 
@@ -7,22 +7,21 @@ use crate::geometry::Vec2;
 use crate::output::{Point, significant};
 use crate::script::source::scanner::{TokenKind, scan};
 
-/// Digits of the numbers in a summary.
 const DIGITS: usize = 6;
 
-/// What a curve at the prompt is drawn over.
+/// Horizontal axis of a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CurveAbscissa {
-    /// The curve is drawn over time.
+    /// Time.
     Time,
-    /// The curve is drawn over the places in an array, from 0.
+    /// Index in an array, from 0.
     Index,
-    /// The curve is drawn over numbers that were given too.
+    /// Numbers given by the user.
     Numbers,
 }
 
 impl CurveAbscissa {
-    /// The label of the axis that the curve is drawn over.
+    /// Label of the horizontal axis.
     pub fn label(self) -> &'static str {
         match self {
             Self::Time => "t",
@@ -31,7 +30,7 @@ impl CurveAbscissa {
         }
     }
 
-    /// What the curve is drawn over, in words of a sentence.
+    /// Text for the horizontal axis in messages.
     pub fn in_words(self) -> &'static str {
         match self {
             Self::Time => "time",
@@ -41,38 +40,38 @@ impl CurveAbscissa {
     }
 }
 
-/// A curve that the prompt draws, with its name.
+/// A named curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlotCurve {
-    /// The name of the curve in the legend.
+    /// Name of the curve in the legend.
     pub name: String,
-    /// What the curve is drawn over.
+    /// Horizontal axis of the curve.
     pub over: CurveAbscissa,
-    /// The points of the curve.
+    /// Points of the curve.
     pub points: Vec<Point>,
 }
 
 impl PlotCurve {
-    /// Whether there is something to draw.
+    /// Returns true if any point is finite.
     pub fn has_points(&self) -> bool {
         self.points.iter().any(|(x, y)| x.is_finite() && y.is_finite())
     }
 }
 
-/// What a value of a script is for somebody who wants to draw it.
+/// Interpretation of a script value as data of a curve.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PlotShape {
-    /// The value is all points of a curve, with what they are over.
+    /// All points of a curve, with its horizontal axis.
     Whole(CurveAbscissa, Vec<Point>),
-    /// The value is a number: one point of a curve.
+    /// A number: one point of a curve.
     Number(f64),
-    /// The value is a vector: one point of each of two curves.
+    /// A vector: one point of each of two curves.
     Vector(Vec2),
-    /// The value is nothing that can be drawn; why, in words.
+    /// A value that cannot be drawn, with the reason.
     None(String),
 }
 
-/// What can be drawn of a value of the type `of`: an array of numbers, two arrays of as many numbers, points, a number, a vector.
+/// Interprets a value of type `of`: an array of numbers, two arrays of equal length, points, a number, or a vector.
 pub fn shape(value: &Dynamic, of: &str) -> PlotShape {
     if let Some(number) = number(value) {
         return PlotShape::Number(number);
@@ -124,7 +123,7 @@ fn shape_of_array(array: &Array) -> PlotShape {
 }
 
 fn number(value: &Dynamic) -> Option<f64> {
-    // What a closure has captured is behind a lock.
+    // Variables captured by closures are shared values behind a lock.
     let value = value.flatten_clone();
     value.as_float().ok().or_else(|| value.as_int().ok().map(|whole| whole as f64))
 }
@@ -133,7 +132,7 @@ fn numbers(array: &Array) -> Option<Vec<f64>> {
     array.iter().map(|value| if value.is_array() { None } else { number(value) }).collect()
 }
 
-/// The parts of a command's operand that are separated by commas outside of brackets and texts.
+/// Splits the operand of a command at commas outside brackets and string literals.
 pub fn parts(operand: &str) -> Vec<&str> {
     let mut parts = Vec::new();
     let (mut depth, mut begin, mut is_between_bars, mut before) =
@@ -142,7 +141,7 @@ pub fn parts(operand: &str) -> Vec<&str> {
         match (token.kind, token.of(operand)) {
             (TokenKind::Open(_), _) => depth += 1,
             (TokenKind::Close(_), _) => depth = depth.saturating_sub(1),
-            // The parameters of a function; after a value a bar is an operator.
+            // Bars enclose the parameters of a closure; after a value a bar is an operator.
             (TokenKind::Symbol, "|") => {
                 let is_operator =
                     matches!(before, TokenKind::Word | TokenKind::Number | TokenKind::Close(_));
@@ -163,7 +162,7 @@ pub fn parts(operand: &str) -> Vec<&str> {
     parts
 }
 
-/// What a chart of a curve would show, in a line.
+/// One-line summary of a curve: first, last, least and largest value.
 pub fn summary(curve: &PlotCurve) -> String {
     let values = curve.points.iter().map(|(_, value)| *value);
     let shown = |value: Option<f64>| value.map_or_else(String::new, |x| significant(x, DIGITS));

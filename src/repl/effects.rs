@@ -1,4 +1,4 @@
-//! What an input does besides changing variables: whether it can be done again and nobody notices.
+//! Side effects of an input beyond variables, which make repeated evaluation visible.
 
 use rhai::{Array, Dynamic, FnPtr, Map};
 
@@ -6,23 +6,23 @@ use super::session::Session;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::simulation::SimulationHandle;
 
-/// Arrays and maps are looked into so deep.
+/// Maximum depth of nested arrays and maps.
 const DEEPEST: usize = 8;
 
-/// What of a session can be reached by name and is not taken back when variables are, as it was at one time.
+/// State that an input can change and that restoring variables does not undo.
 pub struct Footprint {
     simulations: Vec<(SimulationHandle, SimulationPosition)>,
     scenes: Vec<(SceneHandle, String)>,
-    /// Variables that functions share, with their values in words.
+    /// Variables shared by closures, with their values as text.
     shared: Vec<(Dynamic, String)>,
     files: usize,
 }
 
-/// Where a simulation is, how many functions wait for a time, and its memory for snapshots.
+/// Position of a simulation: counters, number of scheduled functions, and snapshot memory.
 type SimulationPosition = (usize, u64, usize, usize);
 
 impl Footprint {
-    /// The footprint of a session as it is now.
+    /// Footprint of the current session.
     pub fn of(session: &Session) -> Self {
         let files = session.context().output().written().len();
         let mut print =
@@ -57,7 +57,7 @@ impl Footprint {
         }
     }
 
-    /// What of the session is no longer as it was, in words that follow "it".
+    /// Change since the footprint, as text that follows "it".
     pub fn change(&self, session: &Session) -> Option<String> {
         let moved = self.simulations.iter().find(|(handle, was)| place(handle) != *was);
         if let Some((handle, _)) = moved {

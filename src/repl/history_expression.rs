@@ -1,4 +1,4 @@
-//! An expression in the states in which a simulation was: those that are kept, or else those of the run made again in a copy.
+//! Evaluation of an expression at all earlier states of a simulation, from snapshots or by repeating the run in a copy.
 
 use rhai::Dynamic;
 
@@ -11,25 +11,24 @@ use crate::script::handles::simulation::{Revisit, SimulationHandle};
 use crate::script::messages::error::ScriptError;
 use crate::script::state::context::Context;
 
-/// More states than a terminal has dots for are thinned out.
+/// Maximum number of states, more than a terminal has dots.
 const MOST_STATES: usize = 1000;
 
-/// Digits of a time in words.
 const DIGITS: usize = 6;
 
-/// What an expression was in the states of a simulation.
+/// Values of an expression over time.
 pub struct Followed {
-    /// The times and values of the expression, in the order of time.
+    /// Times and values, in order of time.
     pub points: Vec<(f64, PlotShape)>,
-    /// In which states the expression was followed, in words.
+    /// Description of the states used.
     pub words: String,
 }
 
-/// Evaluates an expression in every state in which a simulation was, as far as that can be had again. The simulation stays where it
-/// is.
+/// Evaluates an expression at every earlier state of a simulation that can be reproduced. The simulation itself does
+/// not move.
 ///
 /// # Errors
-/// When the expression fails in one of them, moves the simulation, or it is stopped; the user was told.
+/// If the expression fails at a state, moves the simulation, or is interrupted; the user has been told.
 pub fn follow(
     shell: &mut Shell,
     subject: &SimulationHandle,
@@ -44,7 +43,7 @@ pub fn follow(
     go_back(shell, subject, text, &kept)
 }
 
-/// The states that are kept, from the last to the first: so the history is each time what it was.
+/// Evaluates at the stored snapshots, from last to first, so that the history is correct at each of them.
 fn go_back(
     shell: &mut Shell,
     subject: &SimulationHandle,
@@ -76,7 +75,7 @@ fn go_back(
     Ok(Followed { points, words })
 }
 
-/// The rows of the history, in the run made again; nothing when it was another run.
+/// Evaluates at the rows of the history by repeating the run; `None` if the repeated run differs.
 fn make_again(
     shell: &mut Shell,
     subject: &SimulationHandle,
@@ -102,21 +101,20 @@ fn make_again(
     Ok(Some(Followed { points, words }))
 }
 
-/// Where to go next.
 enum PlaybackStep {
-    /// To states that are kept, after so many steps each, the last first.
+    /// To snapshots, given by their step counts, last first.
     Back(std::vec::IntoIter<usize>),
-    /// On to the next row of the history; a value is wanted in every so-manieth.
+    /// To the next row of the history; every `every`-th row is evaluated.
     Again { next: usize, rows: usize, every: usize },
 }
 
-/// Why it does not go on.
+/// Reason for stopping.
 enum PlaybackError {
     /// The expression moved the simulation.
     Moves,
-    /// It was stopped, or the copy could not go where the original went.
+    /// Evaluation was interrupted, or the copy failed to repeat the run.
     Refused(ScriptError),
-    /// It is another run.
+    /// The repeated run differs.
     Another(String),
     /// The value cannot be drawn.
     NoPoint(String),
@@ -137,7 +135,7 @@ impl Visits {
         Self { revisit, way, context, place, points: Vec::new(), trouble: None }
     }
 
-    /// Goes to the next state; `false` at the end.
+    /// Moves to the next state; returns `false` at the end.
     fn go_on(&mut self) -> Result<bool, PlaybackError> {
         self.context.proceed().map_err(PlaybackError::Refused)?;
         match &mut self.way {
@@ -205,13 +203,13 @@ impl Rounds for Visits {
     }
 }
 
-/// The values in all states, and why they are those of another run if they are.
+/// Values at all states, and the reason if the repeated run differed.
 type Values = (Vec<(f64, PlotShape)>, Option<String>);
 
 fn visit(shell: &mut Shell, text: &str, mut visits: Visits) -> Result<Values, CommandOutcome> {
     let reply = shell.session_mut().peek_in_rounds(text, &mut visits);
     let Visits { revisit, points, trouble, place, .. } = visits;
-    // From here on the simulation is itself.
+    // Restores the simulation.
     drop(revisit);
     let at = format!("at t = {}", significant(place.1, DIGITS));
     match (reply, trouble) {
@@ -231,7 +229,7 @@ fn visit(shell: &mut Shell, text: &str, mut visits: Visits) -> Result<Values, Co
     }
 }
 
-/// The error of an expression that should be followed, and itself moves the simulation.
+/// Error of an expression that moves the simulation.
 pub fn moves(text: &str) -> Diagnostic {
     Diagnostic::general(format!("'{text}' moves a simulation"))
         .with_hint("draw what only looks; the simulation that it names stayed where it was")

@@ -1,5 +1,5 @@
-//! The session: what is typed is evaluated, remembered, and can be gone back from. [`session`] and [`shell`] know no terminal;
-//! [`editor`] is how lines are typed at one.
+//! Interactive sessions: inputs are evaluated and recorded, and failures undone. [`session`] and [`shell`] are
+//! independent of a terminal; [`editor`] handles line editing.
 
 pub mod batch;
 pub mod clock;

@@ -1,4 +1,4 @@
-//! Long replies in pages: by the program that the environment names, or by a few keys.
+//! Paging of long replies, with an external program or built-in keys.
 
 mod keyboard;
 mod pages;
@@ -9,44 +9,44 @@ use std::io::stdout;
 pub use keyboard::{Keyboard, Pressed};
 pub use pages::walk;
 
-/// What became of showing a text in pages.
+/// Result of showing a text in pages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PagerOutcome {
-    /// The text was seen, as far as the person wanted.
+    /// The text was shown.
     Seen,
-    /// The text was stopped by Ctrl-C.
+    /// Ctrl-C was pressed.
     Interrupted,
-    /// The text is to be printed like any other: it is short, or nobody wants pages.
+    /// The text must be printed normally, because it is short or paging is disabled.
     NotByThis,
 }
 
-/// A pager: something that shows long texts page by page.
+/// A pager for long texts.
 pub trait Pager {
-    /// Tells the pager how large the terminal is now.
+    /// Sets the size of the terminal.
     fn resize(&mut self, columns: usize, lines: usize);
 
-    /// Shows a text in pages, if it is long. `was_interrupted` tells of each Ctrl-C once.
+    /// Shows a text in pages if it is long. `was_interrupted` reports each Ctrl-C once.
     fn show(&mut self, text: &str, was_interrupted: &dyn Fn() -> bool) -> PagerOutcome;
 }
 
-/// A pager that shows pages at a terminal.
+/// A pager at a terminal.
 pub struct TerminalPager {
     program: Option<String>,
     size: (usize, usize),
 }
 
 impl TerminalPager {
-    /// A pager with the program of the variable `PAGER`, if it is set; `cat` and an empty one mean no pages. None for a terminal that cannot
-    /// move its cursor.
+    /// A pager with the program in the variable `PAGER`, if it is set. `cat` and an empty value disable paging, as does
+    /// a terminal that cannot move its cursor.
     pub fn of_environment(variable: impl Fn(&str) -> Option<String>) -> Option<Self> {
         let program = variable("PAGER");
         let is_unwanted = program.as_deref().is_some_and(|name| matches!(name.trim(), "" | "cat"));
         let is_dumb = matches!(variable("TERM").as_deref(), None | Some("" | "dumb"));
-        // How large it is, is told before the first input.
+        // The size is set before the first input.
         (!is_unwanted && !is_dumb).then_some(Self { program, size: (0, 0) })
     }
 
-    /// Whether a text does not fit on the terminal together with the next prompt.
+    /// Returns true if a text does not fit on the terminal together with the next prompt.
     fn is_long(&self, text: &str) -> bool {
         let (columns, lines) = self.size;
         columns > 0 && lines > 1 && pages::rows(text, columns) >= lines
@@ -59,7 +59,7 @@ impl Pager for TerminalPager {
     }
 
     fn show(&mut self, text: &str, was_interrupted: &dyn Fn() -> bool) -> PagerOutcome {
-        // Keys that were typed ahead are for the prompt.
+        // Keys typed ahead belong to the prompt.
         if !self.is_long(text) || keyboard::keys_wait() {
             return PagerOutcome::NotByThis;
         }
@@ -73,7 +73,7 @@ impl Pager for TerminalPager {
             return PagerOutcome::NotByThis;
         };
         let walked = walk(text, self.size.1, &mut keys, was_interrupted, &mut stdout());
-        // A terminal that is gone is told by the next prompt.
+        // The next prompt reports a lost terminal.
         walked.unwrap_or(PagerOutcome::Seen)
     }
 }

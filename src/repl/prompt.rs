@@ -1,4 +1,4 @@
-//! The loop of a person at a terminal: read an input, do what it says, until the person leaves.
+//! Main loop of the interactive prompt.
 
 use std::io;
 
@@ -6,10 +6,10 @@ use super::editor::typed_ahead::TypedAhead;
 use super::editor::{Editor, EditorInput};
 use super::shell::{CommandOutcome, Shell};
 
-/// Lets a person type inputs at the prompt until he leaves.
+/// Reads and evaluates inputs until the user quits.
 ///
 /// # Errors
-/// When the terminal fails.
+/// If the terminal fails.
 pub fn run(shell: &mut Shell, editor: &mut Editor) -> io::Result<()> {
     let _held = TypedAhead::keep();
     loop {

@@ -1,4 +1,4 @@
-//! What worked in a session, as a script that does it again.
+//! Record of successful inputs as a script that repeats them.
 
 use std::fmt::Write;
 use std::ops::Range;
@@ -12,23 +12,23 @@ use crate::script::messages::numbers::format_number;
 use crate::script::source::definitions::{Definition, definitions};
 use crate::script::source::text::Source;
 
-/// The first line of every saved session.
+/// First line of a saved session.
 const HEADER: &str = "//! A session of withy: what worked of it.";
 
-/// Something that a script must do to come to the same end.
+/// An action of the session that the script must repeat.
 #[derive(Clone, Debug, PartialEq)]
 enum RecordedInput {
-    /// Statements that worked.
+    /// Statements without a value.
     Statements(Source),
-    /// Statements of which the last is an expression, whose value was kept as `ans`.
+    /// Statements that end in an expression, whose value was stored as `ans`.
     Expression(Source),
-    /// Statements that leave their input by `return`, which would end a script.
+    /// Statements that return early, which would end a script.
     Returning(Source),
-    /// How far a statement that did not come to its end had moved a simulation.
+    /// Movement of a simulation by a failed statement.
     Moved(Source),
 }
 
-/// A simulation that an input can name, and where it was.
+/// A named simulation and its position.
 #[derive(Clone)]
 pub struct Whereabouts {
     name: String,
@@ -37,29 +37,29 @@ pub struct Whereabouts {
     steps: usize,
 }
 
-/// What worked in a session, in its order.
+/// Successful inputs of a session, in order.
 #[derive(Clone, Debug, Default)]
 pub struct SessionRecord {
     entries: Vec<RecordedInput>,
 }
 
 impl SessionRecord {
-    /// Adds statements without a value to the record.
+    /// Records statements without a value.
     pub fn worked(&mut self, text: &str) {
         self.entries.push(RecordedInput::Statements(text.trim().into()));
     }
 
-    /// Adds an input with a value to the record.
+    /// Records an input with a value.
     pub fn answered(&mut self, text: &str) {
         self.entries.push(RecordedInput::Expression(text.trim().into()));
     }
 
-    /// Adds an input that returns to the record.
+    /// Records an input that returns early.
     pub fn returned(&mut self, text: &str) {
         self.entries.push(RecordedInput::Returning(text.trim().into()));
     }
 
-    /// Adds what a failed statement has done to simulations to the record, given where they were before; gives whether there is anything.
+    /// Records how a failed statement has moved simulations since `before`; returns true if any moved.
     pub fn moved(&mut self, before: &[Whereabouts]) -> bool {
         let known = self.entries.len();
         for was in before {
@@ -75,7 +75,7 @@ impl SessionRecord {
         self.entries.len() > known
     }
 
-    /// The record as a script; `engine` knows the syntax, and must not optimise statements away.
+    /// Record as a script. `engine` must not optimise statements away.
     pub fn script(&self, engine: &Engine) -> String {
         let asked: Vec<bool> =
             self.sources().map(|source| source.is_some_and(mentions_answer)).collect();
@@ -83,7 +83,7 @@ impl SessionRecord {
             self.sources().map(|source| source.map(written).unwrap_or_default()).collect();
         let mut script = format!("{HEADER}\n\n");
         for (index, entry) in self.entries.iter().enumerate() {
-            // A value is asked for until the next one takes its place.
+            // The value of `ans` matters until the next expression replaces it.
             let later = || self.entries[index + 1..].iter().zip(&asked[index + 1..]);
             let next = later().position(|(entry, _)| matches!(entry, RecordedInput::Expression(_)));
             let is_asked = || {
@@ -107,13 +107,12 @@ impl SessionRecord {
             let replaced = |definition: &FunctionText| {
                 defined[index + 1..].iter().flatten().any(|later| later.name == definition.name)
             };
-            // Writing to a text cannot fail.
             let _ = writeln!(script, "{}", without(&line.into(), replaced));
         }
         script
     }
 
-    /// Names of functions that were defined more than once: in a script only one of each can stand.
+    /// Names of functions defined more than once. A script can contain only one definition of each.
     pub fn redefined(&self) -> Vec<String> {
         let mut seen = Vec::new();
         let mut twice = Vec::new();
@@ -127,7 +126,7 @@ impl SessionRecord {
         twice
     }
 
-    /// The text of the function that was defined last under a name.
+    /// Source text of the last definition of a function.
     pub fn definition(&self, name: &str) -> Option<String> {
         self.entries.iter().rev().filter_map(RecordedInput::source).find_map(|source| {
             let found = written(source).into_iter().rev();
@@ -135,12 +134,11 @@ impl SessionRecord {
         })
     }
 
-    /// The texts of all entries, where they can define functions and ask for values.
     fn sources(&self) -> impl Iterator<Item = Option<&Source>> {
         self.entries.iter().map(RecordedInput::source)
     }
 
-    /// Whether an input of the record returned, and so is not done again.
+    /// Returns true if an input returned early and is therefore not repeated.
     pub fn has_returned(&self) -> bool {
         self.entries.iter().any(|entry| matches!(entry, RecordedInput::Returning(_)))
     }
@@ -150,14 +148,14 @@ impl RecordedInput {
     fn source(&self) -> Option<&Source> {
         match self {
             Self::Statements(text) | Self::Expression(text) => Some(text),
-            // What is not done again defines nothing and asks for nothing.
+            // Inputs that are not repeated define no functions and do not use `ans`.
             Self::Returning(_) => None,
             Self::Moved(line) => Some(line),
         }
     }
 }
 
-/// The simulations that variables hold, and the last one, each once.
+/// Simulations held by variables, and the last simulation, without duplicates.
 pub fn whereabouts(scope: &Scope, latest: Option<SimulationHandle>) -> Vec<Whereabouts> {
     let mut found: Vec<Whereabouts> = Vec::new();
     let held =
@@ -178,7 +176,7 @@ fn mentions_answer(source: &Source) -> bool {
     source.names().any(|name| name == ANSWER)
 }
 
-/// The statements with a semicolon at their end, which comments may follow.
+/// Statements with a final semicolon, which comments may follow.
 fn terminated(statements: &Source) -> String {
     let is_closed = statements.tokens().is_empty() || statements.ends_in_semicolon();
     match (is_closed, statements.lines().last().is_some_and(|last| last.contains("//"))) {
@@ -188,7 +186,7 @@ fn terminated(statements: &Source) -> String {
     }
 }
 
-/// The statements, the last of them an expression whose value becomes a variable.
+/// Statements whose last expression is assigned to a variable.
 fn answering(engine: &Engine, text: &str) -> String {
     let last = statements::count(engine, text).and_then(|all| all.checked_sub(1));
     let cut = last.and_then(|first| statements::boundary(engine, text, first)).unwrap_or(0);
@@ -197,16 +195,16 @@ fn answering(engine: &Engine, text: &str) -> String {
     terminated(&format!("{before}{space}let {ANSWER} = {}", expression.trim_start()).into())
 }
 
-/// The functions that a text defines, each as the text has written it.
+/// Source texts of the functions defined in a text.
 pub fn functions_of(source: &Source) -> impl Iterator<Item = &str> {
     written(source).into_iter().map(|definition| &source[definition.bytes])
 }
 
-/// A function definition as it is written in a text.
+/// Position of a function definition in a text.
 struct FunctionText {
-    /// With its number of parameters, and the type in front of a method's name.
+    /// Name, with the type before a method's name, and number of parameters.
     name: (String, usize),
-    /// From `private`, or the comments that document it, to its closing brace.
+    /// From `private` or the doc comments to the closing brace.
     bytes: Range<usize>,
 }
 
@@ -221,7 +219,7 @@ fn written(source: &Source) -> Vec<FunctionText> {
     definitions(tokens).filter_map(written).collect()
 }
 
-/// Where the lines of documentation begin that end at `end`.
+/// Start of the doc comment that ends at `end`.
 fn documented_from(text: &str, end: usize) -> usize {
     let mut from = end;
     while let Some(line) =
@@ -232,7 +230,7 @@ fn documented_from(text: &str, end: usize) -> usize {
     from
 }
 
-/// A text without some of its functions.
+/// Text without the functions that match.
 fn without(source: &Source, is_replaced: impl Fn(&FunctionText) -> bool) -> String {
     let mut text = source.to_string();
     for definition in written(source).into_iter().rev().filter(is_replaced) {

@@ -1,4 +1,4 @@
-//! How long something takes that can be done again: how often it is done, and what the times say.
+//! Repeated timing: number of repetitions and statistics.
 
 use std::rc::Rc;
 use std::time::Duration;
@@ -8,42 +8,42 @@ use rhai::Dynamic;
 use super::clock::Clock;
 use super::session::Rounds;
 
-/// The time of a run of an input above which the input is not run again to be timed.
+/// Inputs that run longer than this are not repeated.
 pub const LONGEST: Duration = Duration::from_secs(1);
-/// So long is it done again at most,
+/// Maximum total time of the repetitions.
 const PATIENCE: Duration = Duration::from_secs(2);
-/// and so long at least, as long as the median is not known to [`KNOWN`].
+/// Minimum total time, unless the median is known to [`KNOWN`] earlier.
 const LEAST_TIME: Duration = Duration::from_millis(200);
 const LEAST_RUNS: usize = 7;
 const MOST_RUNS: usize = 10_000;
-/// The relative error of the median with which it is known.
+/// Target for the relative error of the median.
 const KNOWN: f64 = 0.01;
 
-/// Runs of an input that are timed one by one.
+/// Individually timed runs of an input.
 pub struct Sampling {
     clock: Rc<dyn Clock>,
     begun: Option<Duration>,
     round_begun: Duration,
     taken: Vec<Duration>,
-    /// After how many runs it is looked at again whether they are enough.
+    /// Number of runs at which the precision is evaluated next.
     next_look: usize,
 }
 
-/// What the times of many runs say.
+/// Statistics of the run times.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Figures {
-    /// The number of runs that were timed.
+    /// Number of timed runs.
     pub runs: usize,
-    /// The shortest time of a run: the work itself, with the least that the machine did beside it.
+    /// Shortest run, with the least disturbance by other processes.
     pub least: Duration,
-    /// The time that half of the runs were below.
+    /// Median.
     pub median: Duration,
-    /// The times that a quarter and three quarters of the runs were below.
+    /// Lower and upper quartile.
     pub quartiles: (Duration, Duration),
 }
 
 impl Sampling {
-    /// The timing of an input without runs so far.
+    /// Empty timing.
     pub fn new(clock: Rc<dyn Clock>) -> Self {
         Self {
             clock,
@@ -54,7 +54,7 @@ impl Sampling {
         }
     }
 
-    /// What the times of the runs so far say; nothing before there is one.
+    /// Statistics of the runs so far; `None` before the first.
     pub fn figures(&self) -> Option<Figures> {
         let mut sorted = self.taken.clone();
         sorted.sort_unstable();
@@ -81,7 +81,7 @@ impl Sampling {
 }
 
 impl Figures {
-    /// The standard error of the median relative to it, as that of normal deviates with these quartiles.
+    /// Relative standard error of the median, for a normal distribution with these quartiles.
     fn error(&self) -> f64 {
         let (low, high) = self.quartiles;
         let deviation = (high - low).as_secs_f64() / 1.349;
@@ -113,7 +113,7 @@ mod tests {
 
     use super::*;
 
-    /// A clock on which runs take times that are known beforehand, over and over.
+    /// A clock with predefined run times.
     struct ReplayClock {
         now: Cell<Duration>,
         runs: RefCell<VecDeque<u64>>,
@@ -125,7 +125,7 @@ mod tests {
         }
     }
 
-    /// The figures of runs that take so many microseconds in turn.
+    /// Statistics of runs with these times in microseconds, repeated cyclically.
     fn figures(micros: &[u64]) -> Figures {
         let runs = RefCell::new(micros.iter().copied().collect());
         let clock = Rc::new(ReplayClock { now: Cell::default(), runs });

@@ -1,13 +1,13 @@
-//! Questions about the variables of a session.
+//! Variables of a session.
 
 use std::collections::HashSet;
 
 use rhai::{Dynamic, ImmutableString, Scope};
 
-/// The variables of a scope that are not hidden by later ones of their names, if any is hidden.
+/// Variables of a scope without shadowed ones; `None` if none is shadowed.
 pub fn visible(scope: &Scope<'static>) -> Option<Scope<'static>> {
     let mut names = HashSet::new();
-    // The last variables come first, and they are the ones that are seen.
+    // The iteration starts with the newest variables, which shadow older ones.
     let seen: Vec<_> = scope.iter_raw().filter(|(name, ..)| names.insert(*name)).collect();
     if seen.len() == scope.len() {
         return None;
@@ -22,7 +22,7 @@ pub fn visible(scope: &Scope<'static>) -> Option<Scope<'static>> {
     Some(visible)
 }
 
-/// The constants of a scope that came after the first `known` variables, in their order.
+/// Constants added to a scope after the first `known` variables, in order.
 pub fn constants_after(
     scope: &Scope,
     known: usize,

@@ -1,4 +1,4 @@
-//! A session of the language without a terminal: inputs are evaluated one after another and see what the earlier ones left.
+//! Terminal-independent sessions: inputs are evaluated in sequence and share their state.
 
 mod preview;
 
@@ -24,26 +24,26 @@ use crate::script::state::watchdog::Watchdog;
 
 pub use preview::Rounds;
 
-/// The name of the variable with the value of the last expression.
+/// Variable that holds the value of the last expression.
 pub const ANSWER: &str = "ans";
 
-/// The reply to an input of a session.
+/// Result of an input.
 #[derive(Debug)]
 pub enum Reply {
-    /// The input worked, and there is nothing to show.
+    /// Success without a value.
     Done,
-    /// The input is an expression with this value.
+    /// Success with the value of an expression.
     Value(Dynamic),
-    /// A statement of the input is wrong. Those before it have worked; of itself only what it did to scenes and simulations stays, and
-    /// to variables that closures share.
+    /// A statement failed. Earlier statements of the input stay in effect. Of the failed statement only changes of
+    /// scenes, simulations and variables shared by closures remain.
     Failed(Diagnostic),
-    /// A statement of the input was stopped by Ctrl-C; else as after a failure.
+    /// A statement was interrupted by Ctrl-C; the effects are those of a failure.
     Interrupted,
-    /// The input was stopped, for nobody reads what is printed any more.
+    /// The reader of the output has closed the pipe.
     PipeClosed,
 }
 
-/// What a statement that fails is taken back to.
+/// State restored after a failed statement.
 #[derive(Clone)]
 struct StatementCheckpoint {
     scope: Scope<'static>,
@@ -52,23 +52,23 @@ struct StatementCheckpoint {
     whereabouts: Vec<Whereabouts>,
 }
 
-/// A session: its variables, functions, constants and imports, and the engine that knows the language.
+/// Variables, functions, constants and imports, and the script engine.
 pub struct Session {
     host: ScriptEngine,
     folder: PathBuf,
     scope: Scope<'static>,
     global: GlobalRuntimeState,
-    /// The functions and closures of all inputs.
+    /// Functions and closures of all inputs.
     library: AST,
     transcript: Transcript,
     record: SessionRecord,
 }
 
 impl Session {
-    /// A session in which nothing has happened.
+    /// An empty session.
     ///
     /// # Errors
-    /// Only by a mistake of this program.
+    /// Only on internal errors.
     pub fn new(catalog: Catalog, settings: RunSettings) -> Result<Self, Diagnostic> {
         let folder = settings.folder.clone();
         let host = ScriptEngine::open(catalog, settings)?;
@@ -83,7 +83,7 @@ impl Session {
         })
     }
 
-    /// Forgets everything that was typed in the session and what came of it.
+    /// Clears the session.
     pub fn reset(&mut self) {
         self.scope.clear();
         self.global = self.host.engine().new_global_runtime_state();
@@ -93,19 +93,18 @@ impl Session {
         self.context().forget_simulations();
     }
 
-    /// Forgets a Ctrl-C that came while nothing was evaluated. What comes after this stops all that is evaluated until it is
-    /// called again.
+    /// Clears a Ctrl-C that came between evaluations. A later Ctrl-C stops every evaluation until this is called again.
     pub fn forget_interrupt(&mut self) {
         self.context().interrupt_flag().store(false, Ordering::Relaxed);
     }
 
-    /// Evaluates an input that was typed.
+    /// Evaluates a typed input.
     pub fn eval(&mut self, text: &str) -> Reply {
         let program = self.transcript.typed(text);
         self.eval_program(program)
     }
 
-    /// Evaluates a program, such as a file, as if it had been typed in the session.
+    /// Evaluates a program, such as a file, as if it had been typed.
     pub fn eval_program(&mut self, program: Program) -> Reply {
         let text = program.text.clone();
         let before = self.transcript.add(program);
@@ -118,7 +117,7 @@ impl Session {
             }
         };
         let returns = statements::returns(&ast);
-        // An input that may return is one piece; of others, what worked before an error stays.
+        // An input with an early return is evaluated as a whole; otherwise statements before an error stay in effect.
         let pieces = if returns { ast.statements().len().max(1) } else { 1 };
         let mut value = Dynamic::UNIT;
         for (number, piece) in ast.statements().chunks(pieces).enumerate() {
@@ -144,7 +143,7 @@ impl Session {
         reply
     }
 
-    /// Of an input that failed, keeps the statements that worked, and its functions if there are any.
+    /// Keeps the successful statements of a failed input, and its functions.
     fn keep_part(&mut self, text: &str, worked: usize, library: AST) {
         let cut = statements::boundary(self.engine(), text, worked).filter(|_| worked > 0);
         let Some((before, after)) = cut.map(|cut| text.split_at(cut)) else {
@@ -157,17 +156,17 @@ impl Session {
         self.record.worked(&format!("{before}{functions}"));
     }
 
-    /// Writes into the session's record that an input worked which was evaluated in another way.
+    /// Records an input that was evaluated by other means.
     pub fn note_worked(&mut self, text: &str) {
         self.record.worked(text);
     }
 
-    /// Writes into the session's record how far simulations have moved by what is not written there itself; gives whether any has.
+    /// Records the movement of simulations by actions that are not recorded themselves; returns true if any moved.
     pub fn note_moved(&mut self, before: &[Whereabouts]) -> bool {
         self.record.moved(before)
     }
 
-    /// Where the simulations are that an input can name.
+    /// Named simulations and their positions.
     pub fn whereabouts(&self) -> Vec<Whereabouts> {
         let latest = self.context().latest_simulation();
         whereabouts(&self.scope, latest.and_then(|latest| latest.try_cast()))
@@ -186,13 +185,13 @@ impl Session {
     fn restore(&mut self, checkpoint: StatementCheckpoint) {
         self.scope = checkpoint.scope;
         self.global = checkpoint.global;
-        // Shared with functions that scenes and simulations have stored.
+        // Shared with functions stored by scenes and simulations.
         if let Some(constants) = &self.global.constants {
             *constants.borrow_mut() = checkpoint.constants;
         }
     }
 
-    /// Parses an input at its lines of the session, makes its functions known, and begins to keep the limits.
+    /// Parses an input at its line in the transcript, publishes its functions, and starts the watchdog.
     fn begin(&mut self, text: &Source, before: usize) -> Result<(AST, Watchdog), Reply> {
         let Self { host, transcript, scope, .. } = self;
         let reply = |halt| reply_to(halt, transcript);
@@ -201,7 +200,7 @@ impl Session {
         let parse = |engine: &Engine| parse_piece(engine, &piece, || transcript.variables());
         let ast = host.run(&guard, || transcript.whole(), parse).map_err(reply)?;
         self.library = self.library.merge(&ast.clone_functions_only());
-        // Errors in functions are told from those in functions of the same name in files.
+        // Distinguishes errors in session functions from errors in functions of imported files.
         self.library.set_source(PROMPT);
         self.global.source = Some(PROMPT.into());
         self.global.lib.clear();
@@ -209,12 +208,11 @@ impl Session {
         Ok((ast, guard))
     }
 
-    /// Runs statements.
     fn run(&mut self, guard: &Watchdog, statements: &[Stmt]) -> Result<Dynamic, Reply> {
         let Self { host, transcript, scope, global, .. } = self;
         let whole = || transcript.whole();
         let outcome = host.run(guard, whole, |engine| {
-            // The only way to keep imports and constants from one input to the next; deprecated in favour of nothing.
+            // Only this deprecated call keeps imports and constants between inputs; there is no replacement.
             #[allow(deprecated)]
             engine.eval_statements_raw(global, &mut Caches::new(), scope, statements)
         });
@@ -222,9 +220,9 @@ impl Session {
         outcome.map_err(|halt| reply_to(halt, transcript))
     }
 
-    /// Keeps the value of an input that worked, if it is to be shown.
+    /// Stores the value of a successful input, if it is to be shown.
     fn answer(&mut self, value: Dynamic, text: &Source) -> Reply {
-        // An input that ends in a semicolon is not to show its value.
+        // A final semicolon suppresses the value.
         if value.is_unit() || text.ends_in_semicolon() {
             return Reply::Done;
         }
@@ -237,14 +235,14 @@ impl Session {
         Reply::Value(value)
     }
 
-    /// Lets functions see the constants that came to the first `known` variables as `global::NAME`, whichever of the two was
-    /// typed first.
+    /// Makes the constants after the first `known` variables visible to functions as `global::NAME`, independent of the
+    /// order of definition.
     fn publish_constants(&mut self, known: usize) {
         let shared = self.global.constants.get_or_insert_with(Default::default);
         shared.borrow_mut().extend(scope::constants_after(&self.scope, known));
     }
 
-    /// Variables that were declared again are out of reach: a long session must not keep them.
+    /// Drops shadowed variables, which are unreachable, to save memory in long sessions.
     fn forget_shadowed(&mut self) {
         if let Some(visible) = scope::visible(&self.scope) {
             self.scope = visible;
@@ -252,52 +250,52 @@ impl Session {
     }
 }
 
-/// Looking at a session from outside.
+/// Read access.
 impl Session {
-    /// The language that the session speaks.
+    /// Catalog of the language.
     pub fn catalog(&self) -> &Catalog {
         self.host.catalog()
     }
 
-    /// The state that all calls of the session share.
+    /// State shared by all calls of the session.
     pub fn context(&self) -> &Context {
         self.host.context()
     }
 
-    /// The engine of the session, for showing values.
+    /// Script engine of the session.
     pub fn engine(&self) -> &Engine {
         self.host.engine()
     }
 
-    /// The variables and constants of the session.
+    /// Variables and constants of the session.
     pub fn variables(&self) -> &Scope<'static> {
         &self.scope
     }
 
-    /// The functions that were typed in the session, without closures.
+    /// Functions defined in the session, without closures.
     pub fn functions(&self) -> impl Iterator<Item = rhai::ScriptFnMetadata<'_>> {
         self.library.iter_functions().filter(|function| !function.name.starts_with("anon$"))
     }
 
-    /// The imported modules of the session by the names they were given, the last import first.
+    /// Imported modules with their names, last import first.
     pub fn modules(&self) -> impl Iterator<Item = (&str, &rhai::Module)> {
         self.global.iter_imports()
     }
 
-    /// The number of the line that will be typed next, from 1.
+    /// Number of the next input line, from 1.
     pub fn next_line(&self) -> usize {
         self.transcript.next_line()
     }
 
-    /// What worked in the session so far.
+    /// Record of successful inputs.
     pub fn record(&self) -> &SessionRecord {
         &self.record
     }
 
-    /// What worked in the session so far as a script.
+    /// Successful inputs as a script.
     ///
     /// # Errors
-    /// When it cannot be one, with the reason.
+    /// If they cannot be combined to a script, with the reason.
     pub fn script(&self) -> Result<String, Diagnostic> {
         let script = self.record.script(self.engine());
         let program = Program::named("the saved session", &script);
@@ -307,13 +305,13 @@ impl Session {
         }
     }
 
-    /// The folder in which the session looks for imports and inputs.
+    /// Folder for imports and input files.
     pub fn folder(&self) -> &Path {
         &self.folder
     }
 }
 
-/// What is said of an input that did not come to its end, with places in the inputs that they are from.
+/// Reply to an input that did not complete, with positions relative to the original inputs.
 fn reply_to(halt: Halt, transcript: &Transcript) -> Reply {
     match halt {
         Halt::Failed(diagnostic) | Halt::Undecided(diagnostic) => {

@@ -1,4 +1,4 @@
-//! What a line at the prompt does: an input of the language, or a command. Replies go to where the session prints.
+//! Evaluation of input lines: statements or commands. Replies go to the output of the session.
 
 mod refusing;
 mod watched_expressions;
@@ -21,31 +21,31 @@ use crate::script::handles::simulation::SimulationHandle;
 use crate::script::presentation::present::present;
 use crate::script::source::program::{LARGEST_SCRIPT, Program};
 
-/// What became of a line that was typed.
+/// Result of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CommandOutcome {
-    /// The line worked.
+    /// Success.
     Good,
-    /// The line was wrong; the user was told.
+    /// Failure, already reported.
     Failed,
-    /// The line was stopped by Ctrl-C.
+    /// Interrupted by Ctrl-C.
     Interrupted,
-    /// The line was stopped, for nobody reads what is printed any more.
+    /// The reader of the output has closed the pipe.
     PipeClosed,
-    /// The line says that the user wants to leave.
+    /// The user wants to quit.
     Quit,
 }
 
-/// Who sees the replies of the shell.
+/// Destination of the replies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ReplyTarget {
-    /// A person at a terminal sees the replies, in this style.
+    /// A terminal with this style.
     Terminal(TerminalStyle),
-    /// Another program, or a file, gets the replies.
+    /// Another program or a file.
     Pipe,
 }
 
-/// Characters in a line where no terminal says how many.
+/// Line width without a terminal.
 const WIDTH: usize = 100;
 
 /// A session with commands and watched expressions.
@@ -53,18 +53,18 @@ pub struct Shell {
     session: Session,
     screen: ReplyTarget,
     watched: Vec<String>,
-    /// How many of the files that were written the user knows of.
+    /// Number of written files already reported to the user.
     told_files: usize,
-    /// What was saved under which name.
+    /// Scripts saved by this shell, by path.
     saved: HashMap<PathBuf, String>,
-    /// What times are taken with.
+    /// Clock for timing.
     clock: Rc<dyn Clock>,
-    /// What shows replies that are longer than the terminal.
+    /// Pager for long replies.
     pager: Option<Box<dyn Pager>>,
 }
 
 impl Shell {
-    /// A shell around a session, for somebody who sees its replies on `screen`.
+    /// A shell around a session, with replies for `screen`.
     pub fn new(session: Session, screen: ReplyTarget) -> Self {
         Self {
             session,
@@ -77,13 +77,13 @@ impl Shell {
         }
     }
 
-    /// Makes the shell take times with another clock.
+    /// Replaces the clock.
     #[must_use]
     pub fn with_clock(self, clock: Rc<dyn Clock>) -> Self {
         Self { clock, ..self }
     }
 
-    /// Shows long help in pages from now on.
+    /// Sets the pager for long replies.
     pub fn page_with(&mut self, pager: Box<dyn Pager>) {
         self.pager = Some(pager);
     }
@@ -93,22 +93,22 @@ impl Shell {
         Rc::clone(&self.clock)
     }
 
-    /// The session of the shell.
+    /// Session of the shell.
     pub fn session(&self) -> &Session {
         &self.session
     }
 
-    /// The session of the shell, to look at something in it.
+    /// Mutable session of the shell.
     pub fn session_mut(&mut self) -> &mut Session {
         &mut self.session
     }
 
-    /// Who sees the replies of the shell.
+    /// Destination of the replies.
     pub fn screen(&self) -> ReplyTarget {
         self.screen
     }
 
-    /// Takes the size of the terminal as it is now: people change it.
+    /// Updates the size of the terminal.
     pub fn resize(&mut self, columns: usize, lines: usize) {
         if let ReplyTarget::Terminal(style) = self.screen {
             self.screen = ReplyTarget::Terminal(style.on_terminal(columns, lines));
@@ -118,7 +118,7 @@ impl Shell {
         }
     }
 
-    /// Does what a complete input says: a command, a question, or statements.
+    /// Evaluates a complete input: a command, a help request, or statements.
     pub fn submit(&mut self, input: &str) -> CommandOutcome {
         self.session.forget_interrupt();
         let text = input.trim();
@@ -162,17 +162,17 @@ impl Shell {
         }
     }
 
-    /// Evaluates a program as if it had been typed, and shows what became of it.
+    /// Evaluates a program as if it had been typed, and shows the result.
     pub fn run_program(&mut self, program: Program) -> CommandOutcome {
         let reply = self.session.eval_program(program);
         match reply {
-            // A file is not asked for its last value.
+            // The last value of a file is not shown.
             Reply::Value(_) => self.tell(Reply::Done),
             reply => self.tell(reply),
         }
     }
 
-    /// Shows what became of an input.
+    /// Shows a reply.
     pub fn tell(&mut self, reply: Reply) -> CommandOutcome {
         let outcome = match reply {
             Reply::Done => CommandOutcome::Good,
@@ -203,31 +203,31 @@ impl Shell {
         self.told_files = written.len();
     }
 
-    /// Forgets everything of the session but the screen.
+    /// Clears the session.
     pub fn reset(&mut self) {
         self.session.reset();
         self.watched.clear();
     }
 
-    /// Whether a file may be written: it is new, or still as this shell has written it.
+    /// Returns true if a file may be written: it does not exist, or is unchanged since this shell wrote it.
     pub fn may_write(&self, path: &Path) -> bool {
         let ours = || self.saved.get(path).map(String::as_bytes);
         let is_there = path.symlink_metadata().is_ok();
         !is_there || read_file(path, LARGEST_SCRIPT).is_ok_and(|bytes| Some(&*bytes) == ours())
     }
 
-    /// Remembers the script that the shell has written to a file.
+    /// Remembers a script that was saved to a file.
     pub fn note_saved(&mut self, path: &Path, script: String) {
         self.saved.insert(path.to_owned(), script);
     }
 
-    /// Prints a reply of the shell.
+    /// Prints a reply.
     pub fn print(&self, text: &str) {
         self.session.context().print(text);
         self.session.context().flush();
     }
 
-    /// Prints a reply that may be long: in pages, where there is a pager.
+    /// Prints a reply that may be long, with the pager if there is one.
     pub fn print_in_pages(&mut self, text: &str) -> CommandOutcome {
         let interrupt = self.session.context().interrupt_flag();
         let shown = match &mut self.pager {
@@ -244,12 +244,12 @@ impl Shell {
         }
     }
 
-    /// Tells the user something beside the replies.
+    /// Prints a note next to the replies.
     pub fn note(&self, text: &str) {
         self.session.context().tell(text);
     }
 
-    /// Tells the user what is wrong.
+    /// Reports an error.
     pub fn refuse(&self, diagnostic: &Diagnostic) -> CommandOutcome {
         let width = match self.screen {
             ReplyTarget::Terminal(style) => style.width,
@@ -260,7 +260,7 @@ impl Shell {
         CommandOutcome::Failed
     }
 
-    /// Whether the replies of the shell have colours.
+    /// Use of colours in replies.
     pub fn colours(&self) -> Colours {
         match self.screen {
             ReplyTarget::Terminal(style) => style.colours,
@@ -268,7 +268,7 @@ impl Shell {
         }
     }
 
-    /// The number of characters in a line of the screen.
+    /// Number of characters per line.
     pub fn width(&self) -> usize {
         match self.screen {
             ReplyTarget::Terminal(style) => style.width,
@@ -277,7 +277,7 @@ impl Shell {
     }
 }
 
-/// An error in an input that a command has made is told without that input, which nobody has typed.
+/// Removes the position from an error in an input that a command has generated, because the user has not typed it.
 fn without_place_in(input: &str, reply: Reply) -> Reply {
     let is_made = |location: &Location| {
         let line = location.program.text.lines().nth(location.line.saturating_sub(1));
@@ -291,22 +291,22 @@ fn without_place_in(input: &str, reply: Reply) -> Reply {
     }
 }
 
-/// What names the last simulation where no variable holds it.
+/// Expression for the last simulation if no variable holds it.
 const LATEST: &str = "latest_simulation()";
 
-/// The last simulation, on which commands act.
+/// Commands on the last simulation.
 impl Shell {
-    /// The last simulation: the one that was started, loaded, forked or stepped last.
+    /// The simulation that was started, loaded, forked or stepped last.
     pub fn latest(&self) -> Option<SimulationHandle> {
         self.session.context().latest_simulation()?.try_cast()
     }
 
-    /// Whether a variable of the session holds the last simulation.
+    /// Returns true if a variable holds the last simulation.
     pub fn holds_latest(&self) -> bool {
         self.name_of_latest().is_ok_and(|name| name != LATEST)
     }
 
-    /// How an input names the last simulation: by a variable that holds it, if there is one.
+    /// Expression for the last simulation: a variable that holds it, if there is one.
     fn name_of_latest(&self) -> Result<String, Diagnostic> {
         let Some(latest) = self.latest() else {
             return Err(no_simulation());
@@ -316,13 +316,13 @@ impl Shell {
         };
         let variables = self.session.variables();
         let held = variables.iter_raw().find(|(name, _, value)| {
-            // The last answer will soon be another one.
+            // The next expression replaces `ans`.
             *name != ANSWER && is_it(value)
         });
         Ok(held.map_or_else(|| LATEST.into(), |(name, ..)| name.to_owned()))
     }
 
-    /// Tells the user at which time the last simulation is.
+    /// Shows the time and step count of the last simulation.
     pub fn tell_place(&self) {
         if let Some(latest) = self.latest() {
             let steps = latest.simulation().counts().steps;
@@ -349,8 +349,8 @@ impl Shell {
         }
     }
 
-    /// Calls a method of the last simulation as a part of a command, and shows the watched expressions. The record of the session
-    /// gets the call, or how far it came.
+    /// Calls a method of the last simulation within a command, and shows the watched expressions. The call, or its
+    /// partial progress, is recorded.
     pub fn call_latest_watched(&mut self, call: &str) -> CommandOutcome {
         let input = match self.input_for_latest(call) {
             Ok(input) => input,
@@ -373,7 +373,7 @@ impl Shell {
         }
     }
 
-    /// Shows what a method of the last simulation gives back.
+    /// Shows the result of a method of the last simulation.
     pub fn show_of_latest(&mut self, call: &str) -> CommandOutcome {
         match self.name_of_latest() {
             Ok(name) => {
@@ -384,7 +384,7 @@ impl Shell {
         }
     }
 
-    /// The time at which the next step of the last simulation ends, if it is not at `end` already.
+    /// End time of the next step of the last simulation, or `None` if it is at `end` already.
     pub fn next_stop(&self, end: f64) -> Option<f64> {
         let latest = self.latest()?;
         let simulation = latest.simulation();
@@ -393,7 +393,7 @@ impl Shell {
     }
 }
 
-/// The error of a command that needs a simulation when there is none.
+/// Error of a command that needs a simulation.
 pub fn no_simulation() -> Diagnostic {
     Diagnostic::general("there is no simulation yet")
         .with_hint("start one: let sim = scene.start(#{ dt: 0.1 })")

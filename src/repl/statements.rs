@@ -1,4 +1,4 @@
-//! Where the statements of an input begin and end: the engine's syntax tree does not say, but it can be asked again.
+//! Statement boundaries of an input. The engine's syntax tree does not contain them, so prefixes are parsed again.
 
 use rhai::{AST, ASTFlags, ASTNode, Engine, Scope, Stmt, Token};
 
@@ -6,13 +6,13 @@ use crate::script::bindings::sources::Sources;
 use crate::script::dialect::reading::read;
 use crate::script::source::text::Source;
 
-/// How many statements a text has, functions apart; none if it is not correct.
+/// Number of statements in a text, without functions; `None` if the text has a syntax error.
 pub fn count(engine: &Engine, text: &str) -> Option<usize> {
     read(engine, &Scope::new(), &text.into(), 0).ok().map(|ast| ast.statements().len())
 }
 
-/// The last place where a text that could be read can be cut so that `first` of its statements stand before the cut and the others
-/// after it. What stopped the text while it ran does not stop this.
+/// Last position that separates the first `first` statements of a valid text from the rest. Works even after an
+/// interrupt.
 pub fn boundary(engine: &Engine, text: &str, first: usize) -> Option<usize> {
     Sources::of(engine).undisturbed(|| boundary_of(engine, text, first))
 }
@@ -28,19 +28,19 @@ fn boundary_of(engine: &Engine, text: &str, first: usize) -> Option<usize> {
         let ends = matches!(lexeme.0, Token::SemiColon | Token::RightBrace);
         ends.then(|| source.offset_of(lexeme) + 1)
     });
-    // The engine's places are those of an engine: what is no place in the text is none to cut it.
+    // Positions from the engine may not be character boundaries; such positions are skipped.
     let ends = ends.filter(|end| text.is_char_boundary(*end));
     let cuts: Vec<usize> = std::iter::once(0).chain(ends).collect();
     cuts.into_iter().rev().find(is_right)
 }
 
-/// Whether an input can end early by a `return` that stands in no function.
+/// Returns true if an input can end early by a `return` outside functions.
 pub fn returns(ast: &AST) -> bool {
     let mut found = false;
     for statement in ast.statements() {
         statement.walk(&mut Vec::new(), &mut |path| {
             if let Some(ASTNode::Stmt(Stmt::Return(_, flags, _))) = path.last() {
-                // A throw is a return that breaks.
+                // `throw` is stored as a return with the break flag.
                 found |= !flags.intersects(ASTFlags::BREAK);
             }
             true

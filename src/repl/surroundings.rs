@@ -1,4 +1,4 @@
-//! What the editor may complete in a session.
+//! Session data for the editor.
 
 use rhai::{Dynamic, Map};
 
@@ -10,7 +10,7 @@ use super::shell::Shell;
 use crate::script::library::{ModuleFunction, page_of};
 
 impl Shell {
-    /// The names that an input of the session can use now.
+    /// Names that the next input can use.
     pub fn surroundings(&self) -> CompletionContext {
         let session = self.session();
         let variable = |(name, _, value): (&str, bool, &Dynamic)| Variable {

@@ -1,5 +1,5 @@
-//! Everything that was typed in a session, one after another, so that a place in it can be found again later: a function that
-//! was typed at line 3 and fails when it is called at line 20 is shown at line 3.
+//! Transcript of all inputs of a session, which maps error positions back: an error in a function typed at line 3 and
+//! called at line 20 is shown at line 3.
 
 use std::sync::Arc;
 
@@ -7,21 +7,21 @@ use crate::script::diagnose::{Diagnostic, Location};
 use crate::script::source::outline::ScriptOutline;
 use crate::script::source::program::Program;
 
-/// The name of what is typed at the prompt, in messages.
+/// Source name of typed inputs in messages.
 pub const PROMPT: &str = "prompt";
 
-/// Most lines that the engine can count; a longer session counts from one again.
+/// Maximum number of lines that the engine can count; longer sessions restart from one.
 const MOST_LINES: usize = 60_000;
 
-/// One input: what was typed at once, or a file that was read in.
+/// One input: typed text or a loaded file.
 struct TranscriptInput {
     program: Program,
-    /// How many lines stand before it.
+    /// Number of lines before it.
     before: usize,
     is_valid: bool,
 }
 
-/// The transcript of a session: all its inputs. The engine sees each of them at its own lines of one long text.
+/// All inputs of a session. The engine sees each of them at its own lines of one long text.
 pub struct Transcript {
     pieces: Vec<TranscriptInput>,
     lines: usize,
@@ -29,17 +29,17 @@ pub struct Transcript {
 }
 
 impl Transcript {
-    /// A transcript without inputs; imports are found in `folder`.
+    /// An empty transcript; imports are found in `folder`.
     pub fn new(folder: std::path::PathBuf) -> Self {
         Self { pieces: Vec::new(), lines: 0, folder }
     }
 
-    /// The number of the line that will be typed next, from 1.
+    /// Number of the next input line, from 1.
     pub fn next_line(&self) -> usize {
         self.lines + 1
     }
 
-    /// Adds an input to the transcript and gives the number of lines before it.
+    /// Appends an input, and returns the number of lines before it.
     pub fn add(&mut self, program: Program) -> usize {
         let lines = program.text.lines().count().max(1);
         if self.lines + lines > MOST_LINES {
@@ -52,26 +52,26 @@ impl Transcript {
         before
     }
 
-    /// A program typed at the prompt, with this text.
+    /// Program of an input typed at the prompt.
     pub fn typed(&self, text: &str) -> Program {
         Program { folder: self.folder.clone(), ..Program::named(PROMPT, text) }
     }
 
-    /// Marks the last input of the transcript as one that did not work: what it declares does not exist.
+    /// Marks the last input as failed: its declarations do not exist.
     pub fn strike_last(&mut self) {
         if let Some(last) = self.pieces.last_mut() {
             last.is_valid = false;
         }
     }
 
-    /// Takes the last input out of the transcript, as if it had never been typed.
+    /// Removes the last input.
     pub fn forget_last(&mut self) {
         if let Some(last) = self.pieces.pop() {
             self.lines = last.before;
         }
     }
 
-    /// All inputs of the transcript as one program, each at its lines; those that did not work are blank, but for the last one.
+    /// All inputs as one program at their line numbers. Failed inputs are blank, except the last one.
     pub fn whole(&self) -> Program {
         let mut text = String::new();
         for (index, piece) in self.pieces.iter().enumerate() {
@@ -89,7 +89,7 @@ impl Transcript {
         self.typed(&text)
     }
 
-    /// The variables that inputs declare outside functions, with their lines in [`Transcript::whole`].
+    /// Variables declared outside functions, with their lines in [`Transcript::whole`].
     pub fn variables(&self) -> Vec<(String, usize)> {
         let shown = self.shown();
         let of_piece = |piece: &TranscriptInput| {
@@ -100,7 +100,7 @@ impl Transcript {
         shown.flat_map(of_piece).collect()
     }
 
-    /// The inputs that count: those that did not work do not, but for the last one.
+    /// Valid inputs, and the last one.
     fn shown(&self) -> impl Iterator<Item = &TranscriptInput> {
         let last = self.pieces.len().saturating_sub(1);
         let pieces = self.pieces.iter().enumerate();
@@ -109,7 +109,7 @@ impl Transcript {
             .map(|(_, piece)| piece)
     }
 
-    /// The same diagnostic with places in the inputs that they are from: files that were read in count their own lines.
+    /// The same diagnostic with positions relative to the original inputs: loaded files count their own lines.
     pub fn relocate(&self, mut diagnostic: Diagnostic) -> Diagnostic {
         for step in &mut diagnostic.trace {
             if step.file.is_none()
@@ -133,7 +133,7 @@ impl Transcript {
         diagnostic
     }
 
-    /// The file that a line is from, if it was not typed.
+    /// Loaded file that contains a line; `None` for typed lines.
     fn file_of(&self, line: usize) -> Option<&TranscriptInput> {
         let piece = self.pieces.iter().rev().find(|piece| piece.before < line)?;
         (piece.program.name != PROMPT).then_some(piece)

@@ -1,57 +1,57 @@
-//! How a parameter is spread.
+//! Distributions of parameters.
 
 use super::normal_quantile;
 use crate::elementary::{exp, ln};
 
-/// The distribution of a parameter.
+/// Distribution of a parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Distribution {
-    /// All numbers from `from` to `to` are equally likely.
+    /// Uniform between `from` and `to`.
     Uniform {
-        /// The smallest number.
+        /// Smallest value.
         from: f64,
-        /// The largest number.
+        /// Largest value.
         to: f64,
     },
-    /// All logarithms of numbers from `from` to `to`, both positive, are equally likely.
+    /// Uniform in the logarithm between positive `from` and `to`.
     LogUniform {
-        /// The smallest number.
+        /// Smallest value.
         from: f64,
-        /// The largest number.
+        /// Largest value.
         to: f64,
     },
-    /// The normal distribution.
+    /// Normal distribution.
     Normal {
-        /// The mean, which is the median too.
+        /// Mean and median.
         mean: f64,
-        /// The standard deviation.
+        /// Standard deviation.
         deviation: f64,
     },
-    /// The logarithm is normally distributed.
+    /// Normal distribution of the logarithm.
     LogNormal {
-        /// The median.
+        /// Median.
         median: f64,
-        /// The standard deviation of the natural logarithm.
+        /// Standard deviation of the natural logarithm.
         deviation: f64,
     },
-    /// Rises to its likeliest number and falls from there, straight.
+    /// Triangular distribution.
     Triangular {
-        /// The smallest number.
+        /// Smallest value.
         from: f64,
-        /// The likeliest number.
+        /// Mode.
         mode: f64,
-        /// The largest number.
+        /// Largest value.
         to: f64,
     },
 }
 
 impl Distribution {
-    /// Whether the distribution is one of the logarithm of its numbers.
+    /// Returns true for distributions of the logarithm.
     pub fn is_of_logarithms(&self) -> bool {
         matches!(self, Self::LogUniform { .. } | Self::LogNormal { .. })
     }
 
-    /// The number below which a value lies with the given probability, strictly between 0 and 1.
+    /// Quantile of a probability strictly between 0 and 1.
     pub fn quantile(&self, probability: f64) -> f64 {
         let between = |from: f64, to: f64| from * (1.0 - probability) + to * probability;
         match *self {
@@ -71,7 +71,7 @@ impl Distribution {
         }
     }
 
-    /// The distribution in the words of a script.
+    /// Script notation of the distribution.
     pub fn describe(&self) -> String {
         match self {
             Self::Uniform { from, to } => format!("uniform({from}, {to})"),
@@ -88,7 +88,7 @@ mod tests {
     use super::super::sobol;
     use super::*;
 
-    /// Mean and standard deviation of many values, against those of textbooks.
+    /// Mean and standard deviation of many values against closed forms.
     #[test]
     fn moments_are_those_of_the_distribution() {
         let points = sobol(1 << 15, 1, 5).remove(0);

@@ -1,9 +1,10 @@
-//! Latin hypercubes.
+//! Latin hypercube sampling.
 
 use super::Random;
 
-/// Points in the unit cube such that each coordinate, divided into as many equal parts as there are points, has one point in each part (M. D. McKay, R. J.
-/// Beckman, W. J. Conover, Technometrics 21 (1979) 239-245): for each coordinate its values, point by point.
+/// Points of the unit cube such that each coordinate, divided into as many equal intervals as there are points, has one point in each
+/// interval (M. D. McKay, R. J. Beckman, W. J. Conover, Technometrics 21 (1979) 239-245). Returns the values of all points for each
+/// coordinate.
 pub fn latin_hypercube(count: usize, dimensions: usize, seed: u64) -> Vec<Vec<f64>> {
     let mut random = Random::seeded(seed);
     let coordinate = |_| {

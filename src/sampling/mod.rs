@@ -1,4 +1,4 @@
-//! Designs of experiments: distributions, points that fill a cube, and how much of a result each coordinate explains.
+//! Design of experiments: distributions, sampling, and sensitivity indices.
 //!
 //! ```text
 //! latin_hypercube, sobol, saltelli → random
@@ -6,8 +6,8 @@
 //! sensitivity (of results on any of them, and on grids)
 //! ```
 //!
-//! Equal seeds give equal points on every machine: the generator is ChaCha with twelve rounds, whose stream is defined bit for bit, and what is made of
-//! its words is written here and not taken from a library that may change it.
+//! Equal seeds give equal points on every machine: the generator is ChaCha with twelve rounds, whose stream is defined bit by bit, and the
+//! conversion of its words is implemented here, because library conversions may change.
 
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 

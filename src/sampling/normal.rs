@@ -1,17 +1,17 @@
-//! The normal distribution.
+//! Normal distribution.
 
 use crate::elementary::ln;
 
-/// Where the central fit ends.
+/// Limit of the central fit.
 const CENTRE: f64 = 0.425;
 
-/// The value of a polynomial with the coefficients of rising powers.
+/// Polynomial with coefficients in ascending order.
 fn polynomial(coefficients: [f64; 8], x: f64) -> f64 {
     coefficients.into_iter().rev().fold(0.0, |sum, coefficient| sum * x + coefficient)
 }
 
-/// The number below which a standard normal variable lies with the given probability, to about 1e-16 of its size: the rational fits of M. J. Wichura, Applied
-/// Statistics 37 (1988) 477-484, algorithm AS 241 (PPND16). Infinite at 0 and 1.
+/// Quantile of the standard normal distribution with a relative accuracy of about 1e-16: rational fits of M. J. Wichura, Applied Statistics
+/// 37 (1988) 477-484, algorithm AS 241 (PPND16). Infinite at 0 and 1.
 pub fn normal_quantile(probability: f64) -> f64 {
     let from_middle = probability - 0.5;
     if from_middle.abs() <= CENTRE {

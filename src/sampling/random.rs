@@ -1,35 +1,35 @@
-//! Random numbers of a stated generator.
+//! Random number generator.
 
 use rand_chacha::ChaCha12Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-/// The generator of all random numbers of studies: ChaCha with twelve rounds (D. J. Bernstein, 2008), started by a seed. Equal seeds give equal numbers on
-/// every machine.
+/// Generator of all random numbers of studies: ChaCha with twelve rounds (D. J. Bernstein, 2008), initialised by a seed. Equal seeds give
+/// equal numbers on every machine.
 pub struct Random(ChaCha12Rng);
 
-/// The numbers from 0 to 1 that are told apart: a double has so many bits behind the point.
+/// Number of random bits: the precision of a double.
 const BITS: u32 = 53;
 
 impl Random {
-    /// The generator at the start of the stream of a seed.
+    /// Generator at the start of the stream of a seed.
     pub fn seeded(seed: u64) -> Self {
         let mut key = [0; 32];
         key[..8].copy_from_slice(&seed.to_le_bytes());
         Self(ChaCha12Rng::from_seed(key))
     }
 
-    /// A number that is evenly spread over the open interval from 0 to 1: the middle of one of 2⁵³ equal parts, rounded.
+    /// Uniform number in the open interval (0, 1): the midpoint of one of 2⁵³ equal intervals, rounded.
     pub fn unit(&mut self) -> f64 {
         let part = self.0.next_u64() >> (u64::BITS - BITS);
         ((part as f64 + 0.5) / (1_u64 << BITS) as f64).min(1.0 - f64::EPSILON / 2.0)
     }
 
-    /// A whole word of 32 random bits.
+    /// A random 32-bit word.
     pub fn word(&mut self) -> u32 {
         self.0.next_u32()
     }
 
-    /// A whole number below `count`, each equally likely: words that would favour small ones are drawn again.
+    /// Uniform integer below `count`, without modulo bias: words in the incomplete last interval are rejected.
     pub fn below(&mut self, count: u64) -> u64 {
         let whole = u64::MAX - u64::MAX % count.max(1);
         loop {
@@ -40,7 +40,7 @@ impl Random {
         }
     }
 
-    /// Puts values into a random order, each equally likely (R. Durstenfeld, 1964).
+    /// Random permutation, uniformly distributed (R. Durstenfeld, 1964).
     pub fn shuffle<T>(&mut self, values: &mut [T]) {
         for last in (1..values.len()).rev() {
             let other = self.below(last as u64 + 1);

@@ -1,10 +1,11 @@
-//! The points at which Sobol' indices are found.
+//! Sampling for Sobol' indices.
 
 use super::sobol;
 
-/// Points of the unit cube for Sobol' indices (A. Saltelli et al., Computer Physics Communications 181 (2010) 259-270): blocks of `dimensions + 2` points, the
-/// first and the second of a block independent of one another (halves of a point of a Sobol' sequence of twice as many coordinates), and then for each
-/// coordinate the first with that coordinate of the second. For each coordinate its values, point by point; `blocks · (dimensions + 2)` in all.
+/// Points of the unit cube for Sobol' indices (A. Saltelli et al., Computer Physics Communications 181 (2010) 259-270): blocks of
+/// `dimensions + 2` points. The first two points of a block are independent (halves of a point of a Sobol' sequence with twice as many
+/// coordinates); then follows for each coordinate the first point with that coordinate of the second. Returns the values of all `blocks ·
+/// (dimensions + 2)` points for each coordinate.
 pub fn saltelli(blocks: usize, dimensions: usize, seed: u64) -> Vec<Vec<f64>> {
     let pairs = sobol(blocks, 2 * dimensions, seed);
     (0..dimensions)

@@ -1,14 +1,14 @@
-//! How much of the variance of a result each parameter explains: Sobol' indices.
+//! Sobol' indices: fractions of the variance of a result explained by each parameter.
 
-/// The fewest blocks from which Sobol' indices are estimated, and the fewest points: an estimate is uncertain by about one over the root of their number.
+/// Minimum number of blocks or points for an estimate, whose uncertainty is about one over the root of their number.
 const FEWEST: usize = 30;
 
-/// What a parameter explains of the variance of a result, as parts of the whole.
+/// Fractions of the variance of a result explained by a parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VarianceShare {
-    /// By itself: the variance of the mean of the result over all other parameters (index of first order, main effect).
+    /// First-order index (main effect): variance of the mean of the result over all other parameters.
     pub first: f64,
-    /// Together with all others: what is left of the variance when all others are known (total index); none where the points do not tell.
+    /// Total index: remaining variance when all other parameters are known; `None` if it cannot be estimated.
     pub total: Option<f64>,
 }
 
@@ -17,14 +17,14 @@ fn mean(values: impl Iterator<Item = f64>) -> f64 {
     sum / count.max(1) as f64
 }
 
-/// Mean of the squares of the distances from the mean.
+/// Population variance.
 fn variance(values: &[f64]) -> f64 {
     let middle = mean(values.iter().copied());
     mean(values.iter().map(|x| (x - middle) * (x - middle)))
 }
 
-/// The shares of the parameters of a full grid, whose rows have the numbers of their values with the last parameter going fastest. Every value of a parameter
-/// counts as equally likely; the shares are exact for that. None where the result does not vary.
+/// Indices of the parameters of a full grid, with the last parameter varying fastest. All levels are equally likely; the indices are exact.
+/// `None` if the result is constant.
 pub fn shares_of_grid(lengths: &[usize], results: &[f64]) -> Option<Vec<VarianceShare>> {
     let whole = variance(results);
     (whole > 0.0).then(|| {
@@ -45,8 +45,9 @@ pub fn shares_of_grid(lengths: &[usize], results: &[f64]) -> Option<Vec<Variance
     })
 }
 
-/// The shares of the parameters at the points of [`saltelli`](super::saltelli), by the estimators of M. J. W. Jansen, Computer Physics Communications 117 (1999)
-/// 35-43, over the blocks all of whose results are finite. None where the result does not vary, or fewer than 30 blocks are whole.
+/// Indices of the parameters at the points of [`saltelli`](super::saltelli), by the estimators of M. J. W. Jansen, Computer Physics
+/// Communications 117 (1999) 35-43, over the blocks with finite results. `None` if the result is constant, or fewer than 30 blocks are
+/// complete.
 pub fn shares_of_saltelli(parameters: usize, results: &[f64]) -> Option<Vec<VarianceShare>> {
     let is_whole = |block: &&[f64]| block.iter().all(|result| result.is_finite());
     let blocks: Vec<&[f64]> = results.chunks_exact(parameters + 2).filter(is_whole).collect();
@@ -61,9 +62,9 @@ pub fn shares_of_saltelli(parameters: usize, results: &[f64]) -> Option<Vec<Vari
     (whole > 0.0 && blocks.len() >= FEWEST).then(|| (0..parameters).map(of).collect())
 }
 
-/// The share of the first order of a parameter at any independent points: the variance of the means over groups of points that follow one another in the
-/// parameter, as many groups as the cube root of the number of points, less what the scatter within groups adds to it. Rows with a result that is not
-/// finite are left out. None where there are too few points (30), or the result does not vary.
+/// First-order index of a parameter for arbitrary independent points: variance of the means over groups of points that are consecutive in
+/// the parameter, minus the contribution of the scatter within groups. The number of groups is the cube root of the number of points.
+/// Results that are not finite are left out. `None` if there are fewer than 30 points, or the result is constant.
 pub fn shares_by_rank(values: &[f64], results: &[f64]) -> Option<VarianceShare> {
     let pairs = values.iter().copied().zip(results.iter().copied());
     let mut pairs: Vec<(f64, f64)> = pairs.filter(|(_, result)| result.is_finite()).collect();
@@ -103,7 +104,7 @@ mod tests {
         sin(a) + 7.0 * sin(b) * sin(b) + 0.1 * power(c, 4.0) * sin(a)
     }
 
-    /// Their indices in closed form: variances 1/2 (1 + b π⁴/5)², a²/8 and 0 of 8 π⁸ b²/225 besides.
+    /// Indices in closed form, from the variances 1/2 (1 + b π⁴/5)², a²/8 and 0, and the interaction 8 π⁸ b²/225.
     fn known() -> ([f64; 3], [f64; 3]) {
         let fourth = power(PI, 4.0);
         let first = 0.5 * power(1.0 + 0.1 * fourth / 5.0, 2.0);

@@ -1,12 +1,12 @@
-//! Sobol' sequences: points that fill a cube more evenly than random ones.
+//! Sobol' sequences: low-discrepancy points.
 
 use super::Random;
 
 /// Bits of a coordinate.
 const BITS: usize = 32;
 
-/// Primitive polynomials (their inner coefficients as bits) and initial direction numbers of the second coordinate and those behind it, from S. Joe, F. Y. Kuo,
-/// SIAM J. Sci. Comput. 30 (2008) 2635-2654, file new-joe-kuo-6.21201.
+/// Primitive polynomials (their inner coefficients as bits) and initial direction numbers from the second coordinate on, from S. Joe, F. Y.
+/// Kuo, SIAM J. Sci. Comput. 30 (2008) 2635-2654, file new-joe-kuo-6.21201.
 const DIRECTIONS: [(u32, &[u32]); 39] = [
     (0, &[1]),
     (1, &[1, 3]),
@@ -49,10 +49,10 @@ const DIRECTIONS: [(u32, &[u32]); 39] = [
     (22, &[1, 3, 1, 11, 11, 11, 77, 249]),
 ];
 
-/// The most coordinates that a Sobol' sequence of here has.
+/// Maximum number of coordinates.
 pub const MOST_DIMENSIONS: usize = DIRECTIONS.len() + 1;
 
-/// The direction numbers of a coordinate, counted from 0, as fractions of 2³².
+/// Direction numbers of a coordinate, from 0, as fractions of 2³².
 fn directions(dimension: usize) -> [u32; BITS] {
     let mut numbers = [0; BITS];
     let Some((coefficients, initial)) = dimension.checked_sub(1).map(|at| DIRECTIONS[at]) else {
@@ -73,9 +73,9 @@ fn directions(dimension: usize) -> [u32; BITS] {
     numbers
 }
 
-/// The first `count` points of a Sobol' sequence (in the order of Gray codes, as I. A. Antonov and V. M. Saleev, 1979) in at most [`MOST_DIMENSIONS`]
-/// dimensions, with each coordinate moved by random bits of the seed (a digital shift, which keeps the sequence as even as it is, and no point at 0): for each
-/// coordinate its values, point by point.
+/// First `count` points of a Sobol' sequence (in Gray code order, as I. A. Antonov and V. M. Saleev, 1979) in at most [`MOST_DIMENSIONS`]
+/// dimensions, with each coordinate shifted by random bits of the seed (a digital shift, which preserves the uniformity and avoids 0).
+/// Returns the values of all points for each coordinate.
 pub fn sobol(count: usize, dimensions: usize, seed: u64) -> Vec<Vec<f64>> {
     let mut random = Random::seeded(seed);
     (0..dimensions)
@@ -110,7 +110,7 @@ mod tests {
             .collect()
     }
 
-    /// The program of Joe and Kuo gives these points in three dimensions.
+    /// Points given by the program of Joe and Kuo in three dimensions.
     #[test]
     fn points_are_those_of_joe_and_kuo() {
         assert_eq!(plain(6, 0), [0.0, 0.5, 0.75, 0.25, 0.375, 0.875]);
@@ -133,7 +133,7 @@ mod tests {
         let columns = sobol(4096, 4, 1);
         let product = |at: usize| columns.iter().map(|values| 2.0 * values[at]).product::<f64>();
         let mean = (0..4096).map(product).sum::<f64>() / 4096.0;
-        // Random points err by about 0.023.
+        // Random points would have an error of about 0.023.
         assert!((mean - 1.0).abs() < 2e-3, "{mean}");
     }
 }

@@ -1,4 +1,4 @@
-//! What lies in an open folder.
+//! Listing of an open folder.
 
 use std::ffi::{OsStr, OsString};
 use std::io::{self, ErrorKind};
@@ -7,25 +7,23 @@ use std::time::SystemTime;
 
 use super::folder::{Folder, is_plain};
 
-/// Something that lies in an open folder.
+/// An entry of an open folder.
 #[derive(Debug)]
 pub struct FolderEntry {
-    /// The name of the entry in its folder.
+    /// Name in the folder.
     pub name: OsString,
-    /// The length of the entry [bytes].
+    /// Length [bytes].
     pub length: u64,
-    /// The time of the last change of the entry, where the system tells it.
+    /// Time of the last change, if the system provides it.
     pub changed: Option<SystemTime>,
-    /// Whether the entry is a folder.
+    /// True for a folder.
     pub is_folder: bool,
 }
 
 impl Folder {
-    /// What lies in this folder, by name and in its order: length, time of the last change, and whether it is a folder. Links count as
-    /// themselves. What cannot be looked at is left out.
+    /// Entries of this folder, sorted by name. Links are not followed. Entries that cannot be inspected are left out.
     ///
-    /// # Errors
-    /// When the folder cannot be read.
+    /// If the folder cannot be read.
     pub fn entries(&self) -> io::Result<Vec<FolderEntry>> {
         let entry = |entry: cap_std::fs::DirEntry| {
             let about = self.0.symlink_metadata(entry.file_name()).ok()?;
@@ -38,10 +36,9 @@ impl Folder {
         Ok(all)
     }
 
-    /// Opens a folder that lies in this one, by its name; a link is not followed.
+    /// Opens a subfolder by its name; links are not followed.
     ///
-    /// # Errors
-    /// When there is no folder of this name, or it is a link.
+    /// If there is no folder of this name, or it is a link.
     pub fn below(&self, name: &OsStr) -> io::Result<Self> {
         match is_plain(Path::new(name)) {
             true => self.enter(name),

@@ -1,4 +1,4 @@
-//! An open folder.
+//! An open folder, accessed through its descriptor.
 
 use std::ffi::{OsStr, OsString};
 use std::fs;
@@ -12,34 +12,32 @@ use cap_std::fs::{Dir, OpenOptions};
 
 use super::reading;
 
-/// So many names are tried for a file that is not complete yet.
+/// Number of names tried for a temporary file.
 const TRIES: usize = 100;
 
-/// A folder that is open: whoever renames it or puts a link in its place changes nothing for those who have it.
+/// An open folder. Renaming it or replacing it by a link does not affect holders of this value.
 #[derive(Debug)]
 pub struct Folder(pub(super) Dir);
 
-/// Whether a name of a file goes down only: no root, no `..`.
+/// Returns true if a file name only descends: no root, no `..`.
 pub fn is_plain(name: &Path) -> bool {
     let mut parts = name.components();
     name.components().next().is_some() && parts.all(|part| matches!(part, Component::Normal(_)))
 }
 
 impl Folder {
-    /// Opens a folder that a person has named; links are followed.
+    /// Opens a folder given by the user; links are followed.
     ///
-    /// # Errors
-    /// When there is no folder at `path`.
+    /// If there is no folder at `path`.
     pub fn open(path: &Path) -> io::Result<Self> {
         let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
         Dir::open_ambient_dir(path, ambient_authority()).map(Self)
     }
 
-    /// Opens a folder to write into, and makes it and those above where they are missing. The folder itself may not be a link:
-    /// one could have been laid there to lead elsewhere.
+    /// Opens a folder for writing, and creates it and its parents if necessary. The folder itself may not be a link, which could lead
+    /// elsewhere.
     ///
-    /// # Errors
-    /// When the folder cannot be made, or is a link.
+    /// If the folder cannot be created, or is a link.
     pub fn make(path: &Path) -> io::Result<Self> {
         let above = path.parent().filter(|above| !above.as_os_str().is_empty());
         let above = above.unwrap_or(Path::new("."));
@@ -52,10 +50,9 @@ impl Folder {
         }
     }
 
-    /// Opens a folder as [`make`](Self::make) does, but makes nothing.
+    /// Opens a folder like [`make`](Self::make), without creating it.
     ///
-    /// # Errors
-    /// When there is no folder at `path`, or it is a link.
+    /// If there is no folder at `path`, or it is a link.
     pub fn find(path: &Path) -> io::Result<Self> {
         match path.components().next_back() {
             Some(Component::Normal(name)) => {
@@ -90,7 +87,7 @@ impl Folder {
         }
     }
 
-    /// The folder of a file below this one, and the file's own name.
+    /// Parent folder and name of a file below this folder.
     fn parent_of<'n>(
         &self,
         name: &'n Path,
@@ -107,18 +104,16 @@ impl Folder {
         Ok((folder, name.file_name().ok_or_else(refused)?))
     }
 
-    /// Reads an ordinary file below this folder, of at most `most` bytes. No link is followed on the way.
+    /// Reads a regular file below this folder of at most `most` bytes. Links are not followed.
     ///
-    /// # Errors
-    /// When there is none, it is a link, a pipe, a device or a folder, or larger.
+    /// If there is none, it is too long, or a link, a pipe, a device or a folder.
     pub fn read(&self, name: &Path, most: u64) -> io::Result<Vec<u8>> {
         reading::read(self.open_file(name)?, most)
     }
 
-    /// Opens an ordinary file below this folder to read it piece by piece. No link is followed on the way.
+    /// Opens a regular file below this folder for reading. Links are not followed.
     ///
-    /// # Errors
-    /// When there is none, or it is a link, a pipe, a device or a folder.
+    /// If there is none, or it is a link, a pipe, a device or a folder.
     pub fn open_file(&self, name: &Path) -> io::Result<fs::File> {
         let (folder, name) = self.parent_of(name, Self::enter)?;
         let about = folder.0.symlink_metadata(name)?;
@@ -131,24 +126,22 @@ impl Folder {
         Ok(file.into_std())
     }
 
-    /// Whether there is anything of this name below this folder, a link that leads nowhere included.
+    /// Returns true if this name exists below this folder, including broken links.
     pub fn has(&self, name: &Path) -> bool {
         let found = self.parent_of(name, Self::enter);
         found.is_ok_and(|(folder, name)| folder.0.symlink_metadata(name).is_ok())
     }
 
-    /// Whether nobody holds the lock of an ordinary file below this folder.
+    /// Returns true if a regular file below this folder is not locked.
     ///
-    /// # Errors
-    /// When there is none, or it cannot be opened.
+    /// If there is none, or it cannot be opened.
     pub fn is_let_go(&self, name: &Path) -> io::Result<bool> {
         Ok(self.open_file(name)?.try_lock().is_ok())
     }
 
-    /// Makes a file that was not there before, and opens it for writing; folders on the way are made.
+    /// Creates a new file for writing; missing parent folders are created.
     ///
-    /// # Errors
-    /// When there is anything of that name.
+    /// If the name exists.
     pub fn create(&self, name: &Path) -> io::Result<fs::File> {
         let (folder, name) = self.parent_of(name, Self::enter_or_make)?;
         folder.create_here(name)
@@ -160,10 +153,9 @@ impl Folder {
         self.0.open_with(name, &options).map(|file| file.into_std())
     }
 
-    /// Opens an ordinary file to write behind its end, and makes it where there is none.
+    /// Opens a regular file for appending, and creates it if necessary.
     ///
-    /// # Errors
-    /// When it is a link, a pipe, a device or a folder.
+    /// If it is a link, a pipe, a device or a folder.
     pub fn append(&self, name: &Path) -> io::Result<fs::File> {
         let (folder, name) = self.parent_of(name, Self::enter_or_make)?;
         let mut options = OpenOptions::new();
@@ -173,19 +165,17 @@ impl Folder {
         Ok(file.into_std())
     }
 
-    /// Writes a file below this folder: whole, and lasting through a loss of power, or not at all. What has its name is replaced,
-    /// not followed, if it is a file or a link; folders on the way are made.
+    /// Writes a file below this folder atomically and durably. An existing file or link is replaced, not followed; missing parent folders
+    /// are created.
     ///
-    /// # Errors
-    /// When it cannot be written, or a folder, a pipe or a device has its name; nothing has changed then.
+    /// If writing fails, or the name is that of a folder, a pipe or a device; nothing has changed then.
     pub fn write_whole(&self, name: &Path, bytes: &[u8]) -> io::Result<()> {
         self.write_whole_by(name, |file| file.write_all(bytes))
     }
 
-    /// Writes a file as [`write_whole`](Self::write_whole) does, piece by piece: whatever `write` puts into it.
+    /// Writes a file like [`write_whole`](Self::write_whole), with content written by `write`.
     ///
-    /// # Errors
-    /// As there; also those of `write`.
+    /// See there; also errors of `write`.
     pub fn write_whole_by(
         &self,
         name: &Path,
@@ -202,13 +192,13 @@ impl Folder {
         drop(file);
         let written = written.and_then(|()| folder.0.rename(&partial, &folder.0, name));
         if written.is_err() {
-            // Its own failure is no news: there may be nothing to remove.
+            // The file may not exist.
             let _ = folder.0.remove_file(&partial);
         }
         written.and_then(|()| folder.sync())
     }
 
-    /// A new hidden file beside `name`.
+    /// Creates a hidden temporary file next to `name`.
     fn create_partial(&self, name: &OsStr) -> io::Result<(fs::File, OsString)> {
         static COUNTER: AtomicU64 = AtomicU64::new(0);
         let mut tries = TRIES;
@@ -226,16 +216,15 @@ impl Folder {
         }
     }
 
-    /// Gives a file below this folder a new name, which nothing else may have.
+    /// Renames a file below this folder to the first unused name of `free`.
     ///
-    /// # Errors
-    /// When it cannot be renamed.
+    /// If renaming fails.
     pub fn keep_as(&self, name: &Path, free: impl Fn(usize) -> PathBuf) -> io::Result<PathBuf> {
         let (folder, own) = self.parent_of(name, Self::enter)?;
         for number in 1..TRIES * TRIES {
             let new = free(number);
             let Some(kept) = new.file_name() else { break };
-            // Made first, so that nobody's file is replaced.
+            // Reserves the name first, so that no file is replaced.
             match folder.create_here(kept) {
                 Ok(_) => {
                     folder.0.rename(own, &folder.0, kept)?;
@@ -249,24 +238,22 @@ impl Folder {
         Err(io::Error::new(ErrorKind::AlreadyExists, "there is no free name to keep it by"))
     }
 
-    /// Renames one file of this very folder to another name of it, which is replaced.
+    /// Renames a file in this folder, replacing the target.
     ///
-    /// # Errors
-    /// When it cannot be renamed.
+    /// If renaming fails.
     pub fn replace(&self, name: &Path, new: &Path) -> io::Result<()> {
         self.0.rename(name, &self.0, new)?;
         self.sync()
     }
 
-    /// Removes a file or link of this very folder.
+    /// Removes a file or link in this folder.
     ///
-    /// # Errors
-    /// When it cannot be removed.
+    /// If removing fails.
     pub fn remove(&self, name: &Path) -> io::Result<()> {
         self.0.remove_file_or_symlink(name)
     }
 
-    /// Makes names last through a loss of power. A system that cannot do that for folders has done what it can.
+    /// Makes renamed files durable. Systems that cannot sync folders are accepted.
     fn sync(&self) -> io::Result<()> {
         #[cfg(unix)]
         {
@@ -287,7 +274,7 @@ mod tests {
     use std::os::unix::fs::symlink;
     use std::sync::atomic::AtomicBool;
 
-    /// A folder `own` with a file beside it that nobody may reach.
+    /// A folder `own`, and a file next to it that must not be reached.
     fn home() -> (tempfile::TempDir, PathBuf, PathBuf) {
         let home = tempfile::tempdir().unwrap();
         let (own, other) = (home.path().join("own"), home.path().join("other"));
@@ -357,7 +344,7 @@ mod tests {
         assert_eq!(fs::read(own.join("a.2")).unwrap(), b"old");
     }
 
-    /// Somebody exchanges a folder and a file for links, again and again, while files are read and written.
+    /// Folders and files are repeatedly replaced by links while files are read and written.
     #[test]
     fn races_do_not_lead_out() {
         let (home, own, other) = home();
@@ -371,7 +358,7 @@ mod tests {
                 let (way, aside, link) =
                     (own.join("way"), home.path().join("aside"), home.path().join("link"));
                 while !stop.load(Ordering::Relaxed) {
-                    // The writer may have made a folder between two renamings.
+                    // The writer may have created a folder between two renames.
                     if aside.exists() {
                         let _ = fs::remove_dir_all(&way).and_then(|()| fs::rename(&aside, &way));
                     }

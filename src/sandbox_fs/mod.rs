@@ -1,7 +1,7 @@
-//! Files below an open folder: opened from its descriptor, so that nobody can put another folder in its place, without following
-//! links, and never anything but ordinary files: no pipe or device makes the program wait.
+//! File access below an open folder through its descriptor: the folder cannot be exchanged, links are not followed, and only regular files
+//! are opened, so that no pipe or device can block the program.
 //!
-//! What stands on a command line is a person's own word and may lead anywhere; what stands in a script goes through here.
+//! Paths on the command line are trusted and may lead anywhere; paths in scripts are accessed through this module.
 
 mod entries;
 mod folder;

@@ -1,4 +1,4 @@
-//! Reading ordinary files of bounded length.
+//! Reading of regular files of bounded length.
 
 use std::io::{self, Read};
 use std::path::Path;
@@ -7,41 +7,39 @@ use cap_fs_ext::{FollowSymlinks, OpenOptionsFollowExt, OpenOptionsSyncExt};
 use cap_std::ambient_authority;
 use cap_std::fs::{File, OpenOptions};
 
-/// Options that open a file for reading without ever waiting for somebody who writes.
+/// Options for opening a file without blocking.
 pub(super) fn options(follow: FollowSymlinks) -> OpenOptions {
     let mut options = OpenOptions::new();
     options.read(true).nonblock(true).follow(follow);
     options
 }
 
-/// The whole of a file that a person has named, of at most `most` bytes; links are followed.
+/// Content of a file given by the user, of at most `most` bytes; links are followed.
 ///
-/// # Errors
-/// When it is no ordinary file, is larger, or cannot be read.
+/// If it is not a regular file, too long, or unreadable.
 pub fn read_file(path: &Path, most: u64) -> io::Result<Vec<u8>> {
-    // Looked at before it is opened: some devices do something when they are.
+    // Checked before opening, because opening some devices has side effects.
     expect_ordinary(std::fs::metadata(path)?.is_file())?;
     let options = options(FollowSymlinks::Yes);
     let file = File::open_ambient_with(path, &options, ambient_authority())?;
     read(file.into_std(), most)
 }
 
-/// The whole text of a file that a person has named, of at most `most` bytes of UTF-8; links are followed.
+/// Text of a UTF-8 file given by the user, of at most `most` bytes; links are followed.
 ///
-/// # Errors
-/// When it is no ordinary file, is larger, is not UTF-8, or cannot be read.
+/// If it is not a regular file, too long, not UTF-8, or unreadable.
 pub fn read_text(path: &Path, most: u64) -> io::Result<String> {
     let bytes = read_file(path, most)?;
     String::from_utf8(bytes).map_err(|_| io::Error::other("it is not UTF-8 text"))
 }
 
-/// The whole of an open file, if it is an ordinary one of at most `most` bytes.
+/// Content of an open regular file of at most `most` bytes.
 pub(super) fn read(file: std::fs::File, most: u64) -> io::Result<Vec<u8>> {
     let about = file.metadata()?;
     expect_ordinary(about.is_file())?;
     expect_length(about.len(), most)?;
     let mut bytes = Vec::new();
-    // The length may be a lie, as that of the files of /proc.
+    // The reported length may be wrong, as for files in /proc.
     file.take(most.saturating_add(1)).read_to_end(&mut bytes)?;
     expect_length(bytes.len() as u64, most)?;
     Ok(bytes)

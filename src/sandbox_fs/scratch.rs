@@ -1,4 +1,4 @@
-//! A folder for what is thrown away, whose name nobody can guess; those that a killed process has left behind are removed later.
+//! Temporary folders with unpredictable names. Folders left by killed processes are removed later.
 
 use std::fs::{self, File};
 use std::io;
@@ -9,33 +9,32 @@ use tempfile::TempDir;
 
 use super::Folder;
 
-/// How the names of such folders begin.
+/// Prefix of the folder names.
 const PREFIX: &str = "withy-scratch-";
-/// A file in each that is locked as long as its process lives.
+/// File in each folder that is locked while its process lives.
 const HELD: &str = ".held";
-/// A folder without that file is of a process that has just begun, unless it is older.
+/// Age from which a folder without that file is stale; a younger one may belong to a starting process.
 const BEGINNING: Duration = Duration::from_secs(3600);
 
-/// A new folder below the temporary one of the system, which is removed when this is dropped.
+/// A new folder in the system's temporary folder, removed on drop.
 #[derive(Debug)]
 pub struct Scratch {
     folder: TempDir,
-    /// Locked; the lock ends with the process, however that ends.
+    /// Locked file; the lock ends with the process.
     _held: File,
 }
 
 impl Scratch {
-    /// Makes a scratch folder, and removes those of processes that were killed.
+    /// Creates a scratch folder, and removes those of killed processes.
     ///
-    /// # Errors
-    /// When it cannot be made.
+    /// If it cannot be created.
     pub fn new() -> io::Result<Self> {
         Self::within(&std::env::temp_dir())
     }
 
     fn within(home: &Path) -> io::Result<Self> {
         let folder = tempfile::Builder::new().prefix(PREFIX).tempdir_in(home)?;
-        // It gets its name when it is locked already: others may look at any time.
+        // Renamed only after locking, because other processes may inspect it at any time.
         let open = Folder::open(folder.path())?;
         let (begun, held) = (Path::new(".begun"), Path::new(HELD));
         let file = open.create(begun)?;
@@ -46,20 +45,19 @@ impl Scratch {
         Ok(scratch)
     }
 
-    /// The path of the scratch folder.
+    /// Path of the folder.
     pub fn path(&self) -> &Path {
         self.folder.path()
     }
 
-    /// Makes a new folder in the scratch folder.
+    /// Creates a subfolder.
     ///
-    /// # Errors
-    /// When it cannot be made.
+    /// If it cannot be created.
     pub fn part(&self) -> io::Result<TempDir> {
         tempfile::Builder::new().prefix("part-").tempdir_in(self.path())
     }
 
-    /// Removes what nobody holds any more. What cannot be looked at or removed is somebody else's.
+    /// Removes stale folders; failures are ignored, because the folders may belong to other users.
     fn remove_stale(&self, home: &Path) {
         for path in stale(home, self.path()).unwrap_or_default() {
             let _ = fs::remove_dir_all(path);
@@ -114,12 +112,12 @@ mod tests {
         let home = tempfile::tempdir().unwrap();
         let living = Scratch::within(home.path()).unwrap();
         fs::create_dir(living.path().join("deep")).unwrap();
-        // As after a kill: the folder stays, and the lock does not.
+        // Simulates a kill: the folder stays, but the lock is released.
         let Scratch { folder, _held } = Scratch::within(home.path()).unwrap();
         fs::write(folder.path().join("big"), "left behind").unwrap();
         let left = folder.keep();
         drop(_held);
-        // One that has just begun, and what only looks like one.
+        // A folder of a starting process, and a file with a similar name.
         fs::create_dir(home.path().join("withy-scratch-begun")).unwrap();
         fs::write(home.path().join("withy-scratch-file"), "").unwrap();
         let next = Scratch::within(home.path()).unwrap();

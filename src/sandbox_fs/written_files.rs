@@ -1,4 +1,4 @@
-//! What was written into a folder by this program, so that files of somebody else, or with changes of his, are told from them.
+//! Record of the files that this program wrote into a folder, to distinguish them from other files and from edited ones.
 
 use std::collections::BTreeMap;
 use std::io::{self, Read, Write};
@@ -6,32 +6,31 @@ use std::path::Path;
 
 use super::Folder;
 
-/// The name of the file that keeps the record: hidden, for it is of no use to anybody else.
+/// Name of the record: hidden, because it is of no use to users.
 const FILE: &str = ".withy-written";
-/// The largest record that is read [bytes]: without it, files count as somebody else's and are kept.
+/// Maximum size of a record [bytes]; without a record all files count as foreign and are kept.
 const LARGEST: u64 = 16 << 20;
-/// How much of a file is looked at at once [bytes].
+/// Buffer size [bytes].
 const PIECE: usize = 1 << 16;
 
-/// By what the content of a file is known again.
+/// Checksum and length of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FileChecksum {
-    /// The CRC-32 of the content.
+    /// CRC-32.
     pub checksum: u32,
-    /// The length of the content [bytes].
+    /// Length [bytes].
     pub length: u64,
 }
 
 impl FileChecksum {
-    /// The imprint of some bytes.
+    /// Checksum of a byte string.
     pub fn of_bytes(bytes: &[u8]) -> Self {
         Self { checksum: crc32fast::hash(bytes), length: bytes.len() as u64 }
     }
 
-    /// The imprint of all that can be read, piece by piece.
+    /// Checksum of a stream.
     ///
-    /// # Errors
-    /// When it cannot be read.
+    /// If reading fails.
     pub fn of(mut content: impl Read) -> io::Result<Self> {
         let (mut hasher, mut length, mut piece) = (crc32fast::Hasher::new(), 0, vec![0; PIECE]);
         loop {
@@ -46,7 +45,7 @@ impl FileChecksum {
     }
 }
 
-/// Writes bytes on, and keeps their imprint.
+/// Writer that computes the checksum of its output.
 pub struct ChecksumWriter<W> {
     inner: W,
     hasher: crc32fast::Hasher,
@@ -54,12 +53,12 @@ pub struct ChecksumWriter<W> {
 }
 
 impl<W: Write> ChecksumWriter<W> {
-    /// Begins to write.
+    /// Wraps a writer.
     pub fn new(inner: W) -> Self {
         Self { inner, hasher: crc32fast::Hasher::new(), length: 0 }
     }
 
-    /// The imprint of all that was written.
+    /// Checksum of everything written.
     pub fn imprint(&self) -> FileChecksum {
         FileChecksum { checksum: self.hasher.clone().finalize(), length: self.length }
     }
@@ -78,22 +77,22 @@ impl<W: Write> Write for ChecksumWriter<W> {
     }
 }
 
-/// Checksums and lengths of the files that this program has written into a folder, by name.
+/// Checksums and lengths of the files that this program wrote into a folder, by name.
 #[derive(Debug, Default)]
 pub struct WrittenFiles {
     files: BTreeMap<String, FileChecksum>,
 }
 
 impl WrittenFiles {
-    /// Reads the record of what this program has written into a folder; one that is damaged knows less.
+    /// Reads the record of a folder; damaged lines are ignored.
     pub fn of(folder: &Folder) -> Self {
-        // Where there is none, or none that can be read, files count as somebody else's, and are kept.
+        // Without a readable record all files count as foreign and are kept.
         let text = folder.read(Path::new(FILE), LARGEST).unwrap_or_default();
         let text = String::from_utf8_lossy(&text);
         Self { files: text.lines().filter_map(entry).collect() }
     }
 
-    /// Whether there is nothing of this name in the folder, or a file just as this program has written it.
+    /// Returns true if this name does not exist in the folder, or is unchanged since this program wrote it.
     pub fn may_replace(&self, folder: &Folder, name: &str) -> bool {
         let path = Path::new(name);
         if !folder.has(path) {
@@ -103,10 +102,9 @@ impl WrittenFiles {
         folder.open_file(path).and_then(FileChecksum::of).is_ok_and(|found| found == *known)
     }
 
-    /// Notes, and writes down at once, that this program wrote a file of this name into the folder.
+    /// Records a file written to the folder, and appends it to the record at once.
     ///
-    /// # Errors
-    /// When the record cannot be written.
+    /// If the record cannot be written.
     pub fn note(&mut self, folder: &Folder, name: &str, written: FileChecksum) -> io::Result<()> {
         if name.contains(['\n', '\r']) || self.files.insert(name.into(), written) == Some(written) {
             return Ok(());
@@ -116,7 +114,7 @@ impl WrittenFiles {
     }
 }
 
-/// `checksum length name`; later lines hold.
+/// Parses `checksum length name`; later lines take precedence.
 fn entry(line: &str) -> Option<(String, FileChecksum)> {
     let (checksum, rest) = line.split_once(' ')?;
     let (length, name) = rest.split_once(' ')?;

@@ -1,11 +1,11 @@
-//! The language: Rhai with numbers as in science, tables of functions, and errors that say what to do.
+//! The scripting language: Rhai with scientific number semantics, bindings in tables, and helpful errors.
 //!
-//! A domain is a [`Table`](rows::table::Table) of rows; [`engine`] registers the tables and runs a script on a large stack;
-//! [`diagnose`] turns every error into a message at the script's line and column. There is no mechanics here: bodies of rows are
-//! short and call the library.
+//! A domain is a [`Table`](rows::table::Table) of bindings; [`engine`] registers the tables and runs a script on a
+//! large stack; [`diagnose`] turns every error into a message at the script's line and column. There is no mechanics
+//! here: bindings are short and call the solver library.
 //!
-//! Its wings use one another one way only: [`words`], [`source`], [`state`], [`rows`], [`dialect`], [`library`], [`diagnose`],
-//! [`engine`], [`pages`], [`looks`], [`handles`], [`studies`], [`packages`].
+//! Modules depend on one another in this order only: [`words`], [`source`], [`state`], [`rows`], [`dialect`],
+//! [`library`], [`diagnose`], [`engine`], [`pages`], [`looks`], [`handles`], [`studies`], [`packages`].
 
 pub mod bindings;
 pub mod diagnose;

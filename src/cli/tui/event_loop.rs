@@ -1,4 +1,4 @@
-//! What one works with who watches: the loop of keys, saved files, and runs that end.
+//! Event loop of `withy learn watch`: keys, saved files, and finished runs.
 
 use std::io;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -21,20 +21,19 @@ use crate::exercises::watch::{INTERVAL, Watcher};
 use crate::exercises::workbook::{Advice, Workbook};
 use crate::panics::caught;
 
-/// How long keys are waited for before one looks at the run.
+/// Timeout for keys between checks of the run.
 const PATIENCE: Duration = Duration::from_millis(50);
 
-/// Watches the attempts of a student, judging each that is saved, until one leaves, or `stop` is set.
+/// Watches the attempts of a student and judges each saved one, until the user leaves or `stop` is set.
 ///
-/// # Errors
-/// When the folder or the terminal cannot be used; the terminal is as it was then.
+/// If the folder or the terminal cannot be used; the terminal is restored.
 pub(in crate::cli) fn watch(
     workbook: &Workbook,
     limits: &LimitOptions,
     stop: &AtomicBool,
 ) -> Result<(), ExerciseError> {
     let mut desk = EventLoop::open(workbook, limits)?;
-    // A panic is our mistake: the terminal is given back, and then it is told.
+    // A panic is reported after the terminal is restored.
     let done = caught(|| {
         let mut terminal = RawTerminal::take()?;
         desk.work(&mut terminal, stop)
@@ -45,7 +44,7 @@ pub(in crate::cli) fn watch(
     done.map_err(ExerciseError::Terminal)
 }
 
-/// What one works with.
+/// State of the event loop.
 struct EventLoop<'a> {
     workbook: &'a Workbook,
     limits: &'a LimitOptions,
@@ -110,7 +109,7 @@ impl<'a> EventLoop<'a> {
         wish
     }
 
-    /// Looks whether a file was saved or a run has ended.
+    /// Checks for saved files and finished runs.
     fn look(&mut self) {
         if self.looked.elapsed() >= INTERVAL {
             self.looked = Instant::now();
@@ -136,7 +135,7 @@ impl<'a> EventLoop<'a> {
                 }
             }
             self.state.tell(report);
-            // Another window may have noted something.
+            // Another window may have changed the progress.
             if let Ok(progress) = self.workbook.progress() {
                 self.state.progress = progress;
             }
@@ -144,14 +143,14 @@ impl<'a> EventLoop<'a> {
     }
 
     fn turn_to(&mut self, exercise: &'static Exercise) {
-        // What was read last is shown on; that it cannot be read is told when something is to be noted.
+        // An unreadable progress file is reported when it is written next.
         let progress = self.workbook.progress().unwrap_or_else(|_| self.state.progress.clone());
         self.state = TuiState::open(exercise, shown(&self.workbook.file(exercise)), progress);
         self.solution = self.painter.solution(exercise);
         self.run();
     }
 
-    /// Begins a run; one that is going on is ended.
+    /// Starts a run, and ends a running one.
     fn run(&mut self) {
         self.trial = None;
         match JudgeProcess::begin(self.state.exercise, self.limits) {
@@ -163,7 +162,7 @@ impl<'a> EventLoop<'a> {
         }
     }
 
-    /// Shows the hints that were given before, or gives one more.
+    /// Shows the hints given before, or one more.
     fn hint(&mut self) {
         let exercise = self.state.exercise;
         let given = self.state.progress.hints(exercise);

@@ -1,5 +1,4 @@
-//! An attempt that is judged in a process of its own, so that keys are answered meanwhile and whatever it does is over when it is
-//! ended.
+//! Judging of an attempt in a separate process, so that keys are handled meanwhile and the attempt can be killed.
 
 use std::io::{self, Read};
 use std::process::{self, Child, Command, ExitStatus, Stdio};
@@ -21,12 +20,12 @@ use crate::script::messages::stop::Stop;
 use crate::script::state::limits::Limits;
 use crate::script::state::settings::{RunMode, RunSettings};
 
-/// What the process may take beside the attempt and its judge, which are given time to hear of their limits.
+/// Time allowed for the process to react to its limits.
 const SLACK: Duration = Duration::from_secs(12);
-/// The most that is read of what the process says [bytes].
+/// Maximum size of the report [bytes].
 const LONGEST: u64 = 1 << 20;
 
-/// A process that judges an attempt; it is ended when this is dropped.
+/// A judging process; killed on drop.
 pub struct JudgeProcess {
     process: Child,
     said: Receiver<String>,
@@ -35,15 +34,14 @@ pub struct JudgeProcess {
 }
 
 impl JudgeProcess {
-    /// Begins to judge the attempt in the student's folder.
+    /// Starts judging the attempt in the student's folder.
     ///
-    /// # Errors
-    /// When no process can be started.
+    /// If no process can be started.
     pub fn begin(exercise: &Exercise, options: &LimitOptions) -> io::Result<Self> {
         let mut command = Command::new(env::current_exe()?);
         command.args(["learn", "try"]).args(options.words()).args(["--", &exercise.id()]);
         command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::null());
-        // Keys at the terminal are for who watches.
+        // Key signals such as Ctrl-C go to the watching process only.
         #[cfg(unix)]
         std::os::unix::process::CommandExt::process_group(&mut command, 0);
         let mut process = command.spawn()?;
@@ -52,7 +50,7 @@ impl JudgeProcess {
         thread::spawn(move || {
             let mut text = Vec::new();
             if let Some(output) = output {
-                // What cannot be read is no report, and is told as such.
+                // Unreadable output is reported as a missing report.
                 let _ = output.take(LONGEST).read_to_end(&mut text);
             }
             let _ = send.send(String::from_utf8_lossy(&text).into_owned());
@@ -62,12 +60,12 @@ impl JudgeProcess {
         Ok(Self { process, said, begun: Instant::now(), limits })
     }
 
-    /// Whole seconds since the process began.
+    /// Whole seconds since the start.
     pub fn seconds(&self) -> u64 {
         self.begun.elapsed().as_secs()
     }
 
-    /// What became of the attempt, once that is known.
+    /// Result of the attempt, once it is known.
     pub fn ended(&mut self) -> Option<AttemptReport> {
         let longest = self.limits.time.unwrap_or(PATIENCE) * 2 + SLACK;
         match self.said.try_recv() {
@@ -93,20 +91,20 @@ impl JudgeProcess {
 
 impl Drop for JudgeProcess {
     fn drop(&mut self) {
-        // One that has ended is not there any more.
+        // Fails if the process has ended already.
         let _ = self.process.kill();
         let _ = self.process.wait();
     }
 }
 
-/// The report of an attempt for which a process cannot be started.
+/// Report of an attempt whose process could not be started.
 pub fn cannot(error: &io::Error) -> AttemptReport {
     let message = format!("cannot start a process for it: {error}");
     let why = AttemptError { message, ..AttemptError::default() };
     AttemptReport { outcome: AttemptOutcome::Broken(why), printed: CapturedOutput::default() }
 }
 
-/// What the death of a process without a word says.
+/// Report of a process that died without output.
 fn death(status: ExitStatus, limits: &Limits) -> AttemptReport {
     match limits.memory.filter(|_| is_out_of_memory(status)) {
         Some(memory) => stopped(Stop::Memory(memory), CapturedOutput::default()),
@@ -121,7 +119,7 @@ fn death(status: ExitStatus, limits: &Limits) -> AttemptReport {
     }
 }
 
-/// An allocation that is refused aborts; the system ends who takes too much.
+/// A failed allocation aborts; the system kills processes that use too much memory.
 #[cfg(unix)]
 fn is_out_of_memory(status: ExitStatus) -> bool {
     use nix::libc::{SIGABRT, SIGKILL};
@@ -140,12 +138,12 @@ fn stopped(stop: Stop, printed: CapturedOutput) -> AttemptReport {
     AttemptReport { outcome: AttemptOutcome::Stopped(why), printed }
 }
 
-/// Judges an attempt in this process, which is for nothing else, and prints what became of it.
+/// Judges an attempt in this dedicated process, and prints the report.
 pub fn try_here(workbook: &Workbook, exercise: &Exercise, options: &LimitOptions) -> Exit {
     die_with_parent();
     let ear = CaptureWriter::default();
     let heard = ear.clone();
-    // One report is said, whoever comes first.
+    // Only one report is printed.
     let turn = Arc::new(Mutex::new(()));
     let last_turn = Arc::clone(&turn);
     let resort = move |stop: Stop| {
@@ -167,7 +165,7 @@ pub fn try_here(workbook: &Workbook, exercise: &Exercise, options: &LimitOptions
     };
     let _turn = turn.lock().unwrap_or_else(PoisonError::into_inner);
     tell(&AttemptReport { outcome: verdict.into(), printed: ear.heard() });
-    // What the attempt has made is not taken apart: that may take as long as making it.
+    // Data of the attempt is not dropped, because that may take long.
     process::exit(0)
 }
 
@@ -178,11 +176,11 @@ fn tell(report: &AttemptReport) {
     }
 }
 
-/// Nobody would read what is said.
+/// Ends this process with its parent, which reads the output.
 #[cfg(target_os = "linux")]
 fn die_with_parent() {
     use nix::sys::signal::Signal;
-    // Without it the limits end the process, later.
+    // Otherwise the limits end the process later.
     let _ = nix::sys::prctl::set_pdeathsig(Signal::SIGKILL);
 }
 

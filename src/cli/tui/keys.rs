@@ -1,37 +1,34 @@
-//! Keys, as far as the screen knows any.
+//! Key events of the screen.
 
 use crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 
-/// A key that `withy learn watch` knows.
+/// A key of `withy learn watch`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Key {
-    /// The key of a letter, a digit, or another character; letters are small.
+    /// A letter (lower case), digit or other character.
     Letter(char),
-    /// The key with the arrow up.
+    /// Arrow up.
     Up,
-    /// The key with the arrow down.
+    /// Arrow down.
     Down,
-    /// The key for a page back.
+    /// Page up.
     PageUp,
-    /// The key for a page forward.
+    /// Page down.
     PageDown,
-    /// The key to the beginning of a page.
     Home,
-    /// The key to the end of a page.
     End,
-    /// The return key.
+    /// Return.
     Enter,
-    /// The escape key.
+    /// Escape.
     Escape,
-    /// Ctrl-C or Ctrl-D, which leave.
     Interrupt,
-    /// Ctrl-Z, which stops for a while.
+    /// Ctrl-Z, which suspends the program.
     Suspend,
     /// Any other key.
     Other,
 }
 
-/// The key of an event of the terminal; none where a key is let go.
+/// Key of a terminal event; `None` for the release of a key.
 pub fn key(event: KeyEvent) -> Option<Key> {
     if event.kind == KeyEventKind::Release {
         return None;

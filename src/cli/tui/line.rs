@@ -1,4 +1,4 @@
-//! A line of the screen: pieces of text, each in a style. What is wider than the screen is broken between words, or cut.
+//! A line of styled text on the screen. Long lines are wrapped or cut.
 
 use std::borrow::Cow;
 use std::fmt::Write;
@@ -7,7 +7,7 @@ use textwrap::{Options, WordSplitter};
 
 use crate::output::{Colours, columns_of};
 
-/// How a piece of a line is drawn, as numbers of an ANSI sequence.
+/// ANSI codes of a piece of a line.
 pub type LineStyle = Cow<'static, str>;
 
 pub const PLAIN: LineStyle = Cow::Borrowed("");
@@ -18,47 +18,47 @@ pub const BAD: LineStyle = Cow::Borrowed("1;31");
 pub const LOOK: LineStyle = Cow::Borrowed("1;36");
 pub const WARM: LineStyle = Cow::Borrowed("33");
 
-/// A line of the screen, with nothing in it that moves the cursor.
+/// A line without control characters.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ScreenLine(Vec<(String, LineStyle)>);
 
 impl ScreenLine {
-    /// A line with a piece of text in a style.
+    /// A line with one piece of text.
     pub fn of(text: &str, style: LineStyle) -> Self {
         Self::default().and(text, style)
     }
 
-    /// The line with one more piece.
+    /// Appends a piece of text.
     #[must_use]
     pub fn and(mut self, text: &str, style: LineStyle) -> Self {
         self.0.push((clean(text), style));
         self
     }
 
-    /// The line with the pieces of another one behind it.
+    /// Appends the pieces of another line.
     #[must_use]
     pub fn before(mut self, other: &Self) -> Self {
         self.0.extend(other.0.iter().cloned());
         self
     }
 
-    /// The text of the line that can be read, without styles.
+    /// Text without styles.
     pub fn text(&self) -> String {
         self.0.iter().map(|(text, _)| text.as_str()).collect()
     }
 
-    /// The number of columns that the line takes.
+    /// Width in columns.
     pub fn width(&self) -> usize {
         self.0.iter().map(|(text, _)| crate::output::columns(text)).sum()
     }
 
-    /// The line as it is written to a terminal.
+    /// Text with ANSI sequences for a terminal.
     pub fn drawn(&self, colours: Colours) -> String {
         let mut drawn = String::new();
         for (text, style) in &self.0 {
             match colours {
                 Colours::Ansi if !style.is_empty() => {
-                    // Writing to a string does not fail.
+                    // Writing to a string cannot fail.
                     let _ = write!(drawn, "\x1b[{style}m{text}\x1b[0m");
                 }
                 _ => drawn.push_str(text),
@@ -67,7 +67,7 @@ impl ScreenLine {
         drawn
     }
 
-    /// The line within so many columns; what is beyond them is left out, with a mark.
+    /// Line cut to a width, with an ellipsis.
     pub fn cut(self, columns: usize) -> Self {
         if self.width() <= columns {
             return self;
@@ -77,7 +77,7 @@ impl ScreenLine {
         Self::from_characters(&characters[..kept]).and("…", FAINT)
     }
 
-    /// The line as lines of so many columns, broken behind a blank where there is one: for code.
+    /// Lines of code wrapped at a width, after blanks if possible.
     pub fn broken(self, columns: usize) -> Vec<Self> {
         let characters = self.characters();
         let margin = characters.iter().take_while(|(character, _)| !character.is_alphanumeric());
@@ -108,7 +108,7 @@ impl ScreenLine {
     }
 }
 
-/// How many of the characters fit into so many columns.
+/// Number of characters that fit into the columns.
 fn fitting(characters: &[(char, &LineStyle)], columns: usize) -> usize {
     let mut taken = 0;
     let is_beyond = |(character, _): &(char, &LineStyle)| {
@@ -118,7 +118,7 @@ fn fitting(characters: &[(char, &LineStyle)], columns: usize) -> usize {
     characters.iter().position(is_beyond).unwrap_or(characters.len())
 }
 
-/// How many of the characters stand in the first line: at least one, if there is one.
+/// Number of characters in the first line, at least one if there is any.
 fn end_of_line(characters: &[(char, &LineStyle)], columns: usize) -> usize {
     let most = fitting(characters, columns);
     if most == characters.len() {
@@ -134,7 +134,7 @@ fn push(lines: &mut [ScreenLine], piece: String, style: &LineStyle) {
     }
 }
 
-/// A text as lines of at most so many columns, broken between words; all but the first begin with `indent`.
+/// Wraps a text at a width between words; further lines begin with `indent`.
 pub fn wrapped(text: &str, indent: &str, columns: usize) -> Vec<String> {
     let options = Options::new(columns.max(1))
         .subsequent_indent(if crate::output::columns(indent) * 2 < columns { indent } else { "" })
@@ -146,12 +146,12 @@ pub fn wrapped(text: &str, indent: &str, columns: usize) -> Vec<String> {
     text.lines().flat_map(wrap).collect()
 }
 
-/// A text as lines of the screen in one style, broken between words; all but the first begin with `indent`.
+/// Wrapped text as lines in one style; further lines begin with `indent`.
 pub fn paragraph(text: &str, indent: &str, columns: usize, style: &LineStyle) -> Vec<ScreenLine> {
     wrapped(text, indent, columns).iter().map(|line| ScreenLine::of(line, style.clone())).collect()
 }
 
-/// A text as lines of the screen behind a label of a style of its own, wrapped below itself.
+/// Wrapped text as lines after a styled label.
 pub fn labelled(
     label: (&str, LineStyle),
     text: &str,
@@ -169,7 +169,7 @@ pub fn labelled(
     lines
 }
 
-/// Coloured text as lines of the screen: what `\x1b[…m` says of colours is kept, and nothing else that begins so.
+/// Lines of text with ANSI colours; other escape sequences are removed.
 pub fn coloured(text: &str) -> Vec<ScreenLine> {
     let mut style = PLAIN;
     let mut lines = vec![ScreenLine::default()];
@@ -196,7 +196,7 @@ pub fn coloured(text: &str) -> Vec<ScreenLine> {
     lines
 }
 
-/// Nothing in it moves the cursor.
+/// Replaces control characters.
 fn clean(text: &str) -> String {
     let text = text.replace('\t', "    ");
     text.chars().map(|c| if c.is_control() { '\u{b7}' } else { c }).collect()

@@ -1,10 +1,10 @@
-//! `withy learn watch` at a terminal: one screen with task, file, result and hints; keys; the attempt in a process of its own.
+//! `withy learn watch` in a terminal: one screen with task, file, result and hints; key bindings; each attempt in its own process.
 //!
 //! ```text
-//! desk (the loop) → terminal → keys
-//!                 → trial (a process for each run)
-//!                 → screen → outcome, solution → line      lines from a state, and nothing else
-//!                 → state                                  what keys do
+//! desk (event loop) → terminal → keys
+//!                   → trial (one process per run)
+//!                   → screen → outcome, solution → line      lines from the state only
+//!                   → state                                  effects of keys
 //! ```
 
 mod event_loop;

@@ -1,4 +1,4 @@
-//! What came of an attempt, as lines.
+//! Result of an attempt as lines.
 
 use super::line::{BAD, FAINT, GOOD, LOOK, PLAIN, ScreenLine, WARM, labelled, paragraph};
 use super::state::TuiState;
@@ -7,12 +7,12 @@ use crate::exercises::catalogue::EXERCISES;
 use crate::exercises::report::{AttemptError, AttemptOutcome, AttemptReport, ScriptPosition};
 use crate::output::columns_of;
 
-/// Lines of what is printed that are shown.
+/// Maximum number of printed lines shown.
 const PRINTED: usize = 12;
-/// A run that takes less is over before one has read that it is going on [s].
+/// Shorter runs are not shown as running [s].
 const SOON: u64 = 1;
 
-/// The lines that tell what became of the last run of an attempt, or that one is going on.
+/// Lines on the last run of an attempt, or on a running one.
 pub fn outcome(state: &TuiState, columns: usize) -> Vec<ScreenLine> {
     match (state.running, &state.last) {
         (Some(seconds), last) if seconds >= SOON || last.is_none() => {
@@ -81,10 +81,10 @@ fn trouble(state: &TuiState, why: &AttemptError, columns: usize) -> Vec<ScreenLi
     lines
 }
 
-/// Blanks that stand for a tab.
+/// Number of blanks per tab.
 const TAB: usize = 4;
 
-/// The source line with a mark below the place, cut to what can be seen of it about the place.
+/// Source line with a mark below the location, cut to the visible part around it.
 fn excerpt(place: &ScriptPosition, columns: usize) -> Vec<ScreenLine> {
     let mut text = String::new();
     let (mut at, mut length) = (0, 0);
@@ -97,7 +97,7 @@ fn excerpt(place: &ScriptPosition, columns: usize) -> Vec<ScreenLine> {
     }
     let number = format!("{:>5} │ ", place.line);
     let room = columns.saturating_sub(crate::output::columns(&number) + 1).max(8);
-    // What stands before the place is left out where the place would not be seen.
+    // The beginning of the line is cut if the location would not be visible.
     let skipped = if at + length.max(1) <= room { 0 } else { at.saturating_sub(room / 3) };
     let (before, seen) = if skipped > 0 { ("…", behind(&text, skipped + 1)) } else { ("", text) };
     let line = ScreenLine::of(&number, FAINT).and(before, FAINT).and(&seen, PLAIN).cut(columns);
@@ -106,7 +106,7 @@ fn excerpt(place: &ScriptPosition, columns: usize) -> Vec<ScreenLine> {
     vec![line, ScreenLine::of("      │ ", FAINT).and(&mark, BAD).cut(columns)]
 }
 
-/// A text without its first columns; of a character that takes two and stands on their end a blank is left.
+/// Text after the first columns; a wide character across the cut becomes a blank.
 fn behind(text: &str, columns: usize) -> String {
     let (mut left_out, mut rest) = (0, text.chars());
     while left_out < columns {

@@ -1,13 +1,13 @@
-//! From what is known to the lines of the screen: a pure function.
+//! Rendering of the state as lines: a pure function.
 //!
 //! ```text
-//! Exercise 2 of 23: title                 the head stays
+//! Exercise 2 of 23: title                 the header is fixed
 //! [##----------------] 1 of 23 passed
 //! Edit beams/rectangle.rhai
 //! ───────────────────────────────────
-//! the task, what came of it, hints        the page scrolls where it is longer than the screen
+//! task, result, hints                     the page scrolls if it is longer than the screen
 //! ───────────────────────────────────
-//! a word to who pressed a key
+//! notice after a key
 //! h hint   l list   …                     the keys
 //! ```
 
@@ -19,16 +19,16 @@ use super::state::{ScreenPage, ScrollPosition, ScrollWindow, TaskSection, TuiSta
 use crate::exercises::catalogue::{EXERCISES, TRACKS};
 use crate::exercises::task::{Paragraph, TO_DO};
 
-/// The screen of `withy learn watch` as it is to be drawn.
+/// Rendered screen.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Screen {
-    /// The lines of the screen, from the top.
+    /// Lines from the top.
     pub lines: Vec<ScreenLine>,
-    /// Which part of the page the lines show.
+    /// Visible part of the page.
     pub window: ScrollWindow,
 }
 
-/// A page, and where its parts begin.
+/// A page, and the starts of its parts.
 struct PageLayout {
     lines: Vec<ScreenLine>,
     result: usize,
@@ -42,16 +42,16 @@ impl PageLayout {
     }
 }
 
-/// Wider text is harder to read.
+/// Maximum text width; wider text is harder to read.
 const WIDEST: usize = 100;
 
-/// The screen of so many columns and rows; `solution` are the lines of the model solution.
+/// Renders the state for a screen of the given columns and rows; `solution` contains the lines of the model solution.
 pub fn screen(
     state: &TuiState,
     (columns, rows): (usize, usize),
     solution: &[ScreenLine],
 ) -> Screen {
-    // The last column stays free: some terminals break the line there, and others do not.
+    // The last column stays empty, because some terminals wrap there.
     let columns = columns.saturating_sub(1).max(10);
     let mut head = head(state, columns);
     let mut body = body(state, columns, solution);
@@ -63,7 +63,7 @@ pub fn screen(
     if is_long(&foot, &head) {
         foot = draw(ScrollWindow { last: 1, ..ScrollWindow::default() });
     }
-    // Of a low screen the page gets a few lines all the same.
+    // On a low screen the page keeps at least three lines.
     while rows < head.len() + foot.len() + 3 && head.len() > 1 {
         head.pop();
     }
@@ -76,7 +76,7 @@ pub fn screen(
         (_, Some(chosen)) => chosen.saturating_sub(room / 2),
         (ScrollPosition::Line(line), _) => line,
         (ScrollPosition::Part(TaskSection::Beginning), _) => 0,
-        // The line before says how many are above.
+        // The line before states the number of lines above.
         (ScrollPosition::Part(TaskSection::Result), _) => body.result.saturating_sub(1),
         (ScrollPosition::Part(TaskSection::Hint), _) => body.hint.saturating_sub(1),
     };
@@ -91,7 +91,7 @@ pub fn screen(
     Screen { lines: lines.into_iter().map(|line| line.cut(columns)).collect(), window }
 }
 
-/// The part of a page that fits, with a word on what is above and below.
+/// Visible part of a page, with notes on the lines above and below.
 fn seen(lines: &mut Vec<ScreenLine>, window: ScrollWindow) -> Vec<ScreenLine> {
     let ScrollWindow { top, last, rows } = window;
     let mut shown: Vec<ScreenLine> = lines.drain(..).skip(top).take(rows).collect();
@@ -154,14 +154,14 @@ fn head(state: &TuiState, columns: usize) -> Vec<ScreenLine> {
     lines
 }
 
-/// Columns of the bar.
+/// Width of the progress bar.
 const BAR: usize = 32;
 
 fn progress(state: &TuiState, columns: usize) -> ScreenLine {
     let (passed, count) = (state.passed(), EXERCISES.len());
     let word = format!(" {passed} of {count} passed");
     let room = columns.saturating_sub(word.len() + 2).clamp(4, BAR);
-    // The bar is full when all is passed, and not before.
+    // The bar is full only when all exercises have passed.
     let full = room * passed / count;
     let bar = ScreenLine::of("[", PLAIN)
         .and(&"#".repeat(full), GOOD)

@@ -1,4 +1,4 @@
-//! The model solution as lines in colours, with marks where it differs from the start.
+//! Model solution as coloured lines, with marks where it differs from the start file.
 
 use std::collections::HashSet;
 
@@ -8,21 +8,21 @@ use crate::repl::editor::highlight::{SessionNames, highlight};
 use crate::repl::editor::surroundings::CompletionContext;
 use crate::script::packages::language;
 
-/// What draws scripts in the colours of the language.
+/// Syntax highlighter for scripts.
 pub struct ScriptPainter(SessionNames);
 
 impl ScriptPainter {
-    /// A painter that knows all names of the language.
+    /// A highlighter with the vocabulary of the language.
     pub fn new() -> Self {
         Self(SessionNames::of(CompletionContext::of_language(language())))
     }
 
-    /// A script in the colours of the language.
+    /// Script with ANSI colours.
     pub fn paint(&self, text: &str) -> String {
         highlight(text, None, &self.0)
     }
 
-    /// The lines of an exercise's solution below the text of its task.
+    /// Lines of the solution below the text of the task.
     pub fn solution(&self, exercise: &Exercise) -> Vec<ScreenLine> {
         let is_head = |line: &&str| line.starts_with("//") || line.is_empty();
         let code: Vec<&str> = exercise.solution.lines().skip_while(is_head).collect();

@@ -1,4 +1,4 @@
-//! What the screen is made of, and what keys do to it. Plain data: nothing here runs, reads or draws.
+//! State of the screen, and the effects of keys on it. Plain data without side effects.
 
 use std::mem;
 
@@ -8,105 +8,105 @@ use crate::exercises::exercise::Exercise;
 use crate::exercises::progress::StudentProgress;
 use crate::exercises::report::{AttemptOutcome, AttemptReport};
 
-/// The state of `withy learn watch`: all that is shown.
+/// State of `withy learn watch`.
 #[derive(Clone, Debug)]
 pub struct TuiState {
-    /// The exercise that is shown.
+    /// Current exercise.
     pub exercise: &'static Exercise,
-    /// The file of the exercise, as one would type it.
+    /// File of the exercise, as typed by the user.
     pub file: String,
-    /// The student's progress: which exercises are passed.
+    /// Progress of the student.
     pub progress: StudentProgress,
-    /// What became of the last run of the attempt, if one has ended.
+    /// Result of the last run.
     pub last: Option<AttemptReport>,
-    /// The seconds of the run that is going on, if one is.
+    /// Seconds since the start of the current run.
     pub running: Option<u64>,
-    /// The number of runs since the exercise was opened.
+    /// Number of runs since the exercise was opened.
     pub runs: usize,
-    /// The number of hints that are shown.
+    /// Number of hints shown.
     pub hints: usize,
-    /// The page that fills the screen.
+    /// Current page.
     pub page: ScreenPage,
-    /// The first line of the page on the screen.
+    /// First visible line of the page.
     pub top: ScrollPosition,
-    /// A word to the person who pressed a key.
+    /// Message after a key.
     pub notice: Option<String>,
-    /// The question that was asked: what the same key does when it is pressed once more.
+    /// Pending question: pressing the same key again confirms.
     pub asked: Option<Confirmation>,
-    /// The number that is being typed into the list of exercises; 0 where there is none.
+    /// Exercise number being typed in the list; 0 if none.
     pub typed: usize,
 }
 
-/// A page that fills the screen.
+/// A page of the screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ScreenPage {
-    /// The page with the task, what became of the attempt, hints.
+    /// Task, result, and hints.
     Task,
-    /// The page with all exercises; the one with this index is chosen.
+    /// List of all exercises, with the selected index.
     List(usize),
-    /// The page with a solution.
+    /// A solution.
     Solution,
 }
 
-/// The first line of a page that is longer than the screen.
+/// First visible line of a page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ScrollPosition {
-    /// The page begins so that this part is seen.
+    /// Scrolled so that this part is visible.
     Part(TaskSection),
-    /// The page begins with this line, from 0.
+    /// Starts with this line, from 0.
     Line(usize),
 }
 
 /// A part of the page with the task.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TaskSection {
-    /// The beginning of the page.
+    /// Beginning of the page.
     Beginning,
-    /// What became of the attempt.
+    /// Result of the attempt.
     Result,
-    /// The last hint to the exercise.
+    /// Last hint.
     Hint,
 }
 
-/// A question that is asked before something is done.
+/// A question before an action.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Confirmation {
-    /// Whether to leave an exercise that is not passed.
+    /// Confirms leaving an exercise that has not passed.
     Skip,
-    /// Whether to see a solution when all hints were given.
+    /// Confirms showing a solution after all hints.
     Solution,
 }
 
-/// What a key asks for that takes more than drawing the screen anew.
+/// Action of a key beyond redrawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum KeyAction {
-    /// The key asks for nothing more.
+    /// No action.
     Nothing,
-    /// The key asks to leave.
+    /// Leave.
     Leave,
-    /// The key asks to stop for a while, as Ctrl-Z does.
+    /// Suspend the program, as Ctrl-Z does.
     Suspend,
-    /// The key asks to run the attempt again.
+    /// Run the attempt again.
     Run,
-    /// The key asks for another exercise.
+    /// Open another exercise.
     Open(&'static Exercise),
-    /// The key asks for one more hint.
+    /// Show another hint.
     Hint,
 }
 
-/// Which lines of the page were on the screen, for keys that scroll.
+/// Visible lines of the page, for scrolling.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ScrollWindow {
-    /// The first line of the page on the screen, from 0.
+    /// First visible line, from 0.
     pub top: usize,
-    /// The last line of the page that can be the first on the screen.
+    /// Last possible first line.
     pub last: usize,
-    /// The number of lines that there is room for on the screen.
+    /// Number of visible lines.
     pub rows: usize,
 }
 
 impl TuiState {
-    /// The state at the beginning of an exercise.
+    /// Initial state of an exercise.
     pub fn open(exercise: &'static Exercise, file: String, progress: StudentProgress) -> Self {
         Self {
             exercise,
@@ -124,17 +124,17 @@ impl TuiState {
         }
     }
 
-    /// The number of the exercise that is shown, from 1.
+    /// Number of the exercise, from 1.
     pub fn number(&self) -> usize {
         index(self.exercise) + 1
     }
 
-    /// How many exercises the student has passed.
+    /// Number of passed exercises.
     pub fn passed(&self) -> usize {
         EXERCISES.iter().filter(|exercise| self.progress.has_passed(exercise)).count()
     }
 
-    /// Whether the student has passed the exercise that is shown.
+    /// Returns true if the current exercise has passed.
     pub fn has_passed(&self) -> bool {
         match &self.last {
             Some(report) => report.outcome == AttemptOutcome::Passed,
@@ -142,14 +142,14 @@ impl TuiState {
         }
     }
 
-    /// The exercise to go to: the first behind the one that is shown that is not passed, else the first of all.
+    /// Next exercise: the first one after the current one that has not passed, or else the first of all.
     pub fn next(&self) -> Option<&'static Exercise> {
         let (before, from) = EXERCISES.split_at(index(self.exercise));
         let others = from.iter().skip(1).chain(before);
         others.into_iter().find(|exercise| !self.progress.has_passed(exercise))
     }
 
-    /// Notes what became of a run of the attempt.
+    /// Records the result of a run.
     pub fn tell(&mut self, report: AttemptReport) {
         self.progress.note(self.exercise, report.outcome == AttemptOutcome::Passed);
         self.running = None;
@@ -157,7 +157,7 @@ impl TuiState {
         self.last = Some(report);
     }
 
-    /// Does what a key asks for, as far as it concerns what is shown; gives what more it asks for.
+    /// Handles a key; returns the remaining action.
     pub fn press(&mut self, key: Key, window: ScrollWindow) -> KeyAction {
         self.notice = None;
         let asked = self.asked.take();
@@ -244,7 +244,7 @@ impl TuiState {
             Key::PageDown | Key::Letter(' ') => (chosen + window.rows).min(last),
             Key::Home => 0,
             Key::End => last,
-            // Digits one after another make a number.
+            // Consecutive digits form a number.
             Key::Letter(digit) if digit.is_ascii_digit() => {
                 let digit = digit as usize - '0' as usize;
                 let numbers = [typed * 10 + digit, digit];
@@ -281,7 +281,7 @@ impl TuiState {
     }
 }
 
-/// The index of the exercise in the table of all.
+/// Index of the exercise in the catalogue.
 pub fn index(exercise: &Exercise) -> usize {
     EXERCISES.iter().position(|other| other == exercise).unwrap_or_default()
 }

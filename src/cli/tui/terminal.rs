@@ -1,4 +1,4 @@
-//! The terminal while it is watched: a screen of its own, keys without Enter, and everything as it was afterwards.
+//! Terminal of `withy learn watch`: alternate screen, raw mode, and restoration.
 
 use std::io::{self, IsTerminal, Write, stdin, stdout};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -17,19 +17,19 @@ use super::keys::{Key, key};
 use super::line::ScreenLine;
 use crate::output::{Colours, TerminalStyle};
 
-/// The size where the terminal does not tell [columns, rows].
+/// Default size [columns, rows].
 const USUAL: (u16, u16) = (80, 24);
 
-/// Whether the terminal is held.
+/// True while the terminal is in raw mode.
 static HELD: AtomicBool = AtomicBool::new(false);
 
-/// Whether a person sits at both ends of the program, at a terminal that can draw.
+/// Returns true if stdin and stdout are a terminal that can draw.
 pub fn is_there() -> bool {
     let can_draw = std::env::var_os("TERM").is_none_or(|name| name != "dumb");
     stdin().is_terminal() && stdout().is_terminal() && can_draw
 }
 
-/// The terminal while `withy learn watch` draws on it; it is given back when this is dropped.
+/// Terminal in raw mode; restored on drop.
 pub struct RawTerminal {
     colours: Colours,
     drawn: Vec<u8>,
@@ -37,32 +37,30 @@ pub struct RawTerminal {
 }
 
 impl RawTerminal {
-    /// Takes the terminal, to draw on it.
+    /// Switches to the alternate screen and raw mode.
     ///
-    /// # Errors
-    /// When the terminal refuses what is needed.
+    /// If the terminal does not support this.
     pub fn take() -> io::Result<Self> {
         hold()?;
         let style = TerminalStyle::of_environment(|name| std::env::var(name).ok());
         Ok(Self { colours: style.colours, drawn: Vec::new(), size: (0, 0) })
     }
 
-    /// The columns and rows of the terminal now.
+    /// Current columns and rows.
     pub fn size(&self) -> (usize, usize) {
         let told = terminal::size().ok().filter(|(columns, rows)| *columns > 0 && *rows > 0);
         let (columns, rows) = told.unwrap_or(USUAL);
         (usize::from(columns), usize::from(rows))
     }
 
-    /// Shows lines on the terminal, all at once; nothing is written where they are there already.
+    /// Draws lines, in one write; unchanged screens are not redrawn.
     ///
-    /// # Errors
-    /// When the terminal cannot be written to.
+    /// If writing fails.
     pub fn show(&mut self, lines: &[ScreenLine], size: (usize, usize)) -> io::Result<()> {
         let mut drawing = Vec::new();
         queue!(drawing, BeginSynchronizedUpdate)?;
         for (row, line) in (0..).zip(lines) {
-            // Each line is written over what was there, so that nothing flickers.
+            // Lines are overwritten instead of cleared first, to avoid flicker.
             let drawn = line.drawn(self.colours);
             queue!(drawing, MoveTo(0, row), Print(drawn), Clear(ClearType::UntilNewLine))?;
         }
@@ -84,10 +82,9 @@ impl RawTerminal {
         Ok(())
     }
 
-    /// The next key, if one comes before so much time has passed or the size has changed.
+    /// Next key; `None` after the timeout or if the size has changed.
     ///
-    /// # Errors
-    /// When the terminal cannot be read.
+    /// If reading fails.
     pub fn key(&self, patience: Duration) -> io::Result<Option<Key>> {
         if !event::poll(patience)? {
             return Ok(None);
@@ -98,10 +95,9 @@ impl RawTerminal {
         })
     }
 
-    /// Gives the terminal back, stops the process until it is told to go on, and takes the terminal again.
+    /// Restores the terminal, suspends the process, and sets the terminal up again.
     ///
-    /// # Errors
-    /// As [`take`](Self::take).
+    /// See [`take`](Self::take).
     pub fn rest(&mut self) -> io::Result<()> {
         give_back();
         #[cfg(unix)]
@@ -123,10 +119,10 @@ fn hold() -> io::Result<()> {
     execute!(stdout(), EnterAlternateScreen, Hide)
 }
 
-/// Gives the terminal back as it was, if it is held; also for code that ends the process without unwinding.
+/// Restores the terminal if necessary; also for code that ends the process without unwinding.
 pub fn give_back() {
     if HELD.swap(false, Ordering::Relaxed) {
-        // A terminal that is gone needs nothing back.
+        // An error means that the terminal is gone.
         let _ = execute!(stdout(), Show, LeaveAlternateScreen);
         let _ = terminal::disable_raw_mode();
     }

@@ -1,4 +1,4 @@
-//! How symbols are drawn where they are: lines and discs about a place, in pixels.
+//! Drawing of symbols at a point: lines and discs, in pixels.
 
 use std::f64::consts::PI;
 
@@ -9,30 +9,29 @@ use crate::output::colour::{INK, WHITE};
 use crate::output::curve;
 use crate::output::marker::Marker;
 
-/// Widths of lines.
+/// Line widths.
 const LINE: f64 = 1.5;
 const THIN: f64 = 1.0;
-/// Half the breadth of a support, the height of its triangle, and the length of its hatching.
+/// Half width of a support, height of its triangle, and length of its hatching.
 const SUPPORT: f64 = 11.0;
 const TRIANGLE: f64 = 12.0;
 const HATCH: f64 = 5.0;
-/// Radii of a joint and of a slider.
+/// Radii of a joint and a slider.
 const JOINT: f64 = 4.0;
 const SLIDER: f64 = 6.5;
-/// The length of an arrow, of one of many and of a head, and its distance from the place where it acts.
+/// Length of an arrow, of an arrow of a distributed load and of a head, and distance of the tip from the loaded point.
 const ARROW: f64 = 34.0;
 const SHORT: f64 = 18.0;
 const HEAD: f64 = 8.0;
 const APART: f64 = 4.0;
-/// The radius of a roller and of a motor, half the breadth of a carriage, and the length of the heads of their arrows.
+/// Radius of a roller and a motor, half width of a carriage, and length of the heads of their arrows.
 const ROLLER: f64 = 2.0;
 const MOTOR: f64 = 11.0;
 const CARRIAGE: f64 = 6.5;
 const SMALL_HEAD: f64 = 5.5;
-/// The radius of the arrow of a moment.
 const TURN: f64 = 15.0;
 
-/// The paper around a symbol: its place and its direction in pixels.
+/// Point and direction of a symbol on the canvas, in pixels.
 pub(super) struct SymbolFrame<'a> {
     pub(super) canvas: &'a mut Canvas,
     pub(super) plot: &'a Area,
@@ -41,7 +40,7 @@ pub(super) struct SymbolFrame<'a> {
 }
 
 impl SymbolFrame<'_> {
-    /// Draws a symbol; springs, dampers and tendons are drawn between two places.
+    /// Draws a symbol; springs, dampers and tendons have two points and are not drawn here.
     pub(super) fn draw(mut self, symbol: Symbol) {
         match symbol {
             Symbol::Hinge => self.hinge(),
@@ -62,7 +61,7 @@ impl SymbolFrame<'_> {
         }
     }
 
-    /// The place so far ahead and so far to the left.
+    /// Point at the given distances ahead and to the left.
     fn at(&self, ahead: f64, left: f64) -> Point {
         let (x, y) = self.ahead;
         (self.at.0 + ahead * x + left * y, self.at.1 + ahead * y - left * x)
@@ -79,7 +78,6 @@ impl SymbolFrame<'_> {
         self.canvas.disc(self.at, JOINT - LINE, WHITE);
     }
 
-    /// A line with slanted strokes behind it, from `from` to `to`.
     fn ground(&mut self, from: Point, to: Point, behind: Point) {
         self.line(&[from, to], LINE);
         for index in 0..=4 {
@@ -91,19 +89,18 @@ impl SymbolFrame<'_> {
         }
     }
 
-    /// A triangle whose tip is the place and which stands behind it.
+    /// A triangle with its tip at the point.
     fn triangle(&mut self) {
         let foot = [self.at(-TRIANGLE, 0.6 * SUPPORT), self.at(-TRIANGLE, -0.6 * SUPPORT)];
         self.line(&[self.at, foot[0], foot[1], self.at], LINE);
     }
 
-    /// The ground so far behind the place.
+    /// The ground at the given distance behind the point.
     fn ground_behind(&mut self, far: f64) {
         let ends = [self.at(-far, SUPPORT), self.at(-far, -SUPPORT)];
         self.ground(ends[0], ends[1], (-self.ahead.0, -self.ahead.1));
     }
 
-    /// Two rollers on the ground, so far behind the place.
     fn rollers_behind(&mut self, far: f64) {
         for side in [-1.0, 1.0] {
             let centre = self.at(-far - ROLLER, side * 0.4 * SUPPORT);
@@ -114,7 +111,7 @@ impl SymbolFrame<'_> {
     }
 
     fn hinge(&mut self) {
-        // It stands upright.
+        // Always upright.
         self.ahead = (0.0, -1.0);
         self.triangle();
         self.ground_behind(TRIANGLE);
@@ -133,14 +130,13 @@ impl SymbolFrame<'_> {
         Marker::Square.draw(self.canvas, self.at, JOINT, INK);
     }
 
-    /// A square that is not filled.
     fn square(&mut self, half: f64) {
         let corners = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0), (1.0, 1.0)];
         let corners = corners.map(|(x, y)| (self.at.0 + half * x, self.at.1 + half * y));
         self.line(&corners, LINE);
     }
 
-    /// A circle with two heads that run around it.
+    /// A circle with two arrow heads around it.
     fn motor(&mut self) {
         let around = |angle: f64| (self.at.0 + MOTOR * cos(angle), self.at.1 - MOTOR * sin(angle));
         let circle: Vec<Point> =
@@ -175,7 +171,7 @@ impl SymbolFrame<'_> {
         self.line(&[wing(1.0), tip, wing(-1.0)], width);
     }
 
-    /// An arrow that ends at the place; where there is no paper for that, one that begins there.
+    /// An arrow that ends at the point, or begins there if it would leave the plot.
     fn arrow(&mut self, length: f64, width: f64) {
         let (tail, tip) = (self.at(-APART - length, 0.0), self.at(-APART, 0.0));
         let is_on_paper = (self.plot.left..=self.plot.right).contains(&tail.0)
@@ -188,7 +184,6 @@ impl SymbolFrame<'_> {
         self.head(tip, self.ahead, HEAD, width);
     }
 
-    /// Two turns and a half about the place.
     fn spiral(&mut self) {
         let point = |index: u32| {
             let (angle, radius) =
@@ -199,10 +194,10 @@ impl SymbolFrame<'_> {
         self.line(&spiral, THIN);
     }
 
-    /// Most of a circle, with a head.
+    /// An open circle with an arrow head.
     fn turn(&mut self) {
         let side = if self.ahead.0 < 0.0 { -1.0 } else { 1.0 };
-        // From below the place to its upper side; clockwise it is the mirror image.
+        // From below the point to its upper side; mirrored if clockwise.
         let angle = |index: f64| -2.0 + 4.4 * index / 24.0;
         let around =
             |angle: f64| (self.at.0 + side * TURN * cos(angle), self.at.1 - TURN * sin(angle));

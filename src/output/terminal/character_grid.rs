@@ -1,27 +1,27 @@
-//! A sheet of characters, each with its ink, and how it becomes lines of text.
+//! A sheet of coloured characters and its rendering as lines of text.
 
 use super::{Colours, TerminalStyle};
 use crate::output::width::columns_of;
 
-/// The colour in which a character is drawn in a terminal.
+/// Colour of a character in a terminal.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum TerminalColour {
-    /// The character is drawn as the terminal writes.
+    /// The default colour of the terminal.
     #[default]
     Plain,
-    /// The character is drawn dimmer.
+    /// Dimmed.
     Faint,
-    /// The character is drawn in the colour of a series, by its number.
+    /// The colour of the series with this index.
     Series(usize),
 }
 
-/// Colours of series that a dark and a light terminal both show: cyan, yellow, magenta, green, blue, red.
+/// Colours of series that are readable on dark and light terminals: cyan, yellow, magenta, green, blue, red.
 const HUES: [u8; 6] = [36, 33, 35, 32, 34, 31];
 
-/// The place behind a character that takes two columns.
+/// Placeholder after a character of two columns.
 const COVERED: char = '\0';
 
-/// A sheet of characters in lines and columns; what is written beyond them is lost.
+/// Characters in lines and columns; writing outside is ignored.
 #[derive(Clone, Debug)]
 pub struct CharacterGrid {
     style: TerminalStyle,
@@ -37,21 +37,21 @@ impl CharacterGrid {
         }
     }
 
-    /// Puts a character at a place of the sheet.
+    /// Sets the character at a position.
     pub fn put(&mut self, column: usize, row: usize, letter: char, ink: TerminalColour) {
         if column < self.style.width && row < self.style.height {
             self.cells[row * self.style.width + column] = (letter, ink);
         }
     }
 
-    /// Writes a text on the sheet from a place to the right, typeset in the characters of the style.
+    /// Writes a text to the right from a position, in the glyphs of the style.
     pub fn write(&mut self, column: usize, row: usize, text: &str, ink: TerminalColour) {
         let mut column = column;
         for letter in self.style.glyphs.typeset(text).chars() {
             match columns_of(letter) {
-                // A place holds one character: an accent of its own would need another.
+                // A cell holds one character, so combining accents are dropped.
                 0 => continue,
-                // Half a character cannot be seen.
+                // A wide character needs both columns.
                 wide if column + wide > self.style.width => return,
                 wide => {
                     self.put(column, row, letter, ink);
@@ -62,7 +62,7 @@ impl CharacterGrid {
         }
     }
 
-    /// The lines of the sheet, joined by line breaks, without blanks at their ends.
+    /// Lines of the sheet, joined by line breaks, without trailing blanks.
     pub fn render(&self) -> String {
         if self.style.width == 0 {
             return String::new();

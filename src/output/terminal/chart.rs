@@ -8,21 +8,19 @@ use crate::output::chart::LineChart;
 use crate::output::frame::Frame;
 use crate::output::width::columns;
 
-/// Characters per labelled place along the horizontal axis, lines along the vertical one.
+/// Characters per tick along the horizontal axis, lines along the vertical axis.
 const TICK_EVERY: (usize, usize) = (9, 4);
-/// The least plot that gets axes and a legend, in characters.
+/// Smallest plot with axes and a legend, in characters.
 const LEAST: (usize, usize) = (8, 3);
-/// Most lines of a legend.
 const MOST_ROWS: usize = 3;
-/// Blanks between the names of a legend.
 const BETWEEN: usize = 3;
-/// How often the letter of a series stands on its curve where there are no colours, in characters.
+/// Distance of the letters on a curve without colours, in characters.
 const LETTER_EVERY: usize = 16;
 
 impl LineChart {
-    /// The chart as text for a terminal, of at most the width and the height of `style`.
+    /// Text of the chart for a terminal, of at most the width and the height of `style`.
     ///
-    /// Without colours several curves are told apart by letters: on their curves in braille, instead of dots in ASCII.
+    /// Without colours several curves are distinguished by letters: on the curves in Braille, instead of dots in ASCII.
     pub fn text(&self, style: &TerminalStyle) -> String {
         let layout = Layout::new(self, style);
         let mut sheet = CharacterGrid::new(style);
@@ -35,29 +33,28 @@ impl LineChart {
         sheet.render()
     }
 
-    /// Whether curves carry letters.
+    /// Returns true if curves are labelled with letters.
     fn has_letters(&self, style: &TerminalStyle) -> bool {
         self.series.len() > 1 && style.colours == Colours::None
     }
 }
 
-/// The letter of a series.
 fn letter(index: usize) -> char {
     char::from(b'a' + (index % 26) as u8)
 }
 
-/// Which part of a sheet holds what.
+/// Arrangement of the parts of a chart on a sheet.
 struct Layout {
     style: TerminalStyle,
     frame: Frame,
     heading: String,
-    /// Lines of the legend: for each name its column and the number of its series.
+    /// Lines of the legend: column, index of the series and name.
     legend: Vec<Vec<(usize, usize, String)>>,
     has_letters: bool,
     has_axes: bool,
     y_ticks: Vec<Tick>,
     x_label: String,
-    /// The column of the vertical axis line.
+    /// Column of the vertical axis line.
     gutter: usize,
     /// First line of the plot.
     top: usize,
@@ -98,7 +95,7 @@ impl Layout {
         if has_axes { layout } else { layout.bare() }
     }
 
-    /// A chart without room for anything but its curves.
+    /// A chart that shows only its curves, for lack of space.
     fn bare(self) -> Self {
         let (columns, rows) = (self.style.width, self.style.height);
         Self { heading: String::new(), legend: vec![], top: 0, columns, rows, ..self }
@@ -186,7 +183,6 @@ impl Layout {
         }
     }
 
-    /// The curves of some series.
     fn raster(
         &self,
         x: &Axis,
@@ -197,7 +193,7 @@ impl Layout {
         let mut dots = Dots::new(self.columns, self.rows);
         let (right, bottom) = dots.last();
         for index in series {
-            // An axis shows the infinite at its end; a curve does not go there.
+            // Axes clamp infinite values to their ends, but a curve must have a gap there.
             let seen = |&(a, b): &(f64, f64)| match a.is_finite() && b.is_finite() {
                 true => (x.place(a) * right, (1.0 - y.place(b)) * bottom),
                 false => (f64::NAN, f64::NAN),
@@ -208,7 +204,7 @@ impl Layout {
         dots
     }
 
-    /// The places where the letter of a series stands.
+    /// Positions of the letters of a series.
     fn lettered(&self, index: usize, count: usize, raster: &Dots) -> Vec<(usize, usize)> {
         let mut places: Vec<(usize, usize)> =
             raster.drawn().map(|(column, row, ..)| (column, row)).collect();
@@ -224,14 +220,14 @@ impl Layout {
     }
 }
 
-/// The title, and what the vertical axis shows.
+/// Title and label of the vertical axis.
 fn heading(frame: &Frame, factor: &Factor, style: &TerminalStyle) -> String {
     let parts = [frame.title.clone(), factor.after(&frame.y_label)];
     let parts: Vec<String> = parts.into_iter().filter(|part| !part.trim().is_empty()).collect();
     style.glyphs.fit(&parts.join("  "), style.width)
 }
 
-/// The names of the series in lines that fit; of very many the last ones are left out, and a sign says so.
+/// Names of the series in lines that fit; surplus names are left out and an ellipsis marks this.
 fn legend(chart: &LineChart, style: &TerminalStyle) -> Vec<Vec<(usize, usize, String)>> {
     let glyphs = style.glyphs;
     let sample = |index| match chart.has_letters(style) {
@@ -341,7 +337,7 @@ mod tests {
         assert!(LineChart::new("").text(&PLAIN).contains("no data"));
     }
 
-    /// The characters that are seen of a line, without what colours it.
+    /// Number of visible characters of a line, without colour sequences.
     pub fn seen(line: &str) -> usize {
         let mut inside = false;
         let visible = line.chars().filter(|&letter| {

@@ -1,29 +1,29 @@
-//! A raster of dots, two across and four down in each character: square ones, as terminals have characters about twice as
-//! high as wide.
+//! A raster of two by four dots per character. The dots are square, as terminal characters are about twice as high as
+//! wide.
 
 use super::Glyphs;
 use super::character_grid::TerminalColour;
 use crate::output::canvas::{Area, Point};
 use crate::output::curve::pieces;
 
-/// The number of dots across a character.
+/// Number of dots across a character.
 pub const ACROSS: usize = 2;
-/// The number of dots down a character.
+/// Number of dots down a character.
 pub const DOWN: usize = 4;
 
-/// The bit of each dot in the number of its braille character: first column from above, then the second one.
+/// Bit of each dot in the code of its Braille character: first column from the top, then the second.
 const BITS: [[u8; DOWN]; ACROSS] = [[0x01, 0x02, 0x04, 0x40], [0x08, 0x10, 0x20, 0x80]];
 
-/// How a curve is drawn in dots.
+/// Dot density of a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Trace {
-    /// The curve is drawn dot beside dot.
+    /// Every dot.
     Solid,
-    /// The curve is drawn with every third dot.
+    /// Every third dot.
     Dotted,
 }
 
-/// A raster of dots in characters, on which curves are drawn in a terminal.
+/// A raster of dots in characters, for curves in a terminal.
 #[derive(Clone, Debug)]
 pub struct Dots {
     columns: usize,
@@ -32,7 +32,7 @@ pub struct Dots {
 }
 
 impl Dots {
-    /// A blank raster of so many columns and rows of characters.
+    /// A blank raster of the given number of columns and rows of characters.
     pub fn new(columns: usize, rows: usize) -> Self {
         Self { columns, rows, cells: vec![(0, TerminalColour::Plain); columns * rows] }
     }
@@ -43,8 +43,8 @@ impl Dots {
         (last(ACROSS * self.columns), last(DOWN * self.rows))
     }
 
-    /// Draws a curve on the raster, through points given in dots from the upper left one. Points that are not finite leave a gap; what
-    /// lies beyond the raster is cut off.
+    /// Draws a curve through points given in dots from the upper left one. Points that are not finite leave a gap; what
+    /// lies outside the raster is clipped.
     pub fn curve(
         &mut self,
         points: impl IntoIterator<Item = Point>,
@@ -78,7 +78,7 @@ impl Dots {
         }
     }
 
-    /// The characters of the raster that have dots: column, row, dots and ink.
+    /// Characters with dots: column, row, dots and ink.
     pub fn drawn(&self) -> impl Iterator<Item = (usize, usize, u8, TerminalColour)> {
         let of_cell = |(at, (mask, ink)): (usize, &(u8, TerminalColour))| {
             (*mask != 0).then(|| (at % self.columns, at / self.columns, *mask, *ink))
@@ -87,11 +87,11 @@ impl Dots {
     }
 }
 
-/// The dots after the first on the straight way between two of them (Bresenham 1965).
+/// Dots after the first on the straight line between two dots (Bresenham 1965).
 fn way(from: (i64, i64), to: (i64, i64)) -> impl Iterator<Item = (i64, i64)> {
     let (dx, dy) = (to.0 - from.0, to.1 - from.1);
     let steps = dx.abs().max(dy.abs());
-    // Rounded half away from the start, in whole numbers.
+    // Rounds half away from the start, in integers.
     let part = move |whole: i64, step: i64| {
         (2 * whole.abs() * step + steps) / (2 * steps).max(1) * whole.signum()
     };
@@ -99,7 +99,7 @@ fn way(from: (i64, i64), to: (i64, i64)) -> impl Iterator<Item = (i64, i64)> {
 }
 
 impl Glyphs {
-    /// The character that looks like these dots, one bit for each.
+    /// Character that shows these dots, one bit per dot.
     pub(super) fn of_dots(self, mask: u8) -> char {
         match self {
             Self::Braille => char::from_u32(0x2800 + u32::from(mask)).unwrap_or(' '),
@@ -108,7 +108,7 @@ impl Glyphs {
     }
 }
 
-/// The sign of ASCII whose ink is about where the dots are.
+/// ASCII character whose ink is closest to the dots.
 fn ascii_of_dots(mask: u8) -> char {
     let rows = |column: usize| (0..DOWN).filter(move |&row| mask & BITS[column][row] != 0);
     let (left, right) = (rows(0).count(), rows(1).count());
@@ -128,7 +128,7 @@ fn ascii_of_dots(mask: u8) -> char {
             _ => '_',
         },
         _ if left == 0 || right == 0 => '|',
-        // Means of the rows, compared without dividing; rows count downwards.
+        // Compares the mean rows of both columns without dividing; rows count downwards.
         _ => match (sum(0) * right).cmp(&(sum(1) * left)) {
             std::cmp::Ordering::Less => '\\',
             std::cmp::Ordering::Greater => '/',

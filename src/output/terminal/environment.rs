@@ -1,19 +1,19 @@
-//! What the environment says about a terminal.
+//! Terminal style from environment variables.
 
 use super::{Colours, Glyphs, TerminalStyle};
 
-/// The size of a terminal that does not tell its own.
+/// Size of a terminal that does not report its own.
 const USUAL: (usize, usize) = (80, 24);
 
-/// Sizes that pictures can use; whatever says less or more is not believed.
+/// Supported sizes of pictures; reported sizes are clamped to them.
 const WIDTHS: (usize, usize) = (20, 240);
 const HEIGHTS: (usize, usize) = (8, 60);
 
-/// Lines of the terminal that a picture leaves free, so that it and the prompt below it are seen together.
+/// Lines left free below a picture, so that it is visible together with the prompt.
 const LEFT_FREE: usize = 3;
 
 impl TerminalStyle {
-    /// The style for the terminal that these variables of the environment describe; `variable` gives the value of one.
+    /// Style for the terminal described by environment variables; `variable` returns the value of one.
     ///
     /// No colours where `NO_COLOR` is set and not empty, or `TERM` is `dumb` or not known. Braille where the character set of
     /// `LC_ALL`, else `LC_CTYPE`, else `LANG` is UTF-8 and `TERM` is neither `dumb` nor `linux`, the console without such a
@@ -38,7 +38,7 @@ impl TerminalStyle {
         style.on_terminal(columns, lines)
     }
 
-    /// The style for the terminal that the environment describes, of so many columns and lines.
+    /// Style for a terminal with the given number of columns and lines.
     #[must_use]
     pub fn on_terminal(self, columns: usize, lines: usize) -> Self {
         let height = lines.saturating_sub(LEFT_FREE).clamp(HEIGHTS.0, HEIGHTS.1);

@@ -1,17 +1,16 @@
-//! Heat maps as text: a table whose cells begin with a block, the darker the larger their number.
+//! Heat maps as text: a table whose cells begin with a block character, darker for larger numbers.
 
 use super::character_grid::{CharacterGrid, TerminalColour};
 use super::{Glyphs, TerminalStyle};
 use crate::output::heat_map::{HeatCell, HeatMap};
 use crate::output::width::columns;
 
-/// Blanks between columns.
 const BETWEEN: usize = 2;
-/// Columns of text that a block and the blank behind it take.
+/// Width of a block and the blank after it.
 const BLOCK: usize = 3;
 
 impl HeatMap {
-    /// The heat map as text for a terminal, no line of it wider than that of `style`; its height is that of its rows.
+    /// Text of the heat map for a terminal. No line is wider than `style`; the height is not limited.
     pub fn text(&self, style: &TerminalStyle) -> String {
         let glyphs = style.glyphs;
         let cells: Vec<Vec<(char, TerminalColour, String)>> = self
@@ -49,7 +48,7 @@ impl HeatMap {
         sheet.render()
     }
 
-    /// The block, the ink and the text of a cell.
+    /// Block, ink and text of a cell.
     fn set(&self, cell: &HeatCell, glyphs: Glyphs) -> (char, TerminalColour, String) {
         let text = glyphs.typeset(&cell.text.lines().collect::<Vec<_>>().join(" "));
         match cell.value.and_then(|value| self.part(value)) {
@@ -78,7 +77,7 @@ impl HeatMap {
     }
 }
 
-/// From nothing to dark.
+/// Blocks from empty to dark.
 fn blocks(glyphs: Glyphs) -> [char; 5] {
     glyphs.choose(['·', '░', '▒', '▓', '█'], ['.', ':', '+', '%', '#'])
 }

@@ -1,4 +1,4 @@
-//! A configuration as text: beams as lines, particles, sliders and supports as signs, both axes equal.
+//! Configurations as text: beams as lines; point masses, sliders and supports as characters; equal scales of both axes.
 
 use super::TerminalStyle;
 use super::character_grid::{CharacterGrid, TerminalColour};
@@ -9,25 +9,25 @@ use crate::output::number::significant;
 use crate::output::plane::AxisLimits;
 use crate::output::width::columns;
 
-/// What a mark in a picture of a configuration stands for.
+/// Marks in a picture of a configuration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PictureMark {
-    /// The mark is a point mass that moves by itself.
+    /// A free point mass.
     Particle,
-    /// The mark is a place that slides along a beam.
+    /// A point that slides along a beam.
     Slider,
-    /// A place where beams are tied to each other.
+    /// A point where beams are joined.
     Joint,
-    /// The mark is a support that holds a position.
+    /// A support that fixes the position.
     Hinge,
-    /// The mark is a support that holds position and angle.
+    /// A support that fixes position and angle.
     Clamp,
 }
 
 impl PictureMark {
     const ALL: [Self; 5] = [Self::Particle, Self::Slider, Self::Joint, Self::Hinge, Self::Clamp];
 
-    /// Its sign in braille pictures and in ASCII, and its name.
+    /// Character in Braille pictures and in ASCII, and name.
     fn look(self) -> (char, char, &'static str) {
         match self {
             Self::Particle => ('●', 'O', "particle"),
@@ -39,9 +39,9 @@ impl PictureMark {
     }
 }
 
-/// Less than this part of the coordinates, or less than this length, is no extent.
+/// Extents below this fraction of the coordinates, or below this length, count as zero.
 const ROUNDING: (f64, f64) = (1e-10, 1e-290);
-/// Lines and columns of the smallest picture that has a frame.
+/// Size of the smallest picture with a frame, in columns and lines.
 const LEAST: (usize, usize) = (12, 5);
 /// Blank dots between the drawing and its frame.
 const MARGIN: f64 = 2.0;
@@ -57,12 +57,11 @@ pub struct ConfigurationPicture {
     limits: AxisLimits,
 }
 
-/// The part of the plane that is seen.
 struct PlaneWindow {
     middle: Point,
-    /// The length of a dot.
+    /// Length of a dot in data units.
     dot: f64,
-    /// The coordinates of the last dot.
+    /// Coordinates of the last dot.
     last: Point,
 }
 
@@ -72,7 +71,7 @@ impl ConfigurationPicture {
         Self { title: title.into(), ..Self::default() }
     }
 
-    /// Says the time of the configuration in its picture.
+    /// Sets the time shown in the picture.
     pub fn time(mut self, time: f64) -> Self {
         self.time = Some(time);
         self
@@ -84,7 +83,7 @@ impl ConfigurationPicture {
         self
     }
 
-    /// Adds a beam to the picture as it was before: dotted, and dimmer where there are colours.
+    /// Adds a beam in a reference configuration: dotted, and dimmer if there are colours.
     pub fn ghost(mut self, points: Vec<Point>) -> Self {
         self.ghost.push(points);
         self
@@ -96,13 +95,14 @@ impl ConfigurationPicture {
         self
     }
 
-    /// Fixes what is seen at least; units stay equally long.
+    /// Sets limits that are visible at least; both axes keep the same scale.
     pub fn limits(mut self, limits: AxisLimits) -> Self {
         self.limits = limits;
         self
     }
 
-    /// The picture as text for a terminal, of at most the width and the height of `style`; less high where the drawing is flat.
+    /// Text of the picture for a terminal, of at most the width and the height of `style`; fewer lines if the drawing
+    /// is flat.
     pub fn text(&self, style: &TerminalStyle) -> String {
         let has_frame = style.width >= LEAST.0 && style.height >= LEAST.1;
         let border = usize::from(has_frame);
@@ -144,7 +144,7 @@ impl ConfigurationPicture {
         sheet.render()
     }
 
-    /// The window for so many characters, and the lines that it needs of them; none when there is nothing to see.
+    /// Window and its number of lines in the given space; `None` if there is nothing to show.
     fn window(&self, columns: usize, rows: usize) -> Option<(usize, PlaneWindow)> {
         let points = || {
             let lines = self.lines.iter().chain(&self.ghost).flatten().copied();
@@ -177,7 +177,7 @@ impl ConfigurationPicture {
         Some((rows, PlaneWindow { middle, dot, last }))
     }
 
-    /// Title and time above, the edges of the window and the meaning of signs below.
+    /// Title and time above, the coordinates of the window edges, and the meaning of the marks below.
     fn draw_frame(&self, sheet: &mut CharacterGrid, style: &TerminalStyle, window: &PlaneWindow) {
         let glyphs = style.glyphs;
         let (level, upright) = glyphs.choose(('─', '│'), ('-', '|'));
@@ -202,7 +202,7 @@ impl ConfigurationPicture {
         self.write_into(sheet, style, last_row, &edges, &self.signs(style));
     }
 
-    /// Two texts in a line of the frame; the second one only if it leaves room for the first, or for half a line of it.
+    /// Writes two texts into a line of the frame; the second one only if the first keeps its width or half a line.
     fn write_into(
         &self,
         sheet: &mut CharacterGrid,
@@ -230,7 +230,6 @@ impl ConfigurationPicture {
         }
     }
 
-    /// What the signs of the picture mean.
     fn signs(&self, style: &TerminalStyle) -> String {
         let used =
             PictureMark::ALL.into_iter().filter(|mark| self.marks.iter().any(|(m, _)| m == mark));
@@ -243,18 +242,17 @@ impl ConfigurationPicture {
 }
 
 impl PlaneWindow {
-    /// Where a point is, in dots from the upper left one.
+    /// Position of a point, in dots from the upper left one.
     fn place(&self, (x, y): Point) -> Point {
         let far = |value: f64, middle: f64| (value - middle) / self.dot;
         (0.5 * self.last.0 + far(x, self.middle.0), 0.5 * self.last.1 - far(y, self.middle.1))
     }
 
-    /// The ends in x and in y.
     fn edges(&self) -> [[f64; 2]; 2] {
         let ends = |middle: f64, dots: f64| {
             [-1.0, 1.0].map(|side| {
                 let end = middle + side * 0.5 * dots * self.dot;
-                // Rounding about zero is no place.
+                // Rounding around zero.
                 if end.abs() < 1e-9 * dots * self.dot { 0.0 } else { end }
             })
         };

@@ -1,40 +1,40 @@
-//! What a terminal can show, and how much room there is.
+//! Capabilities and size of a terminal.
 
 use crate::output::width::cut;
 
-/// The characters that pictures in a terminal are made of.
+/// Character set of pictures in a terminal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Glyphs {
-    /// Pictures have eight braille dots a character, lines of boxes, true minus signs: for terminals that know UTF-8.
+    /// Braille characters with eight dots, box-drawing lines and true minus signs, for UTF-8 terminals.
     Braille,
-    /// Pictures have letters and signs of ASCII only.
+    /// ASCII characters only.
     Ascii,
 }
 
-/// Whether text in a terminal has colours.
+/// Use of colours in a terminal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Colours {
-    /// Text is plain, the same everywhere.
+    /// Plain text.
     None,
-    /// Text has the colours of ANSI sequences, for a terminal.
+    /// ANSI escape sequences.
     Ansi,
 }
 
-/// How a picture in a terminal is set: no line of it is wider than `width`, and it has no more than `height` lines.
+/// Style of a picture in a terminal: no line is wider than `width`, and there are at most `height` lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TerminalStyle {
-    /// The characters that the picture is made of.
+    /// Character set of the picture.
     pub glyphs: Glyphs,
-    /// Whether the picture has colours.
+    /// Use of colours.
     pub colours: Colours,
-    /// The largest number of characters in a line of the picture.
+    /// Maximum number of characters per line.
     pub width: usize,
-    /// The largest number of lines of the picture.
+    /// Maximum number of lines.
     pub height: usize,
 }
 
 impl TerminalStyle {
-    /// The same style in another size, in characters and lines.
+    /// The same style with another size, in characters and lines.
     #[must_use]
     pub fn sized(self, width: usize, height: usize) -> Self {
         Self { width, height, ..self }
@@ -42,7 +42,7 @@ impl TerminalStyle {
 }
 
 impl Glyphs {
-    /// Of two choices, the one that is meant for these glyphs.
+    /// Selects the variant for these glyphs.
     pub(super) fn choose<T>(self, braille: T, ascii: T) -> T {
         match self {
             Self::Braille => braille,
@@ -50,7 +50,7 @@ impl Glyphs {
         }
     }
 
-    /// The text in the characters that may be used, on one line: `10⁻¹²` becomes `1e-12` in ASCII.
+    /// Converts a text to one line of the allowed characters: `10⁻¹²` becomes `1e-12` in ASCII.
     pub fn typeset(self, text: &str) -> String {
         let line = text.replace(char::is_control, " ");
         match self {
@@ -59,7 +59,7 @@ impl Glyphs {
         }
     }
 
-    /// The text typeset, and cut where it is wider than `width` characters.
+    /// Converts a text and cuts it to `width` characters.
     pub(super) fn fit(self, text: &str, width: usize) -> String {
         cut(&self.typeset(text), width, self.choose('…', '~'))
     }
@@ -94,7 +94,7 @@ fn in_ascii(text: &str) -> String {
     plain
 }
 
-/// The digit or sign that a raised one stands for.
+/// Digit or sign of a superscript character.
 fn lowered(raised: char) -> Option<char> {
     let digits = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let digit = digits.iter().position(|&other| other == raised);

@@ -1,19 +1,19 @@
-//! What a viewer shows, as plain data.
+//! Viewer data as plain structs.
 
 use crate::output::canvas::Point;
 use crate::output::symbol::Symbol;
 
-/// A place of a body: a combination of points of the film, such as control points.
+/// A linear combination of points of a frame, such as control points.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PointCombination {
-    /// The first of its points, by its index in a frame.
+    /// Index of the first point in a frame.
     pub first: usize,
-    /// The weights of the points from the first one on, whose weighted sum is the place.
+    /// Weights of the points from `first` on.
     pub weights: Vec<f64>,
 }
 
 impl PointCombination {
-    /// The place among the points of a frame.
+    /// Evaluates the place for the points of a frame.
     pub fn among(&self, points: &[Point]) -> Point {
         let sum = |pick: fn(&Point) -> f64| {
             self.weights.iter().zip(&points[self.first..]).map(|(w, point)| w * pick(point)).sum()
@@ -27,20 +27,20 @@ impl PointCombination {
 pub struct BeamShape {
     /// The name of the beam.
     pub name: String,
-    /// The centre line of the beam, from its start to its end.
+    /// Centre line of the beam, from start to end.
     pub line: Vec<PointCombination>,
-    /// Knots or nodes: indices of the line.
+    /// Knots or nodes, as indices of `line`.
     pub marks: Vec<usize>,
-    /// Where the values of fields belong: indices of the line, increasing.
+    /// Positions of the field values, as increasing indices of `line`.
     pub stations: Vec<usize>,
 }
 
-/// A body without extent.
+/// A point mass.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ParticleShape {
-    /// The name of the particle.
+    /// Name of the point mass.
     pub name: String,
-    /// The place of the particle.
+    /// Position of the point mass.
     pub at: PointCombination,
 }
 
@@ -49,60 +49,61 @@ pub struct ParticleShape {
 pub struct BodyShape {
     /// The name of the body.
     pub name: String,
-    /// Where its centre of mass is.
+    /// Centre of mass.
     pub centre: PointCombination,
     /// The points of the body, with their names.
     pub points: Vec<(String, PointCombination)>,
-    /// The outline of the body: closed where it ends where it begins, a line otherwise; nothing where it has no points.
+    /// Outline of the body: closed if it ends at its start, otherwise a line; empty without points.
     pub outline: Vec<PointCombination>,
-    /// Where the body has a polygon of its own, and its outline is the line from its centre to one of its points: the corners, along and to the left of
-    /// that line in its lengths, the first one again at the end.
+    /// Corners of the body's own polygon, if it has one; `outline` is then the line from its centre to one of its
+    /// points. The corners are given along that line and to its left, as multiples of its length; the last one repeats
+    /// the first.
     pub corners: Vec<(f64, f64)>,
 }
 
-/// A symbol at a place: what holds, joins, slides or drives.
+/// A symbol at a point: a support, joint, slider or drive.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SymbolMark {
-    /// What it means.
+    /// Kind of symbol.
     pub symbol: Symbol,
-    /// What it is called.
+    /// Name of the element.
     pub name: String,
     /// The place of the symbol.
     pub at: PointCombination,
-    /// The direction in which it points [rad].
+    /// Direction of the symbol [rad].
     pub angle: f64,
-    /// When it is gone: a slider that has left its beam, a joint that has let go.
+    /// Time at which the symbol disappears, because a slider has left its beam or a joint was released.
     pub until: Option<f64>,
 }
 
-/// Where a spring is attached.
+/// Attachment of a spring.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SpringEnd {
-    /// A place of a body.
+    /// A point of a body.
     Moving(PointCombination),
     /// A point of the ground.
     Ground(Point),
 }
 
-/// A spring or what acts like one.
+/// A spring, damper or tendon.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpringShape {
-    /// How it is drawn.
+    /// Kind of symbol.
     pub symbol: Symbol,
-    /// What it is called.
+    /// Name of the element.
     pub name: String,
-    /// The places where the spring is attached, in order.
+    /// Attachments, in order.
     pub anchors: Vec<SpringEnd>,
-    /// When it is gone: one that has let go.
+    /// Time at which the element is released.
     pub until: Option<f64>,
 }
 
 /// A load over time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Arrow {
-    /// What it stands for; of a moment, counter-clockwise, the first component counts.
+    /// Kind of symbol; for a moment the first component counts, counter-clockwise.
     pub symbol: Symbol,
-    /// What it is called.
+    /// Name of the load.
     pub name: String,
     /// The place where the load acts.
     pub at: PointCombination,
@@ -110,49 +111,50 @@ pub struct Arrow {
     pub values: Vec<Point>,
 }
 
-/// A place whose path is drawn.
+/// A point whose path is drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trail {
-    /// What it is called.
+    /// Name of the path.
     pub name: String,
-    /// The place of the trail.
+    /// Point that draws the path.
     pub at: PointCombination,
 }
 
-/// A quantity along all beams, by which they are coloured.
+/// A quantity along all beams that sets their colours.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ColourField {
     /// The name of the field.
     pub name: String,
-    /// The unit or dimension of the field; empty for a pure number.
+    /// Unit or dimension of the field; empty for a pure number.
     pub unit: String,
-    /// The values of the field in each frame: at the stations of the first beam, then of the next one. What is not finite is not coloured.
+    /// Values in each frame: at the stations of the first beam, then of the next one. Values that are not finite are
+    /// not coloured.
     pub values: Vec<Vec<f64>>,
 }
 
-/// A quantity over time, drawn below the motion.
+/// A quantity over time, plotted below the motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TimeCurve {
     /// The name of the column.
     pub name: String,
-    /// The unit or dimension of the column; those that have the same are drawn together.
+    /// Unit or dimension of the column; columns with the same unit share a plot.
     pub unit: String,
-    /// The values of the column in each row.
+    /// Value in each row.
     pub values: Vec<f64>,
 }
 
-/// A motion.
+/// Motion of a mechanism.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ViewerData {
-    /// What it is called among others.
+    /// Label of the motion.
     pub label: String,
-    /// The time of each frame.
+    /// Time of each frame.
     pub times: Vec<f64>,
-    /// The points of all bodies in each frame, always in the same order.
+    /// Points of all bodies in each frame, in a fixed order.
     pub points: Vec<Vec<Point>>,
     /// Beams.
     pub beams: Vec<BeamShape>,
-    /// Bodies without extent.
+    /// Point masses.
     pub particles: Vec<ParticleShape>,
     /// Rigid bodies.
     pub bodies: Vec<BodyShape>,
@@ -164,10 +166,10 @@ pub struct ViewerData {
     pub arrows: Vec<Arrow>,
     /// Paths.
     pub trails: Vec<Trail>,
-    /// What beams can be coloured by.
+    /// Quantities that can colour the beams.
     pub fields: Vec<ColourField>,
-    /// The times of the rows.
+    /// Times of the rows of the columns.
     pub rows: Vec<f64>,
-    /// What is drawn over them.
+    /// Quantities plotted over `rows`.
     pub columns: Vec<TimeCurve>,
 }

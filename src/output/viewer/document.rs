@@ -1,4 +1,4 @@
-//! The page: a template, its style, its programs, and the films as data.
+//! The HTML page: a template with style, scripts and the motions as data.
 
 use serde_json::{Value, json};
 
@@ -15,7 +15,7 @@ use crate::output::symbol::Symbol;
 
 const TEMPLATE: &str = include_str!("page/template.html");
 const STYLE: &str = include_str!("page/style.css");
-/// In the order in which they need each other.
+/// In order of dependencies.
 const PROGRAMS: [&str; 9] = [
     include_str!("page/reading.js"),
     include_str!("page/film.js"),
@@ -28,27 +28,27 @@ const PROGRAMS: [&str; 9] = [
     include_str!("page/controls.js"),
 ];
 
-/// Steps between the least and the greatest value of a field: more shades than a screen has.
+/// Steps between the least and the greatest value of a field: more shades than a screen shows.
 const SHADES: u16 = 255;
-/// The same for the loads of a film.
+/// Steps between the least and the greatest value of a load.
 const LOAD_STEPS: u16 = 4095;
-/// Weights are rounded to so many parts of one: far below a step of the points that they are of.
+/// Weights are rounded to this fraction of one, far below the resolution of the points.
 const WEIGHT_PARTS: f64 = 1e7;
 
-/// A page that shows films, side by side where there are several.
+/// An HTML page with one or several motions side by side.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Viewer {
-    /// What stands above them.
+    /// Title of the page.
     pub title: String,
-    /// The motions.
+    /// Motions shown.
     pub films: Vec<ViewerData>,
 }
 
 impl Viewer {
-    /// The page. Equal films give equal bytes.
+    /// Text of the page. Equal data gives equal bytes.
     ///
     /// # Errors
-    /// When the films cannot be packed.
+    /// If the data cannot be compressed.
     pub fn to_html(&self) -> Result<String, OutputError> {
         let films = self.films.iter().map(packed_film).collect::<Result<Vec<_>, _>>()?;
         let hues: Vec<[u8; 3]> = (0..HUE_COUNT)
@@ -58,7 +58,7 @@ impl Viewer {
             })
             .collect();
         let data = json!({ "title": self.title, "hues": hues, "films": films });
-        // Within a script element nothing but a `<` could end the data.
+        // Inside a script element only a `<` could end the data.
         let data = data.to_string().replace('<', "\\u003c");
         let title = escaped(&self.title);
         Ok(filled(
@@ -74,7 +74,7 @@ impl Viewer {
     }
 }
 
-/// The template with marks replaced in their order, each once, whatever the texts put in contain.
+/// Replaces the marks in order, once each, independent of the inserted texts.
 fn filled(template: &str, texts: &[(&str, &str)]) -> String {
     let mut page = String::new();
     let mut rest = template;
@@ -88,7 +88,7 @@ fn filled(template: &str, texts: &[(&str, &str)]) -> String {
     page + rest
 }
 
-/// A text within an element or an attribute of HTML.
+/// Escapes a text for an element or attribute of HTML.
 fn escaped(text: &str) -> String {
     let escape = |letter| match letter {
         '&' => "&amp;".to_owned(),
@@ -125,7 +125,6 @@ fn packed_film(film: &ViewerData) -> Result<Value, OutputError> {
     }))
 }
 
-/// A rigid body: its places.
 fn packed_body(body: &BodyShape) -> Value {
     let point =
         |(name, at): &(String, PointCombination)| json!({ "name": name, "at": place(at, 0) });
@@ -144,7 +143,7 @@ fn packed_sign(sign: &SymbolMark) -> Value {
     })
 }
 
-/// A spring: its places, those on the ground as points without weights.
+/// Anchors on the ground are points without weights.
 fn packed_spring(spring: &SpringShape) -> Value {
     let anchor = |anchor: &SpringEnd| match anchor {
         SpringEnd::Moving(at) => place(at, 0),
@@ -154,7 +153,7 @@ fn packed_spring(spring: &SpringShape) -> Value {
     json!({ "kind": spring.symbol.name(), "name": spring.name, "anchors": anchors, "until": spring.until })
 }
 
-/// A beam by its first point and its shape, which beams of the same mesh share.
+/// A beam as its first point index and its shape, which beams with the same mesh share.
 fn packed_beam(beam: &BeamShape, shapes: &mut Vec<Value>) -> Value {
     let first = beam.line.iter().map(|place| place.first).min().unwrap_or(0);
     let shape = json!({
@@ -170,14 +169,14 @@ fn packed_beam(beam: &BeamShape, shapes: &mut Vec<Value>) -> Value {
     json!({ "name": beam.name, "first": first, "shape": shape })
 }
 
-/// A place as its first point, counted from another one, and the weights.
+/// A place as the index of its first point relative to `from`, and its weights.
 fn place(place: &PointCombination, from: usize) -> Value {
     let rounded = |weight: &f64| (weight * WEIGHT_PARTS).round() / WEIGHT_PARTS;
     let weights: Vec<f64> = place.weights.iter().map(rounded).collect();
     json!([place.first - from, weights])
 }
 
-/// The coordinates of all points, with the same step along both axes.
+/// Coordinates of all points, with the same resolution along both axes.
 fn packed_points(film: &ViewerData) -> Result<(Value, Value), OutputError> {
     let along = |pick: fn(&Point) -> f64| {
         Quantisation::over(film.points.iter().flatten().map(pick), FINEST)
@@ -191,7 +190,7 @@ fn packed_points(film: &ViewerData) -> Result<(Value, Value), OutputError> {
     Ok((packed(x, |point| point.0)?, packed(y, |point| point.1)?))
 }
 
-/// The loads, those of a kind relative to the largest of them.
+/// Loads, scaled by the largest load of the same kind.
 fn packed_arrows(arrows: &[Arrow], frames: usize) -> Result<Value, OutputError> {
     let largest = |kind: Symbol| {
         let of_kind = arrows.iter().filter(|arrow| arrow.symbol == kind);

@@ -1,11 +1,11 @@
-//! Motions to look at in a browser: one HTML file with everything in it, which asks the network for nothing.
+//! Motion viewer for browsers: one self-contained HTML file without network access.
 //!
 //! ```text
 //! film → thinning, packing → document → HTML with page/template.html, page/style.css and the programs of page/
 //! ```
 //!
-//! The bodies are sent as their points, control points or nodes, in 16 bits, and drawn from them in the browser: a curve is exact at every
-//! place at which it is drawn, and takes less room than its polyline.
+//! Bodies are stored as their control points or nodes, in 16 bits, and evaluated in the browser. Curves are exact at
+//! every drawn point, and take less space than polylines.
 
 mod data;
 mod document;

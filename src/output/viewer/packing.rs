@@ -1,4 +1,4 @@
-//! Numbers over time as short text: in so many steps between the least and the greatest, as differences, deflated, as letters.
+//! Compact text encoding of time series: quantised, differenced, deflated, base64.
 
 use std::io::Write;
 
@@ -9,22 +9,22 @@ use serde_json::{Value, json};
 use crate::output::OutputError;
 use crate::output::base64::base64;
 
-/// The code of what is not finite. Codes of numbers are less.
+/// Code of values that are not finite. All other codes are smaller.
 const MISSING: u16 = u16::MAX;
-/// The finest steps there are: half of one is the largest error.
+/// Largest number of quantisation steps. The error is at most half a step.
 pub const FINEST: u16 = MISSING - 1;
 
-/// How numbers become codes: `origin + step · code`.
+/// Quantisation: `number = origin + step · code`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quantisation {
-    /// What the code 0 stands for.
+    /// Number of code 0.
     pub origin: f64,
-    /// From one code to the next; zero where all numbers are the same.
+    /// Difference of neighbouring codes; zero if all numbers are equal.
     pub step: f64,
 }
 
 impl Quantisation {
-    /// The scale from the least to the greatest finite number in so many steps.
+    /// Scale from the least to the greatest finite number in the given number of steps.
     pub fn over(numbers: impl Iterator<Item = f64>, steps: u16) -> Self {
         let finite = numbers.filter(|number| number.is_finite());
         let (least, greatest) = finite
@@ -32,7 +32,7 @@ impl Quantisation {
                 (a.min(number), b.max(number))
             });
         match least <= greatest {
-            // Of halves, so that the difference of any two numbers is finite.
+            // Halved, so that the difference of any two numbers is finite.
             true => Self {
                 origin: least,
                 step: (greatest / 2.0 - least / 2.0) / f64::from(steps) * 2.0,
@@ -41,7 +41,7 @@ impl Quantisation {
         }
     }
 
-    /// The code of a number.
+    /// Code of a number.
     fn code(&self, number: f64) -> u16 {
         match number.is_finite() {
             false => MISSING,
@@ -53,10 +53,11 @@ impl Quantisation {
     }
 }
 
-/// Packs some numbers over some frames, given by number and frame, as the page reads them.
+/// Packs `numbers` time series of `frames` values each in the format of the page; `value` takes the series and the
+/// frame.
 ///
 /// # Errors
-/// When they cannot be deflated, which would be a mistake of ours.
+/// If compression fails, which would be an internal error.
 pub fn pack(
     scale: Quantisation,
     (numbers, frames): (usize, usize),
@@ -65,7 +66,7 @@ pub fn pack(
     let codes: Vec<Vec<u16>> = (0..numbers)
         .map(|number| (0..frames).map(|frame| scale.code(value(number, frame))).collect())
         .collect();
-    // Of a smooth motion the second differences are small, of a rough one the first.
+    // Second differences are small for smooth motions, first differences for rough ones.
     let cost = |order: u32| -> u64 {
         let all = codes.iter().flat_map(|series| differences(series, order));
         all.map(|difference| u64::from(u16::BITS - difference.leading_zeros())).sum()
@@ -88,7 +89,7 @@ pub fn pack(
     }))
 }
 
-/// The differences of first or second order, modulo 2¹⁶, small ones of either sign as small numbers.
+/// First or second differences modulo 2¹⁶, zigzag-encoded.
 fn differences(codes: &[u16], order: u32) -> impl Iterator<Item = u16> + '_ {
     let (mut last, mut last_change) = (0u16, 0u16);
     codes.iter().map(move |&code| {

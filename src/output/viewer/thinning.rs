@@ -1,10 +1,10 @@
-//! Rows of a long history that a chart needs: those in which something is largest or least stay.
+//! Selection of the rows of a long history that a chart needs; extremes are kept.
 
-/// Most rows that a chart gets, but for one piece of them.
+/// Maximum number of rows, apart from one piece.
 const MOST_ROWS: usize = 3000;
 
-/// The rows to keep, by their index, in order: all, or in each piece of the rows the first one and those in which a column is least or
-/// largest. No peak is lost.
+/// Indices of the rows to keep, in order: all, or in each piece the first row and the rows with the extremes of every
+/// column.
 pub fn rows_to_keep(rows: usize, columns: &[&[f64]]) -> Vec<usize> {
     if rows <= MOST_ROWS {
         return (0..rows).collect();

@@ -1,4 +1,4 @@
-//! `:help` and `?`: what a name means.
+//! Command `:help` and `?`.
 
 use super::names::{NameInfo, in_language, known};
 use super::{COMMANDS, Command, find};
@@ -7,7 +7,7 @@ use crate::repl::shell::{CommandOutcome, Shell};
 use crate::script::diagnose::Diagnostic;
 use crate::script::help::lookup::{self, HelpPage, StyledText};
 
-/// The command `:help [name]`: shows help on a name, or on the prompt.
+/// Command `:help [name]`: shows help on a name, or on the prompt.
 pub fn help(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let name = operand.trim_matches('"').trim_end_matches('?').trim_end_matches("()").trim();
     match name {
@@ -29,7 +29,7 @@ pub fn help(shell: &mut Shell, operand: &str) -> CommandOutcome {
     if let Some(NameInfo { page, shown }) = known(shell, name) {
         let text = format!("{}{}", drawn(shell, &page), shown.unwrap_or_default());
         texts.push(text);
-        // What is known of the type, where the name itself means nothing to the language.
+        // If the name itself has no help page, the page of its type is shown.
         let is_plain = lookup::find(shell.session().catalog(), &name_of_page).is_empty();
         let value = shell.session().variables().get(name).filter(|_| is_plain);
         if let Some(value) = value {
@@ -71,7 +71,7 @@ fn explained(command: &Command) -> HelpPage {
     page
 }
 
-/// The commands, and how to come to the rest: what is asked for must not scroll away.
+/// Lists the commands and the ways to further help. The list is short so that it does not scroll away.
 fn commands(shell: &mut Shell) -> CommandOutcome {
     let mut page = HelpPage::default();
     page.heading("Commands of the prompt");
@@ -87,7 +87,7 @@ fn commands(shell: &mut Shell) -> CommandOutcome {
     show(shell, &[drawn(shell, &page)])
 }
 
-/// All that has a page.
+/// Lists all topics with a page.
 fn topics(shell: &mut Shell) -> CommandOutcome {
     match lookup::page(shell.session().catalog(), "") {
         Ok(page) => show(shell, &[drawn(shell, &page)]),
@@ -102,7 +102,6 @@ fn drawn(shell: &Shell, page: &HelpPage) -> String {
     }
 }
 
-/// Shows texts one below the other.
 fn show(shell: &mut Shell, texts: &[String]) -> CommandOutcome {
     let texts: Vec<&str> = texts.iter().map(|text| text.trim_end()).collect();
     shell.print_in_pages(&texts.join("\n\n"))

@@ -1,4 +1,4 @@
-//! Commands that only look.
+//! Commands that inspect the session without changing it.
 
 use rhai::{Dynamic, Map};
 
@@ -17,11 +17,11 @@ use crate::script::presentation::present::present_in_a_line;
 use crate::script::presentation::quantities::{BeamQuantity, NAMES};
 use crate::simulation::Simulation;
 
-/// Characters of a value in the list of variables, at most, and at least, however narrow the terminal is.
+/// Maximum and minimum width of a value in the list of variables.
 const VALUE_WIDTH: usize = 70;
 const LEAST_VALUE_WIDTH: usize = 12;
 
-/// The command `:vars`: lists the variables, functions and modules of the session.
+/// Command `:vars`: lists the variables, functions and modules of the session.
 pub fn variables(shell: &mut Shell, _: &str) -> CommandOutcome {
     let session = shell.session();
     let variables: Vec<_> = session.variables().iter_raw().collect();
@@ -35,7 +35,7 @@ pub fn variables(shell: &mut Shell, _: &str) -> CommandOutcome {
         (function.name.to_owned(), "function".to_owned(), ShownVariable::Words(signature))
     });
     let of_modules = session.modules().map(|(name, module)| {
-        // What a module keeps to itself and its closures have no place here.
+        // Private functions and closures of a module are left out.
         let public = |of: &str| !of.starts_with("private ") && !of.starts_with("anon$");
         let functions = module.gen_fn_signatures_with_mapper(|name| name.into());
         let functions: Vec<_> = functions.filter(|signature| public(signature)).collect();
@@ -53,7 +53,7 @@ pub fn variables(shell: &mut Shell, _: &str) -> CommandOutcome {
             };
             let names = longest(&mut rows.iter().map(|(name, ..)| name)).max(4);
             let types = longest(&mut rows.iter().map(|(_, of, _)| of)).max(4);
-            // Two blanks stand between columns.
+            // Columns are separated by two blanks.
             Some(style.width.saturating_sub(names + types + 4).max(LEAST_VALUE_WIDTH))
         }
         ReplyTarget::Pipe => None,
@@ -74,21 +74,21 @@ pub fn variables(shell: &mut Shell, _: &str) -> CommandOutcome {
     CommandOutcome::Good
 }
 
-/// What stands behind a name in the list of variables.
+/// Second column of the list of variables.
 enum ShownVariable<'a> {
     Value(&'a Dynamic),
     Words(String),
 }
 
-/// The command `:invariants`: shows how far energy and momenta of the last simulation drift.
+/// Command `:invariants`: shows the drift of energy and momenta of the last simulation.
 pub fn invariants(shell: &mut Shell, _: &str) -> CommandOutcome {
     shell.show_of_latest("invariants()")
 }
 
-/// The command `:view [FILE]`: writes a page on which the last simulation moves.
+/// Command `:view [FILE]`: writes a page with an animation of the last simulation.
 pub fn view(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let file = if operand.is_empty() { "view.html" } else { operand.trim_matches('"') };
-    // What no name of a file can contain would end the text in which it stands.
+    // Quotes and backslashes would end the string literal below; no file name needs them.
     let name: String = file.chars().filter(|letter| !matches!(letter, '"' | '\\')).collect();
     let outcome = shell.call_latest(&format!("write_viewer(\"{name}\")"));
     if outcome == CommandOutcome::Good {
@@ -98,12 +98,12 @@ pub fn view(shell: &mut Shell, operand: &str) -> CommandOutcome {
     outcome
 }
 
-/// The command `:explain`: tells what the last simulation uses and leaves out.
+/// Command `:explain`: lists the models and simplifications of the last simulation.
 pub fn explain(shell: &mut Shell, _: &str) -> CommandOutcome {
     shell.show_of_latest("explain()")
 }
 
-/// The command `:show [time]`: draws the configuration of the last simulation.
+/// Command `:show [time]`: draws the configuration of the last simulation.
 pub fn show(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let (time, options) = operand.find("#{").map_or((operand, ""), |at| operand.split_at(at));
     let time = match (time.trim().trim_end_matches(',').trim_end(), options) {
@@ -121,7 +121,7 @@ pub fn show(shell: &mut Shell, operand: &str) -> CommandOutcome {
         "" => None,
         text => match options_of(shell, text, ":show #{ trace: [rod.end] }") {
             Ok(mut map) => {
-                // A time before the options is that of the last snapshot.
+                // A time before the options selects the last snapshot.
                 if let Some(time) = time {
                     map.insert("to".into(), time.into());
                 }
@@ -134,7 +134,6 @@ pub fn show(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let engine_picture = |shell: &Shell, of: &SimulationHandle, map: &Map, screen: &ReplyTarget| {
         let style = match screen {
             ReplyTarget::Terminal(style) => *style,
-            // What is wrong with the options is told in a pipe too.
             ReplyTarget::Pipe => TerminalStyle {
                 glyphs: Glyphs::Ascii,
                 colours: Colours::None,
@@ -163,7 +162,7 @@ pub fn show(shell: &mut Shell, operand: &str) -> CommandOutcome {
     })
 }
 
-/// The map of options that is typed, for example as in `example`.
+/// Evaluates a map of options typed by the user; `example` is shown in error messages.
 pub(super) fn options_of(
     shell: &mut Shell,
     text: &str,
@@ -178,7 +177,7 @@ pub(super) fn options_of(
     }
 }
 
-/// `:along [quantity]`
+/// Command `:along [quantity]`: draws a quantity along the beams.
 pub fn along(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let name = if operand.is_empty() { "M" } else { operand.trim_matches('"') };
     let Some(quantity) = BeamQuantity::named(name) else {
@@ -196,7 +195,7 @@ pub fn along(shell: &mut Shell, operand: &str) -> CommandOutcome {
     })
 }
 
-/// Shows what is made of the last simulation for the screen: a picture, or words.
+/// Shows a picture or text made from the last simulation.
 pub(super) fn draw(
     shell: &mut Shell,
     picture: impl FnOnce(&Simulation, ReplyTarget) -> Result<String, ScriptError>,

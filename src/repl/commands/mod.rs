@@ -1,4 +1,4 @@
-//! The commands of the prompt: one table, and what they do.
+//! Commands of the prompt: one table, and their implementations.
 
 mod help;
 mod inspection;

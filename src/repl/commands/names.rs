@@ -1,4 +1,4 @@
-//! Names of the session in the help: variables with their values, functions, modules, members of what a variable holds.
+//! Help on names of the session: variables with their values, functions, modules, and members of values.
 
 use rhai::{Array, Dynamic, FnAccess, Map, Module, ScriptFnMetadata};
 
@@ -11,18 +11,17 @@ use crate::script::library::page_of;
 use crate::script::messages::nouns::with_article;
 use crate::script::presentation::present::present;
 
-/// Digits of a number.
 const DIGITS: usize = 6;
 
-/// What the session knows of a name: lines to be shown as they are, and a page.
+/// Help on a name of the session: text shown unchanged, and a help page.
 pub struct NameInfo {
-    /// What the value of the name looks like.
+    /// Text of the value.
     pub shown: Option<String>,
-    /// The page of what there is to say of the name besides.
+    /// Help page with everything else.
     pub page: HelpPage,
 }
 
-/// What a name stands for in the session of the shell, if anything.
+/// Help on a name of the session, if it is defined there.
 pub fn known(shell: &mut Shell, name: &str) -> Option<NameInfo> {
     if name.contains('.') {
         return member(shell, name);
@@ -41,7 +40,7 @@ pub fn known(shell: &mut Shell, name: &str) -> Option<NameInfo> {
     }
     if let Some((alias, within)) = name.split_once("::") {
         let module = shell.session().modules().find(|(known, _)| *known == alias)?.1;
-        // Those of the library have pages of their own.
+        // Library functions have their own pages.
         if module.id().and_then(page_of).is_none() {
             for (.., function) in module.iter_script_fn_info() {
                 let metadata: ScriptFnMetadata = (&**function).into();
@@ -56,15 +55,14 @@ pub fn known(shell: &mut Shell, name: &str) -> Option<NameInfo> {
     (!page.parts.is_empty()).then(|| NameInfo { shown: text_of(shell, name), page })
 }
 
-/// How a function of the session was typed, without the comments that are told already.
+/// Source text of a function of the session, without its doc comments, which are already shown.
 fn text_of(shell: &Shell, name: &str) -> Option<String> {
     let text = shell.session().record().definition(name)?;
     let lines = text.lines().skip_while(|line| line.trim_start().starts_with("///"));
     Some(lines.collect::<Vec<_>>().join("\n"))
 }
 
-/// The name under which the language has help on it: that of a member of what a variable holds, or of a function of the library that
-/// was imported under another name.
+/// Resolves a name to its help topic: that of a member of a variable's value, or of an imported library function.
 pub fn in_language(shell: &Shell, name: &str) -> String {
     let surroundings = shell.surroundings();
     if let Some((owner, member)) = name.rsplit_once('.')
@@ -102,7 +100,7 @@ fn variable(shell: &Shell, name: &str, value: &Dynamic) -> NameInfo {
     NameInfo { shown: Some(present(session.catalog(), value, shell.width())), page }
 }
 
-/// How much an array or a map holds.
+/// Size of an array or a map.
 fn extent(value: &Dynamic) -> String {
     let count = |count: usize, what: &str| match count {
         1 => format!(" of 1 {what}"),
@@ -131,7 +129,7 @@ fn extent(value: &Dynamic) -> String {
     }
 }
 
-/// The value of a property of what a variable holds; asking for one changes nothing.
+/// Value of a property of a variable; evaluation has no side effects.
 fn member(shell: &mut Shell, path: &str) -> Option<NameInfo> {
     let (first, _) = path.split_once('.')?;
     if !shell.session().variables().contains(first) || path.contains(['(', '[', '/', ':']) {
@@ -168,7 +166,7 @@ fn describe_module(page: &mut HelpPage, alias: &str, module: &Module) {
         0,
         vec![StyledText::name(alias), StyledText::plain(format!(" is an import{from}."))],
     );
-    // The page of the library follows.
+    // The library page is appended later.
     if module.id().and_then(page_of).is_some() {
         return;
     }

@@ -1,9 +1,9 @@
-//! Words that people type to leave or to get help where they are used to it, without the colon of a command.
+//! Bare words for leaving and for help, accepted without the colon of a command.
 
 use super::{Command, HELP, QUIT};
 
-/// The command that a bare word stands for, and what follows it: `quit`, `exit()`, `help`, `help sine`, `sim?`. A name that the
-/// session has, as `is_variable` says, means itself.
+/// Command that a bare word stands for, and its operand: `quit`, `exit()`, `help`, `help sine`, `sim?`. Names for which
+/// `is_variable` is true keep their meaning as variables.
 pub fn meant(text: &str, is_variable: impl Fn(&str) -> bool) -> Option<(&'static Command, &str)> {
     let text = text.trim_end_matches(';').trim_end();
     let asked = text.trim_end_matches('?').trim_end();
@@ -24,7 +24,7 @@ pub fn meant(text: &str, is_variable: impl Fn(&str) -> bool) -> Option<(&'static
     }
 }
 
-/// Whether a text can be the name of something that has help, such as `sim.run_to` or `std/sections`.
+/// Returns true if a text may name a help topic, such as `sim.run_to` or `std/sections`.
 fn is_name(text: &str) -> bool {
     let begins = text.starts_with(|letter: char| letter.is_alphabetic() || letter == '_');
     begins && text.chars().all(|letter| letter.is_alphanumeric() || "_.:/".contains(letter))

@@ -1,4 +1,4 @@
-//! `:plot`: columns of the history, and any expression.
+//! Command `:plot`: columns of the history, and expressions.
 
 use std::collections::BTreeSet;
 
@@ -18,19 +18,18 @@ use crate::script::presentation::plots;
 use crate::script::source::scanner::{TokenKind, scan};
 use crate::simulation::History;
 
-/// What is drawn when nothing is named.
+/// Default columns.
 const ENERGIES: [&str; 3] = ["kinetic", "strain", "energy"];
 
-/// How options are written.
 const PLOT_EXAMPLE: &str = ":plot energy, #{ y_log: true }";
 
-/// What was found about a part of what is to be drawn.
+/// Classification of one operand of `:plot`.
 enum PlotPart {
     Columns(Vec<String>),
     Expression(String),
 }
 
-/// The command `:plot [curves] [options]`: draws columns of the history, or curves of expressions.
+/// Command `:plot [curves] [options]`: draws columns of the history, or curves of expressions.
 pub fn plot(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let (operand, options) = with_options(operand);
     let options = match options.map(|text| options_of(shell, text, PLOT_EXAMPLE)).transpose() {
@@ -54,7 +53,7 @@ pub fn plot(shell: &mut Shell, operand: &str) -> CommandOutcome {
     }
 }
 
-/// What is to be drawn, and the map of options behind it, with or without a comma between.
+/// Splits an operand into the curves and the options map after it; a comma between them is optional.
 fn with_options(operand: &str) -> (&str, Option<&str>) {
     let mut depth = 0;
     for token in scan(operand) {
@@ -99,7 +98,6 @@ fn has_one_row(shell: &Shell) -> bool {
     shell.latest().is_some_and(|of| of.simulation().history().samples().len() == 1)
 }
 
-/// Says at a terminal why there are numbers in the place of a chart.
 fn note_one_state(shell: &mut Shell) {
     if has_one_row(shell) && matches!(shell.screen(), ReplyTarget::Terminal(_)) {
         shell.note("note: there is one state so far; :run T or :step 10 makes a curve");
@@ -111,7 +109,7 @@ fn column_summaries(history: &History, columns: &[String]) -> Result<String, Scr
     Ok(columns.iter().map(line).collect::<Result<Vec<_>, _>>()?.join("\n"))
 }
 
-/// Columns are names, as they stand or in quotes; so are words that can be nothing else.
+/// Column names may be quoted. Unquoted words count as columns if they cannot mean anything else.
 fn read(shell: &Shell, part: &str) -> PlotPart {
     let words: Vec<String> =
         part.split_whitespace().map(|word| word.trim_matches('"').to_owned()).collect();
@@ -120,7 +118,7 @@ fn read(shell: &Shell, part: &str) -> PlotPart {
         shell.session().variables().contains(name)
             || shell.session().catalog().constants().any(|constant| constant == name.as_str())
     };
-    // Without a simulation, what every history has is a column all the same.
+    // Without a simulation, the standard columns of every history are known too.
     let is_column = |name: &String| match &latest {
         Some(latest) => name == "drift" || latest.simulation().history().dimension(name).is_some(),
         None => History::COLUMNS.iter().any(|column| column.name == name) && !is_known(name),
@@ -186,7 +184,7 @@ fn plot_curves(shell: &mut Shell, found: Vec<PlotPart>, options: Option<Map>) ->
     CommandOutcome::Good
 }
 
-/// Curves, and what is to be said of them.
+/// Curves, and a note for the user.
 type PlotData = Result<(Vec<PlotCurve>, Option<String>), CommandOutcome>;
 
 fn columns(shell: &mut Shell, names: &[String]) -> PlotData {
@@ -207,14 +205,15 @@ fn columns(shell: &mut Shell, names: &[String]) -> PlotData {
     Ok((curves, None))
 }
 
-/// An expression is looked at in the present, and then, if it is a point, wherever the simulation has been.
+/// An expression is evaluated at the present time first. If its value is a point of a curve, it is then evaluated at
+/// all earlier states.
 fn expression(shell: &mut Shell, text: &str) -> PlotData {
     let subject = match subject(shell, text) {
         Ok(subject) => subject,
         Err(refusal) => return Err(shell.refuse(&refusal)),
     };
     let before = shell.session().whereabouts();
-    // Even what goes on by mistake moves a copy only.
+    // Expressions are evaluated on a copy, so that a mistaken step does not move the simulation.
     let present = subject.as_ref().map(Revisit::at_present).transpose();
     let present = present.map_err(|error| shell.refuse_native(error))?;
     let place = present.as_ref().map(Revisit::place);
@@ -285,7 +284,6 @@ fn expression(shell: &mut Shell, text: &str) -> PlotData {
     Ok((curves, Some(words)))
 }
 
-/// The simulations that an expression names.
 fn mentions<'s>(shell: &'s Shell, text: &str) -> impl Iterator<Item = SimulationHandle> + 's {
     let tokens: Vec<_> = scan(text).into_iter().filter(|token| token.is_significant()).collect();
     let mut named: Vec<SimulationHandle> = Vec::new();
@@ -311,7 +309,7 @@ fn mentions<'s>(shell: &'s Shell, text: &str) -> impl Iterator<Item = Simulation
     named.into_iter()
 }
 
-/// The simulation that an expression is about: the one that it names, or the last.
+/// Simulation that an expression refers to: the one that it names, or the last one.
 fn subject(shell: &Shell, text: &str) -> Result<Option<SimulationHandle>, Diagnostic> {
     let mut named = mentions(shell, text);
     match (named.next(), named.next()) {

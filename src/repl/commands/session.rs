@@ -1,4 +1,4 @@
-//! Commands that keep, fetch, forget and leave a session.
+//! Commands that save, load, reset and leave a session.
 
 use std::path::Path;
 
@@ -7,7 +7,7 @@ use crate::repl::shell::{CommandOutcome, Shell};
 use crate::script::diagnose::Diagnostic;
 use crate::script::source::program::Program;
 
-/// The command `:save file`: writes the session as a script.
+/// Command `:save file`: writes the session as a script.
 pub fn save(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let operand = operand.trim_matches('"');
     if operand.is_empty() {
@@ -15,7 +15,7 @@ pub fn save(shell: &mut Shell, operand: &str) -> CommandOutcome {
         return shell.refuse(&told.with_hint("write :save FILE.rhai"));
     }
     let path = Path::new(operand);
-    // A file of somebody's, or with changes of his, must not be lost by a slip.
+    // Files that this session did not write, or that were edited since, are not overwritten.
     if !shell.may_write(path) {
         let told = format!("'{operand}' is there already, and was not written by this session");
         return shell.refuse(&Diagnostic::general(told).with_hint("choose another name"));
@@ -43,7 +43,7 @@ pub fn save(shell: &mut Shell, operand: &str) -> CommandOutcome {
     CommandOutcome::Good
 }
 
-/// The command `:load file`: evaluates a script as if it had been typed.
+/// Command `:load file`: evaluates a script as if it had been typed.
 pub fn load(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let operand = operand.trim_matches('"');
     if operand.is_empty() {
@@ -56,13 +56,13 @@ pub fn load(shell: &mut Shell, operand: &str) -> CommandOutcome {
     }
 }
 
-/// The command `:reset`: forgets everything but the screen.
+/// Command `:reset`: clears everything except the screen settings.
 pub fn reset(shell: &mut Shell, _: &str) -> CommandOutcome {
     shell.reset();
     CommandOutcome::Good
 }
 
-/// The command `:quit`: leaves the prompt.
+/// Command `:quit`: leaves the prompt.
 pub fn quit(_: &mut Shell, _: &str) -> CommandOutcome {
     CommandOutcome::Quit
 }

@@ -1,13 +1,13 @@
-//! Commands that move the last simulation.
+//! Commands that advance or rewind the last simulation.
 
 use crate::repl::shell::{CommandOutcome, Shell};
 use crate::script::diagnose::Diagnostic;
 use crate::script::messages::numbers::format_number;
 
-/// Whole numbers below this are exact as numbers of the language.
+/// Integers below this are exact as floating-point numbers.
 const MOST_STEPS: f64 = 9e15;
 
-/// The command `:step [count]`: takes steps with the last simulation.
+/// Command `:step [count]`: advances the last simulation by steps.
 pub fn step(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let count = match whole(operand, "step") {
         Ok(count) => count,
@@ -26,13 +26,13 @@ pub fn step(shell: &mut Shell, operand: &str) -> CommandOutcome {
     outcome
 }
 
-/// The command `:run time`: runs the last simulation to a time.
+/// Command `:run time`: runs the last simulation to a time.
 pub fn run(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let Ok(end) = operand.parse::<f64>() else {
         let hint = "write :run T, with the time to run to";
         return shell.refuse(&not_a_number(operand, "a time").with_hint(hint));
     };
-    // Where there is nothing to run, the language says why.
+    // If there is nothing to run, the script call reports the reason.
     if !shell.is_watching() || !end.is_finite() || shell.next_stop(end).is_none() {
         return move_latest(shell, &format!("run_to({})", format_number(end)));
     }
@@ -43,7 +43,7 @@ pub fn run(shell: &mut Shell, operand: &str) -> CommandOutcome {
     outcome
 }
 
-/// The command `:back [count]`: takes the last simulation back by steps.
+/// Command `:back [count]`: rewinds the last simulation by steps.
 pub fn back(shell: &mut Shell, operand: &str) -> CommandOutcome {
     match whole(operand, "back") {
         Ok(count) => move_latest(shell, &format!("back({count})")),
@@ -51,7 +51,7 @@ pub fn back(shell: &mut Shell, operand: &str) -> CommandOutcome {
     }
 }
 
-/// The command `:watch [expression]`: shows an expression after each step.
+/// Command `:watch [expression]`: shows an expression after each step.
 pub fn watch(shell: &mut Shell, operand: &str) -> CommandOutcome {
     if operand.is_empty() {
         shell.watch_nothing();
@@ -60,7 +60,7 @@ pub fn watch(shell: &mut Shell, operand: &str) -> CommandOutcome {
     shell.watch(operand)
 }
 
-/// Calls a method that moves the last simulation, and says where it is then.
+/// Calls a method that moves the last simulation, and shows the new time.
 fn move_latest(shell: &mut Shell, call: &str) -> CommandOutcome {
     let outcome = shell.call_latest(call);
     if outcome == CommandOutcome::Good {
@@ -78,7 +78,7 @@ fn whole(operand: &str, command: &str) -> Result<u64, Diagnostic> {
     }
     let hint = format!("write :{command} or, for example, :{command} 10");
     let refused = || not_a_number(operand, "a number of steps").with_hint(hint);
-    // 1e3 is a whole number too.
+    // `1e3` counts as an integer too.
     match operand.parse::<f64>() {
         Ok(count) if count >= 0.0 && count.fract() == 0.0 && count < MOST_STEPS => Ok(count as u64),
         _ => Err(refused()),

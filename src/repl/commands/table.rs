@@ -1,4 +1,4 @@
-//! The table of commands, from which come dispatch, `:help` and completion.
+//! Table of commands, used for dispatch, `:help` and completion.
 
 use super::{help, inspection, plotting, session, stepping, timing};
 use crate::repl::editor::surroundings::CommandOperand;
@@ -9,21 +9,21 @@ use crate::script::presentation::quantities::NAMES;
 
 /// A command of the prompt.
 pub struct Command {
-    /// The name of the command, with the colon.
+    /// Name of the command, including the colon.
     pub name: &'static str,
-    /// What follows the name of the command.
+    /// Kind of the operand.
     pub operand: CommandOperand,
-    /// How the operand of the command is written in the help; empty for nothing.
+    /// Operand as shown in the help; empty if there is none.
     pub placeholder: &'static str,
-    /// One line on what the command does.
+    /// One-line summary.
     pub summary: &'static str,
-    /// More on the command, where a line is not enough.
+    /// Further help text; may be empty.
     pub doc: &'static str,
-    /// The function that does the command, given what follows its name.
+    /// Function that executes the command, given the text after its name.
     pub body: fn(&mut Shell, &str) -> CommandOutcome,
 }
 
-/// The command that `?` stands for: help.
+/// The help command, also written `?`.
 pub const HELP: Command = Command {
     name: ":help",
     operand: CommandOperand::Name,
@@ -180,16 +180,16 @@ pub const COMMANDS: &[Command] = &[
 ];
 
 impl Command {
-    /// How the command is written: `:run TIME`.
+    /// Usage line of the command: `:run TIME`.
     pub fn usage(&self) -> String {
         format!("{} {}", self.name, self.placeholder).trim_end().to_owned()
     }
 }
 
-/// The command that is meant by a name or by the beginning of one, with its colon.
+/// Command with this name or unambiguous prefix, including the colon.
 ///
 /// # Errors
-/// When no command begins like this, or several do.
+/// If no command, or more than one, starts with this prefix.
 pub fn find(name: &str) -> Result<&'static Command, Diagnostic> {
     if let Some(exact) = COMMANDS.iter().find(|command| command.name == name) {
         return Ok(exact);

@@ -1,4 +1,4 @@
-//! `:time`: how long an input takes, the first time and again.
+//! Command `:time`: duration of the first and of repeated evaluations of an input.
 
 use std::time::Duration;
 
@@ -8,7 +8,7 @@ use crate::repl::session::Reply;
 use crate::repl::shell::{CommandOutcome, Shell};
 use crate::script::diagnose::Diagnostic;
 
-/// The command `:time input`: tells how long an input takes.
+/// Command `:time input`: measures the duration of an input.
 pub fn time(shell: &mut Shell, operand: &str) -> CommandOutcome {
     if operand.is_empty() {
         let told = Diagnostic::general("there is nothing to time");
@@ -20,7 +20,7 @@ pub fn time(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let begun = clock.now();
     let outcome = shell.submit(operand);
     let took = clock.now().saturating_sub(begun);
-    // A simulation that was made to be timed, and that no variable holds, is nobody's last one.
+    // A simulation created only for timing, which no variable holds, must not become the last simulation.
     if let Some(earlier) = earlier.filter(|_| !shell.holds_latest()) {
         shell.session().context().note_simulation(earlier);
     }
@@ -42,7 +42,7 @@ pub fn time(shell: &mut Shell, operand: &str) -> CommandOutcome {
     CommandOutcome::Good
 }
 
-/// Does it again, without a word of what it prints, until the figure is known.
+/// Repeats the input with its output discarded until the duration is known precisely enough.
 fn repeat(shell: &mut Shell, operand: &str, first: Duration) -> CommandOutcome {
     let first = in_words(first);
     let (before, places) = (Footprint::of(shell.session()), shell.session().whereabouts());
@@ -73,7 +73,7 @@ fn repeat(shell: &mut Shell, operand: &str, first: Duration) -> CommandOutcome {
     }
 }
 
-/// The first time stands alone: it is with all that is read and made ready once.
+/// The first run is reported separately, because it includes loading and other one-time work.
 fn told(first: &str, figures: &Figures) -> String {
     let [least, median, low, high] =
         [figures.least, figures.median, figures.quartiles.0, figures.quartiles.1].map(in_words);
@@ -87,7 +87,7 @@ fn told(first: &str, figures: &Figures) -> String {
     )
 }
 
-/// Three digits with the unit that suits them.
+/// Formats a duration with three digits and a suitable unit.
 fn in_words(time: Duration) -> String {
     let seconds = time.as_secs_f64();
     let (value, unit) = match seconds {

@@ -1,4 +1,4 @@
-//! What rustyline asks while a line is typed, passed on to the parts that know.
+//! Implementation of rustyline's helper traits: completion, hints and highlighting.
 
 use std::borrow::Cow;
 use std::cell::Cell;
@@ -16,22 +16,22 @@ use super::highlight::{SessionNames, highlight};
 use super::hints::{self, Hint};
 use crate::output::{Colours, columns, cut, padded};
 
-/// Lists as short as this have a line for each candidate, with what it is.
+/// Maximum length of a list with one line per candidate and its summary.
 const SHORT_LIST: usize = 12;
 
-/// The assistant of the line editor for one prompt: it completes, hints and colours.
+/// Helper of the line editor for one prompt.
 pub struct Assistant {
     vocabulary: SessionNames,
     columns: usize,
     prompt_width: usize,
     colours: Colours,
     from_history: HistoryHinter,
-    /// Whether the line is drawn for the last time, as it stays above its result.
+    /// True while the finished line is drawn for the last time, without hints.
     is_final: Cell<bool>,
 }
 
 impl Assistant {
-    /// The assistant for a terminal of so many columns, and a prompt of so many.
+    /// A helper for a terminal of `columns` columns and a prompt of `prompt_width`.
     pub fn new(
         vocabulary: SessionNames,
         columns: usize,
@@ -49,7 +49,7 @@ impl Assistant {
         }
     }
 
-    /// The hint without what would not fit beside the line.
+    /// Cuts a hint to the space after the line.
     fn fit(&self, line: &str, hint: Hint) -> Option<Hint> {
         if hint.insertable.is_some() {
             return Some(hint);
@@ -63,7 +63,7 @@ impl Assistant {
 
 impl Helper for Assistant {}
 
-/// A candidate of completion as rustyline lists it.
+/// A completion candidate in the form that rustyline lists.
 pub struct Listed {
     display: String,
     replacement: String,
@@ -93,7 +93,7 @@ impl Completer for Assistant {
     }
 }
 
-/// Candidates for a terminal of so many columns.
+/// Formats candidates for a terminal with `room` columns.
 fn list(candidates: Vec<Candidate>, room: usize) -> Vec<Listed> {
     let widest = candidates.iter().map(|candidate| columns(&candidate.display)).max().unwrap_or(0);
     let is_described = candidates.len() <= SHORT_LIST
@@ -128,13 +128,13 @@ impl Hinter for Assistant {
         let known = hints::hint(line, position, self.vocabulary.surroundings());
         let hint = known.and_then(|hint| self.fit(line, hint));
         let remembered = || self.from_history.hint(line, position, context).map(remembered);
-        // Without colours what is offered would look like what is typed.
+        // Without colours an insertable hint would look like typed text.
         hint.or_else(remembered)
             .filter(|hint| self.colours == Colours::Ansi || hint.insertable.is_none())
     }
 }
 
-/// The rest of an entry of the history; of several lines the first one is shown, so that the terminal stays calm.
+/// Rest of a history entry. Only its first line is shown, so that the display stays stable.
 fn remembered(rest: String) -> Hint {
     let shown = match rest.split_once('\n') {
         Some((first, _)) => format!("{first} …"),

@@ -1,28 +1,28 @@
-//! Candidates of a completion, and which of them fit what is typed.
+//! Completion candidates and their matching.
 
 use crate::script::bindings::built_in::{BuiltIn, FunctionForm, NameSuffix};
 use crate::script::bindings::parameter::Parameter;
 use crate::script::bindings::table::{CallSyntax, FunctionBinding};
 
-/// A candidate of completion: something that what is typed may become.
+/// A completion candidate.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Candidate {
-    /// The text with which the candidate is listed.
+    /// Text shown in the list.
     pub display: String,
-    /// The text that is put in the place of what is typed.
+    /// Text that replaces what is typed.
     pub replacement: String,
-    /// One line on what the candidate is; may be empty.
+    /// One-line summary; may be empty.
     pub summary: String,
 }
 
 impl Candidate {
-    /// The candidate of a word that is listed as it is written.
+    /// Candidate of a word without arguments.
     pub fn word(word: &str, summary: &str) -> Self {
         Self { display: word.to_owned(), replacement: word.to_owned(), summary: summary.to_owned() }
     }
 
-    /// The candidate of a function with its arguments in parentheses, `(from, to)`: the opening one is written too, and both if there
-    /// are no arguments.
+    /// Candidate of a function with its arguments in parentheses, `(from, to)`. The opening parenthesis is inserted
+    /// too, and both if there are no arguments.
     pub fn call(name: &str, arguments: &str, summary: &str) -> Self {
         let brackets = if arguments == "()" { "()" } else { "(" };
         Self {
@@ -32,7 +32,7 @@ impl Candidate {
         }
     }
 
-    /// The candidate of a row of the language, in the way in which it is written after a dot, or without one.
+    /// Candidate of a function or property of the language. `before_dot` parameters precede the dot.
     pub fn row(row: &'static FunctionBinding, before_dot: usize) -> Self {
         match row.form {
             CallSyntax::Property(_) | CallSyntax::Operator => Self::word(row.name, row.summary),
@@ -43,7 +43,7 @@ impl Candidate {
         }
     }
 
-    /// The candidate of a function of Rhai's own, as it is written.
+    /// Candidate of a built-in function of Rhai.
     pub fn built_in((known, form): (&'static BuiltIn, FunctionForm)) -> Self {
         match form.ending {
             NameSuffix::Property => Self::word(form.name, known.summary),
@@ -53,7 +53,7 @@ impl Candidate {
         }
     }
 
-    /// The candidate of a key of an option map.
+    /// Candidate of a key of an option map.
     pub fn key(key: &Parameter) -> Self {
         let summary = match key.doc {
             "" => key.expectation(),
@@ -62,7 +62,7 @@ impl Candidate {
         Self { display: key.name.to_owned(), replacement: format!("{}: ", key.name), summary }
     }
 
-    /// The candidate of a key of the options of a script function.
+    /// Candidate of a key of the options of a script function.
     pub fn told_key(name: &str, about: &str) -> Self {
         Self {
             display: name.to_owned(),
@@ -71,13 +71,13 @@ impl Candidate {
         }
     }
 
-    /// The name of a candidate: what must agree with what is typed.
+    /// Name of a candidate, which must match what is typed.
     fn name(&self) -> &str {
         self.replacement.trim_end_matches(['(', ')', ':', ' '])
     }
 }
 
-/// The parameters of a function as its arguments in parentheses, optional ones in brackets.
+/// Parameters of a function as arguments in parentheses, optional ones in brackets.
 pub fn arguments(parameters: &[Parameter]) -> String {
     let names = parameters.iter().map(|parameter| match parameter.is_required() {
         true => parameter.name.to_owned(),
@@ -86,8 +86,8 @@ pub fn arguments(parameters: &[Parameter]) -> String {
     format!("({})", names.collect::<Vec<_>>().join(", "))
 }
 
-/// The candidates that fit `typed`, sorted and each once: those that begin so; if there are none, those that do when capital
-/// letters count as small ones, or that have the letters typed in that order.
+/// Candidates that match `typed`, sorted and without duplicates: those with this prefix; if there are none, those with
+/// the prefix ignoring case, or with the typed letters in this order.
 pub fn fitting(typed: &str, candidates: impl IntoIterator<Item = Candidate>) -> Vec<Candidate> {
     let mut all: Vec<Candidate> = candidates.into_iter().collect();
     all.sort_by_key(|candidate| (candidate.name().to_lowercase(), candidate.clone()));
@@ -100,7 +100,7 @@ pub fn fitting(typed: &str, candidates: impl IntoIterator<Item = Candidate>) -> 
     all
 }
 
-/// Whether the letters of `typed` stand in `name` in their order, the first one in front.
+/// Returns true if the letters of `typed` occur in `name` in this order, the first one at the beginning.
 fn has_in_order(name: &str, typed: &str) -> bool {
     let mut letters = name.chars().flat_map(char::to_lowercase);
     let mut wanted = typed.chars().flat_map(char::to_lowercase);

@@ -1,11 +1,11 @@
-//! Completion of commands, `:step 10`, and of questions, `?slider`.
+//! Completion of commands, `:step 10`, and of help requests, `?slider`.
 
 use super::candidates::{Candidate, fitting};
 use super::completion::complete;
 use super::paths::{FileFilter, complete_path};
 use super::surroundings::{CommandOperand, CommandWord, CompletionContext};
 
-/// The candidates for the end of `text`, which is a command or a question up to the cursor, and where what they replace begins.
+/// Candidates at the end of `text`, which is a command or a help request, and the start of the text that they replace.
 pub fn complete_command(text: &str, surroundings: &CompletionContext) -> (usize, Vec<Candidate>) {
     let begin = text.len() - text.trim_start().len();
     let command = &text[begin..];
@@ -37,7 +37,7 @@ pub fn complete_command(text: &str, surroundings: &CompletionContext) -> (usize,
             let columns = fitting(&operand[last..], columns);
             let (offset, found) = complete(operand, operand.len(), surroundings);
             match columns.is_empty() {
-                // Where a column is named, a variable may stand as well; functions that nobody asked for would only hide it.
+                // Columns and variables are offered, but no functions, which would hide them.
                 false => {
                     let variables = surroundings.variables.iter();
                     let variables = variables.map(|known| Candidate::word(&known.name, ""));
@@ -58,13 +58,14 @@ pub fn complete_command(text: &str, surroundings: &CompletionContext) -> (usize,
     }
 }
 
-/// Where a map of options begins that stands alone, or behind a blank or a comma.
+/// Start of a map of options that stands alone or after a blank or comma.
 fn options_at(operand: &str) -> Option<usize> {
     let at = operand.find("#{")?;
     (at == 0 || operand[..at].ends_with([' ', ','])).then_some(at)
 }
 
-/// Completes a map of options as if it were typed in a call, which is cut off before it; without one, an expression.
+/// Completes a map of options as an argument of `call`, whose text ends before the map; otherwise completes an
+/// expression.
 fn in_call(
     call: &str,
     operand: &str,
@@ -80,7 +81,7 @@ fn in_call(
     (start + map + offset.saturating_sub(call.len()), found)
 }
 
-/// The command with this name, or the only one that begins so.
+/// Command with this name or unambiguous prefix.
 pub fn command_named<'s>(
     name: &str,
     surroundings: &'s CompletionContext,
@@ -90,7 +91,7 @@ pub fn command_named<'s>(
     exact.or_else(|| beginning.next().filter(|_| beginning.next().is_none()))
 }
 
-/// What help can be asked for: names of the language, of the session, and of commands.
+/// Help topics: names of the language, of the session, and of commands.
 fn topics(surroundings: &CompletionContext) -> Vec<Candidate> {
     let catalog = &surroundings.catalog;
     let is_name = |name: &str| name.starts_with(|letter: char| letter.is_alphabetic());

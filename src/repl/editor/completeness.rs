@@ -1,22 +1,22 @@
-//! Whether an input can be run, or goes on in the next line.
+//! Detection of complete inputs.
 
 use crate::script::source::scanner::{Bracket, Token, TokenKind, scan};
 
-/// Whether an input is complete.
+/// State of an input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Completeness {
-    /// The input can be run, if only to say what is wrong with it.
+    /// The input can be evaluated, even if only to report an error.
     Complete,
-    /// The input goes on; the next line is indented by so many levels.
+    /// The input continues; the next line is indented by this many levels.
     Open(usize),
 }
 
 use Completeness::{Complete, Open};
 
-/// Empty lines at the end that submit an input however open it is.
+/// Number of trailing empty lines that submit any input.
 const EMPTY_LINES: usize = 2;
 
-/// Whether `text`, typed at a prompt, is complete: commands and what ends in two empty lines always are.
+/// Completeness of `text` typed at a prompt. Commands and inputs that end in two empty lines are always complete.
 pub fn completeness(text: &str) -> Completeness {
     let tail = &text[text.trim_end().len()..];
     let is_forced = tail.matches('\n').count() >= EMPTY_LINES;
@@ -26,18 +26,18 @@ pub fn completeness(text: &str) -> Completeness {
     }
 }
 
-/// Whether `text` is a command of the prompt, `:step`, or a question, `?slider`.
+/// Returns true if `text` is a command, `:step`, or a help request, `?slider`.
 pub fn is_command(text: &str) -> bool {
     text.trim_start().starts_with([':', '?'])
 }
 
-/// Whether `text`, read from a file or a pipe, is complete: empty lines mean nothing there.
+/// Completeness of `text` read from a file or a pipe, where empty lines have no meaning.
 ///
-/// What no further line can mend is complete, so that its error is shown: a wrong closing bracket, a text in quotes that
-/// does not end in its line.
+/// An error that no further line can fix makes the input complete, so that the error is reported: a wrong closing
+/// bracket, or an unterminated string literal.
 pub fn completeness_of_script(text: &str) -> Completeness {
     let tokens = scan(text);
-    // A comment that documents stands before its function.
+    // A doc comment belongs to the function after it.
     let last = tokens.iter().rev().find(|token| token.kind != TokenKind::Space);
     let last = last.filter(|token| token.kind == TokenKind::Comment).map(|token| token.of(text));
     if last.is_some_and(|comment| comment.starts_with("///") && !comment.starts_with("////")) {
@@ -52,17 +52,17 @@ pub fn completeness_of_script(text: &str) -> Completeness {
     reader.conclude()
 }
 
-/// Operators after which an expression must go on.
+/// Operators that need a right operand.
 const GO_ON: &[&str] = &[
     "+", "-", "*", "/", "%", "**", "^", "=", "+=", "-=", "*=", "/=", "%=", "**=", "^=", "&=", "|=",
     "<<=", ">>=", "==", "!=", "<", ">", "<=", ">=", "&&", "||", "&", "|", "<<", ">>", "??", "!",
     ",", ".", "?.", "..", "..=", ":", "::", "=>",
 ];
 
-/// Keywords after which something must follow that is no block.
+/// Keywords that must be followed by something other than a block.
 const INTRODUCE: &[&str] = &["let", "const", "in", "import", "as", "private", "export"];
 
-/// Keywords whose block must follow, at once or after a condition.
+/// Keywords that must be followed by a block, possibly after a condition.
 const HEADS: &[&str] =
     &["fn", "if", "else", "while", "until", "for", "loop", "switch", "do", "try", "catch"];
 
@@ -71,18 +71,18 @@ enum ParseOutcome {
     Final(Completeness),
 }
 
-/// One level of brackets.
+/// Nesting level of brackets.
 #[derive(Default)]
 struct BracketLevel<'t> {
     bracket: Option<Bracket>,
     line: usize,
-    /// The keyword whose block this level is.
+    /// Keyword whose block this level is.
     owner: Option<&'t str>,
-    /// The keyword that waits for its block.
+    /// Keyword that still needs its block.
     waiting: Option<&'t str>,
-    /// The keyword whose block was closed just now.
+    /// Keyword whose block was closed last.
     closed: Option<&'t str>,
-    /// Whether this is between the bars of a function such as `|x, y| x + y`.
+    /// True between the bars of a closure such as `|x, y| x + y`.
     is_between_bars: bool,
 }
 
@@ -91,11 +91,11 @@ struct InputReader<'t> {
     outer: Vec<BracketLevel<'t>>,
     level: BracketLevel<'t>,
     line: usize,
-    /// Whether what was read last must be followed by something.
+    /// True if the last token requires a continuation.
     goes_on: bool,
-    /// Whether it was a value, so that a bar after it is an operator.
+    /// True if the last token ends a value, so that a bar after it is an operator.
     is_value: bool,
-    /// Whether it is a text or a comment, in which spaces are not for us to add.
+    /// True inside a string literal or comment, where indentation must not be added.
     is_literal: bool,
 }
 
@@ -128,7 +128,7 @@ impl<'t> InputReader<'t> {
                 if written == "|" {
                     self.level.is_between_bars = !self.level.is_between_bars && !self.is_value;
                 }
-                // Blocks of other languages begin with a colon; here it stands in maps only.
+                // Blocks of other languages begin with a colon; in this language it occurs in maps only.
                 if written == ":" && self.level.bracket != Some(Bracket::Map) {
                     return ParseOutcome::Final(Complete);
                 }
@@ -151,7 +151,7 @@ impl<'t> InputReader<'t> {
         ParseOutcome::GoOn
     }
 
-    /// A text in quotes goes on in the next line only after a backslash.
+    /// A string literal continues on the next line only after a backslash.
     fn read_open_text(&mut self, written: &str) -> ParseOutcome {
         let backslashes = written.len() - written.trim_end_matches('\\').len();
         ParseOutcome::Final(if backslashes % 2 == 1 { Open(0) } else { Complete })
@@ -195,10 +195,10 @@ impl<'t> InputReader<'t> {
             || self.level.is_between_bars
             || self.level.waiting.is_some();
         if self.level.bracket.is_none() {
-            // What follows `fn f()` or `try { }` stands below it; the rest of an expression does not.
+            // The continuation of `fn f()` or `try { }` is not indented; that of an expression is.
             return if waits { Open(usize::from(self.goes_on)) } else { Complete };
         }
-        // Brackets that were opened in the same line indent together.
+        // Brackets opened in the same line indent once.
         let levels = self.outer.iter().skip(1).chain(std::iter::once(&self.level));
         let mut lines: Vec<usize> = levels.map(|level| level.line).collect();
         lines.dedup();
@@ -345,7 +345,7 @@ mod tests {
         }
     }
 
-    /// The chunks in which the prompt would run a script that is typed line by line.
+    /// Splits a script into the inputs that the prompt would evaluate line by line.
     fn chunks(script: &str) -> Vec<String> {
         let mut chunks = vec![String::new()];
         for line in script.lines() {

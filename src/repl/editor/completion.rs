@@ -1,4 +1,4 @@
-//! Completion: which words may stand at the cursor.
+//! Completion of words at the cursor.
 
 use super::candidates::{Candidate, fitting};
 use super::commands::complete_command;
@@ -14,7 +14,7 @@ use crate::script::bindings::table::CallSyntax;
 use crate::script::source::keywords::KEYWORDS;
 use crate::script::source::scanner::{Bracket, Token, TokenKind, scan};
 
-/// The candidates for the word that is typed in `line` at `position`, and where that word begins.
+/// Candidates for the word at `position` of `line`, and the start of that word.
 pub fn complete(
     line: &str,
     position: usize,
@@ -25,7 +25,7 @@ pub fn complete(
         true => complete_command(&line[..position], surroundings),
         false => complete_language(line, position, surroundings),
     };
-    // What stands after the cursor already is not written twice.
+    // Text that already follows the cursor is not inserted again.
     for candidate in &mut candidates {
         for mark in ["(", "\"", "\"]", "::", ": "] {
             if after.starts_with(mark.trim_end()) && candidate.replacement.ends_with(mark) {
@@ -37,7 +37,7 @@ pub fn complete(
     (start, candidates)
 }
 
-/// Words after which a new name is declared.
+/// Keywords that are followed by a new name.
 const DECLARING: &[&str] = &["let", "const", "fn", "for", "as"];
 
 fn complete_language(
@@ -81,7 +81,7 @@ fn complete_language(
     (start, fitting(typed, candidates))
 }
 
-/// One level of indentation, which TAB writes at the beginning of a further line.
+/// One level of indentation, which TAB inserts at the beginning of a continuation line.
 pub const INDENTATION: &str = "    ";
 
 fn is_indentation(input: &Input) -> bool {
@@ -89,7 +89,6 @@ fn is_indentation(input: &Input) -> bool {
     line.is_some_and(|line| line.trim().is_empty())
 }
 
-/// All names that can begin an expression or a statement.
 fn names(surroundings: &CompletionContext) -> Vec<Candidate> {
     let catalog = &surroundings.catalog;
     let own =
@@ -124,7 +123,7 @@ fn module_members(alias: &str, surroundings: &CompletionContext) -> Vec<Candidat
     modules.flat_map(|module| &module.functions).map(script_function).collect()
 }
 
-/// The keys that may still be given, if a key of a map stands at the cursor.
+/// Keys that are still missing in the map at the cursor, if a key is expected there.
 fn keys(input: &Input, line: &str, surroundings: &CompletionContext) -> Option<Vec<Candidate>> {
     let expected = Expected::new(input, surroundings);
     let level = expected
@@ -140,7 +139,6 @@ fn keys(input: &Input, line: &str, surroundings: &CompletionContext) -> Option<V
     Some(free.map(Candidate::key).chain(of_library).collect())
 }
 
-/// The keys in the rest of a map.
 fn keys_after(rest: &str) -> Vec<&str> {
     let tokens: Vec<Token> = scan(rest).into_iter().filter(Token::is_significant).collect();
     let mut depth = 0_usize;
@@ -159,7 +157,7 @@ fn keys_after(rest: &str) -> Vec<&str> {
     found
 }
 
-/// Inside quotes: names of files, columns, choices and keys, where the call says so.
+/// Completes string literals: file names, columns, choices and keys, depending on the call.
 fn complete_text(input: &Input, surroundings: &CompletionContext) -> (usize, Vec<Candidate>) {
     let nothing = (input.text.len(), Vec::new());
     let Some(text) = input.tokens.last().filter(|text| text.of(input.text).starts_with('"')) else {

@@ -1,4 +1,4 @@
-//! What a call expects at the cursor: the parameters that the value being written may stand for.
+//! Parameters that a call expects at the cursor.
 
 use super::input::{CalleeName, Input, OpenBracket};
 use super::surroundings::CompletionContext;
@@ -9,38 +9,38 @@ use crate::script::bindings::parameter::Parameter;
 use crate::script::bindings::table::{CallSyntax, FunctionBinding};
 use crate::script::source::scanner::Bracket;
 
-/// The parameters that are expected in the brackets around the cursor.
+/// Expected parameters in the brackets around the cursor.
 pub struct Expected<'a, 't> {
     types: Types<'a, 't>,
     levels: Vec<OpenBracket<'t>>,
 }
 
-/// A row that is called, and how many of its parameters stand before the dot.
+/// A called function, and the number of its parameters before the dot.
 #[derive(Clone, Copy)]
 pub struct ActiveCall {
-    /// The row that is called.
+    /// Called function.
     pub row: &'static FunctionBinding,
-    /// The number of parameters before the dot: one for a function that is written as a method.
+    /// Number of parameters before the dot: one for a function in method notation.
     pub before_dot: usize,
 }
 
 impl<'a, 't> Expected<'a, 't> {
-    /// Looks at what stands before the cursor of an input.
+    /// Analyses the input before the cursor.
     pub fn new(input: &'a Input<'t>, surroundings: &'a CompletionContext) -> Self {
         Self { types: Types { input, surroundings }, levels: input.levels() }
     }
 
-    /// The innermost open bracket before the cursor.
+    /// Innermost open bracket before the cursor.
     pub fn innermost(&self) -> Option<&OpenBracket<'t>> {
         self.levels.last()
     }
 
-    /// The parameters that the value may be for which is being written at the cursor.
+    /// Parameters that the value at the cursor may be for.
     pub fn here(&self) -> Vec<&'static Parameter> {
         self.levels.len().checked_sub(1).map_or_else(Vec::new, |depth| self.at(depth))
     }
 
-    /// The keys of the option map whose bracket is the innermost one at the cursor; none of any other map.
+    /// Keys of the option map whose bracket is the innermost one at the cursor; empty for other maps.
     pub fn keys(&self) -> Vec<&'static Parameter> {
         match self.levels.len().checked_sub(2) {
             Some(outer) if self.levels[outer + 1].bracket == Bracket::Map => keys(&self.at(outer)),
@@ -48,7 +48,8 @@ impl<'a, 't> Expected<'a, 't> {
         }
     }
 
-    /// The keys of the options of a library function whose bracket is the innermost one at the cursor, with what is said about each.
+    /// Keys of the options of a library function, with their descriptions, if their bracket is the innermost one at the
+    /// cursor.
     pub fn library_keys(&self) -> &'a [(String, String)] {
         let [.., call, map] = self.levels.as_slice() else { return &[] };
         if map.bracket != Bracket::Map || call.bracket != Bracket::Round {
@@ -63,7 +64,7 @@ impl<'a, 't> Expected<'a, 't> {
         of.map(|function| function.keys.as_slice()).unwrap_or_default()
     }
 
-    /// The innermost call whose arguments are being written, with what is between it and the cursor left aside.
+    /// Innermost call whose arguments are being written, skipping arrays, maps and parentheses in between.
     pub fn call(&self) -> Option<(OpenBracket<'t>, CalleeName<'t>)> {
         let transparent = |level: &&OpenBracket| {
             matches!(level.bracket, Bracket::Round | Bracket::Square | Bracket::Map)
@@ -72,7 +73,7 @@ impl<'a, 't> Expected<'a, 't> {
         levels.filter_map(|level| Some((*level, self.types.input.callee(level.opener)?))).next()
     }
 
-    /// The rows that a call may mean.
+    /// Functions that a call may refer to.
     pub fn rows(&self, callee: &CalleeName) -> Vec<ActiveCall> {
         if callee.module.is_some() {
             return Vec::new();
@@ -91,7 +92,7 @@ impl<'a, 't> Expected<'a, 't> {
         fitting.collect()
     }
 
-    /// The functions of Rhai that a call may mean, each in the way in which it is written there.
+    /// Built-in functions of Rhai that a call may refer to, with their notation.
     pub fn built_ins(&self, callee: &CalleeName) -> Vec<(&'static BuiltIn, FunctionForm)> {
         if callee.module.is_some() {
             return Vec::new();
@@ -136,7 +137,7 @@ fn keys(parameters: &[&'static Parameter]) -> Vec<&'static Parameter> {
     parameters.iter().flat_map(|parameter| kinds(&parameter.kind)).flat_map(options).collect()
 }
 
-/// The kinds of which a value for this kind may be one.
+/// Alternatives of a kind.
 pub fn kinds(kind: &'static Kind) -> &'static [Kind] {
     match kind {
         Kind::Either(kinds) => kinds,

@@ -1,4 +1,4 @@
-//! Colours of an input at the prompt: a command, a question, or the language.
+//! Syntax highlighting at the prompt: commands, help requests, and the language.
 
 use super::commands::command_named;
 use super::completeness::is_command;
@@ -7,14 +7,14 @@ use crate::script::presentation::highlight::{self, HighlightStyle, STRAY, draw};
 
 const COMMAND: HighlightStyle = HighlightStyle("1");
 
-/// The names of a session that are drawn in colours of their own; made once for each prompt.
+/// Names of a session with their colours; built once per prompt.
 pub struct SessionNames {
     language: highlight::Vocabulary,
     surroundings: CompletionContext,
 }
 
 impl SessionNames {
-    /// The names of a session in colours.
+    /// Vocabulary of a session.
     pub fn of(surroundings: CompletionContext) -> Self {
         let mut language = highlight::Vocabulary::of_language(&surroundings.catalog);
         for function in &surroundings.functions {
@@ -30,13 +30,13 @@ impl SessionNames {
         Self { language, surroundings }
     }
 
-    /// The session that the names are of.
+    /// Session that the names belong to.
     pub fn surroundings(&self) -> &CompletionContext {
         &self.surroundings
     }
 }
 
-/// The input `text` with colours; a bracket at the cursor and its partner stand out.
+/// Text with colours. A bracket at the cursor and its partner are emphasised.
 pub fn highlight(text: &str, cursor: Option<usize>, vocabulary: &SessionNames) -> String {
     match is_command(text) && !text.contains('\x1b') {
         true => highlight_command(text, cursor, vocabulary),
@@ -97,7 +97,7 @@ mod tests {
         SessionNames::of(surroundings())
     }
 
-    /// The pieces that have a colour, with its numbers.
+    /// Coloured pieces with their colour codes.
     fn pieces(text: &str, cursor: Option<usize>) -> Vec<(String, String)> {
         let drawn = highlight(text, cursor, &vocabulary());
         let coloured = drawn.split("\x1b[").filter_map(|piece| piece.split_once('m'));

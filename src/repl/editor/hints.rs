@@ -1,4 +1,4 @@
-//! Hints: what is shown behind the cursor while a line is typed.
+//! Hints shown after the cursor while a line is typed.
 
 use super::candidates::arguments;
 use super::commands::command_named;
@@ -12,37 +12,37 @@ use crate::script::bindings::parameter::{Parameter, Presence};
 use crate::script::messages::numbers::format_number;
 use crate::script::source::scanner::{Bracket, TokenKind};
 
-/// A hint that is shown behind the cursor.
+/// A hint after the cursor.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Hint {
-    /// The text of the hint that is shown.
+    /// Text of the hint.
     pub shown: String,
-    /// The part of the hint that can be taken over into the line.
+    /// Part of the hint that can be inserted into the line.
     pub insertable: Option<String>,
 }
 
 impl Hint {
-    /// Something to know.
+    /// A hint for information only.
     fn note(text: String) -> Option<Self> {
         (!text.is_empty()).then(|| Self { shown: format!("  {text}"), insertable: None })
     }
 
-    /// The hint of a text that comes next and can be taken over.
+    /// A hint of text that can be inserted.
     pub fn rest(text: &str) -> Option<Self> {
         (!text.is_empty())
             .then(|| Self { shown: text.to_owned(), insertable: Some(text.to_owned()) })
     }
 }
 
-/// The hint for the cursor at the end of `line`: the rest of the only name that fits, the signature of the call
-/// whose arguments are being written, the keys of its options.
+/// Hint for the cursor at the end of `line`: the rest of the only matching name, the signature of the current call, or
+/// the keys of its options.
 pub fn hint(line: &str, position: usize, surroundings: &CompletionContext) -> Option<Hint> {
     if position != line.len() || line.trim().is_empty() {
         return None;
     }
     if is_command(line) {
         let name = line.trim();
-        // An expression after a command has its hints too.
+        // Expressions after a command have hints too.
         if let Some((word, operand)) = line.trim_start().split_once(char::is_whitespace)
             && let Some(command) = command_named(word, surroundings)
             && matches!(
@@ -71,7 +71,7 @@ pub fn hint(line: &str, position: usize, surroundings: &CompletionContext) -> Op
     only.or_else(|| call_hint(&expected, is_key, line, surroundings))
 }
 
-/// The rest of the only name that fits.
+/// Rest of the only matching name.
 fn only_candidate(line: &str, surroundings: &CompletionContext) -> Option<Hint> {
     let (start, candidates) = complete(line, line.len(), surroundings);
     match candidates.as_slice() {
@@ -107,7 +107,7 @@ fn call_hint(
     }
 }
 
-/// A signature with the current parameter in angle quotes, and what it may be.
+/// Signature with the current parameter in angle quotes, and its description.
 fn signature(called: &ActiveCall, level: &OpenBracket) -> String {
     let parameters = called.row.parameters.get(called.before_dot..).unwrap_or_default();
     let names: Vec<String> = parameters
@@ -126,7 +126,7 @@ fn signature(called: &ActiveCall, level: &OpenBracket) -> String {
     }
 }
 
-/// The signature of a function of Rhai with the current argument in angle quotes, and what the function does.
+/// Signature of a built-in function of Rhai with the current argument in angle quotes, and its summary.
 fn built_in_signature(known: &[(&BuiltIn, FunctionForm)], level: &OpenBracket) -> Option<String> {
     let is_long_enough = |(_, form): &&(&BuiltIn, FunctionForm)| level.commas < form.listed().len();
     let (known, form) = known.iter().find(is_long_enough).or(known.first())?;
@@ -134,7 +134,6 @@ fn built_in_signature(known: &[(&BuiltIn, FunctionForm)], level: &OpenBracket) -
     Some(format!("{}({})  {}", form.name, names.join(", "), known.summary))
 }
 
-/// Names of arguments, the current one in angle quotes.
 fn marked(mut names: Vec<String>, current: usize) -> Vec<String> {
     if let Some(name) = names.get_mut(current) {
         *name = format!("‹{name}›");
@@ -142,7 +141,7 @@ fn marked(mut names: Vec<String>, current: usize) -> Vec<String> {
     names
 }
 
-/// What a parameter may be: `t: a number [time]; 0 unless given; doc`.
+/// Description of a parameter: `t: a number [time]; 0 unless given; doc`.
 fn describe(parameter: &Parameter) -> String {
     let default = match parameter.presence {
         Presence::Required | Presence::Optional => None,

@@ -1,19 +1,18 @@
-//! Where the lines of earlier sessions are kept.
+//! Storage of the input history.
 
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-/// The variable of the environment that names the file of the history; empty for none.
+/// Environment variable that names the history file; empty for none.
 pub const VARIABLE: &str = "WITHY_HISTORY";
 
-/// The number of entries of the history that are kept.
+/// Maximum number of history entries.
 pub const MOST_ENTRIES: usize = 5000;
 
-/// The length of the longest entry of the history that is kept [bytes]: what is longer was pasted, and belongs into a file.
+/// Maximum length of a stored entry [bytes]. Longer inputs are usually pasted.
 pub const LONGEST_ENTRY: usize = 64 << 10;
 
-/// The file of the history: what `setting` names, nothing if it is empty, and without it a file in the user's folder for
-/// the state of programs.
+/// History file: the path in `setting`, `None` if it is empty; if unset, a file in the user's state folder.
 pub fn file(setting: Option<OsString>) -> Option<PathBuf> {
     match setting {
         Some(name) if name.is_empty() => None,
@@ -25,7 +24,7 @@ pub fn file(setting: Option<OsString>) -> Option<PathBuf> {
     }
 }
 
-/// Whether an entry is worth keeping in the history.
+/// Returns true if an entry should be stored in the history.
 pub fn is_kept(entry: &str) -> bool {
     !entry.trim().is_empty() && entry.len() <= LONGEST_ENTRY
 }

@@ -1,50 +1,50 @@
-//! An input up to the cursor: its tokens, which brackets are open there, and whose they are.
+//! Tokens of an input before the cursor, and its open brackets.
 
 use crate::script::source::scanner::{Bracket, Token, TokenKind, pair, scan};
 
-/// Open brackets that are looked at: what stands further outside does not matter at the cursor.
+/// Maximum number of open brackets considered; outer ones do not matter at the cursor.
 const MOST_LEVELS: usize = 64;
 
-/// What stands before the cursor of an input, as tokens.
+/// Tokens before the cursor of an input.
 pub struct Input<'t> {
-    /// The text of the input up to the cursor.
+    /// Text before the cursor.
     pub text: &'t str,
-    /// The tokens of the text, spaces and comments left out.
+    /// Tokens of the text, without spaces and comments.
     pub tokens: Vec<Token>,
-    /// The token that ends at the cursor, also a space or a comment.
+    /// Token that ends at the cursor, including spaces and comments.
     pub last: Option<Token>,
-    /// For each token the bracket that it opens or closes with.
+    /// For each bracket token the index of its partner.
     partners: Vec<Option<usize>>,
-    /// Brackets that are open at the cursor, as numbers of tokens, the innermost last.
+    /// Token indices of the brackets open at the cursor, innermost last.
     open: Vec<usize>,
 }
 
 /// A bracket that is open at the cursor.
 #[derive(Clone, Copy, Debug)]
 pub struct OpenBracket<'t> {
-    /// The kind of the bracket.
+    /// Kind of the bracket.
     pub bracket: Bracket,
-    /// The index of the bracket's token.
+    /// Token index of the bracket.
     pub opener: usize,
-    /// The number of commas that stand in the bracket so far.
+    /// Number of commas in the bracket so far.
     pub commas: usize,
-    /// The key whose value is being written, where the bracket is that of a map.
+    /// Key whose value is being written, in a map.
     pub key: Option<&'t str>,
 }
 
-/// The name that a bracket calls.
+/// Function called by a bracket.
 #[derive(Clone, Copy, Debug)]
 pub struct CalleeName<'t> {
-    /// The name of the function that is called.
+    /// Name of the function.
     pub name: &'t str,
-    /// The index of the last token of the value whose method is called.
+    /// Index of the last token of the value before the dot.
     pub receiver: Option<usize>,
-    /// The module that the called function belongs to.
+    /// Module of the function.
     pub module: Option<&'t str>,
 }
 
 impl<'t> Input<'t> {
-    /// The input before `position` of `text`, as tokens.
+    /// Tokens of `text` before `position`.
     pub fn before(text: &'t str, position: usize) -> Self {
         let text = text.get(..position).unwrap_or(text);
         let all = scan(text);
@@ -54,27 +54,27 @@ impl<'t> Input<'t> {
         Self { text, tokens, last, partners, open }
     }
 
-    /// The text of a token of the input, by the token's index.
+    /// Text of the token with this index.
     pub fn written(&self, index: usize) -> &'t str {
         self.tokens.get(index).map_or("", |token| token.of(self.text))
     }
 
-    /// The kind of a token of the input, by the token's index; none where there is no token.
+    /// Kind of the token with this index.
     pub fn kind(&self, index: usize) -> Option<TokenKind> {
         self.tokens.get(index).map(|token| token.kind)
     }
 
-    /// The index of the bracket that closes or opens what a bracket, by its index, opens or closes.
+    /// Token index of the partner of a bracket.
     pub fn partner(&self, index: usize) -> Option<usize> {
         self.partners.get(index).copied().flatten()
     }
 
-    /// Whether the token of an index is a dot.
+    /// Returns true if the token with this index is a dot.
     pub fn is_dot(&self, index: usize) -> bool {
         matches!(self.written(index), "." | "?.")
     }
 
-    /// The name that is being written at the cursor, and where it begins in the input [bytes]; empty between names.
+    /// Name being written at the cursor, and its start [bytes]; empty between names.
     pub fn name(&self) -> (usize, &'t str) {
         match self.last {
             Some(token) if token.kind == TokenKind::Word => (token.start, token.of(self.text)),
@@ -82,12 +82,12 @@ impl<'t> Input<'t> {
         }
     }
 
-    /// How many tokens stand before the name at the cursor.
+    /// Number of tokens before the name at the cursor.
     pub fn count_before_name(&self) -> usize {
         self.tokens.len() - usize::from(!self.name().1.is_empty())
     }
 
-    /// The brackets that are open at the cursor, the innermost last; of very many the innermost.
+    /// Brackets open at the cursor, innermost last; limited to the innermost ones.
     pub fn levels(&self) -> Vec<OpenBracket<'t>> {
         let first = self.open.len().saturating_sub(MOST_LEVELS);
         self.open[first..].iter().map(|opener| self.level(*opener)).collect()
@@ -108,7 +108,7 @@ impl<'t> Input<'t> {
                 }
                 _ => (),
             }
-            // Brackets inside are passed over, unless they are open too.
+            // Closed inner brackets are skipped.
             let opens = matches!(self.kind(index), Some(TokenKind::Open(_)));
             index = match self.partner(index) {
                 Some(closer) if opens => closer + 1,
@@ -119,7 +119,7 @@ impl<'t> Input<'t> {
         level
     }
 
-    /// What is called by the bracket at token `opener`, if it opens the arguments of a call.
+    /// Function called by the bracket at token `opener`, if it opens the arguments of a call.
     pub fn callee(&self, opener: usize) -> Option<CalleeName<'t>> {
         let at = opener.checked_sub(1)?;
         let is_call = self.kind(opener) == Some(TokenKind::Open(Bracket::Round))
@@ -136,7 +136,6 @@ impl<'t> Input<'t> {
     }
 }
 
-/// A key without its quotes.
 fn unquoted(key: &str) -> &str {
     key.trim_matches('"')
 }

@@ -1,4 +1,4 @@
-//! Keys that behave in a way of their own: Enter, Backspace, and the arrows up and down.
+//! Key bindings with special behaviour: Enter, Backspace, and the arrows up and down.
 
 use std::collections::HashSet;
 use std::sync::{Arc, Mutex};
@@ -12,10 +12,10 @@ use rustyline::{
 use super::completeness::{Completeness, completeness};
 use super::completion::INDENTATION;
 
-/// The entries of the line editor's history, shared with the keys that walk through it.
+/// Entries of the history, shared with the bindings that search it.
 pub type Entries = Arc<Mutex<HashSet<String>>>;
 
-/// Binds the keys of the line editor.
+/// Installs the key bindings.
 pub fn bind<H: Helper, I: History>(editor: &mut Editor<H, I>, entries: &Entries) {
     let conditional = |rule: KeyRule| EventHandler::Conditional(Box::new(rule));
     editor.bind_sequence(KeyEvent(KeyCode::Enter, Modifiers::NONE), conditional(KeyRule::Enter));
@@ -39,11 +39,11 @@ enum HistoryDirection {
 }
 
 enum KeyRule {
-    /// The next line of an open input is indented.
+    /// Indents the next line of an open input.
     Enter,
-    /// Backspace takes back a level of indentation.
+    /// Removes a level of indentation.
     Back,
-    /// Goes through the entries that begin as the line does up to the cursor.
+    /// Searches the entries that begin like the line before the cursor.
     Search(HistoryDirection, Entries),
 }
 
@@ -67,7 +67,7 @@ impl ConditionalEventHandler for KeyRule {
     }
 }
 
-/// What Enter puts at the end of an open input.
+/// Text that Enter inserts at the end of an open input.
 fn next_line(line: &str, at: usize) -> Option<String> {
     match completeness(line) {
         Completeness::Open(levels) if at == line.len() => {
@@ -77,7 +77,7 @@ fn next_line(line: &str, at: usize) -> Option<String> {
     }
 }
 
-/// Whether a level of indentation and nothing else stands before the cursor, at the end of the input.
+/// Returns true if the line before the cursor consists of indentation only, at the end of the input.
 fn is_indentation(line: &str, at: usize) -> bool {
     let here = line.rfind('\n').map(|end| &line[end + 1..]);
     let is_blank = |here: &str| !here.is_empty() && here.bytes().all(|byte| byte == b' ');
@@ -85,8 +85,9 @@ fn is_indentation(line: &str, at: usize) -> bool {
         && here.is_some_and(|here| is_blank(here) && here.len() % INDENTATION.len() == 0)
 }
 
-/// Whether an arrow searches: in a line with something typed before the cursor. In an entry that was fetched, as one sees by
-/// the cursor at its end, it goes on to the next one; in an input of several lines it moves.
+/// Returns true if an arrow key searches the history: in a line with text before the cursor. In an entry fetched from
+/// the history, with the cursor at its end, the arrow moves to the next entry; in an input of several lines it moves
+/// the cursor.
 fn searches(line: &str, at: usize, is_entry: bool) -> bool {
     let is_fetched = is_entry && at == line.len();
     at > 0 && !line.contains('\n') && !is_fetched

@@ -1,4 +1,4 @@
-//! The editor of the prompt: rustyline with our keys, helpers and history.
+//! Line editor of the prompt: rustyline with custom keys, helpers and history.
 
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
@@ -15,21 +15,21 @@ use super::keys::{self, Entries};
 use super::surroundings::CompletionContext;
 use crate::output::Colours;
 
-/// The keys with which lines are edited.
+/// Editing mode.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Keys {
-    /// Lines are edited with the keys of Emacs, as in most shells.
+    /// Emacs keys, as in most shells.
     #[default]
     Emacs,
-    /// Lines are edited with the keys of vi, beginning in insert mode.
+    /// Keys of vi, starting in insert mode.
     Vi,
 }
 
 impl Keys {
-    /// The variable of the environment that chooses the keys.
+    /// Environment variable that selects the editing mode.
     pub const VARIABLE: &str = "WITHY_KEYS";
 
-    /// The editing keys of a name, such as `emacs` or `vi`; none for another name.
+    /// Editing mode of a name, such as `emacs` or `vi`.
     pub fn named(name: &str) -> Option<Self> {
         match name.to_ascii_lowercase().as_str() {
             "emacs" => Some(Self::Emacs),
@@ -39,19 +39,19 @@ impl Keys {
     }
 }
 
-/// How a line editor behaves.
+/// Options of the line editor.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct EditorOptions {
-    /// The keys with which lines are edited.
+    /// Editing mode.
     pub keys: Keys,
-    /// Whether lines are drawn in colours.
+    /// Use of colours.
     pub colours: Colours,
-    /// The file that keeps the lines of earlier sessions, if any.
+    /// File with the history of earlier sessions.
     pub history: Option<PathBuf>,
 }
 
 impl EditorOptions {
-    /// The options that the environment asks for by `WITHY_KEYS` and `WITHY_HISTORY`.
+    /// Options from the environment variables `WITHY_KEYS` and `WITHY_HISTORY`.
     pub fn from_environment(colours: Colours) -> Self {
         let keys = env::var(Keys::VARIABLE).ok().and_then(|name| Keys::named(&name));
         let history = history::file(env::var_os(history::VARIABLE));
@@ -59,21 +59,21 @@ impl EditorOptions {
     }
 }
 
-/// What a person has typed at a prompt.
+/// Result of reading an input.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum EditorInput {
-    /// A complete input, of one line or more.
+    /// A complete input of one or more lines.
     Line(String),
-    /// Ctrl-C was typed: what stood there is thrown away.
+    /// Ctrl-C: the input is discarded.
     Interrupted,
-    /// Ctrl-D was typed on an empty line, or what is piped in has ended.
+    /// Ctrl-D on an empty line, or the end of piped input.
     End,
 }
 
-/// Columns of a terminal that does not tell.
+/// Width of a terminal that does not report its size.
 const USUAL_COLUMNS: usize = 80;
 
-/// A line editor: it reads inputs, and remembers them across sessions.
+/// A line editor with a persistent history.
 pub struct Editor {
     lines: rustyline::Editor<Assistant, FileHistory>,
     history: Option<PathBuf>,
@@ -83,7 +83,7 @@ pub struct Editor {
 }
 
 impl Editor {
-    /// A line editor on this terminal. A history that cannot be read is noted and left alone.
+    /// A line editor on this terminal. An unreadable history is reported by [`Self::take_note`] and not used.
     ///
     /// # Errors
     /// If the terminal cannot be used.
@@ -97,7 +97,7 @@ impl Editor {
         Ok(editor)
     }
 
-    /// Lets the user type an input, of several lines if it is open, and adds it to the history.
+    /// Reads an input, which may span several lines, and adds it to the history.
     ///
     /// # Errors
     /// If the terminal fails.
@@ -126,20 +126,20 @@ impl Editor {
         }
     }
 
-    /// The columns and lines of the terminal; none where the terminal does not tell.
+    /// Columns and lines of the terminal, if it reports them.
     pub fn size(&mut self) -> Option<(usize, usize)> {
         let (columns, lines) = self.lines.dimensions()?;
         Some((usize::from(columns), usize::from(lines)))
     }
 
-    /// What went wrong with the history; told once.
+    /// Returns a problem with the history, once.
     pub fn take_note(&mut self) -> Option<String> {
         self.note.take()
     }
 
     fn recall(&mut self) {
         let Some(file) = self.history.clone().filter(|file| file.exists()) else { return };
-        // A pipe or a device would make the session wait.
+        // Reading a pipe or a device would block the session.
         if !file.is_file() {
             let error = ReadlineError::from(io::Error::other("it is no ordinary file"));
             return self.give_up("read", &file, &error);
@@ -154,7 +154,7 @@ impl Editor {
         }
     }
 
-    /// Adds an entry to the history and, at once, to its file: a session that is killed loses nothing.
+    /// Adds an entry to the history and writes it to the file at once, so that a killed session loses nothing.
     fn remember(&mut self, line: &str) {
         if !history::is_kept(line) || !self.lines.add_history_entry(line).unwrap_or(false) {
             return;

@@ -1,4 +1,4 @@
-//! What can stand after the dot of a value.
+//! Completion of members after a dot.
 
 use super::candidates::Candidate;
 use super::surroundings::{CompletionContext, Variable};
@@ -7,8 +7,8 @@ use crate::script::bindings::returns::ValueKind;
 use crate::script::bindings::table::{CallSyntax, FunctionBinding};
 use crate::script::source::scanner::is_name;
 
-/// The members of a value, as candidates. Of an unknown kind all members of all types are offered once something is typed; of a map
-/// held by a variable its keys.
+/// Members of a value as candidates. For an unknown kind the members of all types are offered once something is typed;
+/// for a map held by a variable its keys.
 pub fn members(
     of: Option<ValueKind>,
     variable: Option<&Variable>,
@@ -30,7 +30,6 @@ pub fn members(
         .collect()
 }
 
-/// The members of all types.
 fn all_members(surroundings: &CompletionContext) -> Vec<Candidate> {
     let catalog = &surroundings.catalog;
     let own = catalog.rows().filter(|row| row.receiver().is_some());
@@ -41,7 +40,7 @@ fn all_members(surroundings: &CompletionContext) -> Vec<Candidate> {
     own.map(|row| Candidate::row(row, 0)).chain(built_ins.map(Candidate::built_in)).collect()
 }
 
-/// Whether a function is about values of a type, so that it may be written as a method of them.
+/// Returns true if the first parameter of a function has this type, so that it can be called as a method.
 fn takes_first(row: &FunctionBinding, of: &str) -> bool {
     let first = row.parameters.first().filter(|_| matches!(row.form, CallSyntax::Function));
     first.is_some_and(|parameter| match parameter.kind {
@@ -52,7 +51,7 @@ fn takes_first(row: &FunctionBinding, of: &str) -> bool {
     })
 }
 
-/// Whether a key can be written after a dot.
+/// Returns true if a key can be written after a dot.
 fn is_plain(key: &str) -> bool {
     key.chars().all(is_name) && !key.starts_with(|letter: char| letter.is_numeric())
 }
@@ -64,7 +63,7 @@ mod tests {
     use super::super::samples::surroundings;
     use super::*;
 
-    /// The names that completion offers after a value of a type, and those that the catalogue has for it.
+    /// Names that completion offers for values of a type, and names that the catalog defines for it.
     fn offered_and_known(of: &str) -> (BTreeSet<String>, BTreeSet<String>) {
         let surroundings = surroundings();
         let catalog = &surroundings.catalog;
@@ -103,7 +102,7 @@ mod tests {
         for of in ["array", "text", "map"] {
             for (known, _) in surroundings().catalog.built_in_members(of) {
                 let name = known.name();
-                // Properties, and those that every value has, are known under other names or from the core of the engine.
+                // Properties and members of every value have other names or are defined by the engine.
                 let is_known = has(&format!("{name}(")) || has(&format!("get {name}("));
                 assert!(is_known || known.is_of("beam"), "{of}.{name}");
             }

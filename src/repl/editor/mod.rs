@@ -1,7 +1,7 @@
-//! Typing at the prompt: whether an input is complete, completion, hints, colours and history.
+//! Line editing at the prompt: detection of complete inputs, completion, hints, colours and history.
 //!
-//! All that knows the language is pure and works on the tokens of [`scanner`](crate::script::source::scanner); the terminal is left to rustyline, which
-//! [`line_editor`] sets up.
+//! Everything that depends on the language is pure and uses the tokens of [`scanner`](crate::script::source::scanner);
+//! [`line_editor`] sets up rustyline for the terminal.
 
 mod assistant;
 pub mod candidates;

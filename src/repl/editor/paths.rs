@@ -1,4 +1,4 @@
-//! Names of files and folders.
+//! Completion of file names.
 
 use std::fs;
 use std::path::Path;
@@ -7,17 +7,17 @@ use super::candidates::{Candidate, fitting};
 use crate::script::bindings::sources::FOLDER;
 use crate::script::library::MODULES;
 
-/// The files that a completion offers.
+/// Files that a completion offers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileFilter {
-    /// All files are offered.
+    /// All files.
     Any,
-    /// Scripts are offered, named without their ending.
+    /// Scripts, without their extension.
     Modules,
 }
 
-/// The files and folders that begin as `typed` does, seen from `folder`, and where in `typed` the last part of the
-/// path begins. Hidden ones only if a dot is typed.
+/// Files and folders in `folder` that match `typed`, and the start of the last path component in `typed`. Hidden files
+/// are offered only after a dot.
 pub fn complete_path(typed: &str, folder: &Path, files: FileFilter) -> (usize, Vec<Candidate>) {
     let start = typed.rfind('/').map_or(0, |slash| slash + 1);
     let (parent, name) = typed.split_at(start);

@@ -1,11 +1,11 @@
-//! A session for the tests of the editor: the flying spaghetti, half built.
+//! Test session of the editor: the flying spaghetti, half built.
 
 use super::surroundings::{
     CommandOperand, CommandWord, CompletionContext, ImportedModule, ScriptFunction, Variable,
 };
 use crate::script::packages::language;
 
-/// The names of a session for tests: a beam, a simulation, functions, modules.
+/// Names of a session for tests: a beam, a simulation, functions, modules.
 pub fn surroundings() -> CompletionContext {
     let variable = |name: &str, of: &str, keys: &[&str]| Variable {
         name: name.into(),

@@ -1,96 +1,96 @@
-//! What the editor may know of the session.
+//! Session data that the editor uses.
 
 use std::path::PathBuf;
 
 use crate::script::bindings::catalog::Catalog;
 
-/// What can be completed and hinted besides the syntax of the language: a picture of the session as it was when the prompt
-/// appeared. A session takes one before each line; it holds names only, so it is small however large the values are.
+/// Names of a session for completion and hints, captured before each prompt. Only names are stored, so it stays small
+/// for large values.
 #[derive(Clone)]
 pub struct CompletionContext {
-    /// The language of the session.
+    /// Catalog of the language.
     pub catalog: Catalog,
-    /// The variables and constants of the session.
+    /// Variables and constants of the session.
     pub variables: Vec<Variable>,
-    /// The functions defined in the session.
+    /// Functions defined in the session.
     pub functions: Vec<ScriptFunction>,
-    /// The modules imported into the session.
+    /// Modules imported into the session.
     pub modules: Vec<ImportedModule>,
-    /// The commands that can be written after `:`.
+    /// Commands of the prompt.
     pub commands: Vec<CommandWord>,
-    /// The columns of the history of the last simulation.
+    /// History columns of the last simulation.
     pub columns: Vec<String>,
-    /// The folder in which names of files begin.
+    /// Folder that relative file names refer to.
     pub folder: PathBuf,
 }
 
 /// A variable of the session.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variable {
-    /// The name of the variable.
+    /// Name of the variable.
     pub name: String,
-    /// The type of the variable in the words of the language: `simulation`, `number`, `map`, …
+    /// Type name in the language: `simulation`, `number`, `map`, …
     pub of: String,
-    /// The keys of a variable that holds a map; none of anything else.
+    /// Keys of a map; empty for other values.
     pub keys: Vec<String>,
 }
 
 /// A script function of the session or of a module.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ScriptFunction {
-    /// The name of the script function.
+    /// Name of the function.
     pub name: String,
-    /// The names of the script function's parameters.
+    /// Names of the parameters.
     pub parameters: Vec<String>,
-    /// One line on what the script function does; may be empty.
+    /// One-line summary; may be empty.
     pub summary: String,
-    /// The keys of the script function's options, each with what is said about it.
+    /// Keys of the options with their descriptions.
     pub keys: Vec<(String, String)>,
 }
 
 /// A module imported into the session.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ImportedModule {
-    /// The name of the module before `::`.
+    /// Name of the module before `::`.
     pub alias: String,
-    /// The functions of the module, which are named after `::`.
+    /// Functions of the module.
     pub functions: Vec<ScriptFunction>,
 }
 
 /// A command of the prompt.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CommandWord {
-    /// The command as it is written, with its colon: `:step`.
+    /// Command as written, with its colon: `:step`.
     pub name: &'static str,
-    /// One line on what the command does.
+    /// One-line summary.
     pub summary: &'static str,
-    /// What is written after the command.
+    /// Kind of the operand.
     pub operand: CommandOperand,
 }
 
-/// What is written after a command of the prompt.
+/// Operand of a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CommandOperand {
-    /// Nothing is written after the command.
+    /// No operand.
     Nothing,
-    /// A name of the language is written after the command.
+    /// A name of the language.
     Name,
-    /// The name of a file is written after the command.
+    /// A file name.
     File,
-    /// An expression is written after the command.
+    /// An expression.
     Expression,
-    /// Columns of the history, or expressions that make curves, are written after the command.
+    /// Columns of the history, or expressions that give curves.
     Curves,
-    /// A number is written after the command.
+    /// A number.
     Number,
-    /// One of these words is written after the command.
+    /// One of these words.
     OneOf(&'static [&'static str]),
-    /// An expression, or a map of the options that stand where this call, cut off, ends, is written after the command.
+    /// An expression, or a map of options, which is completed as the next argument of this unfinished call.
     OptionsOf(&'static str),
 }
 
 impl CompletionContext {
-    /// The surroundings of a session in which nothing has happened.
+    /// Surroundings of an empty session.
     pub fn of_language(catalog: Catalog) -> Self {
         Self {
             catalog,

@@ -1,25 +1,25 @@
-//! Keys typed while an input is evaluated wait for the next prompt, every one of them.
+//! Type-ahead: keys typed while an input is evaluated are kept for the next prompt.
 //!
-//! Between two prompts a terminal assembles lines itself, and acts on some keys: an early Ctrl-D or Ctrl-R would be gone. So it
-//! is told for the whole session to hand keys on as they are. Ctrl-C and Ctrl-Z keep their meaning.
+//! Between two prompts a terminal would be in line mode and act on keys such as Ctrl-D or Ctrl-R itself. Therefore raw
+//! input is set for the whole session. Ctrl-C and Ctrl-Z keep their meaning.
 
-/// Holds the terminal, so that keys typed ahead are kept, as long as it lives, and then gives it back as it was.
+/// Guard that keeps the terminal in raw input mode, and restores its mode when dropped.
 pub struct TypedAhead(());
 
 impl TypedAhead {
-    /// Holds the terminal that is typed at. One that cannot be held is left as it is.
+    /// Sets the mode of the terminal; a terminal that refuses is left unchanged.
     pub fn keep() -> Self {
         terminal::take();
         Self(())
     }
 
-    /// Gives the terminal to another program as it was, for as long as the result lives, if it is held at all.
+    /// Restores the original mode for another program until the result is dropped.
     pub fn lend() -> TerminalLease {
         TerminalLease(terminal::give_back())
     }
 }
 
-/// A guard that lasts while another program has the terminal.
+/// Guard that lasts while another program uses the terminal.
 pub struct TerminalLease(bool);
 
 impl Drop for TerminalLease {
@@ -36,7 +36,7 @@ impl Drop for TypedAhead {
     }
 }
 
-/// Gives the terminal back as it was; for code that ends the process without unwinding.
+/// Restores the terminal mode; for code that ends the process without unwinding.
 pub fn give_back() {
     terminal::give_back();
 }
@@ -55,7 +55,7 @@ mod terminal {
     pub fn take() {
         let Ok(original) = tcgetattr(stdin()) else { return };
         let mut held = original.clone();
-        // Without echo: keys that wait are shown once, at the prompt that reads them.
+        // Without echo, waiting keys are shown once, at the prompt that reads them.
         held.local_flags -= LocalFlags::ICANON | LocalFlags::IEXTEN | LocalFlags::ECHO;
         held.control_chars[SpecialCharacterIndices::VMIN as usize] = 1;
         held.control_chars[SpecialCharacterIndices::VTIME as usize] = 0;
@@ -64,11 +64,11 @@ mod terminal {
         }
     }
 
-    /// Gives the terminal back as it was; whether it was held.
+    /// Restores the terminal mode; returns true if it was changed before.
     pub fn give_back() -> bool {
         let original = AS_IT_WAS.lock().unwrap_or_else(PoisonError::into_inner).take();
         if let Some(original) = &original {
-            // A terminal that is gone needs nothing back.
+            // An error means that the terminal is gone.
             let _ = tcsetattr(stdin(), SetArg::TCSANOW, original);
         }
         original.is_some()
@@ -77,7 +77,7 @@ mod terminal {
 
 #[cfg(not(unix))]
 mod terminal {
-    //! Keys are events there, and none is lost.
+    //! On this system keys are events, and none is lost.
 
     pub fn take() {}
 

@@ -1,4 +1,4 @@
-//! Of which type the value before a dot is, as far as can be told without running anything.
+//! Static types of values before a dot, derived without evaluation.
 
 use super::input::Input;
 use super::surroundings::CompletionContext;
@@ -7,28 +7,28 @@ use crate::script::bindings::table::CallSyntax;
 use crate::script::source::keywords;
 use crate::script::source::scanner::{Bracket, TokenKind};
 
-/// Members and calls that are followed in `a.b().c[0].d`.
+/// Maximum number of members and calls in `a.b().c[0].d`.
 const LONGEST_CHAIN: usize = 32;
 
-/// Parentheses and declarations that are followed into each other.
+/// Maximum nesting of parentheses and declarations.
 const DEEPEST: usize = 16;
 
-/// Finds types of values before the cursor, from tokens, what the session holds, and what rows say that they return.
+/// Type inference from tokens, session variables, and return types of functions.
 #[derive(Clone, Copy)]
 pub struct Types<'a, 't> {
-    /// The input before the cursor.
+    /// Input before the cursor.
     pub input: &'a Input<'t>,
-    /// The names that the session holds.
+    /// Names of the session.
     pub surroundings: &'a CompletionContext,
 }
 
-/// A value with its type, and the token at which it begins.
+/// Type of a value, and its first token.
 struct TypedValue {
     of: Option<ValueKind>,
     start: usize,
 }
 
-/// The kind of the value that `text` ends with.
+/// Kind of the value at the end of `text`.
 pub fn type_before(text: &str, surroundings: &CompletionContext) -> Option<ValueKind> {
     let input = Input::before(text, text.len());
     let last = input.tokens.len().checked_sub(1)?;
@@ -42,7 +42,7 @@ enum TypeStep<'t> {
 }
 
 impl<'t> Types<'_, 't> {
-    /// The type of the value that ends with token `end`.
+    /// Type of the value that ends with token `end`.
     pub fn of(&self, end: usize) -> Option<ValueKind> {
         self.value(end, 0)?.of
     }
@@ -109,7 +109,7 @@ impl<'t> Types<'_, 't> {
         Some(TypedValue { of, start: first.start })
     }
 
-    /// The last token of the value whose member is named at token `at`.
+    /// Last token of the value whose member is named at token `at`.
     fn receiver(&self, at: usize) -> Option<usize> {
         at.checked_sub(2).filter(|_| self.input.is_dot(at - 1))
     }
@@ -122,13 +122,13 @@ impl<'t> Types<'_, 't> {
         }
     }
 
-    /// The type of `( … )`, if it is one chain of members.
+    /// Type of `( … )`, if it contains a single chain of members.
     fn group(&self, opener: usize, closer: usize, depth: usize) -> Option<ValueKind> {
         let inside = self.value(closer.checked_sub(1)?, depth + 1)?;
         inside.of.filter(|_| inside.start == opener + 1)
     }
 
-    /// A name: declared in this very input, a variable of the session, a constant of the language.
+    /// Type of a name: declared in this input, a variable of the session, or a constant of the language.
     fn variable(&self, at: usize, depth: usize) -> Option<ValueKind> {
         let name = self.input.written(at);
         if at.checked_sub(1).is_some_and(|before| self.input.written(before) == "::") {
@@ -144,7 +144,7 @@ impl<'t> Types<'_, 't> {
         }
     }
 
-    /// What the last `let name = value;` before token `at` declares: `None` if there is none.
+    /// Type in the last `let name = value;` before token `at`; `None` if there is none.
     fn declared(&self, name: &str, at: usize, depth: usize) -> Option<Option<ValueKind>> {
         let input = self.input;
         let is_declared = |place: &usize| {
@@ -193,7 +193,7 @@ impl<'t> Types<'_, 't> {
     }
 }
 
-/// The kind of what is given back, if something can be said of it.
+/// Kind of a return value, if it is known.
 fn known(returns: Returns) -> Option<ValueKind> {
     Some(returns.kind.likely()).filter(|kind| kind.type_name().is_some())
 }

@@ -1,30 +1,30 @@
-//! Single keys, without waiting for the end of a line.
+//! Reading of single keys without waiting for the end of a line.
 
 use std::io;
 
-/// What was pressed on the keyboard of a pager.
+/// Input from the keyboard.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pressed {
-    /// A key was pressed: the byte that it sends, or a part of it.
+    /// A byte sent by a key.
     Byte(u8),
-    /// Ctrl-C was pressed.
+    /// Ctrl-C.
     Interrupt,
-    /// Nothing is pressed any more: the keyboard's input has ended.
+    /// End of input.
     End,
 }
 
-/// A keyboard: where the keys of a pager come from.
+/// Source of keys for a pager.
 pub trait Keyboard {
-    /// Waits for the next key of the keyboard.
+    /// Waits for the next key.
     ///
     /// # Errors
-    /// When the terminal fails.
+    /// If the terminal fails.
     fn read(&mut self, was_interrupted: &dyn Fn() -> bool) -> io::Result<Pressed>;
 
-    /// The bytes that a key has sent after an escape character, which may be none.
+    /// Bytes that a key sends after the escape character; may be empty.
     ///
     /// # Errors
-    /// When the terminal fails.
+    /// If the terminal fails.
     fn rest_of_sequence(&mut self) -> io::Result<Vec<u8>>;
 }
 
@@ -41,22 +41,22 @@ mod of_system {
 
     use super::{Keyboard, Pressed};
 
-    /// So often it is looked whether Ctrl-C was pressed [ms].
+    /// Polling interval for Ctrl-C [ms].
     const WATCHFUL: u8 = 50;
-    /// So soon the rest of a sequence comes [ms].
+    /// Timeout for the rest of an escape sequence [ms].
     const SOON: u8 = 30;
 
-    /// The terminal that is typed at. Between two prompts it hands keys on as they are.
+    /// The terminal in raw input mode.
     pub struct KeyboardTerminal(());
 
     impl KeyboardTerminal {
-        /// The terminal that is typed at, if there is one.
+        /// Opens the terminal, if there is one.
         pub fn open() -> Option<Self> {
             Some(Self(()))
         }
     }
 
-    /// Whether keys wait at the terminal that were typed before.
+    /// Returns true if unread keys are waiting.
     pub fn keys_wait() -> bool {
         has_keys(0).unwrap_or(false)
     }
@@ -71,7 +71,7 @@ mod of_system {
         }
     }
 
-    /// Past the buffer of the standard library, which would keep keys from the prompt.
+    /// Bypasses the buffer of the standard library, which would keep keys from the prompt.
     fn next() -> io::Result<Pressed> {
         let mut byte = [0];
         match read(stdin(), &mut byte) {
@@ -100,7 +100,7 @@ mod of_system {
                     Pressed::Byte(byte) => rest.push(byte),
                     _ => break,
                 }
-                // A letter or a tilde ends it; the first one only begins it.
+                // A letter or a tilde ends an escape sequence, except as its first byte.
                 let is_end = rest.len() > 1
                     && rest.last().is_some_and(|last| last.is_ascii_alphabetic() || *last == b'~');
                 if is_end {
@@ -114,23 +114,23 @@ mod of_system {
 
 #[cfg(not(unix))]
 mod of_system {
-    //! No single keys there: texts are printed as they are, unless there is a program for them.
+    //! Single keys are not supported on this system: texts are printed normally, unless a pager program is set.
 
     use std::io;
 
     use super::{Keyboard, Pressed};
 
-    /// The terminal that is typed at, on a system where none is known.
+    /// The terminal of an unsupported system.
     pub struct KeyboardTerminal(());
 
     impl KeyboardTerminal {
-        /// No terminal: this system has none that is known.
+        /// Always `None` on this system.
         pub fn open() -> Option<Self> {
             None
         }
     }
 
-    /// Whether keys wait at the terminal: not that anybody knew on this system.
+    /// Always false on this system.
     pub fn keys_wait() -> bool {
         false
     }

@@ -1,15 +1,15 @@
-//! A text in pages that stay above the prompt: forward, back, and to a word.
+//! Built-in pager: forward, backward, and search.
 
 use std::io::{self, Write};
 use std::ops::Range;
 
 use super::{Keyboard, PagerOutcome, Pressed};
 
-/// To the beginning of the line, which is cleared.
+/// Returns to the beginning of the line and clears it.
 const CLEAR: &str = "\r\x1b[K";
 const KEYS: &str = "space: more, b: back, /: search, q: leave";
 
-/// What a key wants.
+/// Action of a key.
 enum PagerAction {
     Page,
     Line,
@@ -23,13 +23,13 @@ enum PagerAction {
     Nothing,
 }
 
-/// The number of lines of a terminal with so many columns that a text takes.
+/// Number of lines that a text takes on a terminal with `columns` columns.
 pub fn rows(text: &str, columns: usize) -> usize {
     let width = |line: &str| crate::output::columns(&letters(line));
     text.lines().map(|line| width(line).div_ceil(columns).max(1)).sum()
 }
 
-/// A line without its colours.
+/// Text of a line without colour sequences.
 fn letters(line: &str) -> String {
     let mut pieces = line.split("\x1b[");
     let first = pieces.next().unwrap_or_default().to_owned();
@@ -39,13 +39,13 @@ fn letters(line: &str) -> String {
 struct Pages<'t> {
     lines: Vec<&'t str>,
     height: usize,
-    /// What stands on the terminal.
+    /// Lines on the screen.
     shown: Range<usize>,
     word: String,
 }
 
 impl Pages<'_> {
-    /// The lines to write for a wish that goes somewhere.
+    /// Lines to write for an action that scrolls.
     fn go(&mut self, wish: &PagerAction) -> Range<usize> {
         let Range { start, end } = self.shown;
         match wish {
@@ -62,20 +62,20 @@ impl Pages<'_> {
         }
     }
 
-    /// On to a line: what stands on the terminal goes up.
+    /// Scrolls forward to a line.
     fn forward(&mut self, to: usize) -> Range<usize> {
         let new = self.shown.end..to.min(self.lines.len());
         self.shown = new.end.saturating_sub(self.height)..new.end;
         new
     }
 
-    /// The page that begins with a line, written anew.
+    /// Redraws the page that begins with a line.
     fn from(&mut self, start: usize) -> Range<usize> {
         self.shown = start..(start + self.height).min(self.lines.len());
         self.shown.clone()
     }
 
-    /// The page that begins with the next line in which the word stands.
+    /// Page that begins with the next line containing the search word.
     fn search(&mut self) -> Option<Range<usize>> {
         let word = self.word.to_lowercase();
         let mut later = (self.shown.start + 1)..self.lines.len();
@@ -88,10 +88,10 @@ impl Pages<'_> {
     }
 }
 
-/// Shows a text page by page on a terminal of so many lines, as far as the keys say; the end of the text is the end.
+/// Shows a text page by page on a terminal with `lines` lines until the user leaves or the text ends.
 ///
 /// # Errors
-/// When the terminal fails.
+/// If the terminal fails.
 pub fn walk(
     text: &str,
     lines: usize,
@@ -137,7 +137,7 @@ pub fn walk(
     }
 }
 
-/// Reads a word on the line of the status; nothing after Ctrl-C.
+/// Reads a search word on the status line; cancelled by Ctrl-C.
 fn ask(
     word: &mut String,
     keys: &mut dyn Keyboard,
@@ -151,7 +151,7 @@ fn ask(
         match keys.read(was_interrupted)? {
             Pressed::Byte(b'\r' | b'\n') => break,
             Pressed::Byte(8 | 127) => {
-                // A letter may be of several bytes.
+                // A character may have several bytes.
                 let mut text = String::from_utf8_lossy(&typed).into_owned();
                 text.pop();
                 typed = text.into_bytes();
@@ -165,14 +165,14 @@ fn ask(
             Pressed::End => break,
         }
     }
-    // Nothing typed means the word before.
+    // An empty input repeats the previous search.
     if !typed.is_empty() {
         *word = String::from_utf8_lossy(&typed).into_owned();
     }
     Ok(Some(()))
 }
 
-/// What the next key wants, or how it ends.
+/// Action of the next key, or the reason for leaving.
 fn wish(
     keys: &mut dyn Keyboard,
     was_interrupted: &dyn Fn() -> bool,
@@ -195,7 +195,7 @@ fn wish(
     Ok(Ok(wish))
 }
 
-/// What a key wants that sends a sequence after an escape character.
+/// Action of a key that sends an escape sequence.
 fn of_sequence(rest: &[u8]) -> PagerAction {
     match rest {
         [] => PagerAction::Leave,
@@ -215,7 +215,7 @@ mod tests {
 
     use super::*;
 
-    /// Keys that were decided upon beforehand; `^` is Ctrl-C.
+    /// Predefined keys; `^` is Ctrl-C.
     struct Decided(VecDeque<u8>);
 
     impl Keyboard for Decided {
@@ -232,7 +232,7 @@ mod tests {
         }
     }
 
-    /// The lines that are written for a text of ten lines on a terminal of four, and how it ends.
+    /// Output for a text of ten lines on a terminal of four lines, and the result.
     fn walked(keys: &str) -> (String, PagerOutcome) {
         let text: Vec<String> = (0..10).map(|line| format!("\x1b[1mline\x1b[0m {line}")).collect();
         let mut out = Vec::new();

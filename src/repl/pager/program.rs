@@ -1,4 +1,4 @@
-//! The pager of the environment.
+//! External pager program.
 
 use std::io::{self, Write};
 use std::process::{Command, Stdio};
@@ -7,16 +7,16 @@ use std::{env, thread};
 
 use crate::repl::editor::typed_ahead::TypedAhead;
 
-/// So often it is looked whether it has ended.
+/// Polling interval for the end of the program.
 const WATCHFUL: Duration = Duration::from_millis(10);
 
-/// What less is told unless somebody has: to end where all fits, to show colours, to leave what was shown.
+/// Default options of less: quit if one screen, show colours, keep the text on the screen.
 const LESS: (&str, &str) = ("LESS", "FRX");
 
-/// Lets a pager program show a text, and waits for its end. Ctrl-C is for that program.
+/// Shows a text with a pager program and waits for its end. Ctrl-C is left to that program.
 ///
 /// # Errors
-/// When the program does not start.
+/// If the program does not start.
 pub fn show(program: &str, text: &str, was_interrupted: &dyn Fn() -> bool) -> io::Result<()> {
     let mut words = program.split_whitespace();
     let mut command = Command::new(words.next().unwrap_or_default());
@@ -28,7 +28,7 @@ pub fn show(program: &str, text: &str, was_interrupted: &dyn Fn() -> bool) -> io
     let mut child = command.spawn()?;
     if let Some(mut input) = child.stdin.take() {
         let text = format!("{text}\n");
-        // Who leaves early does not read to the end.
+        // The program may quit before it has read everything.
         thread::spawn(move || input.write_all(text.as_bytes()));
     }
     while child.try_wait()?.is_none() {

@@ -1,19 +1,18 @@
-//! Evaluations that leave nothing behind, once or in rounds.
+//! Evaluations without lasting effects, single or repeated.
 
 use rhai::{AST, Dynamic};
 
 use super::{Reply, Session};
 use crate::script::state::watchdog::Watchdog;
 
-/// Somebody who has an input of a session evaluated again and again, each time from the same variables.
+/// Controls repeated evaluation of an input from the same variables.
 pub trait Rounds {
-    /// Makes ready for the next round of evaluation; `false` when there were enough.
+    /// Prepares the next evaluation; returns `false` to stop.
     fn begin(&mut self) -> bool;
-    /// Takes the value that a round of evaluation has given.
+    /// Receives the value of an evaluation.
     fn end(&mut self, value: Dynamic);
 }
 
-/// One round.
 #[derive(Default)]
 struct Once {
     has_begun: bool,
@@ -31,7 +30,7 @@ impl Rounds for Once {
 }
 
 impl Session {
-    /// Evaluates an expression that leaves nothing behind in the session but what it does to scenes and simulations.
+    /// Evaluates an expression without lasting effects, apart from changes of scenes and simulations.
     pub fn peek(&mut self, text: &str) -> Reply {
         let mut once = Once::default();
         match self.peek_in_rounds(text, &mut once) {
@@ -41,10 +40,10 @@ impl Session {
         }
     }
 
-    /// Evaluates an expression in rounds: the text is read once, and variables are before each round what they were before the first.
+    /// Evaluates an expression repeatedly. The text is parsed once, and variables are reset before each evaluation.
     ///
     /// # Errors
-    /// The reply to the round that did not work: the last one.
+    /// The reply to the first evaluation that fails.
     pub fn peek_in_rounds(&mut self, text: &str, rounds: &mut dyn Rounds) -> Result<(), Reply> {
         let program = self.transcript.typed(text);
         let text = program.text.clone();
@@ -64,7 +63,7 @@ impl Session {
         ast: &AST,
         rounds: &mut dyn Rounds,
     ) -> Result<(), Reply> {
-        // With the functions of the input, which its closures are.
+        // Includes the functions of the input, such as its closures.
         let start = self.checkpoint();
         while rounds.begin() {
             let value = self.run(guard, ast.statements())?;

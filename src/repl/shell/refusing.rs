@@ -1,4 +1,4 @@
-//! Errors of native code that no script has called.
+//! Errors of native code called by commands.
 
 use rhai::EvalAltResult;
 
@@ -9,7 +9,7 @@ use crate::script::messages::error::ScriptError;
 use crate::script::messages::stop::Stop;
 
 impl Shell {
-    /// Tells the user an error that came from no script.
+    /// Reports an error that does not originate in a script.
     pub fn refuse_native(&mut self, error: ScriptError) -> CommandOutcome {
         match error {
             ScriptError::Failure(failure) => {
@@ -18,7 +18,7 @@ impl Shell {
             }
             ScriptError::Stopped(Stop::Interrupt) => self.tell(Reply::Interrupted),
             ScriptError::Stopped(stop) => self.refuse(&Diagnostic::general(stop.words().0)),
-            // A function of a script, asked by a step that a command takes.
+            // A script function called during a step of a command.
             ScriptError::Engine(error) => match *error {
                 EvalAltResult::ErrorTerminated(token, _) => {
                     self.refuse_native(ScriptError::Stopped(Stop::of_token(&token)))

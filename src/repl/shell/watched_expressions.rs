@@ -1,4 +1,4 @@
-//! Expressions that are shown after every step.
+//! Expressions shown after every step.
 
 use super::{CommandOutcome, Shell};
 use crate::output::significant;
@@ -7,12 +7,12 @@ use crate::script::diagnose::Diagnostic;
 use crate::script::presentation::present::present;
 
 impl Shell {
-    /// Whether any expression is watched.
+    /// Returns true if any expression is watched.
     pub fn is_watching(&self) -> bool {
         !self.watched.is_empty()
     }
 
-    /// Watches one more expression, and shows its value.
+    /// Watches another expression, and shows its value.
     pub fn watch(&mut self, expression: &str) -> CommandOutcome {
         let expression = expression.trim_end_matches(';').to_owned();
         if !self.watched.contains(&expression) {
@@ -21,12 +21,12 @@ impl Shell {
         self.show_watched()
     }
 
-    /// Stops watching all expressions.
+    /// Removes all watched expressions.
     pub fn watch_nothing(&mut self) {
         self.watched.clear();
     }
 
-    /// Shows the values of the watched expressions in a line.
+    /// Shows the values of the watched expressions in one line.
     pub fn show_watched(&mut self) -> CommandOutcome {
         let mut parts = Vec::new();
         if let Some(latest) = self.latest() {

@@ -1,4 +1,4 @@
-//! Turning a script value into what a parameter asks for, or saying why it cannot be.
+//! Conversion of script values to the kind of a parameter.
 
 use rhai::{Array, Dynamic, Engine, FnPtr, Map};
 
@@ -12,9 +12,9 @@ use crate::script::messages::nouns::type_word;
 use crate::script::messages::numbers::{as_number, as_whole, describe};
 use crate::system::refusal_of_name;
 
-/// `value` in the form that bodies read: numbers as `f64`, points as [`Vec2`], option maps as [`Options`].
+/// Converts `value` to the form that native bodies read: numbers to `f64`, points to [`Vec2`], option maps to [`Options`].
 ///
-/// `owner` is the function or the option map that asks, for the messages.
+/// `owner` is the function or option map, for messages.
 pub fn accept(
     engine: &Engine,
     owner: &str,
@@ -30,7 +30,7 @@ pub fn accept(
     }
 }
 
-/// Gives `value` in the form that bodies read, for a parameter that a script describes: `wanted` are its words for what may be given.
+/// Converts `value` for a parameter described by a script; `wanted` describes the allowed values.
 pub fn accept_described(
     engine: &Engine,
     owner: &str,
@@ -42,7 +42,7 @@ pub fn accept_described(
         .map_err(|refused| refusal(engine, owner, name, kind, wanted, &refused))
 }
 
-/// The outer error is final; the inner one hands the value back for the general refusal.
+/// The outer error is final; the inner one returns the value for the general error message.
 type Conversion = Result<Result<Dynamic, Dynamic>, ScriptError>;
 
 fn convert(engine: &Engine, owner: &str, kind: &Kind, value: Dynamic) -> Conversion {
@@ -90,7 +90,7 @@ fn convert(engine: &Engine, owner: &str, kind: &Kind, value: Dynamic) -> Convers
     Ok(accepted.ok_or(value))
 }
 
-/// The name in `value`, which stands in tables and is typed: one that people can read and type.
+/// Checks a name that appears in tables and is typed by users.
 pub fn readable(owner: &str, name: &str) -> Result<String, ScriptError> {
     match refusal_of_name(name) {
         None => Ok(name.to_owned()),
@@ -99,7 +99,7 @@ pub fn readable(owner: &str, name: &str) -> Result<String, ScriptError> {
     }
 }
 
-/// A vector, or an array of two finite numbers.
+/// Point from a vector or an array of two finite numbers.
 pub fn as_point(value: &Dynamic) -> Option<Vec2> {
     let point = match value.read_lock::<Vec2>() {
         Some(vector) => *vector,
@@ -138,7 +138,7 @@ fn refusal(
     }
 }
 
-/// In an array, the element that is to blame.
+/// First invalid element of an array.
 fn first_wrong_element(kind: &Kind, value: &Dynamic) -> Option<(usize, Dynamic)> {
     let array = value.read_lock::<Array>()?;
     let wrong = |element: &Dynamic| match kind {
@@ -157,7 +157,7 @@ fn is_infinite_or_nan(value: &Dynamic) -> bool {
     as_number(value).is_some_and(|x| !x.is_finite())
 }
 
-/// Puts an error about argument `number` at that argument, unless it already points at a key.
+/// Moves an error to argument `number`, unless it already points at a key.
 pub fn blame_argument(error: ScriptError, number: usize) -> ScriptError {
     match error {
         ScriptError::Failure(failure) if failure.place == CallPart::Call => {

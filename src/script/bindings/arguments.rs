@@ -1,4 +1,4 @@
-//! Reading accepted values by name: the same for the arguments of a call and for the keys of an option map.
+//! Typed access to checked values by name, for arguments of a call and keys of an option map.
 
 use rhai::{Array, Dynamic, FnPtr, INT, ImmutableString};
 
@@ -8,7 +8,7 @@ use super::parameter::Parameter;
 use crate::geometry::Vec2;
 use crate::script::messages::error::ScriptError;
 
-/// The arguments of a call, checked against their parameters; what was left out holds its default, if it has one.
+/// Checked arguments of a call; omitted ones hold their default, if they have one.
 #[derive(Clone)]
 pub struct Arguments {
     parameters: &'static [Parameter],
@@ -16,7 +16,6 @@ pub struct Arguments {
 }
 
 impl Arguments {
-    /// Pairs each parameter with its accepted value; `values` shorter than `parameters` are filled up.
     pub(super) fn new(parameters: &'static [Parameter], mut values: Vec<Option<Dynamic>>) -> Self {
         values.resize(parameters.len(), None);
         for (parameter, value) in parameters.iter().zip(&mut values) {
@@ -27,18 +26,17 @@ impl Arguments {
         Self { parameters, values }
     }
 
-    /// Whether the argument has a value, given or by default.
+    /// Returns true if the argument has a value, given or by default.
     pub fn has(&self, name: &str) -> bool {
         self.find(name).is_ok()
     }
 
-    /// The names of the arguments that have a value.
+    /// Names of the arguments that have a value.
     pub fn given(&self) -> impl Iterator<Item = &'static str> {
         let pairs = self.parameters.iter().zip(&self.values);
         pairs.filter(|(_, value)| value.is_some()).map(|(parameter, _)| parameter.name)
     }
 
-    /// The parameter of this name.
     pub(super) fn parameter(&self, name: &str) -> Option<&'static Parameter> {
         self.parameters.iter().find(|parameter| parameter.name == name)
     }
@@ -48,17 +46,17 @@ impl Arguments {
         self.find(name)?.as_float().map_err(|held| wrong_read(name, held))
     }
 
-    /// The argument as a number, if there is one.
+    /// The argument as a number, if present.
     pub fn number_if_given(&self, name: &str) -> Option<f64> {
         self.number(name).ok()
     }
 
-    /// The argument as a whole number.
+    /// The argument as an integer.
     pub fn whole(&self, name: &str) -> Result<INT, ScriptError> {
         self.find(name)?.as_int().map_err(|held| wrong_read(name, held))
     }
 
-    /// The argument as a whole number that counts something; its row must keep it from being negative.
+    /// The argument as a count; the parameter must exclude negative numbers.
     pub fn count(&self, name: &str) -> Result<usize, ScriptError> {
         usize::try_from(self.whole(name)?).map_err(|_| wrong_read(name, "a negative number"))
     }
@@ -68,15 +66,14 @@ impl Arguments {
         self.find(name)?.clone().into_immutable_string().map_err(|held| wrong_read(name, held))
     }
 
-    /// A text, if there is one.
+    /// The argument as a text, if present.
     ///
-    /// # Errors
-    /// When there is something else, which its row must exclude.
+    /// If it is not a text, which the parameter must exclude.
     pub fn text_if_given(&self, name: &str) -> Result<Option<String>, ScriptError> {
         self.has(name).then(|| self.text(name).map(String::from)).transpose()
     }
 
-    /// The argument as a truth value.
+    /// The argument as a boolean.
     pub fn boolean(&self, name: &str) -> Result<bool, ScriptError> {
         self.find(name)?.as_bool().map_err(|held| wrong_read(name, held))
     }
@@ -111,7 +108,7 @@ impl Arguments {
         self.get(name)
     }
 
-    /// The argument as a map of options that may be left out: then all of its keys have their defaults.
+    /// The argument as a map of options; if omitted, all keys have their defaults.
     pub fn options_or_defaults(&self, name: &str) -> Result<Options, ScriptError> {
         match self.parameters.iter().find(|parameter| parameter.name == name) {
             Some(Parameter { kind: Kind::Options(keys), .. }) if !self.has(name) => {
@@ -121,17 +118,17 @@ impl Arguments {
         }
     }
 
-    /// The argument as a value of a native type; handles are cloned, which is cheap.
+    /// The argument as a value of a native type. Handles are cheap to clone.
     pub fn get<T: Clone + 'static>(&self, name: &str) -> Result<T, ScriptError> {
         self.find(name)?.clone().try_cast().ok_or_else(|| wrong_read(name, "another type"))
     }
 
-    /// The argument as a value of a native type, if it is there and of that type: for parameters of either kind.
+    /// The argument as a value of a native type, if it is present and of that type.
     pub fn get_if<T: Clone + 'static>(&self, name: &str) -> Option<T> {
         self.find(name).ok()?.clone().try_cast()
     }
 
-    /// The argument as it was given.
+    /// The unconverted argument.
     pub fn value(&self, name: &str) -> Result<Dynamic, ScriptError> {
         self.find(name).cloned()
     }
@@ -144,7 +141,6 @@ impl Arguments {
     }
 }
 
-/// A body and its row disagree: our mistake, not the script's.
 fn wrong_read(name: &str, held: &str) -> ScriptError {
     ScriptError::bug(format!(
         "a body reads '{name}' as something else than its row says; it holds {held}"

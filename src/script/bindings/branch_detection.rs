@@ -1,4 +1,4 @@
-//! What functions decide by parameters: where they jump depends on these then, and derivatives do not follow.
+//! Detection of branches that depend on parameters: the position of a jump then depends on a parameter, and derivatives are wrong there.
 
 use rhai::{Array, Dynamic, FnPtr, Map, NativeCallContext};
 
@@ -9,7 +9,7 @@ use crate::script::state::context::Context;
 mod jumps;
 mod search;
 
-/// Tells once, with its place, of what a function among some values decides by what it is asked at and by something that depends on a parameter of a scene.
+/// Warns once per position of a function that branches on its argument and on a variable that depends on a parameter of a scene.
 pub fn tell(native: &NativeCallContext, context: &Context, given: &[Dynamic]) {
     given.iter().for_each(|value| tell_of(native, context, value));
 }

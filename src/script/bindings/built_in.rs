@@ -1,62 +1,62 @@
-//! A function of Rhai's own that the language keeps: documented as rows are, registered by the engine.
+//! Functions of Rhai that are part of the language: documented like bindings, registered by the engine.
 
 use super::returns::Returns;
 
-/// Functions of Rhai about one kind of value.
+/// Functions of Rhai for one kind of value.
 pub struct BuiltInTable {
-    /// The kind of value in the plural, a heading in the reference.
+    /// Kind of value in the plural, used as a heading.
     pub name: &'static str,
-    /// A sentence or two on the functions of Rhai about this kind of value.
+    /// One or two sentences on the functions.
     pub doc: &'static str,
-    /// The functions of Rhai about this kind of value.
+    /// Functions of this kind of value.
     pub rows: &'static [BuiltIn],
 }
 
-/// One function of Rhai, with all ways to write it.
+/// A function of Rhai with all its notations.
 pub struct BuiltIn {
-    /// How the function is written: `array.push(value)`, `parse_int(text, [radix])`, `text.len`. All forms have the same name.
+    /// Notations of the function: `array.push(value)`, `parse_int(text, [radix])`, `text.len`. All have the same name.
     pub forms: &'static [&'static str],
-    /// What the function gives back.
+    /// Return value.
     pub returns: Returns,
-    /// One line on what the function does.
+    /// One-line summary.
     pub summary: &'static str,
-    /// More on the function, where a line is not enough.
+    /// Further help text; may be empty.
     pub doc: &'static str,
-    /// A script that runs and shows the function at work.
+    /// Runnable example.
     pub example: &'static str,
-    /// Names that are related to the function.
+    /// Related names.
     pub see: &'static [&'static str],
 }
 
-/// One way to write a function of Rhai, taken apart.
+/// A parsed notation of a function of Rhai.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FunctionForm {
-    /// The kind of value before the dot, or nothing.
+    /// Kind of value before the dot, if any.
     pub receiver: Option<&'static str>,
-    /// The name of the function.
+    /// Name of the function.
     pub name: &'static str,
-    /// The arguments of the function in parentheses; empty for a property.
+    /// Arguments in parentheses; empty for a property.
     pub arguments: &'static str,
-    /// The names of the arguments that must be given; a property has none.
+    /// Names of the required arguments; empty for a property.
     pub required: Vec<&'static str>,
-    /// The names of the arguments that may be given after those that must be.
+    /// Names of the optional arguments, after the required ones.
     pub optional: Vec<&'static str>,
-    /// What stands after the name of the function.
+    /// Text after the name.
     pub ending: NameSuffix,
 }
 
-/// What stands after the name of a function.
+/// Text after the name of a function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NameSuffix {
-    /// Nothing stands after the name: it is read as a property.
+    /// None: a property.
     Property,
-    /// The arguments stand after the name.
+    /// Arguments.
     Arguments,
-    /// The arguments stand after the name, the last of them as often as wanted.
+    /// Arguments, of which the last may be repeated.
     Repeated,
 }
 
-/// A function of Rhai for help and reference; what it gives back follows with [`BuiltIn::returns`].
+/// Creates the entry of a function of Rhai; its return value is added by [`BuiltIn::returns`].
 pub const fn built_in(
     forms: &'static [&'static str],
     summary: &'static str,
@@ -66,68 +66,68 @@ pub const fn built_in(
 }
 
 impl BuiltIn {
-    /// Says what the function gives back.
+    /// Sets the return value.
     pub const fn returns(mut self, returns: Returns) -> Self {
         self.returns = returns;
         self
     }
 
-    /// Adds a longer explanation of the function.
+    /// Sets the help text.
     pub const fn doc(mut self, doc: &'static str) -> Self {
         self.doc = doc;
         self
     }
 
-    /// Adds names that are related to the function.
+    /// Sets related names.
     pub const fn see(mut self, see: &'static [&'static str]) -> Self {
         self.see = see;
         self
     }
 
-    /// The name of the function in scripts.
+    /// Name of the function in scripts.
     pub fn name(&self) -> &'static str {
         self.forms.first().map_or("", |form| written(form).name)
     }
 
-    /// All ways to write the function, taken apart.
+    /// Parsed notations of the function.
     pub fn written(&self) -> impl Iterator<Item = FunctionForm> {
         self.forms.iter().map(|form| written(form))
     }
 
-    /// Whether the function is a method or a property of values of this type.
+    /// Returns true if the function is a method or property of this type.
     pub fn is_of(&self, type_name: &str) -> bool {
         self.form_of(type_name).is_some()
     }
 
-    /// The first way to write the function after the dot of a value of this type.
+    /// First notation of the function after the dot of a value of this type.
     pub fn form_of(&self, type_name: &str) -> Option<FunctionForm> {
         self.written().find(|form| form.is_of(type_name))
     }
 
-    /// The first way to write the function without a value before a dot.
+    /// First notation of the function without a receiver.
     pub fn form_of_function(&self) -> Option<FunctionForm> {
         self.written().find(|form| form.receiver.is_none())
     }
 
-    /// Whether the function is called without a value before a dot.
+    /// Returns true if the function can be called without a receiver.
     pub fn is_function(&self) -> bool {
         self.form_of_function().is_some()
     }
 }
 
 impl FunctionForm {
-    /// Whether the function is written after the dot of a value of this type.
+    /// Returns true if this notation applies to values of this type.
     pub fn is_of(&self, type_name: &str) -> bool {
         self.receiver.is_some_and(|kind| kind_includes(kind, type_name))
     }
 
-    /// The arguments of the function one by one, optional ones in brackets.
+    /// Arguments one by one, optional ones in brackets.
     pub fn listed(&self) -> Vec<String> {
         let inside = self.arguments.trim_matches(['(', ')']).split(", ");
         inside.filter(|name| !name.is_empty()).map(str::to_owned).collect()
     }
 
-    /// Whether a call with `count` values fits this way of writing, the receiver counted as one.
+    /// Returns true if a call with `count` values, including the receiver, matches this notation.
     pub fn takes(&self, count: usize) -> bool {
         let receiver = usize::from(self.receiver.is_some());
         let least = self.required.len() + receiver;
@@ -140,7 +140,7 @@ impl FunctionForm {
     }
 }
 
-/// Whether a value of the type is meant by the word that stands before a dot.
+/// Returns true if the receiver word of a notation covers the type.
 fn kind_includes(kind: &str, type_name: &str) -> bool {
     match kind {
         "value" => true,

@@ -1,4 +1,4 @@
-//! What a native body sees: its arguments by name, the receiver, the context, and a way to call back.
+//! A native call in progress: arguments by name, receiver, context, and callbacks.
 
 use std::ops::Deref;
 
@@ -16,7 +16,7 @@ use crate::script::messages::error::ScriptError;
 use crate::script::messages::numbers::describe;
 use crate::script::state::context::Context;
 
-/// One call of a row of the language, in progress.
+/// A call of a binding in progress.
 pub struct Call<'c, 'r> {
     row: &'static FunctionBinding,
     context: &'c Context,
@@ -25,7 +25,7 @@ pub struct Call<'c, 'r> {
     arguments: Arguments,
 }
 
-/// Arguments are read straight from the call: `call.number("dt")`.
+/// Arguments are read directly from the call: `call.number("dt")`.
 impl Deref for Call<'_, '_> {
     type Target = Arguments;
 
@@ -45,12 +45,12 @@ impl<'c, 'r> Call<'c, 'r> {
         Self { row, context, native, receiver, arguments }
     }
 
-    /// The state that all calls of a run share: output folder, mode, checks, progress.
+    /// State shared by the calls of a run: output folder, mode, checks, progress.
     pub fn context(&self) -> &'c Context {
         self.context
     }
 
-    /// The value whose method or property is called. Handles are cloned, which is cheap.
+    /// Receiver of the method or property. Handles are cheap to clone.
     pub fn receiver<T: Clone + 'static>(&self) -> Result<T, ScriptError> {
         let receiver = self
             .receiver
@@ -61,7 +61,7 @@ impl<'c, 'r> Call<'c, 'r> {
         })
     }
 
-    /// Changes the value whose method or property is called.
+    /// Modifies the receiver of the method or property.
     pub fn change_receiver<T: Clone + 'static>(
         &mut self,
         change: impl FnOnce(&mut T),
@@ -74,14 +74,14 @@ impl<'c, 'r> Call<'c, 'r> {
         Ok(())
     }
 
-    /// The line of the script that calls, from 1; for a call by the standard library, the line that called the library.
+    /// Script line of the call, from 1; for a call from the standard library, the line that called the library.
     pub fn line(&self) -> usize {
         let entered = Sources::of(self.native.engine())
             .entered_at(self.native.global_runtime_state().source());
         entered.or(self.native.call_position().line()).unwrap_or(0)
     }
 
-    /// Calls a script function back from this call. Its own errors, positions and trace stay as they are.
+    /// Calls a script function. Its errors keep their positions and trace.
     pub fn invoke(
         &self,
         function: &FnPtr,
@@ -91,34 +91,34 @@ impl<'c, 'r> Call<'c, 'r> {
         function.call_raw(self.native, None, arguments).map_err(ScriptError::Engine)
     }
 
-    /// How many arguments a script function takes, if that is known.
+    /// Number of arguments of a script function, if known.
     pub fn arguments_of(&self, function: &FnPtr) -> Option<usize> {
         arguments_of(self.native, function)
     }
 
-    /// The definition of a script function, if it is one of the running file.
+    /// Definition of a script function, if it belongs to the running file.
     pub fn definition(&self, function: &FnPtr) -> Option<Shared<ScriptFuncDef>> {
         definition_of(self.native, function)
     }
 
-    /// What a script function does, as a syntax tree without anything else in it; an empty one where it is not one of the running file.
+    /// Syntax tree that contains only this script function; empty if it does not belong to the running file.
     pub fn body(&self, function: &FnPtr) -> AST {
         body_of(self.native, function)
     }
 
-    /// The script function of this name with so many parameters, captured ones included, without captured values.
+    /// Script function with this name and number of parameters, including captured ones, without captured values.
     pub fn function_named(&self, name: &str, parameters: usize) -> Option<FnPtr> {
         let libraries = &self.native.global_runtime_state().lib;
         let found = libraries.iter().find_map(|of| of.get_script_fn(name, parameters).cloned());
         found.map(FnPtr::from)
     }
 
-    /// The engine of the run.
+    /// Engine of the run.
     pub fn engine(&self) -> &Engine {
         self.native.engine()
     }
 
-    /// Refuses a script function that takes another number of arguments; `shape` shows the right one.
+    /// Rejects a script function with another number of arguments; `shape` shows the right one.
     pub fn expect_arguments(
         &self,
         function: &FnPtr,
@@ -138,17 +138,17 @@ impl<'c, 'r> Call<'c, 'r> {
         }
     }
 
-    /// Keeps a script function for later calls; `role` names it in messages.
+    /// Stores a script function for later calls; `role` names it in messages.
     pub fn store(&self, function: FnPtr, role: &str) -> StoredFunction {
         StoredFunction::new(function, self.native, self.context, role.to_owned())
     }
 
-    /// Refuses to go on with the call when the run was interrupted; long native loops ask once in every step.
+    /// Returns an error if the run was interrupted. Long native loops call this once per step.
     pub fn proceed(&self) -> Result<(), ScriptError> {
         self.context.proceed()
     }
 
-    /// Gives `value` in the form that bodies read, for a parameter of a script's own function: a kind, and the words of the script for it.
+    /// Converts `value` for a parameter of a script function, given by its kind and a description.
     pub fn accept(
         &self,
         owner: &str,
@@ -159,26 +159,26 @@ impl<'c, 'r> Call<'c, 'r> {
         accept_described(self.native.engine(), owner, name, wanted, value)
     }
 
-    /// An error of the call that begins with the name of the row, as all errors about a call do.
+    /// Creates an error whose message begins with the name of the function.
     pub fn error(&self, what: impl std::fmt::Display) -> ScriptError {
         ScriptError::new(format!("{}: {what}", self.row.name))
     }
 
-    /// A value in the words of a message.
+    /// Describes a value in a message.
     pub fn describe(&self, value: &Dynamic) -> String {
         describe(self.native.engine(), value)
     }
 
-    /// The name of the type of a value.
+    /// Type name of a value.
     pub fn type_of(&self, value: &Dynamic) -> String {
         self.native.engine().map_type_name(value.type_name()).to_owned()
     }
 
-    /// A value as the script would print it.
+    /// Text of a value as the script prints it.
     pub fn show(&self, value: &Dynamic) -> String {
         let mut value = value.clone();
         let shown = self.native.call_native_fn_raw("to_debug", true, &mut [&mut value]);
-        // What has no words of its own is shown as the engine shows it.
+        // Values without their own text are shown as by the engine.
         shown.map_or_else(|_| value.to_string(), |text| text.to_string())
     }
 }
@@ -201,7 +201,7 @@ fn definition_of(native: &NativeCallContext, function: &FnPtr) -> Option<Shared<
     libraries.iter().find_map(defined)
 }
 
-/// The function of a script by its name and the count of its parameters, captured ones included; whatever that is, where none is given.
+/// Script function by name and number of parameters, including captured ones; any number if `None`.
 pub(super) fn defined(
     native: &NativeCallContext,
     name: &str,
@@ -222,18 +222,18 @@ fn body_of(native: &NativeCallContext, function: &FnPtr) -> AST {
     body_named(native, function.fn_name(), parameters)
 }
 
-/// What the function of a script of this name and so many parameters does, captured ones included; an empty tree where there is none.
+/// Syntax tree of the script function with this name and number of parameters, including captured ones; empty if there is none.
 pub(super) fn body_named(native: &NativeCallContext, name: &str, parameters: usize) -> AST {
     let libraries = &native.global_runtime_state().lib;
     let has = |library: &&Shared<Module>| library.get_script_fn(name, parameters).is_some();
     let library = libraries.iter().find(has).map(|found| AST::new_from_module(found.clone()));
     let mut body = library.unwrap_or_default();
-    // Rhai's filtered clone of a syntax tree takes all functions along.
+    // Rhai's filtered clone of a syntax tree keeps all functions.
     body.retain_functions(|_, _, own, count| own == name && count == parameters);
     body
 }
 
-/// The function that is written within another one where this is what Rhai makes of it, without what it captures, and the variables that it does.
+/// Closure created by this call expression, without captured values, and the captured variables.
 pub fn written_within(call: &FnCallExpr) -> Option<(FnPtr, &[Expr])> {
     match call.args.as_slice() {
         [Expr::DynamicConstant(function, _), captured @ ..] if call.name == CAPTURE => {
@@ -243,5 +243,5 @@ pub fn written_within(call: &FnCallExpr) -> Option<(FnPtr, &[Expr])> {
     }
 }
 
-/// What Rhai calls where a function captures variables.
+/// Function that Rhai calls to capture variables.
 const CAPTURE: &str = "curry";

@@ -1,4 +1,4 @@
-//! All tables of a language together: what is known under which name, for messages, help and completion.
+//! Catalog of the language: all tables, with lookup by name for messages, help and completion.
 
 use super::built_in::{BuiltIn, BuiltInTable, FunctionForm};
 use super::builtins;
@@ -6,7 +6,7 @@ use super::kind::Type;
 use super::returns::ValueKind;
 use super::table::{BindingTable, CallSyntax, FunctionBinding};
 
-/// The catalogue of a language: the tables that make it up.
+/// Tables of a language.
 #[derive(Clone)]
 pub struct Catalog {
     tables: Vec<&'static BindingTable>,
@@ -14,29 +14,29 @@ pub struct Catalog {
 }
 
 impl Catalog {
-    /// The catalogue of a language of these domains, on what is taken over from Rhai.
+    /// Catalog of these domains and the functions taken from Rhai.
     pub fn of(tables: &[&'static BindingTable]) -> Self {
         Self { tables: tables.to_vec(), built_ins: builtins::TABLES }
     }
 
-    /// The catalogue with one more table.
+    /// Adds a table.
     #[must_use]
     pub fn and(mut self, table: &'static BindingTable) -> Self {
         self.tables.push(table);
         self
     }
 
-    /// The tables of the language, in the order of the reference.
+    /// Tables of the language, in the order of the reference.
     pub fn tables(&self) -> impl Iterator<Item = &'static BindingTable> {
         self.tables.iter().copied()
     }
 
-    /// All rows of the language.
+    /// All bindings of the language.
     pub fn rows(&self) -> impl Iterator<Item = &'static FunctionBinding> {
         self.tables().flat_map(|table| table.rows)
     }
 
-    /// The rows of the language with this name: several when types share a method name.
+    /// Bindings with this name; several if types share a method name.
     pub fn named<'a>(
         &self,
         name: &'a str,
@@ -44,29 +44,29 @@ impl Catalog {
         self.rows().filter(move |row| row.name == name)
     }
 
-    /// The names of the language that can be called as functions.
+    /// Names that can be called as functions.
     pub fn function_names(&self) -> impl Iterator<Item = &'static str> {
         self.rows().filter(|row| matches!(row.form, CallSyntax::Function)).map(|row| row.name)
     }
 
-    /// The type of the language with this display name.
+    /// Type with this display name.
     pub fn type_named(&self, name: &str) -> Option<Type> {
         self.tables().flat_map(|table| table.types).find(|of| of.name() == name).copied()
     }
 
-    /// The methods and properties of a type of the language.
+    /// Methods and properties of a type.
     pub fn members(&self, of: &str) -> Vec<&'static FunctionBinding> {
         self.rows()
             .filter(|row| row.receiver().is_some_and(|receiver| receiver.name() == of))
             .collect()
     }
 
-    /// The kind of the values whose type has this display name.
+    /// Value kind of the type with this display name.
     pub fn kind_named(&self, name: &str) -> Option<ValueKind> {
         ValueKind::plain(name).or_else(|| self.type_named(name).map(ValueKind::Object))
     }
 
-    /// The methods and properties that values of a type have from Rhai, each as it is written on them first of all.
+    /// Methods and properties of a type that Rhai provides, with their first notation.
     pub fn built_in_members<'a>(
         &self,
         of: &'a str,
@@ -74,22 +74,22 @@ impl Catalog {
         self.built_ins().filter_map(move |known| Some((known, known.form_of(of)?)))
     }
 
-    /// The names of the language with a fixed value.
+    /// Names of the constants.
     pub fn constants(&self) -> impl Iterator<Item = &str> {
         self.tables().flat_map(|table| table.constants).map(|constant| constant.name)
     }
 
-    /// The tables of what the language takes over from Rhai, in the order of the reference.
+    /// Tables of functions taken from Rhai, in the order of the reference.
     pub fn built_in_tables(&self) -> impl Iterator<Item = &'static BuiltInTable> + use<> {
         self.built_ins.iter().copied()
     }
 
-    /// The functions of Rhai that the language takes over.
+    /// Functions taken from Rhai.
     pub fn built_ins(&self) -> impl Iterator<Item = &'static BuiltIn> + use<> {
         self.built_in_tables().flat_map(|table| table.rows)
     }
 
-    /// The functions of Rhai with this name that the language takes over.
+    /// Functions taken from Rhai with this name.
     pub fn built_ins_named<'a>(
         &self,
         name: &'a str,

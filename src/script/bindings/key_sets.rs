@@ -1,37 +1,35 @@
-//! Options of which a map takes one set out of several: a section is given by its stiffness and inertia, or by a material and a
-//! shape, and a mixture says two things at once.
+//! Options of which exactly one set of keys applies: a section is given by stiffness and inertia, or by a material and a shape.
 
 use super::options::Options;
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::nouns::with_article;
 
-/// The sets of keys of a map of options, each with what it means to the body that reads it.
+/// Alternative sets of keys of an option map, each with a meaning for its reader.
 pub struct KeySets<T: 'static> {
-    /// The sets of keys in a sentence for messages.
+    /// Description of the sets in messages.
     pub told: &'static str,
-    /// The keys that may be given besides, whichever set is.
+    /// Keys that are allowed with every set.
     pub besides: &'static [&'static str],
-    /// The sets of keys; where it is not clear which one is meant, the first counts.
+    /// Sets of keys; if it is unclear which one is meant, the first applies.
     pub sets: &'static [KeySet<T>],
 }
 
-/// A set of keys of a map of options that are given together, all of them.
+/// Keys that must be given together.
 pub struct KeySet<T> {
-    /// What the set of keys means to the body that reads the map.
+    /// Meaning for the reader of the map.
     pub meaning: T,
-    /// What the keys of the set tell, in words that follow `given by`.
+    /// Description of the set, following `given by`.
     pub told: &'static str,
-    /// The keys of the set, in the order in which a missing one is asked for.
+    /// Keys of the set, in the order in which missing ones are reported.
     pub keys: &'static [&'static str],
-    /// The key whose text chooses this set of keys, and that text.
+    /// Key and text value that select this set.
     pub chosen_by: Option<(&'static str, &'static str)>,
 }
 
 impl<T: Copy> KeySets<T> {
-    /// The meaning of the set of keys that `options`, given to `owner`, has.
+    /// Returns the meaning of the set that `options` selects.
     ///
-    /// # Errors
-    /// When a key of the set is missing, or one of another set is given besides.
+    /// If a key of the set is missing, or a key of another set is given.
     pub fn choose(&self, owner: &str, options: &Options) -> Result<T, ScriptError> {
         let Some(meant) = self.meant(options) else {
             return Err(ScriptError::bug(format!("{owner} has no sets of keys")));
@@ -49,7 +47,7 @@ impl<T: Copy> KeySets<T> {
         }
     }
 
-    /// The set that a text chooses, or else the first of those of which the most keys are given.
+    /// Set selected by a text, or else the first of those with the most keys given.
     fn meant(&self, options: &Options) -> Option<&'static KeySet<T>> {
         let is_chosen = |set: &&KeySet<T>| {
             let chosen = set.chosen_by.map(|(key, text)| (options.text(key), text));
@@ -79,7 +77,7 @@ impl<T: Copy> KeySets<T> {
     }
 }
 
-/// Names in a sentence: `a, b and c`.
+/// Enumeration in a sentence: `a, b and c`.
 fn listed<S: AsRef<str>>(names: &[S]) -> String {
     let names: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
     match names.as_slice() {

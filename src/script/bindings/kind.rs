@@ -1,4 +1,4 @@
-//! What a parameter may be: the kinds of values, their words in messages, their ranges.
+//! Kinds of parameter values: descriptions and ranges.
 
 use std::any::TypeId;
 use std::fmt;
@@ -10,40 +10,40 @@ use super::parameter::Parameter;
 use super::parameter_variants::{self, ParameterSet};
 use crate::script::messages::nouns::with_article;
 
-/// A native type that scripts can hold.
+/// A native type of the language.
 pub trait Scripted: Clone + 'static {
-    /// The name of the type in messages and help: one or two words.
+    /// Name of the type in messages and help: one or two words.
     const NAME: &'static str;
-    /// One line on what the type is.
+    /// One-line description.
     const DOC: &'static str;
-    /// The printed form of the value.
+    /// Printed form of the value.
     fn show(&self) -> String;
 
-    /// What a person wants to know of the value at a glance besides: labels and values, at most a dozen.
+    /// Summary of the value: at most a dozen labels with values.
     fn details(&self) -> Details {
         Details::new()
     }
 
-    /// What a value of another type stands for where one of this type is asked for, if for any.
+    /// Implicit conversion from another type, if there is one.
     fn meant_by(_value: &Dynamic) -> Option<Self> {
         None
     }
 
-    /// The parameters that the value depends on, or the scene that it is a thing of, if any.
+    /// Parameters that the value, or its scene, depends on.
     fn family(&self) -> Option<Rc<ParameterSet>> {
         None
     }
 
-    /// Why the value cannot be used now, if so: a native call that calls a script function back may be at work on it.
+    /// Reason why the value is in use, if a native call that is calling back a script function works on it.
     fn is_busy(&self) -> Option<String> {
         None
     }
 }
 
-/// The details of a value of a script: labels and values, set as aligned lines.
+/// Summary of a script value: labels and values, shown as aligned lines.
 pub type Details = Vec<(String, String)>;
 
-/// A [`Scripted`] type as a value, for rows of tables.
+/// A [`Scripted`] type as a value, for tables.
 #[derive(Clone, Copy)]
 pub struct Type {
     name: &'static str,
@@ -57,7 +57,7 @@ pub struct Type {
 }
 
 impl Type {
-    /// The native type `T` as a type of the language.
+    /// Type descriptor of the native type `T`.
     pub const fn of<T: Scripted>() -> Self {
         Self {
             name: T::NAME,
@@ -71,42 +71,42 @@ impl Type {
         }
     }
 
-    /// The name of the type in scripts.
+    /// Name of the type in scripts.
     pub const fn name(&self) -> &'static str {
         self.name
     }
 
-    /// One line on what the type is.
+    /// One-line description.
     pub const fn doc(&self) -> &'static str {
         self.doc
     }
 
-    /// The identity of the native type.
+    /// Identity of the native type.
     pub fn id(&self) -> TypeId {
         (self.id)()
     }
 
-    /// A value as one of this type: itself if it is one, or what it stands for.
+    /// Returns the value if it is of this type, or its implicit conversion.
     pub fn accept(&self, value: &Dynamic) -> Option<Dynamic> {
         if value.type_id() == self.id() { Some(value.clone()) } else { (self.meant)(value) }
     }
 
-    /// The printed form of a value, if it is one of this type.
+    /// Printed form of a value of this type.
     pub fn show(&self, value: &Dynamic) -> Option<String> {
         (self.show)(value)
     }
 
-    /// The details of a value, if it is one of this type.
+    /// Summary of a value of this type.
     pub fn details(&self, value: &Dynamic) -> Option<Details> {
         (self.details)(value)
     }
 
-    /// The function that says why a value cannot be used now, if it is of this type and busy.
+    /// Function that returns the reason why a value of this type is in use.
     pub fn busy(&self) -> fn(&Dynamic) -> Option<String> {
         self.busy
     }
 
-    /// Gives the type a name and a printed form in the engine.
+    /// Registers name and printed form in the engine.
     pub fn register(&self, engine: &mut Engine) {
         (self.register)(engine);
     }
@@ -122,60 +122,60 @@ fn register<T: Scripted>(engine: &mut Engine) {
     }
 }
 
-/// The kind of value that may be given for a parameter.
+/// Kind of value of a parameter.
 #[derive(Clone, Copy)]
 pub enum Kind {
-    /// A number may be given for the parameter; whole numbers are welcome.
+    /// A number; integers are accepted.
     Number(NumberRange),
-    /// Any number may be given for the parameter, and is left whole if it is whole; infinite and not-a-number included.
+    /// Any number, including infinity and NaN; integers stay integers.
     Numeric,
-    /// A whole number may be given for the parameter; a number without a fraction, such as `3.0`, is welcome.
+    /// An integer; a number without a fractional part, such as `3.0`, is accepted.
     Whole(NumberRange),
-    /// A text may be given for the parameter.
+    /// A text.
     Text,
-    /// A text may be given for the parameter that people can read in tables, and type.
+    /// A text that can be read in tables and typed.
     Name,
-    /// One of these texts may be given for the parameter.
+    /// One of these texts.
     Choice(&'static [&'static str]),
-    /// `true` or `false` may be given for the parameter.
+    /// `true` or `false`.
     Boolean,
-    /// A vector or an array `[x, y]` may be given for the parameter.
+    /// A vector or an array `[x, y]`.
     Point,
-    /// An array of anything may be given for the parameter.
+    /// An array of anything.
     Array,
-    /// An array of finite numbers may be given for the parameter.
+    /// An array of finite numbers.
     Numbers,
-    /// An array of points may be given for the parameter.
+    /// An array of points.
     Points,
-    /// A function or closure may be given for the parameter.
+    /// A function or closure.
     Function,
-    /// A map of options with these keys may be given for the parameter.
+    /// A map of options with these keys.
     Options(&'static [Parameter]),
-    /// A value of one of our types may be given for the parameter.
+    /// A value of this native type.
     Object(Type),
-    /// A value of one of these kinds may be given for the parameter, tried in order.
+    /// A value of one of these kinds, tried in order.
     Either(&'static [Kind]),
-    /// Anything may be given for the parameter.
+    /// Any value.
     Anything,
 }
 
-/// The range of numbers that are allowed for a parameter.
+/// Allowed range of a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NumberRange {
-    /// Any finite number is allowed.
+    /// Any finite number.
     Finite,
-    /// Numbers greater than zero are allowed.
+    /// Greater than zero.
     Positive,
-    /// Numbers of zero or greater are allowed.
+    /// Zero or greater.
     NonNegative,
-    /// Numbers from the first to the second are allowed, both included.
+    /// From the first to the second number, inclusive.
     Between(f64, f64),
-    /// All numbers are allowed, infinite and not-a-number included.
+    /// All numbers, including infinity and NaN.
     Unlimited,
 }
 
 impl NumberRange {
-    /// Whether the number `x` is in the range.
+    /// Returns true if `x` is in the range.
     pub fn contains(self, x: f64) -> bool {
         let bounded = match self {
             Self::Unlimited => return true,
@@ -187,7 +187,7 @@ impl NumberRange {
         x.is_finite() && bounded
     }
 
-    /// The phrase for a number of this range, around the `noun` for it.
+    /// Description of a number in this range, with the given `noun`.
     fn phrase(self, noun: &str) -> String {
         match self {
             Self::Finite | Self::Unlimited => format!("a {noun}"),
@@ -199,7 +199,7 @@ impl NumberRange {
 }
 
 impl Kind {
-    /// Whether numbers that are given must be whole.
+    /// Returns true if numbers must be integers.
     pub fn is_of_whole_numbers(&self) -> bool {
         match self {
             Self::Whole(_) => true,
@@ -211,7 +211,7 @@ impl Kind {
         }
     }
 
-    /// Whether values of the type with this name can be meant, whatever they hold.
+    /// Returns true if values of this type may be accepted.
     pub fn takes(&self, type_name: &str) -> bool {
         match self {
             Self::Number(_) | Self::Whole(_) | Self::Numeric => {

@@ -1,4 +1,4 @@
-//! Methods and properties of what depends on parameters: those of the section, curve, vector or number that it is.
+//! Methods and properties of values that depend on parameters, delegated to the underlying section, curve, vector or number.
 
 use std::collections::BTreeMap;
 
@@ -12,7 +12,7 @@ use super::table::{CallSyntax, getter_of, setter_of};
 use crate::script::messages::error::EngineResult;
 use crate::script::state::context::Context;
 
-/// How a member is used: called with so many arguments, read or assigned.
+/// Use of a member: called with this many arguments, read or assigned.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Use {
     Called(usize),
@@ -21,7 +21,6 @@ enum Use {
 }
 
 impl Use {
-    /// The count of arguments behind the receiver.
     fn arguments(self) -> usize {
         match self {
             Self::Called(count) => count,
@@ -30,7 +29,6 @@ impl Use {
         }
     }
 
-    /// The name under which the engine looks for it.
     fn registered(self, name: &str) -> String {
         match self {
             Self::Called(_) => name.into(),
@@ -40,9 +38,9 @@ impl Use {
     }
 }
 
-/// Registers the methods and properties of all types of the language for values that depend on parameters.
+/// Registers the methods and properties of all types for variant values.
 pub fn install(engine: &mut Engine, catalog: &Catalog, context: &Context) {
-    // Of each name and use the rows that belong to a type, and the function of that name, which takes any.
+    // For each name and use: the methods of types, and the function of that name, which accepts any type.
     let mut members: BTreeMap<(&'static str, Use), Vec<RegisteredFunction>> = BTreeMap::new();
     for table in catalog.tables() {
         for row in table.rows {
@@ -66,7 +64,7 @@ pub fn install(engine: &mut Engine, catalog: &Catalog, context: &Context) {
             }
         }
     }
-    // A method of a type wins over a function of its name, which is there for all others.
+    // Methods of a type take precedence over functions of the same name.
     for table in catalog.tables() {
         for row in table.rows.iter().filter(|row| matches!(row.form, CallSyntax::Function)) {
             for count in row.required().max(1)..=row.parameters.len() {

@@ -1,4 +1,4 @@
-//! What a domain declares and how it is called: tables of rows, kinds and parameters, and from a row to a checked native call.
+//! Declaration and call of bindings: tables, kinds and parameters, and checked native calls.
 
 pub mod accept;
 pub mod arguments;

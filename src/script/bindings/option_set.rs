@@ -1,4 +1,4 @@
-//! Option maps with a type: one table declares the keys, with kinds, units and defaults, and the fields that they are read into.
+//! Typed option maps: one declaration for keys, kinds, units, defaults, and the fields that they are read into.
 
 use rhai::{Array, Dynamic, FnPtr};
 
@@ -7,16 +7,15 @@ use super::parameter::Parameter;
 use crate::integrators::Method;
 use crate::script::messages::error::ScriptError;
 
-/// What a key of an option map can be read as.
+/// Types that the value of a key can be read as.
 pub trait FromOption: Sized {
-    /// The value of a key, given or by default.
+    /// Reads the value of a key, given or by default.
     ///
-    /// # Errors
-    /// When its kind is not one that this can be read from: our own mistake.
+    /// If the kind does not match, which is an internal error.
     fn read(options: &Arguments, key: &str) -> Result<Self, ScriptError>;
 }
 
-/// A key that may be left out.
+/// An optional key.
 impl<T: FromOption> FromOption for Option<T> {
     fn read(options: &Arguments, key: &str) -> Result<Self, ScriptError> {
         options.has(key).then(|| T::read(options, key)).transpose()
@@ -47,7 +46,7 @@ impl FromOption for Dynamic {
     }
 }
 
-/// Values of types that the engine holds as they are.
+/// Types that the engine stores unchanged.
 macro_rules! held_as_they_are {
     ($($held:ty),*) => {
         $(impl FromOption for $held {
@@ -60,9 +59,9 @@ macro_rules! held_as_they_are {
 
 held_as_they_are!(FnPtr, Array, Vec<f64>, Method);
 
-/// Declares a struct whose fields are the keys of an option map: `field: Type = parameter`, where the parameter is what stands in the help.
+/// Declares a struct whose fields are keys of an option map: `field: Type = parameter`, where the parameter contains the help text.
 ///
-/// The struct has `KEYS`, in the order of its fields, and is read from checked options at once by `of`.
+/// The struct has the keys `KEYS`, in the order of its fields, and is read from checked options by `of`.
 macro_rules! option_set {
     (
         $(#[$about:meta])*
@@ -76,13 +75,12 @@ macro_rules! option_set {
         }
 
         impl $name {
-            /// The keys of the option map, in the order of the help.
+            /// Keys of the option map, in the order of the help.
             pub const KEYS: &'static [$crate::script::bindings::parameter::Parameter] = &[$($key),*];
 
             /// Reads checked options.
             ///
-            /// # Errors
-            /// When a key is not of the kind of its field: our own mistake.
+            /// If a key is not of the kind of its field, which is an internal error.
             pub fn of(
                 options: &$crate::script::bindings::options::Options,
             ) -> Result<Self, $crate::script::messages::error::ScriptError> {
@@ -99,7 +97,7 @@ macro_rules! option_set {
 
 pub(in crate::script) use option_set;
 
-/// The keys of two sets as one map has them: `N` in all.
+/// Combines two sets of keys, `N` in total.
 pub const fn both<const N: usize>(
     first: &'static [Parameter],
     second: &'static [Parameter],

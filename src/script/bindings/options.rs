@@ -1,4 +1,4 @@
-//! Option maps: known keys with kinds, units, defaults and ranges. A misspelt key is an error, never ignored.
+//! Option maps: known keys with kinds, units, defaults and ranges. A misspelt key is an error.
 
 use std::ops::Deref;
 
@@ -10,13 +10,13 @@ use super::parameter::Parameter;
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::suggest::nearest;
 
-/// An option map that was checked against its keys. Read it as the arguments of a call: `options.number("EA")`.
+/// An option map checked against its keys. It is read like arguments: `options.number("EA")`.
 #[derive(Clone)]
 pub struct Options {
     arguments: Arguments,
 }
 
-/// Options are read as arguments are.
+/// Options are read like arguments.
 impl Deref for Options {
     type Target = Arguments;
 
@@ -26,12 +26,12 @@ impl Deref for Options {
 }
 
 impl Options {
-    /// The options of a map in which nothing is given: all defaults.
+    /// Options with all defaults.
     pub fn defaults(keys: &'static [Parameter]) -> Self {
         Self { arguments: Arguments::new(keys, Vec::new()) }
     }
 
-    /// Checks `map` against `keys` on behalf of `owner`, the function or option map that asks.
+    /// Checks `map` against `keys` for `owner`, the function or option map.
     pub fn read(
         engine: &Engine,
         owner: &str,
@@ -54,7 +54,7 @@ impl Options {
         Ok(Self { arguments: Arguments::new(keys, values) })
     }
 
-    /// The error about an option that must be given here, with a sentence on what the options are.
+    /// Error of a missing option, with a sentence about the options.
     pub(super) fn missing(&self, owner: &str, name: &str, told: &str) -> ScriptError {
         match self.arguments.parameter(name) {
             Some(key) => missing(owner, name, &format!("{}; {told}", asked_for(key))),
@@ -95,7 +95,7 @@ fn missing(owner: &str, name: &str, what_to_add: &str) -> ScriptError {
         .hint(format!("add {what_to_add}"))
 }
 
-/// A key that means something only beside another one, which is not given.
+/// Error of a key that is valid only together with another key.
 fn alone(owner: &str, keys: &[Parameter], key: &Parameter) -> ScriptError {
     let Parameter { name, beside, .. } = key;
     let other = keys.iter().find(|other| other.name == *beside);
@@ -105,13 +105,13 @@ fn alone(owner: &str, keys: &[Parameter], key: &Parameter) -> ScriptError {
         .at(CallPart::Key((*name).to_owned()))
 }
 
-/// A key, what may be given for it, and what it is.
+/// Key, allowed values and meaning.
 fn asked_for(key: &Parameter) -> String {
     let meaning = if key.doc.is_empty() { String::new() } else { format!(" ({})", key.doc) };
     format!("{}: {}{meaning}", key.name, key.expectation())
 }
 
-/// The keys in a line, with the ones that must be given marked.
+/// List of the keys, with required ones marked.
 fn list(keys: &[Parameter]) -> String {
     let names = keys.iter().map(|key| match key.is_required() {
         true => format!("{} (required)", key.name),
@@ -120,7 +120,7 @@ fn list(keys: &[Parameter]) -> String {
     names.collect::<Vec<_>>().join(", ")
 }
 
-/// Points at the key, unless a nested map already points at one of its own.
+/// Moves an error to the key, unless it points at a key of a nested map.
 fn blame_key(error: ScriptError, key: &str) -> ScriptError {
     match error {
         ScriptError::Failure(failure) if failure.place == CallPart::Call => {

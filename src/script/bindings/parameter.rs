@@ -1,119 +1,119 @@
-//! A parameter of a row or a key of an option map: its name, kind, unit, range, default and doc.
+//! Parameters of bindings and keys of option maps: name, kind, unit, range, default and description.
 
 use rhai::Dynamic;
 
 use super::kind::{Kind, NumberRange, Type};
 
-/// One parameter of a row, or one key of an option map: both are described and checked in the same way.
+/// A parameter of a binding, or a key of an option map.
 #[derive(Clone, Copy)]
 pub struct Parameter {
-    /// The name of the parameter: the key in an option map, the word in messages.
+    /// Name: the key in an option map, the word in messages.
     pub name: &'static str,
-    /// The kind of value that may be given for the parameter.
+    /// Kind of value.
     pub kind: Kind,
-    /// The dimension of the parameter, such as `force` or `force·length²`; empty for a pure number or a thing.
+    /// Dimension, such as `force` or `force·length²`; empty for a pure number or an object.
     pub unit: &'static str,
-    /// A sentence on the parameter for the help.
+    /// Description for the help.
     pub doc: &'static str,
-    /// Whether the parameter may be left out, and what then holds.
+    /// Requirement and default.
     pub presence: Presence,
-    /// The key of the same map without which the parameter has no meaning; empty if it has one by itself.
+    /// Key of the same map that must be given too; may be empty.
     pub beside: &'static str,
 }
 
-/// Whether a parameter must be given.
+/// Requirement and default of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Presence {
-    /// The parameter must be given.
+    /// Required.
     Required,
-    /// The parameter may be left out; the body sees that it is absent.
+    /// Optional without default; the body sees that it is absent.
     Optional,
-    /// Left out, the parameter is this number.
+    /// Optional with a default number.
     Number(f64),
-    /// Left out, the parameter is this whole number.
+    /// Optional with a default integer.
     Whole(i64),
-    /// Left out, the parameter is this text.
+    /// Optional with a default text.
     Text(&'static str),
-    /// Left out, the parameter is this truth value.
+    /// Optional with a default boolean.
     Boolean(bool),
 }
 
-/// A parameter for a number; finite unless [`Parameter::any_number`] says otherwise.
+/// Parameter of a number; finite unless [`Parameter::any_number`] is called.
 pub const fn number(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Number(NumberRange::Finite))
 }
 
-/// A parameter for any number, left whole if it is whole.
+/// Parameter of any number; integers stay integers.
 pub const fn numeric(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Numeric)
 }
 
-/// A parameter for a whole number.
+/// Parameter of an integer.
 pub const fn whole(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Whole(NumberRange::Finite))
 }
 
-/// A parameter for a text.
+/// Parameter of a text.
 pub const fn text(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Text)
 }
 
-/// A parameter for the name of something, which stands in tables.
+/// Parameter of a name that appears in tables.
 pub const fn name(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Name)
 }
 
-/// A parameter for one text out of a list.
+/// Parameter of one of several texts.
 pub const fn choice(name: &'static str, allowed: &'static [&'static str]) -> Parameter {
     Parameter::new(name, Kind::Choice(allowed))
 }
 
-/// A parameter for `true` or `false`.
+/// Parameter of `true` or `false`.
 pub const fn boolean(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Boolean)
 }
 
-/// A parameter for a point or vector of the plane: a vector or an array `[x, y]`.
+/// Parameter of a point or vector: a vector or an array `[x, y]`.
 pub const fn point(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Point)
 }
 
-/// A parameter for an array of anything.
+/// Parameter of an array of anything.
 pub const fn array(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Array)
 }
 
-/// A parameter for an array of numbers.
+/// Parameter of an array of numbers.
 pub const fn numbers(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Numbers)
 }
 
-/// A parameter for an array of points.
+/// Parameter of an array of points.
 pub const fn points(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Points)
 }
 
-/// A parameter for a function or closure of the script.
+/// Parameter of a function or closure.
 pub const fn callback(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Function)
 }
 
-/// A parameter for a map of options with the keys given.
+/// Parameter of a map of options with these keys.
 pub const fn options(name: &'static str, keys: &'static [Parameter]) -> Parameter {
     Parameter::new(name, Kind::Options(keys))
 }
 
-/// A parameter for a value of one of our types.
+/// Parameter of a value of a native type.
 pub const fn object(name: &'static str, of: Type) -> Parameter {
     Parameter::new(name, Kind::Object(of))
 }
 
-/// A parameter for a value of one of several kinds, tried in order.
+/// Parameter of a value of one of several kinds, tried in order.
 pub const fn either(name: &'static str, kinds: &'static [Kind]) -> Parameter {
     Parameter::new(name, Kind::Either(kinds))
 }
 
-/// A parameter for anything at all.
+/// Parameter of any value.
 pub const fn anything(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Anything)
 }
@@ -123,22 +123,22 @@ impl Parameter {
         Self { name, kind, unit: "", doc: "", presence: Presence::Required, beside: "" }
     }
 
-    /// The parameter for numbers greater than zero only.
+    /// Restricts the number to be positive.
     pub const fn positive(self) -> Self {
         self.within(NumberRange::Positive)
     }
 
-    /// The parameter for numbers of zero or greater only.
+    /// Restricts the number to be zero or positive.
     pub const fn non_negative(self) -> Self {
         self.within(NumberRange::NonNegative)
     }
 
-    /// The parameter for numbers from `least` to `most` only, both included.
+    /// Restricts the number to `least` to `most`, inclusive.
     pub const fn between(self, least: f64, most: f64) -> Self {
         self.within(NumberRange::Between(least, most))
     }
 
-    /// The parameter for infinite numbers and not-a-number too: for functions that are about such numbers.
+    /// Allows infinity and NaN, for functions about such numbers.
     pub const fn any_number(self) -> Self {
         self.within(NumberRange::Unlimited)
     }
@@ -152,42 +152,42 @@ impl Parameter {
         self
     }
 
-    /// Says the dimension of the parameter.
+    /// Sets the dimension.
     pub const fn unit(mut self, unit: &'static str) -> Self {
         self.unit = unit;
         self
     }
 
-    /// Says what the parameter means.
+    /// Sets the description.
     pub const fn doc(mut self, doc: &'static str) -> Self {
         self.doc = doc;
         self
     }
 
-    /// Lets the parameter be left out.
+    /// Makes the parameter optional.
     pub const fn optional(mut self) -> Self {
         self.presence = Presence::Optional;
         self
     }
 
-    /// Lets the parameter be left out; it then is `default`.
+    /// Makes the parameter optional with a default.
     pub const fn or(mut self, default: Presence) -> Self {
         self.presence = default;
         self
     }
 
-    /// Gives the parameter a meaning only beside another key of the same map; without that it is refused.
+    /// Requires another key of the same map.
     pub const fn beside(mut self, other: &'static str) -> Self {
         self.beside = other;
         self
     }
 
-    /// Whether the parameter must be given.
+    /// Returns true if the parameter is required.
     pub const fn is_required(&self) -> bool {
         matches!(self.presence, Presence::Required)
     }
 
-    /// The value that holds when the parameter is left out, if there is one.
+    /// Default value, if there is one.
     pub fn default_value(&self) -> Option<Dynamic> {
         match self.presence {
             Presence::Required | Presence::Optional => None,
@@ -198,7 +198,7 @@ impl Parameter {
         }
     }
 
-    /// What may be given for the parameter, with its unit: `a positive number [force]`.
+    /// Description of the allowed values, with the unit: `a positive number [force]`.
     pub fn expectation(&self) -> String {
         match self.unit {
             "" => self.kind.to_string(),

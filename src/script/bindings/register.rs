@@ -1,4 +1,4 @@
-//! From rows to registered functions: every row passes through `perform`, which counts, converts and checks.
+//! Registration of bindings. Every call passes through `perform`, which counts, converts and checks the arguments.
 
 use std::any::TypeId;
 
@@ -18,7 +18,7 @@ use crate::geometry::Vec2;
 use crate::script::messages::error::ScriptError;
 use crate::script::state::context::Context;
 
-/// Registers the types and rows of `table`.
+/// Registers the types and bindings of `table`.
 pub fn register(engine: &mut Engine, table: &'static BindingTable, context: &Context) {
     for of in table.types {
         of.register(engine);
@@ -72,7 +72,7 @@ pub(super) fn with_receiver(of: Type, count: usize) -> Vec<TypeId> {
     std::iter::once(of.id()).chain(std::iter::repeat_n(TypeId::of::<Dynamic>(), count)).collect()
 }
 
-/// The exact types of a function of numbers alone: Rhai has some of its own by these names, and ours must win.
+/// Exact argument types of a function of numbers only, which take precedence over Rhai's functions of the same name.
 fn numbers_only(parameters: &[Parameter]) -> Vec<Vec<TypeId>> {
     let numeric = |parameter: &Parameter| matches!(parameter.kind, Kind::Number(_) | Kind::Numeric);
     match parameters.iter().all(numeric) {
@@ -81,7 +81,7 @@ fn numbers_only(parameters: &[Parameter]) -> Vec<Vec<TypeId>> {
     }
 }
 
-/// All combinations of exact types that an operator row stands for; those of built-in types alone stay the engine's.
+/// All combinations of exact types of an operator; those of built-in types only are left to the engine.
 fn operand_types(operands: &[Parameter]) -> Vec<Vec<TypeId>> {
     let built_in = [
         TypeId::of::<f64>(),
@@ -118,7 +118,7 @@ fn exact_types(kind: &Kind) -> Vec<TypeId> {
     }
 }
 
-/// A row as one registered function: a property has two of them.
+/// A binding as one registered function; a property has two of them.
 #[derive(Clone)]
 pub(super) struct RegisteredFunction {
     row: &'static FunctionBinding,
@@ -134,12 +134,12 @@ impl RegisteredFunction {
         Self { row, parameters, body, lifting, context: context.clone() }
     }
 
-    /// The function that assigns the property of the row.
+    /// Setter of the property.
     pub(super) fn setting(&self, setter: Setter) -> Self {
         Self { parameters: setter.value, body: setter.body, ..self.clone() }
     }
 
-    /// The type whose method or property the row is.
+    /// Type of the method or property.
     pub(super) fn receiver(&self) -> Option<Type> {
         self.row.receiver()
     }
@@ -152,10 +152,9 @@ fn add(engine: &mut Engine, name: String, types: Vec<TypeId>, binding: Registere
     });
 }
 
-/// Makes a call of a row with its receiver, if it has one, and its arguments.
+/// Calls a binding with its receiver, if it has one, and its arguments.
 ///
-/// # Errors
-/// Those of the row, and of arguments that it does not take.
+/// Errors of the binding, and of invalid arguments.
 pub(super) fn perform(
     binding: &RegisteredFunction,
     native: &NativeCallContext,
@@ -181,14 +180,14 @@ fn called(
         (Some(_), [receiver, given @ ..]) => (Some(&mut **receiver), given),
         (_, given) => (None, given),
     };
-    // Cloned, not taken: the first value may be the script's own variable.
+    // Cloned, because the first value may be the script's own variable.
     let given = given.iter().map(|value| (**value).clone().flatten());
     if !ParameterSet::is_any() {
         return make(binding, native, receiver, given);
     }
     let again = &mut |receiver: Option<&mut Dynamic>, given: &[Dynamic]| {
         let made = || make(binding, native, receiver, given.iter().cloned());
-        // What is told is told once.
+        // Only variant 0 prints messages.
         match present() {
             Some(beside) if beside.variant > 0 => context.silently(made),
             _ => made(),
@@ -201,7 +200,7 @@ fn called(
     lift((row, binding.lifting), receiver, (parameters, given), again)
 }
 
-/// Makes a call with the values that were given for its parameters.
+/// Evaluates a call with the given values.
 fn make(
     binding: &RegisteredFunction,
     native: &NativeCallContext,
@@ -222,11 +221,11 @@ fn make(
     body(&mut Call::new(row, context, native, receiver, Arguments::new(parameters, accepted)))
 }
 
-/// What to do in the place of a load that reads a simulation in the middle of a step.
+/// Hint for a load that reads a simulation during a step.
 pub const STEERED: &str = "a load is a function of its argument, the time; one that depends on the motion reads a variable that is set \
     between steps: let u = 0.0; scene.force(station, [1, 0], |t| u); then u = … before each sim.step()";
 
-/// Refuses values that the native call which has called back is at work on; arrays are looked into.
+/// Rejects values in use by the native call that called back; arrays are searched.
 fn refuse_busy(
     row: &FunctionBinding,
     context: &Context,

@@ -1,44 +1,44 @@
-//! What a row gives back: the kind of the value, its dimension, and what else is to be known of it.
+//! Return values of bindings: kind, dimension, and remarks.
 
 use std::fmt;
 
 use super::kind::Type;
 use crate::script::messages::nouns::with_article;
 
-/// The kind of a value that a row gives back.
+/// Kind of a returned value.
 #[derive(Clone, Copy)]
 pub enum ValueKind {
-    /// The row gives back nothing: it is there for what it does.
+    /// No value.
     Nothing,
-    /// The row gives back a value of any kind.
+    /// A value of any kind.
     Anything,
-    /// The row gives back a number, whole or not.
+    /// A number, integer or not.
     Number,
-    /// The row gives back a whole number.
+    /// An integer.
     Whole,
-    /// The row gives back `true` or `false`.
+    /// `true` or `false`.
     Truth,
-    /// The row gives back a text.
+    /// A text.
     Text,
-    /// The row gives back a single character.
+    /// A single character.
     Character,
-    /// The row gives back a function or a closure.
+    /// A function or closure.
     Function,
-    /// The row gives back a time on the clock.
+    /// A time of the clock.
     Timestamp,
-    /// A range of whole numbers.
+    /// A range of integers.
     Range,
-    /// The row gives back a map.
+    /// A map.
     Map,
-    /// The row gives back an array of values of one kind.
+    /// An array of values of one kind.
     Array(&'static ValueKind),
-    /// The row gives back a value of one of our types.
+    /// A value of a native type.
     Object(Type),
-    /// The row gives back a value of one of these kinds, the likely one first.
+    /// A value of one of these kinds, the most likely one first.
     OneOf(&'static [ValueKind]),
 }
 
-/// The kinds that the language itself has, by the names of their types.
+/// Kinds of built-in types, by type name.
 const PLAIN: &[ValueKind] = &[
     ValueKind::Number,
     ValueKind::Whole,
@@ -53,15 +53,15 @@ const PLAIN: &[ValueKind] = &[
 ];
 
 impl ValueKind {
-    /// The kind of an array of values of any kind.
+    /// Array of values of any kind.
     pub const ARRAY: Self = Self::Array(&Self::Anything);
 
-    /// The kind of the values whose type has this name, if it is one of the language itself.
+    /// Kind of a built-in type by its name.
     pub fn plain(name: &str) -> Option<Self> {
         PLAIN.iter().find(|kind| kind.type_name() == Some(name)).copied()
     }
 
-    /// The name that the type of a value of this kind has in scripts; none where it can be of several types.
+    /// Type name in scripts; `None` if several types are possible.
     pub const fn type_name(&self) -> Option<&'static str> {
         Some(match self {
             Self::Nothing | Self::Anything | Self::OneOf(_) => return None,
@@ -79,7 +79,7 @@ impl ValueKind {
         })
     }
 
-    /// The kind that is likely, where a value may be of several.
+    /// Most likely kind, if several are possible.
     pub fn likely(self) -> Self {
         match self {
             Self::OneOf([first, ..]) => first.likely(),
@@ -87,7 +87,7 @@ impl ValueKind {
         }
     }
 
-    /// The kind of the elements of an array of this kind; none for what is no array.
+    /// Kind of the elements of an array.
     pub fn element(self) -> Option<Self> {
         match self {
             Self::Array(of) => Some(*of),
@@ -96,7 +96,7 @@ impl ValueKind {
     }
 }
 
-/// The words for a value of the kind, with their article.
+/// Description with article.
 impl fmt::Display for ValueKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (self, self.type_name()) {
@@ -116,92 +116,92 @@ impl fmt::Display for ValueKind {
     }
 }
 
-/// What a row of the language gives back: kind, dimension, remarks.
+/// Description of a return value: kind, dimension, remarks.
 #[derive(Clone, Copy)]
 pub struct Returns {
-    /// The kind of the value that is given back.
+    /// Kind of the value.
     pub kind: ValueKind,
-    /// Its dimension, such as `force`; `-` for a pure number where others have one; empty where there is nothing to say.
+    /// Dimension, such as `force`; `-` for a pure number where others have one; empty if not applicable.
     unit: &'static str,
-    /// Words in the place of those for the kind; empty where those will do.
+    /// Description that replaces that of the kind; may be empty.
     words: &'static str,
-    /// What is written behind them, with the blank or the comma before it.
+    /// Text after the description, including a leading blank or comma.
     note: &'static str,
 }
 
 impl Returns {
-    /// The row gives back nothing.
+    /// No value.
     pub const NOTHING: Self = Self::of(ValueKind::Nothing);
-    /// The row gives back a value of any kind.
+    /// A value of any kind.
     pub const ANYTHING: Self = Self::of(ValueKind::Anything);
-    /// The row gives back a number.
+    /// A number.
     pub const NUMBER: Self = Self::of(ValueKind::Number);
-    /// The row gives back a whole number.
+    /// An integer.
     pub const WHOLE: Self = Self::of(ValueKind::Whole);
-    /// The row gives back `true` or `false`.
+    /// `true` or `false`.
     pub const TRUTH: Self = Self::of(ValueKind::Truth);
-    /// The row gives back a text.
+    /// A text.
     pub const TEXT: Self = Self::of(ValueKind::Text);
-    /// The row gives back a single character.
+    /// A single character.
     pub const CHARACTER: Self = Self::of(ValueKind::Character);
-    /// The row gives back a function.
+    /// A function.
     pub const FUNCTION: Self = Self::of(ValueKind::Function);
-    /// The row gives back a time on the clock.
+    /// A time of the clock.
     pub const TIMESTAMP: Self = Self::of(ValueKind::Timestamp);
-    /// The row gives back a map.
+    /// A map.
     pub const MAP: Self = Self::of(ValueKind::Map);
-    /// The row gives back an array of anything.
+    /// An array of anything.
     pub const ARRAY: Self = Self::of(ValueKind::ARRAY);
-    /// The row gives back an array of numbers.
+    /// An array of numbers.
     pub const NUMBERS: Self = Self::array_of(&ValueKind::Number);
-    /// The row gives back a value of any kind, or nothing where there is none.
+    /// A value of any kind, or nothing.
     pub const ANYTHING_OR_NOTHING: Self = Self::one_of(&[ValueKind::Anything, ValueKind::Nothing]);
 
-    /// What gives back a value of a kind.
+    /// A value of this kind.
     pub const fn of(kind: ValueKind) -> Self {
         Self { kind, unit: "", words: "", note: "" }
     }
 
-    /// What gives back a value of one of our types.
+    /// A value of a native type.
     pub const fn object(of: Type) -> Self {
         Self::of(ValueKind::Object(of))
     }
 
-    /// What gives back an array of values of one kind.
+    /// An array of values of one kind.
     pub const fn array_of(element: &'static ValueKind) -> Self {
         Self::of(ValueKind::Array(element))
     }
 
-    /// What gives back a value of one of several kinds, the likely one first.
+    /// A value of one of several kinds, the most likely one first.
     pub const fn one_of(kinds: &'static [ValueKind]) -> Self {
         Self::of(ValueKind::OneOf(kinds))
     }
 
-    /// Says the dimension of what is given back.
+    /// Sets the dimension.
     pub const fn unit(mut self, unit: &'static str) -> Self {
         self.unit = unit;
         self
     }
 
-    /// Tells what is given back in words of its own, in the place of those for its kind: `an angle from -PI to PI`.
+    /// Replaces the description of the kind: `an angle from -PI to PI`.
     pub const fn words(mut self, words: &'static str) -> Self {
         self.words = words;
         self
     }
 
-    /// Adds what is written behind kind and dimension of what is given back, with the blank or the comma before it.
+    /// Adds text after kind and dimension, including a leading blank or comma.
     pub const fn note(mut self, note: &'static str) -> Self {
         self.note = note;
         self
     }
 
-    /// Whether the row gives back nothing.
+    /// Returns true if nothing is returned.
     pub const fn is_nothing(&self) -> bool {
         matches!(self.kind, ValueKind::Nothing)
     }
 }
 
-/// In words: `a vector [force]`, `a number, whole if x is`; empty for nothing.
+/// Description: `a vector [force]`, `a number, whole if x is`; empty for nothing.
 impl fmt::Display for Returns {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (self.is_nothing(), self.words) {

@@ -1,5 +1,5 @@
-//! Where script functions stand and where the library was called from: the engine loses the file where closures of modules are
-//! called by natives, and tells only errors the line of a call.
+//! Source files of script functions, and calls of the library. The engine loses the file when native code calls closures of modules, and it
+//! provides call lines only in errors.
 
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, HashMap, HashSet};
@@ -11,24 +11,23 @@ use super::catalog::Catalog;
 use crate::script::messages::stop::Stop;
 use crate::script::source::syntax::TokenReader;
 
-/// The folder that names of modules of the library begin with. Files of a script's own folder never have such a name.
+/// Prefix of library modules. Files of a script's folder never have such a name.
 pub const FOLDER: &str = "std/";
 
-/// The names of all script functions and closures that an engine has read, with their files, and the line that the standard
-/// library was entered from.
+/// Files of all script functions and closures that an engine has compiled, and the line that called the standard library.
 ///
-/// It travels as the default tag of the engine.
+/// Stored as the default tag of the engine.
 #[derive(Clone, Default)]
 pub struct Sources {
     functions: Rc<RefCell<HashMap<String, HashSet<String>>>>,
     entered_at: Rc<Cell<Option<usize>>>,
-    /// The checksums of files that were imported.
+    /// Checksums of imported files.
     imported: Rc<RefCell<BTreeMap<String, u32>>>,
     catalog: Option<Rc<Catalog>>,
     reader: TokenReader,
 }
 
-/// A guard that lasts as long as a call into the library.
+/// Guard for the duration of a call into the library.
 pub struct LibraryCallGuard {
     entered_at: Rc<Cell<Option<usize>>>,
     before: Option<usize>,
@@ -40,49 +39,49 @@ impl Drop for LibraryCallGuard {
     }
 }
 
-/// Whether a file belongs to the library.
+/// Returns true if a file belongs to the library.
 fn is_library(source: Option<&str>) -> bool {
     source.is_some_and(|source| source.starts_with(FOLDER))
 }
 
 impl Sources {
-    /// Gives an engine a register of its own.
+    /// Installs an empty register in an engine.
     pub fn install(engine: &mut Engine, catalog: &Catalog, reader: TokenReader) {
         let catalog = Some(Rc::new(catalog.clone()));
         engine.set_default_tag(rhai::Dynamic::from(Self { catalog, reader, ..Self::default() }));
     }
 
-    /// The catalogue of the language that the engine speaks; none for an engine that does not speak it.
+    /// Catalog of the engine's language, if it has one.
     pub fn catalog(&self) -> Option<Rc<Catalog>> {
         self.catalog.clone()
     }
 
-    /// The register of an engine.
+    /// Register of an engine.
     pub fn of(engine: &Engine) -> Self {
         engine.default_tag().clone().try_cast().unwrap_or_default()
     }
 
-    /// Tells the engine that it begins to read another text.
+    /// Starts parsing of another text.
     pub fn begin_reading(&self) {
         self.reader.begin();
     }
 
-    /// Lets texts that were read before be read again to their ends, although the run is to stop.
+    /// Calls `work` with parsing that cannot be stopped, for texts that were parsed before.
     pub fn undisturbed<T>(&self, work: impl FnOnce() -> T) -> T {
         self.reader.undisturbed(work)
     }
 
-    /// What stopped the reading of the last text before its end, if something did.
+    /// Reason that stopped the last parsing, if any.
     pub fn reading_stopped(&self) -> Option<Stop> {
         self.reader.stopped()
     }
 
-    /// Notes the text of a file that was imported.
+    /// Records the text of an imported file.
     pub fn note_text(&self, file: &str, content: &[u8]) {
         self.imported.borrow_mut().insert(file.to_owned(), crc32fast::hash(content));
     }
 
-    /// A number made of the texts of all files that were imported so far.
+    /// Checksum of the texts of all imported files.
     pub fn imprint(&self) -> u64 {
         let imported = self.imported.borrow();
         imported.values().fold(imported.len() as u64, |sum, one| {
@@ -90,7 +89,7 @@ impl Sources {
         })
     }
 
-    /// Notes the functions and closures of a file.
+    /// Records the functions and closures of a file.
     pub fn note(&self, ast: &AST, source: &str) {
         let mut known = self.functions.borrow_mut();
         for function in ast.iter_functions() {
@@ -98,7 +97,7 @@ impl Sources {
         }
     }
 
-    /// The file of the function `name`: `claimed` where that is possible, nothing where the function is native.
+    /// File of the function `name`: `claimed` if possible, `None` for native functions.
     pub fn find(&self, name: &str, claimed: &str) -> Option<String> {
         let known = self.functions.borrow();
         if known.is_empty() {
@@ -111,8 +110,8 @@ impl Sources {
         }
     }
 
-    /// Notes a call into the library from a line of the file `caller`, until what is given back is dropped. The library may call
-    /// itself: the line outside of it counts.
+    /// Marks a call into the library from a line of the file `caller` until the guard is dropped. For nested library calls the outermost
+    /// line counts.
     pub fn enter_library(&self, caller: Option<&str>, line: Option<usize>) -> LibraryCallGuard {
         let before = self.entered_at.get();
         if !is_library(caller) {
@@ -121,7 +120,7 @@ impl Sources {
         LibraryCallGuard { entered_at: self.entered_at.clone(), before }
     }
 
-    /// The line that the library was entered from, while the running call stands in the library.
+    /// Line of the call into the library, if the running code belongs to the library.
     pub fn entered_at(&self, running: Option<&str>) -> Option<usize> {
         self.entered_at.get().filter(|_| is_library(running))
     }

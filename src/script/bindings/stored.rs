@@ -1,4 +1,4 @@
-//! Script functions that are kept and called later: by native loops, or by another call than the one they were given to.
+//! Script functions stored for later calls.
 
 use rhai::{Dynamic, EvalAltResult, FnPtr, GlobalRuntimeState, NativeCallContext, Position};
 
@@ -6,10 +6,10 @@ use crate::script::messages::error::BUG;
 use crate::script::messages::numbers::{as_number, describe};
 use crate::script::state::context::Context;
 
-/// A script function with what surrounded it: the functions, imports and constants of its file.
+/// A script function with its environment: functions, imports and constants of its file.
 ///
-/// In Rhai 1.27 a function pointer is a name and captured values only. The engine is that of the run: it is not owned,
-/// for it owns, by way of the scenes of its script, this.
+/// A function pointer of Rhai 1.27 contains only a name and captured values. The engine of the run is referenced weakly, because it owns
+/// this function through the scenes of the script.
 pub struct StoredFunction {
     function: FnPtr,
     surroundings: GlobalRuntimeState,
@@ -18,7 +18,7 @@ pub struct StoredFunction {
 }
 
 impl StoredFunction {
-    /// Keeps a function that was handed to a native call; `role` names it in messages.
+    /// Stores a function passed to a native call; `role` names it in messages.
     pub(super) fn new(
         function: FnPtr,
         native: &NativeCallContext,
@@ -29,10 +29,9 @@ impl StoredFunction {
         Self { function, surroundings, context: context.clone(), role }
     }
 
-    /// Calls the function. Levels of calls are counted from the native call that is running, whose position its errors get.
+    /// Calls the function. Call depth and error position are those of the running native call.
     ///
-    /// # Errors
-    /// The errors of the script; also when the run was stopped.
+    /// Errors of the script, or if the run was stopped.
     pub fn call(&self, arguments: impl AsMut<[Dynamic]>) -> Result<Dynamic, Box<EvalAltResult>> {
         self.context.proceed().map_err(|error| error.into_engine(Position::NONE))?;
         let Some(engine) = self.context.engine() else {
@@ -54,10 +53,9 @@ impl StoredFunction {
         called
     }
 
-    /// Calls the function with a number for a number.
+    /// Calls the function with a number and returns a number.
     ///
-    /// # Errors
-    /// The function's own error, or that it gives something else; of the own one the context keeps place and trace.
+    /// If the function fails or returns another type.
     pub fn number_of(&self, argument: f64) -> Result<f64, NoNumber> {
         let value = self.call([Dynamic::from(argument)]).map_err(NoNumber::Failed)?;
         as_number(&value).ok_or_else(|| {
@@ -67,21 +65,21 @@ impl StoredFunction {
         })
     }
 
-    /// What it is called in messages.
+    /// Name of the function in messages.
     pub fn role(&self) -> &str {
         &self.role
     }
 
-    /// The state that all calls of the function's run share.
+    /// State shared by the calls of the run.
     pub fn context(&self) -> &Context {
         &self.context
     }
 }
 
-/// Why a script function gave no number.
+/// Reason why a script function returned no number.
 pub enum NoNumber {
-    /// The script function failed.
+    /// The function failed.
     Failed(Box<EvalAltResult>),
-    /// The script function gave something else than a number, in words.
+    /// The function returned something else, described here.
     Other(String),
 }

@@ -1,8 +1,8 @@
-//! The declarative table of a domain: one row for each name that scripts can use.
+//! Declarative table of a domain: one binding per name that scripts can use.
 //!
-//! From the same rows come the registration in the engine, the checks of arguments, the error messages and
-//! their suggestions, help, definition files and the language reference. A domain is added by writing
-//! `pub const TABLE: BindingTable` in a new file of [`packages`](crate::script::packages) and naming it in the list there.
+//! Registration, argument checks, error messages with suggestions, help, definition files and the language reference all come from these
+//! bindings. To add a domain, write `pub const TABLE: BindingTable` in a new file of [`packages`](crate::script::packages) and add it to the list
+//! there.
 
 use rhai::Dynamic;
 
@@ -13,100 +13,100 @@ use super::parameter_variants::NonsmoothCheck;
 use super::returns::Returns;
 use crate::script::messages::error::ScriptError;
 
-/// The native body of a row. Its arguments were counted, converted and range-checked before it is called.
+/// Native body of a binding. Its arguments are counted, converted and range-checked before the call.
 pub type NativeFunction = fn(&mut Call<'_, '_>) -> Result<Dynamic, ScriptError>;
 
-/// A table: everything that one domain adds to the language.
+/// Everything that a domain adds to the language.
 pub struct BindingTable {
-    /// The short name of the domain, a heading in the language reference.
+    /// Name of the domain, used as a heading in the reference.
     pub name: &'static str,
-    /// A sentence or two on what the domain is for.
+    /// One or two sentences on the domain.
     pub doc: &'static str,
-    /// The types that the domain brings to the language.
+    /// Types of the domain.
     pub types: &'static [Type],
-    /// The lines that all examples of the domain begin with; empty when they need none.
+    /// First lines of all examples of the domain; may be empty.
     pub setup: &'static str,
-    /// The names with a fixed value that the domain brings.
+    /// Constants of the domain.
     pub constants: &'static [Constant],
-    /// The functions, methods, properties and operators of the domain.
+    /// Functions, methods, properties and operators of the domain.
     pub rows: &'static [FunctionBinding],
 }
 
-/// A name with a fixed numeric value, visible everywhere, also inside functions.
+/// A numeric constant, visible everywhere, also inside functions.
 pub struct Constant {
-    /// The name of the constant in scripts.
+    /// Name in scripts.
     pub name: &'static str,
-    /// The value of the constant.
+    /// Value.
     pub value: f64,
-    /// One line on what the constant is.
+    /// One-line summary.
     pub summary: &'static str,
 }
 
-/// How a row is written in a script.
+/// Notation of a binding.
 #[derive(Clone, Copy)]
 pub enum CallSyntax {
-    /// The row is written as `name(a, b)`, or equally `a.name(b)`.
+    /// `name(a, b)`, or equivalently `a.name(b)`.
     Function,
-    /// The row is written as `receiver.name(a, b)` on one type only.
+    /// `receiver.name(a, b)` for one type.
     Method(Type),
-    /// The row is written as `receiver.name`, and with a setter `receiver.name = value`.
+    /// `receiver.name`, and with a setter `receiver.name = value`.
     Property(Type),
-    /// The row is written as `a + b`.
+    /// `a + b`.
     Operator,
 }
 
-/// What the engine puts before the name of a property whose value is asked for,
+/// Prefix of Rhai property getters.
 pub const GETTER: &str = "get$";
 
-/// and of one that is assigned.
+/// Prefix of Rhai property setters.
 pub const SETTER: &str = "set$";
 
-/// The name by which the engine asks for a property.
+/// Engine name of a property getter.
 pub fn getter_of(property: &str) -> String {
     format!("{GETTER}{property}")
 }
 
-/// The name by which the engine assigns a property.
+/// Engine name of a property setter.
 pub fn setter_of(property: &str) -> String {
     format!("{SETTER}{property}")
 }
 
-/// A row of the language: one function, method, property or operator.
+/// A function, method, property or operator of the language.
 pub struct FunctionBinding {
-    /// The name of the row in scripts.
+    /// Name in scripts.
     pub name: &'static str,
-    /// How the row is written in a script.
+    /// Notation.
     pub form: CallSyntax,
-    /// The parameters of the row; optional ones stand last.
+    /// Parameters; optional ones come last.
     pub parameters: &'static [Parameter],
-    /// What the row gives back.
+    /// Return value.
     pub returns: Returns,
-    /// One line on what the row does.
+    /// One-line summary.
     pub summary: &'static str,
-    /// More on the row, where a line is not enough.
+    /// Further help text; may be empty.
     pub doc: &'static str,
-    /// A script that runs and shows the row at work.
+    /// Runnable example.
     pub example: &'static str,
-    /// Names that are related to the row.
+    /// Related names.
     pub see: &'static [&'static str],
-    /// The native function that does what the row does.
+    /// Native implementation.
     pub body: NativeFunction,
-    /// The writing half of a property that can be assigned: the new value and what to do with it.
+    /// Setter of a writable property.
     pub setter: Option<Setter>,
-    /// Where what the row gives has a corner or a jump, and no derivatives by what its arguments depend on.
+    /// Test for arguments at which the result is not differentiable.
     pub corner: Option<NonsmoothCheck>,
 }
 
-/// The writing half of a property.
+/// Setter of a property.
 #[derive(Clone, Copy)]
 pub struct Setter {
-    /// The parameter for the value that is assigned.
+    /// Parameter of the assigned value.
     pub value: &'static [Parameter; 1],
-    /// The native function that assigns the value.
+    /// Native implementation.
     pub body: NativeFunction,
 }
 
-/// A row for a function: `name(a, b)`.
+/// A function: `name(a, b)`.
 pub const fn function(
     name: &'static str,
     parameters: &'static [Parameter],
@@ -115,7 +115,7 @@ pub const fn function(
     FunctionBinding::new(name, CallSyntax::Function, parameters, body)
 }
 
-/// A row for a method on values of one type: `receiver.name(a, b)`.
+/// A method of one type: `receiver.name(a, b)`.
 pub const fn method(
     of: Type,
     name: &'static str,
@@ -125,12 +125,12 @@ pub const fn method(
     FunctionBinding::new(name, CallSyntax::Method(of), parameters, body)
 }
 
-/// A row for a property of values of one type: `receiver.name`.
+/// A property of one type: `receiver.name`.
 pub const fn property(of: Type, name: &'static str, body: NativeFunction) -> FunctionBinding {
     FunctionBinding::new(name, CallSyntax::Property(of), &[], body)
 }
 
-/// A row for an operator between two values, at least one of which has a type of ours.
+/// An operator on two values, at least one of which has a native type.
 pub const fn operator(
     symbol: &'static str,
     operands: &'static [Parameter],
@@ -161,54 +161,54 @@ impl FunctionBinding {
         }
     }
 
-    /// Says what the row gives back.
+    /// Sets the return value.
     pub const fn returns(mut self, returns: Returns) -> Self {
         self.returns = returns;
         self
     }
 
-    /// Adds the one line of help that every row must have.
+    /// Sets the summary, which is required.
     pub const fn summary(mut self, summary: &'static str) -> Self {
         self.summary = summary;
         self
     }
 
-    /// Adds a longer explanation of the row.
+    /// Sets the help text.
     pub const fn doc(mut self, doc: &'static str) -> Self {
         self.doc = doc;
         self
     }
 
-    /// Adds the runnable example that every row must have.
+    /// Sets the example, which is required.
     pub const fn example(mut self, example: &'static str) -> Self {
         self.example = example;
         self
     }
 
-    /// Adds names that are related to the row.
+    /// Sets related names.
     pub const fn see(mut self, see: &'static [&'static str]) -> Self {
         self.see = see;
         self
     }
 
-    /// Lets the property of the row be assigned.
+    /// Makes the property writable.
     pub const fn writable(mut self, value: &'static [Parameter; 1], body: NativeFunction) -> Self {
         self.setter = Some(Setter { value, body });
         self
     }
 
-    /// Says where what the row gives has a corner or a jump.
+    /// Sets the test for arguments at which the result is not differentiable.
     pub const fn corner(mut self, corner: NonsmoothCheck) -> Self {
         self.corner = Some(corner);
         self
     }
 
-    /// The number of arguments that must be given to the row.
+    /// Number of required arguments.
     pub fn required(&self) -> usize {
         self.parameters.iter().filter(|parameter| parameter.is_required()).count()
     }
 
-    /// The type whose method or property the row is.
+    /// Type of the method or property.
     pub fn receiver(&self) -> Option<Type> {
         match self.form {
             CallSyntax::Method(of) | CallSyntax::Property(of) => Some(of),
@@ -216,7 +216,7 @@ impl FunctionBinding {
         }
     }
 
-    /// How the row is written, with optional parameters in brackets: `line(from, to)`, `sim.step([count])`.
+    /// Signature with optional parameters in brackets: `line(from, to)`, `sim.step([count])`.
     pub fn signature(&self) -> String {
         let names = self.parameters.iter().map(|parameter| match parameter.is_required() {
             true => parameter.name.to_owned(),

@@ -1,22 +1,22 @@
-//! Short pages on the language itself, each with an example that runs.
+//! Help topics on the language itself, each with a runnable example.
 
-/// A topic of the help: a page on a part of the language.
+/// A help topic.
 pub struct Topic {
-    /// The name of the topic, a heading in the reference.
+    /// Name of the topic, used as a heading in the reference.
     pub name: &'static str,
-    /// The words of the language that the topic explains, and other names for it.
+    /// Keywords of the topic, and its other names.
     pub words: &'static [&'static str],
-    /// One line on the topic.
+    /// One-line summary.
     pub summary: &'static str,
-    /// A few sentences on the topic.
+    /// Help text.
     pub doc: &'static str,
-    /// A script that runs and shows what the topic is about.
+    /// Runnable example.
     pub example: &'static str,
-    /// Names that are related to the topic.
+    /// Related names.
     pub see: &'static [&'static str],
 }
 
-/// All topics of the help, in the order in which to read them.
+/// All topics, in reading order.
 pub const TOPICS: &[Topic] = &[
     Topic {
         name: "numbers",

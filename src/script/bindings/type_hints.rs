@@ -1,11 +1,11 @@
-//! What to write where a value of another kind was given than is asked for.
+//! Hints for values of a wrong kind.
 
 use rhai::{Array, Dynamic, FnPtr, Map};
 
 use super::kind::{Kind, NumberRange};
 use crate::script::messages::numbers::{as_number, format_number};
 
-/// What to write instead of `value` for a parameter of this kind, if the mistake is a known one; `given` is the name of its type.
+/// Hint for `value` given for a parameter of this kind, if the mistake is a known one; `given` is its type name.
 pub fn hint(kind: &Kind, value: &Dynamic, given: &str) -> Option<String> {
     match kind {
         Kind::Number(_) if is_infinite_or_nan(value) => Some(
@@ -48,7 +48,7 @@ pub fn hint(kind: &Kind, value: &Dynamic, given: &str) -> Option<String> {
             })
         }
         Kind::Object(of) => of_object(of.name(), value, given).map(str::to_owned),
-        // A number that is refused for its size needs no other kind.
+        // A number out of range needs no other kind.
         Kind::Either(kinds) if as_number(value).is_some() && kinds.iter().any(is_number) => {
             kinds.iter().filter(|kind| is_number(kind)).find_map(|kind| hint(kind, value, given))
         }
@@ -109,7 +109,6 @@ fn of_points(value: &Dynamic) -> Option<String> {
     is_flat.then(|| "write an array of points: [[0, 0], [1, 0]]".into())
 }
 
-/// What to write for an object of ours.
 fn of_object(wanted: &str, value: &Dynamic, given: &str) -> Option<&'static str> {
     let points = || value.read_lock::<Array>().is_some_and(|array| !array.is_empty());
     Some(match (wanted, given) {

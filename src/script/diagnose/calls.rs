@@ -1,4 +1,4 @@
-//! Calls and properties that do not exist: what does, how it is written, and which name was meant.
+//! Errors of unknown functions and properties: available alternatives and suggestions.
 
 use rhai::Position;
 
@@ -14,7 +14,7 @@ use crate::script::messages::suggest::{nearest, related};
 use crate::script::source::outline::ScriptOutline;
 use crate::script::source::program::Program;
 
-/// What a script asked for and is not known, with what is known to be held against it.
+/// An unknown name, with the data for suggestions.
 pub struct UnknownName<'a> {
     pub catalog: &'a Catalog,
     pub program: &'a Program,
@@ -25,7 +25,7 @@ pub struct UnknownName<'a> {
 type ErrorText = (String, Option<String>);
 
 impl UnknownName<'_> {
-    /// The words for the engine's "Function not found: name (types)".
+    /// Message for the engine's "Function not found: name (types)".
     pub fn function(&self, signature: &str, at: Position) -> ErrorText {
         let (name, types) = signature.split_once(" (").unwrap_or((signature, ")"));
         let types: Vec<&str> = types
@@ -82,7 +82,7 @@ impl UnknownName<'_> {
         self.unknown_name(name, &types, &rows, self.is_dotted(at))
     }
 
-    /// A function of an imported module; only what the standard library has is known.
+    /// Unknown function of an imported module; suggestions exist for the standard library only.
     fn of_module(&self, module: &str, name: &str, got: usize) -> ErrorText {
         let message = format!("there is no function '{name}' in '{module}'");
         let mut imports = self.outline.imports.iter().rev();
@@ -103,7 +103,7 @@ impl UnknownName<'_> {
         (message, Some(hint))
     }
 
-    /// The words for a name before `::` that was not imported.
+    /// Message for a name before `::` that was not imported.
     pub fn module(&self, name: &str) -> ErrorText {
         let message = format!("nothing was imported as '{name}'");
         let imports = || self.outline.imports.iter().map(|(known, _)| known.as_str());
@@ -117,7 +117,7 @@ impl UnknownName<'_> {
         (message, Some(hint))
     }
 
-    /// A function of Rhai that these values could be meant for, called with the wrong ones.
+    /// Message for a function of Rhai called with wrong values.
     fn wrong_built_in(&self, name: &str, types: &[&str]) -> Option<ErrorText> {
         let meant: Vec<_> = self
             .catalog
@@ -188,7 +188,7 @@ impl UnknownName<'_> {
         }
         let members = receiver.map(|of| self.catalog.members(of)).unwrap_or_default();
         let mut known: Vec<String> = members.iter().map(|row| row.name.to_owned()).collect();
-        // What takes no such value is not meant behind its dot.
+        // Functions that do not accept the receiver are not suggested.
         let takes = |row: &&FunctionBinding| {
             let first = row.parameters.first();
             matches!(row.form, CallSyntax::Function)
@@ -208,7 +208,7 @@ impl UnknownName<'_> {
         (message, hint.or_else(|| receiver.and_then(|of| list(&members, of))))
     }
 
-    /// What names that share a part with the one that was written stand for.
+    /// Suggestion of names that share a word with the unknown name.
     fn one_of(&self, names: &[&str], receiver: Option<&&str>) -> Option<String> {
         match names {
             [] => None,
@@ -240,7 +240,7 @@ impl UnknownName<'_> {
         }
     }
 
-    /// The words for the engine's "Unknown property 'p' - … for type 't'" and "No writable property 'p' - …".
+    /// Message for the engine's "Unknown property 'p' - … for type 't'" and "No writable property 'p' - …".
     pub fn property(&self, text: &str) -> ErrorText {
         let mut quoted = text.split('\'').skip(1).step_by(2);
         let (Some(name), Some(of)) = (quoted.next(), quoted.next().map(type_word)) else {
@@ -280,12 +280,12 @@ impl UnknownName<'_> {
         (message, hint.or_else(|| list(&members, of)))
     }
 
-    /// Names of what Rhai has for values of a type.
+    /// Names of Rhai's methods and properties of a type.
     fn built_in_members(&self, of: &str) -> impl Iterator<Item = &'static str> {
         self.catalog.built_ins().filter(move |known| known.is_of(of)).map(BuiltIn::name)
     }
 
-    /// The value before the dot before this position, as far as it is a name, a number or in parentheses.
+    /// Text of the receiver before the dot at this position, if it is a name, a number or in parentheses.
     fn before_dot(&self, at: Position) -> &str {
         let (Some(line), Some(column)) = (at.line(), at.position()) else { return "…" };
         let before = self.program.text[..self.program.offset(line, column)].trim_end();
@@ -300,20 +300,20 @@ impl UnknownName<'_> {
         if found.is_empty() { "…" } else { found }
     }
 
-    /// Whether the name at this position stands after a dot.
+    /// Returns true if the name at this position follows a dot.
     fn is_dotted(&self, at: Position) -> bool {
         let (Some(line), Some(column)) = (at.line(), at.position()) else { return false };
         self.program.text[..self.program.offset(line, column)].trim_end().ends_with('.')
     }
 }
 
-/// All ways to write functions of Rhai.
+/// All notations of functions of Rhai.
 fn forms(built_ins: &[&BuiltIn]) -> String {
     let forms: Vec<&str> = built_ins.iter().flat_map(|known| known.forms).copied().collect();
     forms.join(" or ")
 }
 
-/// The place in the library of a function of this name, in words.
+/// Library module of a function of this name, as text.
 pub fn of_library(name: &str) -> Option<String> {
     let mut found = pages().iter().filter_map(|page| Some((page, page.named(name)?)));
     let (page, function) = found.next()?;
@@ -328,7 +328,7 @@ pub fn of_library(name: &str) -> Option<String> {
     Some(format!("it is in the library: import \"{module}\" as {short}; then {call}{others}"))
 }
 
-/// `others` are further functions of the name, which take other values.
+/// `others` are functions of the same name for other types.
 fn wrong_count(row: &FunctionBinding, others: &[&FunctionBinding], got: usize) -> ErrorText {
     let (least, most) = (row.required(), row.parameters.len());
     let takes =
@@ -353,7 +353,7 @@ fn arguments(count: usize) -> String {
     }
 }
 
-/// The names that a value has, or the way to them where they are many.
+/// Member names of a type, or a reference to the help if there are many.
 fn list(members: &[&'static FunctionBinding], of: &str) -> Option<String> {
     const MOST: usize = 12;
     let names: Vec<_> = members.iter().map(|row| row.name).collect();

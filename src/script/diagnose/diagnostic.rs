@@ -1,4 +1,4 @@
-//! An error as it is shown to people: message, hint, place, and the calls that led there.
+//! Error as shown to the user: message, hint, location, and call trace.
 
 use std::fmt;
 use std::sync::Arc;
@@ -7,69 +7,69 @@ use super::render::Colours;
 use crate::script::messages::brief::brief;
 use crate::script::source::program::{Program, Unreadable};
 
-/// A diagnostic: an error as it is shown to people.
+/// An error as shown to the user.
 #[derive(Clone, Debug)]
 pub struct Diagnostic {
-    /// What is wrong, in words.
+    /// Error message.
     pub message: String,
-    /// What to do about the error.
+    /// Suggestion.
     pub hint: Option<String>,
-    /// The place of the error, if it is about one in a script.
+    /// Location in a script, if there is one.
     pub location: Option<Location>,
-    /// The calls of script functions that led to the error, innermost first.
+    /// Calls of script functions that led to the error, innermost first.
     pub trace: Vec<CallFrame>,
-    /// Whose mistake the error is.
+    /// Origin of the error.
     pub blame: Blame,
 }
 
-/// Whose mistake an error is.
+/// Origin of an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Blame {
-    /// The error is a mistake in the script, or in the way it was called.
+    /// An error in the script or its use.
     User,
-    /// The error is a mistake of this program.
+    /// An internal error of the program.
     Us,
 }
 
-/// A piece of one line of a script.
+/// A part of one line of a script.
 #[derive(Clone, Debug)]
 pub struct Location {
-    /// The script that the piece is in.
+    /// Script.
     pub program: Arc<Program>,
-    /// The line of the piece, from 1.
+    /// Line, from 1.
     pub line: usize,
-    /// The column where the piece begins, in characters from 1.
+    /// First column, in characters from 1.
     pub column: usize,
-    /// The length of the piece in characters.
+    /// Length in characters.
     pub length: usize,
 }
 
-/// One call on the way to an error.
+/// A call in the trace of an error.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CallFrame {
-    /// What the call has called.
+    /// Called function.
     pub callee: Callee,
-    /// The line of the call on the way to the error, if it is known.
+    /// Line of the call, if known.
     pub line: Option<usize>,
-    /// The file of the call on the way to the error, if it is not the one that was run.
+    /// File of the call, if it is not the main script.
     pub file: Option<String>,
 }
 
-/// What a call on the way to an error has called.
+/// Called function of a trace entry.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Callee {
-    /// A function was called by its name.
+    /// A named function.
     Function(String),
-    /// A function without a name was called.
+    /// A closure.
     Closure,
-    /// A file was imported.
+    /// An imported file.
     File(String),
-    /// Nothing was called: this is the line of the standard library at which the error arose.
+    /// No call: the line of the standard library at which the error occurred.
     Library,
 }
 
 impl Diagnostic {
-    /// An error that is about no place in a script.
+    /// An error without a location.
     pub fn general(message: impl Into<String>) -> Self {
         Self {
             message: brief(message.into()),
@@ -80,7 +80,7 @@ impl Diagnostic {
         }
     }
 
-    /// The diagnostic of a mistake of this program.
+    /// An internal error.
     pub fn bug(message: impl fmt::Display) -> Self {
         let mut diagnostic = Self::general(format!("withy has made a mistake: {message}"));
         diagnostic.hint = Some(
@@ -90,14 +90,14 @@ impl Diagnostic {
         diagnostic
     }
 
-    /// Adds to the diagnostic what to do.
+    /// Sets the hint.
     #[must_use]
     pub fn with_hint(mut self, hint: impl Into<String>) -> Self {
         self.hint = Some(brief(hint.into()));
         self
     }
 
-    /// The diagnostic in one line, what is wrong and where: for tables.
+    /// Message and location in one line, for tables.
     pub fn line(&self) -> String {
         let told = self.message.split_whitespace().collect::<Vec<_>>().join(" ");
         match self.location.as_ref().filter(|at| !at.program.name.is_empty()) {
@@ -106,14 +106,14 @@ impl Diagnostic {
         }
     }
 
-    /// Adds something else to do to the diagnostic, on a line of its own.
+    /// Adds another hint on its own line.
     #[must_use]
     pub fn with_another_hint(mut self, hint: &str) -> Self {
         self.hint = Some(self.hint.map_or_else(|| hint.into(), |first| format!("{first}\n{hint}")));
         self
     }
 
-    /// The place of the error as `file:line:column`, for tests and editors.
+    /// Location as `file:line:column`, for tests and editors.
     pub fn place(&self) -> Option<String> {
         self.location.as_ref().map(|at| format!("{}:{}:{}", at.program.name, at.line, at.column))
     }

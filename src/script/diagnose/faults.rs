@@ -1,8 +1,8 @@
-//! Values that do not fit: of another type, out of bounds, too large.
+//! Errors of values: wrong type, out of bounds, too large.
 
 use crate::script::messages::nouns::{type_word, with_article};
 
-/// What is wrong with a value of another type than is asked for, and what to do.
+/// Message and hint for a value of a wrong type.
 pub fn mismatch(wanted: &str, got: &str) -> (String, Option<String>) {
     let (wanted, got) = (type_word(wanted), type_word(got));
     let hint = match (wanted, got) {
@@ -21,7 +21,7 @@ pub fn mismatch(wanted: &str, got: &str) -> (String, Option<String>) {
     (format!("expected {}, got {}", with_article(wanted), with_article(got)), hint)
 }
 
-/// What is wrong with an index that nothing has.
+/// Message for an index out of bounds.
 pub fn bounds(what: &str, length: usize, index: i64) -> String {
     match length {
         0 => format!("there is nothing at index {index}: the {what} is empty"),
@@ -32,7 +32,7 @@ pub fn bounds(what: &str, length: usize, index: i64) -> String {
     }
 }
 
-/// What is wrong with something that grew beyond what is allowed.
+/// Message for data that exceeds a size limit.
 pub fn too_large(what: &str) -> String {
     match what.to_lowercase() {
         what if what.contains("string") => "the text is too long".into(),
@@ -41,7 +41,7 @@ pub fn too_large(what: &str) -> String {
     }
 }
 
-/// What is wrong with numbers that cannot be read or do not fit, and what to do.
+/// Message and hint for numbers that cannot be parsed or represented.
 pub fn arithmetic(what: &str) -> (String, Option<String>) {
     let quoted = what.split('\'').nth(1).unwrap_or_default();
     let told = what.to_lowercase();

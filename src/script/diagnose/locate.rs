@@ -1,4 +1,4 @@
-//! From the engine's position, a point, to the piece of the line to underline.
+//! Locations to underline, from positions of the engine.
 
 use std::sync::Arc;
 
@@ -12,20 +12,20 @@ use crate::script::source::definitions::{closing, nesting};
 use crate::script::source::program::Program;
 use crate::script::source::text::Lexeme;
 
-/// The word, number, text or sign at `position`; nothing if the engine gave no position.
+/// Token at `position`; `None` if the engine gave no position.
 pub fn word_at(program: &Program, position: Position) -> Option<Location> {
     let line = position.line()?;
     let column = position.position().unwrap_or(1);
     Some(location(program, line, column, word_length(program, line, column)))
 }
 
-/// The script up to `position`.
+/// Script text before `position`.
 pub fn text_before(program: &Program, position: Position) -> &str {
     let end = program.offset(position.line().unwrap_or(1), position.position().unwrap_or(1));
     &program.text[..end]
 }
 
-/// The end of `text`, with which the script begins: for errors about something that is missing there.
+/// End of `text`, a prefix of the script, for errors about missing tokens.
 pub fn end_of(program: &Program, text: &str) -> Location {
     let text = text.trim_end();
     let line = text.lines().count().max(1);
@@ -33,7 +33,7 @@ pub fn end_of(program: &Program, text: &str) -> Location {
     location(program, line, column, 1)
 }
 
-/// The part of the call at `position` that an error is about; the called name if that part is not written there.
+/// Part of the call at `position` that an error refers to; the function name if that part cannot be found.
 pub fn part_of_call(
     program: &Program,
     catalog: &Catalog,
@@ -70,7 +70,7 @@ fn word_length(program: &Program, line: usize, column: usize) -> usize {
     length.min(rest.chars().count()).max(1)
 }
 
-/// The tokens from the opening parenthesis of the call at `position` to the closing one, both included.
+/// Tokens of the call at `position` from the opening to the closing parenthesis.
 fn inside_call(program: &Program, position: Position) -> Option<(&[Lexeme], bool)> {
     let tokens = program.text.tokens();
     let called = tokens.iter().position(|(_, at)| *at == position)?;
@@ -84,7 +84,7 @@ fn inside_call(program: &Program, position: Position) -> Option<(&[Lexeme], bool
     is_closed.then_some((call, dotted))
 }
 
-/// An argument of what may be a function.
+/// Argument of a call in function or method notation.
 fn argument_of(
     program: &Program,
     catalog: &Catalog,
@@ -100,7 +100,6 @@ fn argument_of(
     argument(program, call, number)
 }
 
-/// An argument among the tokens of a call.
 fn argument(program: &Program, call: &[Lexeme], number: usize) -> Option<Location> {
     let mut depth = 0;
     let mut seen = 0;
@@ -120,7 +119,7 @@ fn argument(program: &Program, call: &[Lexeme], number: usize) -> Option<Locatio
     None
 }
 
-/// From `start` up to the separator at `end`, without the blanks between; one word if the argument has several lines.
+/// From `start` up to the separator at `end`, without trailing blanks; one token if the argument spans several lines.
 fn span(program: &Program, start: Position, end: Position) -> Option<Location> {
     let (line, column) = (start.line()?, start.position()?);
     if end.line()? != line {

@@ -1,4 +1,4 @@
-//! Every error of a script as one message: what is wrong, where, what to do, and the calls that led there.
+//! Error messages for users: message, location, hint, and call trace.
 
 mod calls;
 mod diagnostic;

@@ -1,8 +1,8 @@
-//! Operators that do not work on the values beside them, and what is written instead.
+//! Errors of operators with unsupported operands.
 
 use crate::script::messages::nouns::with_article;
 
-/// What is wrong with the operator `symbol` between, or before, values of these types, and what to do.
+/// Message and hint for the operator `symbol` with operands of these types.
 pub fn explain(symbol: &str, types: &[&str]) -> (String, Option<String>) {
     let words: Vec<_> = types.iter().map(|name| with_article(name)).collect();
     let message = match (symbol, words.as_slice()) {
@@ -43,6 +43,6 @@ fn hint(symbol: &str, types: &[&str]) -> Option<&'static str> {
     }
 }
 
-/// Arrays join, vectors add.
+/// Hint for arithmetic on arrays: arrays join, vectors add.
 const OF_ARRAYS: &str = "points are vectors: vec(1, 2) - [1, 0] and 2 * vec(1, 2) work; numbers.map(|x| 2 * x) works on each \
      element of an array";

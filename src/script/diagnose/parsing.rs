@@ -1,8 +1,8 @@
-//! Errors of grammar in plain words.
+//! Syntax errors in plain language.
 
 use rhai::{Engine, LexError, ParseErrorType};
 
-/// What is wrong in a script that cannot be parsed and, where it is known, what to do; `word` is what stands at the place of the error.
+/// Message and hint for a script that cannot be parsed; `word` is the token at the error.
 pub fn explain(error: &ParseErrorType, word: &str) -> (String, Option<String>) {
     match error {
         ParseErrorType::UnexpectedEOF => {
@@ -64,7 +64,7 @@ pub fn explain(error: &ParseErrorType, word: &str) -> (String, Option<String>) {
     }
 }
 
-/// The hint on what a loop can go over.
+/// Hint on iterable values.
 pub const GONE_OVER: &str = "for goes over an array, a text or a range: for i in 0..10 { … }; over a map with for key in map.keys() { … }";
 
 fn reserved(word: &str) -> (String, Option<String>) {

@@ -1,4 +1,4 @@
-//! Drawing a diagnostic: the source line, a caret under the place, the message and the hint.
+//! Rendering of a diagnostic: source line, caret, message and hint.
 
 use std::ops::Range;
 
@@ -12,12 +12,12 @@ pub use crate::output::Colours;
 use crate::output::columns;
 
 impl Diagnostic {
-    /// The diagnostic as text that ends with a newline.
+    /// Text of the diagnostic, ending with a newline.
     pub fn render(&self, colours: Colours) -> String {
         self.render_within(colours, usize::MAX)
     }
 
-    /// The diagnostic as text, with what to do on lines of `width` columns, for a terminal that would break a word at its edge.
+    /// Text of the diagnostic with the hint wrapped at `width` columns, because a terminal would break words.
     pub fn render_within(&self, colours: Colours, width: usize) -> String {
         let drawing = match self.blame {
             Blame::User => Drawing::error(),
@@ -39,7 +39,7 @@ impl Diagnostic {
         };
         match term::emit_to_write_style(&mut buffer, &Config::default(), &file, &drawing) {
             Ok(()) => format!("{}\n", String::from_utf8_lossy(buffer.as_slice()).trim_end()),
-            // The place lies outside the text, which can only be our mistake: the message still counts.
+            // The location lies outside the text, which is an internal error; the message is still shown.
             Err(_) => format!("error: {}\n", self.message),
         }
     }
@@ -54,18 +54,18 @@ impl Diagnostic {
     }
 }
 
-/// Lines of a script with more characters are not drawn; the place is told in words.
+/// Longer lines are not drawn; the location is described instead.
 const LONGEST_DRAWN: usize = 1000;
-/// So many characters of such a line are told, from the place on.
+/// Number of characters shown of such a line.
 const TOLD: usize = 60;
 
-/// Columns before what to do: `  = help: `.
+/// Columns before the hint: `  = help: `.
 const BESIDE_HINT: usize = 10;
 
-/// Hints are not wrapped to less.
+/// Minimum width of wrapped hints.
 const NARROWEST: usize = 30;
 
-/// A line in lines of at most `width` columns, broken at blanks; a longer word stays whole.
+/// Wraps a line at blanks to `width` columns; longer words stay whole.
 fn wrapped(line: &str, width: usize) -> Vec<String> {
     let mut lines = Vec::new();
     let mut current = String::new();
@@ -82,7 +82,7 @@ fn wrapped(line: &str, width: usize) -> Vec<String> {
     lines
 }
 
-/// The calls, with the middle of a long recursion left out.
+/// Trace with the middle of a long recursion left out.
 fn shown_steps(trace: &[CallFrame]) -> Vec<String> {
     const SHOWN: usize = 8;
     let mut lines: Vec<_> = trace.iter().take(SHOWN).map(CallFrame::to_string).collect();
@@ -121,24 +121,23 @@ impl std::fmt::Display for CallFrame {
 }
 
 impl Location {
-    /// The text of the piece of the script.
+    /// Text of the location.
     pub fn text(&self) -> &str {
         &self.program.text[self.bytes()]
     }
 
-    /// The characters of the line it is in.
     fn line_length(&self) -> usize {
         self.program.text.lines().nth(self.line - 1).map_or(0, |line| line.chars().count())
     }
 
-    /// The place, and what stands there, for a line that is too long to be drawn.
+    /// Description of a location in a line that is too long to draw.
     fn in_words(&self) -> String {
         let line = self.program.text.lines().nth(self.line - 1).unwrap_or_default();
         let there: String = line.chars().skip(self.column - 1).take(TOLD).collect();
         format!("at {}:{}:{}, in a long line: {there} …", self.program.name, self.line, self.column)
     }
 
-    /// The place as a range of bytes of the text.
+    /// Byte range of the location.
     fn bytes(&self) -> Range<usize> {
         let start = self.program.offset(self.line, self.column);
         start..self.program.offset(self.line, self.column + self.length).max(start)

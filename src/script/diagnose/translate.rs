@@ -1,4 +1,4 @@
-//! From the engine's errors to diagnostics, in the words of the language.
+//! Translation of engine errors to diagnostics.
 
 use std::path::Path;
 
@@ -23,33 +23,33 @@ use crate::script::messages::suggest::nearest;
 use crate::script::source::outline::ScriptOutline;
 use crate::script::source::program::Program;
 
-/// What explains errors of the engine to people, with all that its words are drawn from.
+/// Translator of engine errors.
 pub struct Explainer<'a> {
-    /// The script that was run.
+    /// Script that was run.
     pub program: &'a Program,
-    /// The catalogue of names that the language has.
+    /// Catalog of the language.
     pub catalog: &'a Catalog,
-    /// The engine that ran the script.
+    /// Engine that ran the script.
     pub engine: &'a Engine,
 }
 
-/// An error without the calls around it.
+/// An error without its surrounding calls.
 struct Unwrapped<'e> {
     inner: &'e EvalAltResult,
-    /// The file it stands in.
+    /// File of the error.
     program: Program,
-    /// The calls that led there, innermost first.
+    /// Calls that led to the error, innermost first.
     trace: Vec<CallFrame>,
-    /// Where the innermost of them was called.
+    /// Position of the innermost call.
     called_at: Option<(Program, Position)>,
-    /// Where the standard library was called, when the error arose in it.
+    /// Position of the call of the standard library, if the error occurred inside it.
     library_called_at: Option<(Program, Position)>,
 }
 
-/// What is wrong, what to do, and where.
+/// Message and hint.
 type Diagnosis = (String, Option<String>);
 
-/// Whether the run was stopped from outside and not by a limit, at whatever depth of calls.
+/// Returns true if the run was stopped from outside, not by a limit, at any call depth.
 pub fn is_interrupt(error: &EvalAltResult) -> bool {
     match error.unwrap_inner() {
         EvalAltResult::ErrorTerminated(stop, _) => {
@@ -59,7 +59,7 @@ pub fn is_interrupt(error: &EvalAltResult) -> bool {
     }
 }
 
-/// Whether a dry build was ended because the script waits for what only a real run finds.
+/// Returns true if a dry build ended because the script waits for a result of a real run.
 pub fn is_waiting(error: &EvalAltResult) -> bool {
     match error.unwrap_inner() {
         EvalAltResult::ErrorTerminated(stop, _) => matches!(Stop::of_token(stop), Stop::Waiting),
@@ -67,12 +67,12 @@ pub fn is_waiting(error: &EvalAltResult) -> bool {
     }
 }
 
-/// What to write where a number that depends on parameters is none too many.
+/// Hint for a variant number where a plain number is required.
 const PLAIN: &str =
     "value_of(x) is the same without its derivatives; int(x) and round(x) are whole numbers";
 
 impl Explainer<'_> {
-    /// The diagnostic for `error`.
+    /// Diagnostic of `error`.
     pub fn explain(&self, error: &EvalAltResult) -> Diagnostic {
         let Unwrapped { inner, program, mut trace, called_at, library_called_at } =
             self.unwrap(error);
@@ -109,7 +109,7 @@ impl Explainer<'_> {
                 EvalAltResult::ErrorRuntime(payload, _) => payload.read_lock::<Failure>(),
                 _ => None,
             };
-            // A key that the library hands on is written in the call of the user too; an argument is another one there.
+            // An option key passed on by the library also appears in the user's call; argument positions differ.
             let place = match place.map(|failure| failure.place.clone()) {
                 Some(CallPart::Key(key)) => CallPart::Key(key),
                 _ => CallPart::Call,
@@ -124,7 +124,7 @@ impl Explainer<'_> {
         Diagnostic { hint, location, trace, ..Diagnostic::general(message) }
     }
 
-    /// Takes an error out of the calls around it.
+    /// Unwraps an error from its surrounding calls.
     fn unwrap<'e>(&self, error: &'e EvalAltResult) -> Unwrapped<'e> {
         let sources = Sources::of(self.engine);
         let mut trace = Vec::new();
@@ -307,12 +307,12 @@ impl Explainer<'_> {
     }
 }
 
-/// The text that would be underlined at this position.
+/// Text underlined at this position.
 fn word_of(program: &Program, at: Position) -> String {
     locate::word_at(program, at).map(|place| place.text().to_owned()).unwrap_or_default()
 }
 
-/// For `import numpy`, which reads a variable.
+/// Message for `import numpy`, which reads a variable.
 fn not_imported(name: &str) -> Diagnosis {
     let hint = match foreign_names::find(name) {
         Some(found) => found.cure.to_owned(),
@@ -340,7 +340,7 @@ fn source(program: &Program, named: &str) -> Program {
     if let Some(Ok(module)) = library::find(named) {
         return module.program();
     }
-    // A file that is gone by now has no lines to show: the error is told with its name.
+    // If the file no longer exists, the error is reported without source lines.
     Program::load(Path::new(named)).unwrap_or_else(|_| Program {
         name: named.into(),
         text: "".into(),
@@ -348,7 +348,7 @@ fn source(program: &Program, named: &str) -> Program {
     })
 }
 
-/// The engine's own message, without the position at its end.
+/// Message of the engine without the position at its end.
 fn plain(error: &EvalAltResult) -> String {
     let text = error.to_string();
     let end = text.rfind(" (line ").unwrap_or(text.len());

@@ -1,4 +1,4 @@
-//! The constants of the language: names that stand for numbers everywhere, unless a script gives them to something of its own.
+//! Named constants of the language, which scripts may shadow.
 
 use std::collections::HashMap;
 
@@ -6,16 +6,16 @@ use rhai::{Dynamic, Engine};
 
 use crate::script::bindings::catalog::Catalog;
 
-/// Lets scripts read the constants of `catalog`.
+/// Makes the constants of `catalog` available to scripts.
 ///
-/// As values of a module of the engine they would not be seen by closures, which look for what they capture among variables.
+/// A variable resolver is used, because closures capture variables only and would not see constants of a module.
 #[expect(deprecated, reason = "so marked as it may change; the version of Rhai is fixed")]
 pub fn install(engine: &mut Engine, catalog: &Catalog) {
     let all = catalog.tables().flat_map(|table| table.constants);
     let values: HashMap<&str, Dynamic> =
         all.map(|constant| (constant.name, constant.value.into())).collect();
     engine.on_var(move |name, place, context| {
-        // A place is that of a variable which the parser has seen.
+        // A non-zero index refers to a variable known to the parser.
         let is_own = place > 0 || context.scope().contains(name);
         Ok(if is_own { None } else { values.get(name).cloned() })
     });

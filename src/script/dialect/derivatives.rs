@@ -1,4 +1,4 @@
-//! Operators on numbers and vectors that depend on parameters of a scene: what they do to numbers, in each variant.
+//! Operators on numbers and vectors that depend on parameters of a scene, applied per variant.
 
 use std::any::TypeId;
 use std::rc::Rc;
@@ -18,23 +18,23 @@ use crate::script::source::syntax::{LONGEST_CHAIN, OWN, power_name};
 #[derive(Clone, Copy)]
 struct OnNumbers {
     of: fn(f64, f64) -> f64,
-    /// Where it has no derivatives.
+    /// Points without derivative.
     corner: Option<NonsmoothCheck>,
 }
 
 impl OnNumbers {
-    /// One that has derivatives everywhere.
+    /// An operator that is differentiable everywhere.
     const fn smooth(of: fn(f64, f64) -> f64) -> Self {
         Self { of, corner: None }
     }
 
-    /// One that has none in some places.
+    /// An operator that is not differentiable at some points.
     const fn rough(of: fn(f64, f64) -> f64, corner: NonsmoothCheck) -> Self {
         Self { of, corner: Some(corner) }
     }
 }
 
-/// Registers the operators, under the names that the language writes them by.
+/// Registers the operators under their names in the language.
 pub fn install(engine: &mut Engine) {
     let arithmetic: [(String, OnNumbers); 5] = [
         ("+".into(), OnNumbers::smooth(|x, y| x + y)),
@@ -63,7 +63,7 @@ pub fn install(engine: &mut Engine) {
     engine.register_raw_fn("+", varied, |_, operands| -> EngineResult<Dynamic> {
         Ok(operands[0].clone())
     });
-    // A number that depends on parameters has a point already.
+    // A variant number is a float already.
     engine.register_fn("to_float", |number: VariantValue| number);
     for name in ["to_int", "sign", "is_zero", "is_even", "is_odd"] {
         engine.register_raw_fn(name, varied, move |context: NativeCallContext, operands| {
@@ -91,7 +91,7 @@ pub fn install(engine: &mut Engine) {
     }
 }
 
-/// Two operands of which one at least depends on parameters.
+/// Type combinations of two operands with at least one variant value.
 fn with_one() -> [[TypeId; 2]; 3] {
     let (varied, any) = (TypeId::of::<VariantValue>(), TypeId::of::<Dynamic>());
     [[varied, varied], [varied, any], [any, varied]]

@@ -1,5 +1,5 @@
-//! Methods of arrays and maps that ask a function about each element. Rhai's own take whatever is not true for false, and
-//! `for_each` gives the index where all others give the element.
+//! Methods of arrays and maps with a function argument. Unlike Rhai's own, they do not treat non-boolean results as
+//! false, and `for_each` passes the element instead of the index.
 
 use std::any::TypeId;
 use std::cell::Cell;
@@ -9,7 +9,7 @@ use rhai::{Array, Dynamic, Engine, EvalAltResult, FnPtr, INT, Map, NativeCallCon
 use crate::script::messages::error::{EngineResult, ScriptError};
 use crate::script::messages::numbers::describe;
 
-/// Registers the methods of arrays and maps that call a function for each element, under the names that they have in Rhai.
+/// Registers the methods of arrays and maps that call a function for each element, under their Rhai names.
 pub fn install(engine: &mut Engine) {
     install_searches(engine);
     install_sieves(engine);
@@ -28,7 +28,7 @@ pub fn install(engine: &mut Engine) {
     });
 }
 
-/// What looks for elements and leaves the array as it is.
+/// Methods that search for elements and leave the array unchanged.
 fn install_searches(engine: &mut Engine) {
     search(engine, "some", |_, found| found.is_some().into());
     search(engine, "index_of", |_, found| {
@@ -50,7 +50,7 @@ fn install_searches(engine: &mut Engine) {
     });
 }
 
-/// Registers what the index of the first element that passes a test gives.
+/// Registers a method that depends on the index of the first match.
 fn search(engine: &mut Engine, name: &str, give: fn(&Array, Option<usize>) -> Dynamic) {
     let types = [TypeId::of::<Array>(), TypeId::of::<FnPtr>(), TypeId::of::<INT>()];
     let least = if name == "some" { 2 } else { 3 };
@@ -79,10 +79,10 @@ fn search(engine: &mut Engine, name: &str, give: fn(&Array, Option<usize>) -> Dy
     }
 }
 
-/// Parts what a method is called on into what passes its test and the rest.
+/// Splits an array or map into elements that pass the test and the rest.
 type Partition = fn(&NativeCallContext, &[&mut Dynamic]) -> EngineResult<(Dynamic, Dynamic)>;
 
-/// What parts the elements of an array or a map into those that pass a test and the others.
+/// Methods that split arrays or maps by a test.
 fn install_sieves(engine: &mut Engine) {
     let kinds = [
         (TypeId::of::<Array>(), part_array as Partition),
@@ -104,7 +104,7 @@ fn install_sieves(engine: &mut Engine) {
     }
 }
 
-/// Leaves `kept` in the variable that the method is called on, and hands `given` on.
+/// Assigns `kept` to the receiver and returns `given`.
 fn replace(values: &mut [&mut Dynamic], kept: Dynamic, given: Dynamic) -> Dynamic {
     if let Some(own) = values.first_mut() {
         **own = kept;
@@ -149,7 +149,7 @@ fn part_map(
     Ok((passed.into(), others.into()))
 }
 
-/// A copy of the array that a method is called on.
+/// Copy of the receiver array.
 pub(super) fn array_of(values: &[&mut Dynamic]) -> Array {
     let array = values.first().and_then(|array| array.read_lock::<Array>());
     array.map(|array| array.clone()).unwrap_or_default()
@@ -165,16 +165,15 @@ fn function_of(values: &[&mut Dynamic]) -> EngineResult<FnPtr> {
     function.ok_or_else(|| ScriptError::bug("a test is no function").into_engine(Position::NONE))
 }
 
-/// What a function is given about an element.
+/// Arguments passed to the function for each element.
 #[derive(Clone, Copy)]
 enum CallbackArguments {
     Element,
     ElementAndIndex,
-    /// Nothing: it sees the element as `this`.
+    /// No argument; the element is `this`.
     This,
 }
 
-/// A function that is asked about one element after the other.
 struct ElementCallback<'a> {
     native: &'a NativeCallContext<'a>,
     function: &'a FnPtr,
@@ -186,7 +185,7 @@ impl<'a> ElementCallback<'a> {
         Self { native, function, given: Cell::new(None) }
     }
 
-    /// What the function says about an element; found out once is how many arguments it takes.
+    /// Calls the function for an element. The number of its arguments is determined on the first call.
     fn about(&self, index: usize, element: &mut Dynamic) -> EngineResult<Dynamic> {
         if let Some(given) = self.given.get() {
             return self.call(given, index, element);
@@ -216,7 +215,7 @@ impl<'a> ElementCallback<'a> {
     ) -> EngineResult<Dynamic> {
         let copy = element.clone();
         let index = Dynamic::from(INT::try_from(index).unwrap_or(INT::MAX));
-        // A native function would take this for its first argument.
+        // A native function would take `this` as its first argument.
         let this = self.function.is_anonymous().then_some(&mut *element);
         match given {
             CallbackArguments::Element => self.function.call_raw(self.native, this, [copy]),
@@ -235,13 +234,13 @@ impl<'a> ElementCallback<'a> {
         )
     }
 
-    /// Whether an element passes the test that the function is.
+    /// Evaluates the test for an element.
     fn whether(&self, index: usize, element: &mut Dynamic) -> EngineResult<bool> {
         truth(self.native, &self.about(index, element)?)
     }
 }
 
-/// The answer of a test that a script function gave, as a truth value.
+/// Converts the result of a script test to a boolean.
 pub(super) fn truth(native: &NativeCallContext, answer: &Dynamic) -> EngineResult<bool> {
     answer.as_bool().map_err(|_| {
         let got = describe(native.engine(), answer);

@@ -1,8 +1,8 @@
-//! What the language takes over from Rhai, and what it refuses.
+//! Selection of Rhai's packages, and removed functions.
 //!
-//! Left out are Rhai's byte arrays and bit fields, which nothing here needs; its reflection, tags, `take` and JSON
-//! parser; and `sleep`, which no interrupt could end. Where people would look for a function that is not here, or
-//! Rhai's means something that surprises, the refusal says what to write.
+//! Not included are Rhai's byte arrays and bit fields; its reflection, tags, `take` and JSON parser; and `sleep`, which
+//! cannot be interrupted. Functions that users may expect but that are missing or surprising in Rhai have an error with
+//! a suggestion.
 
 use std::any::TypeId;
 
@@ -16,37 +16,37 @@ use rhai::{Dynamic, Engine, EvalAltResult, ImmutableString};
 use crate::script::messages::error::ScriptError;
 
 rhai::def_package! {
-    /// What the language takes over from Rhai.
+    /// Packages taken from Rhai.
     FromRhai(_module): ArithmeticPackage, BasicArrayPackage, BasicFnPackage, BasicIteratorPackage, BasicMapPackage,
         BasicMathPackage, BasicStringPackage, BasicTimePackage, LogicPackage, MoreStringPackage {}
 }
 
-/// What Rhai hashes names with. It makes the names of functions without one of hashes as well (`anon$…`), which a script can print; left
-/// alone it would draw a seed at random for every process.
+/// Seed of Rhai's hashes. Names of closures (`anon$…`), which scripts can print, contain such hashes; without a fixed
+/// seed they would differ between processes.
 const SEED: [u64; 4] =
     [0x7769_7468_7920_0001, 0x7769_7468_7920_0002, 0x7769_7468_7920_0003, 0x7769_7468_7920_0004];
 
-/// Texts that are kept once, however often they occur.
+/// Size of the cache of interned strings.
 const TEXTS_SHARED: usize = 256;
 
-/// A function of Rhai that is not to be used in the language.
+/// A function of Rhai that is not available.
 pub struct Refused {
-    /// The name of the function that is refused.
+    /// Name of the function.
     pub name: &'static str,
-    /// The counts of arguments that the refused function would have.
+    /// Numbers of arguments of the function.
     pub counts: &'static [usize],
-    /// The reason why the function is refused.
+    /// Reason.
     pub reason: &'static str,
-    /// What to write instead of the refused function.
+    /// Replacement.
     pub instead: &'static str,
 }
 
-/// All functions of Rhai that the language refuses.
+/// All functions of Rhai that are not available.
 pub const REFUSED: &[Refused] = &[
     Refused {
         name: "exit",
         counts: &[0, 1],
-        // Rhai's would end a script as if all were well, its later checks unjudged.
+        // Rhai's `exit` would end a script successfully, without its later checks.
         reason: "a script cannot leave with exit()",
         instead: "throw \"reason\" ends it with an error; check(…) decides the exit code",
     },
@@ -100,14 +100,14 @@ pub const REFUSED: &[Refused] = &[
     },
 ];
 
-/// An engine with what the language takes over from Rhai, and nothing else.
+/// An engine with the selected packages of Rhai and nothing else.
 pub fn engine() -> Engine {
-    // It can be set once in a process: all engines but the first find it set.
+    // The seed can be set once per process; later engines find it set.
     let _ = rhai::config::hashing::set_hashing_seed(Some(SEED));
     let mut engine = Engine::new_raw();
     engine.set_max_strings_interned(TEXTS_SHARED);
     engine.register_global_module(FromRhai::new().as_shared_module());
-    // Text made into code has no lines to point at, and nothing here needs it.
+    // Code from strings has no line numbers, and nothing needs it.
     engine.disable_symbol("eval");
     for refused in REFUSED {
         for count in refused.counts {
@@ -118,7 +118,7 @@ pub fn engine() -> Engine {
 }
 
 fn refuse(engine: &mut Engine, refused: &'static Refused, count: usize) {
-    // Rhai has some of these for exact types, which would win over those for any type.
+    // Rhai defines some of these for exact types, which take precedence over functions of any type.
     let mut types =
         vec![TypeId::of::<Dynamic>(), TypeId::of::<f64>(), TypeId::of::<ImmutableString>()];
     if count == 0 {

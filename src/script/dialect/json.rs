@@ -1,4 +1,5 @@
-//! `map.to_json()`: as in Rhai, but vectors are arrays, what depends on parameters is its value, and what JSON has no form for is refused.
+//! `map.to_json()`: like Rhai's, but vectors become arrays, variant values become their value, and values without a
+//! JSON form are an error.
 
 use rhai::{
     Array, Dynamic, Engine, EvalAltResult, FnPtr, Map, NativeCallContext, Position,
@@ -10,7 +11,7 @@ use crate::script::bindings::parameter_variants::{VariantValue, present_variant}
 use crate::script::messages::error::ScriptError;
 use crate::script::messages::numbers::describe;
 
-/// Registers it in the place of Rhai's own.
+/// Replaces Rhai's function.
 pub fn install(engine: &mut Engine) {
     engine.register_fn(
         "to_json",
@@ -24,7 +25,7 @@ pub fn install(engine: &mut Engine) {
     );
 }
 
-/// A value as JSON has it; `key` is where it stands.
+/// JSON form of a value; `key` is its path for messages.
 fn writable(
     engine: &Engine,
     value: &Dynamic,
@@ -49,7 +50,7 @@ fn writable(
         };
         return Ok(map.iter().map(entry).collect::<Result<Map, _>>()?.into());
     }
-    // JSON has no infinite and no undefined numbers.
+    // JSON has no infinity and no NaN.
     if value.as_float().is_ok_and(|number| !number.is_finite()) {
         return Ok(Dynamic::UNIT);
     }

@@ -1,4 +1,4 @@
-//! What makes Rhai the language of withy: reading, operators, arrays, constants, names that are refused.
+//! Adaptation of Rhai to the language of withy: parsing, operators, arrays, constants, removed names.
 
 pub mod constants;
 pub mod derivatives;

@@ -1,6 +1,6 @@
-//! Names that a file gives and uses in a way that would quietly mean something else, refused before anything runs: functions
-//! with the names of the language's own, which would take their place everywhere, and constants of the language in functions
-//! of a file that has a variable of that name, which functions do not see.
+//! Names with a misleading meaning, rejected before a script runs: functions named like functions of the language,
+//! which would replace them everywhere, and constants of the language used in functions of a file that has a variable
+//! of that name, which functions do not see.
 
 use rhai::{Engine, EvalAltResult, Position, Token};
 
@@ -11,11 +11,11 @@ use crate::script::messages::error::ScriptError;
 use crate::script::source::definitions::{Definition, definitions};
 use crate::script::source::text::{Source, behind, name_of};
 
-/// Judges the functions of `source`, which stands behind so many lines of a file that has `variables` outside functions, with their
-/// lines.
+/// Checks the functions of `source`, which starts after `lines_before` lines of a file with the top-level `variables`
+/// and their lines.
 ///
 /// # Errors
-/// With the place in the file of the first name that is refused.
+/// With the position of the first invalid name.
 pub fn judge(
     engine: &Engine,
     source: &Source,
@@ -45,7 +45,7 @@ pub fn judge(
     Ok(())
 }
 
-/// What to do about a variable that a function does not see.
+/// Hint for a variable that a function does not see.
 pub fn not_visible(name: &str, line: usize) -> String {
     format!(
         "'{name}' of line {line} is not visible inside functions: pass it as an argument, or use a closure |x| …, which sees \
@@ -53,7 +53,7 @@ pub fn not_visible(name: &str, line: usize) -> String {
     )
 }
 
-/// A function, and how many lines of its file stand before the text that it is in.
+/// A function, and the number of lines of its file before its text.
 struct NamedFunction<'t> {
     definition: Definition<'t>,
     lines_before: usize,
@@ -83,7 +83,7 @@ impl NamedFunction<'_> {
         Err(ScriptError::new(told).hint("give yours another name").into_engine(self.place(*at)))
     }
 
-    /// Refuses a constant of the language, as the name of a variable that the function does not see would be read.
+    /// Rejects a constant of the language that a reader would take for a variable which the function does not see.
     fn refuse_hidden(&self, name: &str, line: usize) -> Result<(), Box<EvalAltResult>> {
         let used = self.names().find(|(used, _)| *used == name);
         let Some((_, at)) = used.filter(|_| !self.declares(name)) else { return Ok(()) };
@@ -91,12 +91,12 @@ impl NamedFunction<'_> {
         Err(ScriptError::new(told).hint(not_visible(name, line)).into_engine(self.place(at)))
     }
 
-    /// A place of the text in the file.
+    /// Converts a position in the text to one in the file.
     fn place(&self, at: Position) -> Position {
         behind(at, self.lines_before)
     }
 
-    /// The names of variables, constants and parameters.
+    /// Names of variables, constants and parameters.
     fn names(&self) -> impl Iterator<Item = (&str, Position)> {
         self.definition.inside().iter().enumerate().filter_map(|(index, (token, at))| {
             let name = name_of(token)?;
@@ -110,7 +110,7 @@ impl NamedFunction<'_> {
         })
     }
 
-    /// Whether a parameter, a variable, or a parameter of a closure in the function has the name.
+    /// Returns true if the function declares the name as a parameter, variable or closure parameter.
     fn declares(&self, name: &str) -> bool {
         let body = self
             .definition

@@ -1,12 +1,11 @@
-//! Numbers as in science: what the operators of [`syntax`](crate::script::source::syntax) do.
+//! Scientific number semantics: implementation of the operators of [`syntax`](crate::script::source::syntax).
 //!
-//! Comparisons are those of IEEE 754 for every mix of whole and other numbers, division is never truncated, and a
-//! power of whole numbers with an exponent of zero or more is whole; to leave the range of whole numbers is an error. Other types keep the engine's own
-//! operators, except that
-//! an order between values of different types is an error and not silently `false`.
+//! Comparisons follow IEEE 754 for every mix of integers and floats, division is never truncated, and a power of
+//! integers with a non-negative exponent is an integer; integer overflow is an error. Other types keep the engine's
+//! operators, except that ordering values of different types is an error instead of silently `false`.
 //!
-//! Two limits of the engine remain: `switch` compares by the kind of number as well (`3.0` is not `case 3`), and a
-//! minus binds tighter than a power, which is why `-x^2` is refused.
+//! Two limits of the engine remain: `switch` also compares the kind of number (`3.0` is not `case 3`), and a minus
+//! binds tighter than a power, therefore `-x^2` is an error.
 
 use std::any::TypeId;
 
@@ -16,7 +15,7 @@ use crate::elementary::power;
 use crate::script::messages::error::{EngineResult, ScriptError};
 use crate::script::source::syntax::{DivisionOperand, LONGEST_CHAIN, OWN, REPLACED, power_name};
 
-/// Registers the operators on numbers, under the language's own names and where possible under the engine's.
+/// Registers the operators on numbers, under the language's names and if possible under the engine's.
 pub fn install(engine: &mut Engine) {
     register_comparison(engine, "<", |x, y| x < y, |m, n| m < n);
     register_comparison(engine, ">", |x, y| x > y, |m, n| m > n);
@@ -47,7 +46,7 @@ pub fn install(engine: &mut Engine) {
     register_assignment(engine, ">>=", format!("{OWN}>>"));
 }
 
-/// The name under which the script wrote `operator`: `num<` is `<`, `num^3` is `^`.
+/// Operator as written in the script: `num<` is `<`, `num^3` is `^`.
 pub fn written(operator: &str) -> &str {
     match operator.strip_prefix(OWN) {
         Some(power) if power.starts_with('^') => "^",
@@ -67,7 +66,7 @@ fn register_comparison(
     numbers: fn(f64, f64) -> bool,
     wholes: fn(INT, INT) -> bool,
 ) {
-    // The engine's own name as well: arrays compare and search their elements by it.
+    // Registered under the engine's name too, because arrays use it to compare and search elements.
     for name in [symbol.to_owned(), format!("{OWN}{symbol}")] {
         engine.register_fn(&name, numbers);
         engine.register_fn(&name, wholes);
@@ -88,7 +87,7 @@ fn register_arithmetic(
     engine.register_fn(name, move |n: INT, x: f64| numbers(n as f64, x));
 }
 
-/// A whole number where the exponent is not negative, else the nearest number: `2^3` is 8, `2^-1` is 0.5.
+/// Integer power for a non-negative exponent, otherwise a float: `2^3` is 8, `2^-1` is 0.5.
 fn whole_power(base: INT, exponent: INT) -> EngineResult<Dynamic> {
     if exponent < 0 {
         return Ok(power(base as f64, exponent as f64).into());
@@ -107,7 +106,7 @@ fn whole_power(base: INT, exponent: INT) -> EngineResult<Dynamic> {
     })
 }
 
-/// `number << places`, as long as no bit is lost.
+/// `number << places`, an error if bits are lost.
 fn shifted_up(number: INT, places: INT) -> EngineResult<INT> {
     let shifted = number << shift(places)?;
     match shifted >> places == number {
@@ -120,12 +119,10 @@ fn shifted_up(number: INT, places: INT) -> EngineResult<INT> {
     }
 }
 
-/// `number >> places`.
 fn shifted_down(number: INT, places: INT) -> EngineResult<INT> {
     Ok(number >> shift(places)?)
 }
 
-/// By how many places bits can be moved.
 fn shift(places: INT) -> EngineResult<INT> {
     match places {
         0..=63 => Ok(places),
@@ -136,7 +133,7 @@ fn shift(places: INT) -> EngineResult<INT> {
     }
 }
 
-/// Everything that is not two numbers goes to the engine's operator `symbol`.
+/// Forwards all operands except two numbers to the engine's operator `symbol`.
 fn hand_over(engine: &mut Engine, name: String, symbol: &'static str) {
     let any_two = [TypeId::of::<Dynamic>(); 2];
     engine.register_raw_fn(
@@ -161,7 +158,7 @@ fn hand_over(engine: &mut Engine, name: String, symbol: &'static str) {
     );
 }
 
-/// `x /= y` as `x = x / y`, whatever x and y are.
+/// Evaluates `x /= y` as `x = x / y`, for any types.
 fn register_assignment(engine: &mut Engine, name: &'static str, operator: String) {
     let types = [TypeId::of::<Dynamic>(), TypeId::of::<DivisionOperand>()];
     engine.register_raw_fn(

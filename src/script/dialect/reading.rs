@@ -1,7 +1,7 @@
-//! From the text of a script to its syntax tree: the only way there is.
+//! Parsing of scripts. All parsing goes through this module.
 //!
-//! Rhai keeps the line and the column of a token in 16 bits each and counts no further. Powers, loops and errors are found by those
-//! places, so a text that is larger would be read wrongly without a word: it is refused instead.
+//! Rhai stores lines and columns in 16 bits. Powers, loops and errors are identified by position, so larger texts are
+//! rejected instead of being misread.
 
 use rhai::{AST, Engine, EvalAltResult, Position, Scope};
 
@@ -10,13 +10,13 @@ use crate::script::messages::error::ScriptError;
 use crate::script::source::syntax::mark;
 use crate::script::source::text::Source;
 
-/// The most lines of a source, and the most characters of a line: a little less than Rhai can count.
+/// Maximum number of lines of a source, and of characters per line; slightly below Rhai's limit.
 pub const MOST: usize = 65_000;
 
-/// Parses `source` as if it stood behind so many empty lines, with the constants of `scope` known.
+/// Parses `source` as if it followed `lines_before` empty lines, with the constants of `scope` known.
 ///
 /// # Errors
-/// A text that is larger than places in it can be counted, or that is no script; or why the run was stopped in the meantime.
+/// If the text is too large or has a syntax error, or the run was stopped.
 pub fn read(
     engine: &Engine,
     scope: &Scope,
@@ -38,7 +38,7 @@ fn refuse_uncountable(source: &str) -> Result<(), ScriptError> {
     let mut lines = 0;
     for line in source.split('\n') {
         lines += 1;
-        // Only a line of so many bytes can have so many characters.
+        // The number of bytes is an upper bound of the number of characters.
         let length = if line.len() > MOST { line.chars().count() } else { 0 };
         if length > MOST {
             let told = format!(

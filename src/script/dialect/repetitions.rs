@@ -1,4 +1,4 @@
-//! `array.dedup()`: as in Rhai, but it hears that the run is to stop, and hands on what goes wrong in its function.
+//! `array.dedup()`: like Rhai's, but it can be interrupted and passes on errors of its function.
 
 use std::any::TypeId;
 
@@ -9,10 +9,10 @@ use crate::script::messages::error::EngineResult;
 use crate::script::source::syntax::OWN;
 use crate::script::state::context::Context;
 
-/// The number of elements after which it is asked whether to go on.
+/// Number of elements between checks for interruption.
 pub(super) const PULSE: usize = 4096;
 
-/// Registers it, with and without a function that says whether two neighbours are the same.
+/// Registers the method with and without a comparison function.
 pub fn install(engine: &mut Engine, context: &Context) {
     let types = [TypeId::of::<Array>(), TypeId::of::<FnPtr>()];
     for count in 1..=2 {
@@ -22,7 +22,7 @@ pub fn install(engine: &mut Engine, context: &Context) {
                 Some(same) => without_repetitions(&native, &context, values, |earlier, later| {
                     truth(&native, &same.call_raw(&native, None, [earlier, later])?)
                 })?,
-                // What has no "==" is not the same.
+                // Elements without "==" are different.
                 None => {
                     without_repetitions(&native, &context, values, |mut earlier, mut later| {
                         let both = &mut [&mut earlier, &mut later];

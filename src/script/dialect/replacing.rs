@@ -1,8 +1,8 @@
-//! `text.replace(found, other)`: as in Rhai, but the length is known before room for it is taken.
+//! `text.replace(found, other)`: like Rhai's, but the length is checked before memory is allocated.
 
 use rhai::{Engine, EvalAltResult, ImmutableString, NativeCallContext};
 
-/// A piece of a text: text or a character.
+/// A string or character.
 trait TextPiece {
     fn as_text(&self) -> String;
 }
@@ -19,7 +19,7 @@ impl TextPiece for ImmutableString {
     }
 }
 
-/// Registers `text.replace(found, other)`, of texts and characters, in the place of Rhai's own.
+/// Registers `text.replace(found, other)` for strings and characters, in place of Rhai's own.
 pub fn install(engine: &mut Engine) {
     engine.register_fn("replace", replace::<ImmutableString, ImmutableString>);
     engine.register_fn("replace", replace::<ImmutableString, char>);

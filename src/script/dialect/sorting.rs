@@ -1,5 +1,5 @@
-//! Sorting, by a script function or as numbers and texts are. Rhai's own ignores errors of the function and differences that
-//! are not whole, and refuses arrays with whole and other numbers in them.
+//! Sorting by a script function or in natural order. Rhai's own ignores errors of the function and non-integer
+//! differences, and rejects arrays that mix integers and floats.
 
 use std::any::TypeId;
 use std::cmp::Ordering;
@@ -13,10 +13,10 @@ use crate::script::messages::error::{EngineResult, ScriptError};
 use crate::script::messages::numbers::describe;
 use crate::script::state::context::Context;
 
-/// What makes of an order the one that is sorted by.
+/// Converts an order to the one that is sorted by.
 type SortFunction = fn(Ordering) -> Ordering;
 
-/// Registers `sort` and `order`, with and without a function that compares.
+/// Registers `sort` and `order`, with and without a comparison function.
 pub fn install(engine: &mut Engine, context: &Context) {
     let types = [TypeId::of::<Array>(), TypeId::of::<FnPtr>()];
     for name in ["sort", "sort_by"] {
@@ -68,7 +68,7 @@ fn sorted_naturally(
         let hint = "say which comes first: sort(|a, b| a.x - b.x)";
         return Err(ScriptError::new(told).hint(hint).into_engine(native.call_position()));
     }
-    // Beyond 2^53 whole numbers are more exact than others: the two ways to compare must not be mixed.
+    // Beyond 2^53 integers are more exact than floats; the two comparisons must not be mixed.
     let order: fn(&Dynamic, &Dynamic) -> Ordering = match array.iter().all(Dynamic::is_int) {
         true => |x, y| x.as_int().ok().cmp(&y.as_int().ok()),
         false => |x, y| natural_order(x, y).unwrap_or(Ordering::Equal),
@@ -83,7 +83,7 @@ fn sorted_naturally(
     })
 }
 
-/// The order of two numbers, texts, characters or truth values; what is not a number comes behind the numbers.
+/// Order of two numbers, strings, characters or booleans; NaN comes last.
 fn natural_order(x: &Dynamic, y: &Dynamic) -> Option<Ordering> {
     if let (Some(x), Some(y)) = (VariantValue::number(x), VariantValue::number(y)) {
         return Some(x.partial_cmp(&y).unwrap_or_else(|| x.is_nan().cmp(&y.is_nan())));
@@ -105,9 +105,9 @@ fn sorted(native: &NativeCallContext, values: &[&mut Dynamic]) -> EngineResult<A
     })
 }
 
-/// Whether the first of two elements belongs behind the second, by what the function says of them.
+/// Returns true if the first of two elements belongs after the second, by the result of the function.
 fn is_after(native: &NativeCallContext, order: &Dynamic) -> EngineResult<bool> {
-    // True says that the first comes before the second.
+    // `true` means that the first comes before the second.
     if let Ok(is_before) = order.as_bool() {
         return Ok(!is_before);
     }
@@ -123,7 +123,7 @@ fn is_after(native: &NativeCallContext, order: &Dynamic) -> EngineResult<bool> {
     )
 }
 
-/// Merge sort: stable, and safe with a function that contradicts itself.
+/// Merge sort: stable, and safe with an inconsistent comparison function.
 fn merged(
     mut left: Array,
     is_after: &mut impl FnMut(&Dynamic, &Dynamic) -> Result<bool, Box<EvalAltResult>>,

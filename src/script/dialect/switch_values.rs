@@ -1,4 +1,5 @@
-//! What `switch` chooses by: numbers, texts, truth values, arrays and maps of these. Rhai takes the default for all else, without a word.
+//! Check of `switch` values: numbers, texts, booleans, and arrays and maps of these. Rhai silently takes the default
+//! case for all others.
 
 use rhai::{Array, Dynamic, Engine, FnPtr, Map};
 
@@ -7,10 +8,10 @@ use crate::script::messages::error::ScriptError;
 use crate::script::messages::numbers::describe;
 use crate::script::source::switch_rewrite;
 
-/// Refuses what `switch` cannot compare.
+/// Registers the check.
 pub fn install(engine: &mut Engine) {
     switch_rewrite::install(engine, |engine, value, at| {
-        // Within a call for a variant it is what it is there.
+        // Inside a variant call a variant value stands for its value in the present variant.
         let value = match present() {
             Some(present) => VariantValue::project(&value, present.variant),
             None => value,
@@ -36,7 +37,7 @@ fn judge(engine: &Engine, value: &Dynamic) -> Result<(), ScriptError> {
     }
 }
 
-/// The first value that cannot be compared.
+/// First value that cannot be compared.
 fn odd_one_in(value: &Dynamic) -> Option<Dynamic> {
     if let Some(array) = value.read_lock::<Array>() {
         return array.iter().find_map(odd_one_in);

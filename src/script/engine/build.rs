@@ -1,4 +1,4 @@
-//! The engine: limits, names of types, number syntax, all tables, printing, and the interrupt.
+//! Construction of the engine: limits, type names, syntax, tables, printing, and interruption.
 
 use std::ops::{Range, RangeInclusive};
 
@@ -18,21 +18,21 @@ use crate::script::source::syntax;
 use crate::script::state::context::Context;
 use crate::script::state::limits::DEEPEST;
 
-/// Nesting of one expression at the top level, and inside a function where it adds up with calls.
+/// Maximum nesting of an expression at the top level, and inside a function, where it adds to the call depth.
 const EXPRESSION_DEPTH: usize = 256;
 const EXPRESSION_DEPTH_IN_FUNCTION: usize = 64;
 const LONGEST_TEXT: usize = 16 << 20;
 const LARGEST_ARRAY: usize = 10_000_000;
 const LARGEST_MAP: usize = 1_000_000;
-/// After so many operations it is asked whether a case of a study takes too long.
+/// Number of operations between checks for interruption.
 const PULSE: u64 = 256;
 
-/// An engine that speaks the language of `catalog` and reports to `context`.
+/// An engine for the language of `catalog` that reports to `context`.
 ///
-/// An error means that a token hook of Rhai no longer works as this crate needs it.
+/// An error means that a token hook of Rhai behaves differently than required.
 pub fn build(catalog: &Catalog, context: &Context) -> Result<Engine, String> {
     let mut engine = foundation::engine();
-    // Rhai's optimiser puts a constant also where a parameter or a loop variable has its name, and drops statements that count here.
+    // Rhai's optimiser replaces shadowed names by constants and drops statements with side effects.
     engine.set_optimization_level(OptimizationLevel::None);
     limit(&mut engine, context);
     name_types(&mut engine);

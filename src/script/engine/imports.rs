@@ -1,5 +1,5 @@
-//! Imports: modules of the standard library, whose names begin with `std/`, and files from the script's own folder, each read
-//! once as long as it does not change. A file that imports itself, in however many steps, is an error, not an abort.
+//! Imports: modules of the standard library, named `std/…`, and files of the script's folder, each read once unless it changes. Circular
+//! imports are an error.
 
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -16,10 +16,10 @@ use crate::script::messages::error::ScriptError;
 use crate::script::source::program::{LARGEST_SCRIPT, Program};
 use crate::script::state::files::{InputFolder, InputFolders};
 
-/// Files that import files that import files: so many at most.
+/// Maximum depth of nested imports.
 const LONGEST_CHAIN: usize = 50;
 
-/// Finds modules in the library or in a folder, and remembers which were read and which are being read.
+/// Module resolver for the library and a folder, with a cache and detection of cycles.
 pub struct FolderResolver {
     folder: PathBuf,
     inputs: InputFolders,
@@ -27,15 +27,15 @@ pub struct FolderResolver {
     read: RefCell<HashMap<PathBuf, ReadModule>>,
 }
 
-/// A module as its file was when it was read: a session may see a file in several states.
+/// A module in the state of its file when it was read; in a session files may change.
 struct ReadModule {
-    /// Nothing for modules of the library, which do not change.
+    /// Empty for modules of the library.
     content: Vec<u8>,
     module: Shared<Module>,
 }
 
 impl FolderResolver {
-    /// A resolver of modules that are files in a folder and below.
+    /// A resolver for files in a folder and its subfolders.
     pub fn new(folder: &Path) -> Self {
         Self {
             folder: folder.to_owned(),
@@ -45,20 +45,20 @@ impl FolderResolver {
         }
     }
 
-    /// The file of a module: its name as it is shown, its path below the folder, and what it holds.
+    /// File of a module: displayed name, path relative to the folder, and content.
     fn find(&self, name: &str) -> Result<(PathBuf, PathBuf, Vec<u8>), ScriptError> {
         let file = if name.ends_with(".rhai") { name.to_owned() } else { format!("{name}.rhai") };
         let content = self.inputs.read(&file, LARGEST_SCRIPT).map_err(|error| {
             error.hint("import looks for NAME.rhai in the script's own folder and below")
         })?;
-        // One file, however many slashes it is written with.
+        // Normalises repeated slashes.
         let path: PathBuf = Path::new(&file).components().collect();
         let shown =
             if self.folder == Path::new(".") { file.into() } else { self.folder.join(file) };
         Ok((shown, path, content))
     }
 
-    /// A module of the library, behind its entrances.
+    /// Loads a module of the library, with wrapped functions.
     fn load_library(
         &self,
         engine: &Engine,

@@ -1,4 +1,4 @@
-//! The engine of a run: built, asked to read and to run, and what it imports.
+//! Engine of a run: construction, parsing, execution, imports, and worker threads.
 
 mod build;
 mod imports;

@@ -1,4 +1,4 @@
-//! From a text to a syntax tree, with all that is refused before anything runs.
+//! Parsing, including all checks before execution.
 
 use rhai::{AST, Engine, Scope};
 
@@ -10,22 +10,21 @@ use crate::script::source::outline::ScriptOutline;
 use crate::script::source::program::Program;
 use crate::script::source::text::{Source, behind};
 
-/// A text to be parsed that stands behind others which the engine has read before.
+/// A text to be parsed that follows earlier texts.
 pub struct SourcePiece<'a> {
-    /// The name of what it belongs to, in messages.
+    /// Name of the source in messages.
     pub name: &'a str,
-    /// The text itself.
+    /// Text.
     pub text: &'a Source,
-    /// How many lines stand before it.
+    /// Number of lines before it.
     pub before: usize,
-    /// The variables that it sees.
+    /// Visible variables.
     pub scope: &'a Scope<'static>,
 }
 
-/// Parses a whole program with an engine that knows where imports are.
+/// Parses a whole program.
 ///
-/// # Errors
-/// When the program is not one of the language.
+/// If the program has an error.
 pub fn parse(engine: &Engine, program: &Program) -> EngineResult<AST> {
     let (name, text) = (program.name.as_str(), &program.text);
     let piece = SourcePiece { name, text, before: 0, scope: &Scope::new() };
@@ -34,11 +33,10 @@ pub fn parse(engine: &Engine, program: &Program) -> EngineResult<AST> {
     Ok(ast)
 }
 
-/// Parses a piece of a program; places are counted from the start of the whole, whose `variables` are those that it declares at its top
-/// level, with their lines.
+/// Parses a piece of a program, with positions relative to the whole. `variables` are the top-level variables of the whole, with their
+/// lines.
 ///
-/// # Errors
-/// When the piece is not a part of a program of the language.
+/// If the piece has an error.
 pub fn parse_piece(
     engine: &Engine,
     piece: &SourcePiece,

@@ -1,4 +1,4 @@
-//! Running a script from beginning to end, on a stack that its limits cannot exhaust.
+//! Execution of a script on a stack that its limits cannot exhaust.
 
 use std::path::PathBuf;
 
@@ -17,18 +17,18 @@ use crate::script::source::program::Program;
 use crate::script::state::context::Context;
 use crate::script::state::settings::RunSettings;
 
-/// How the run of a script ended.
+/// Result of a run.
 #[derive(Debug)]
 pub enum Ending {
-    /// The script came to its end.
+    /// The script completed.
     Finished,
-    /// The script is wrong.
+    /// The script has an error.
     Failed(Diagnostic),
-    /// A dry build came to a loop that waits for what a simulation finds; nothing before it is wrong.
+    /// A dry build reached a loop that waits for a simulation result; no error was found before.
     Undecided,
-    /// The run was stopped from outside.
+    /// Interrupted from outside.
     Interrupted,
-    /// The run was stopped, for the reader of its output went away.
+    /// The reader of the output has closed the pipe.
     PipeClosed,
 }
 
@@ -43,25 +43,25 @@ impl From<Halt> for Ending {
     }
 }
 
-/// What is left after the run of a script.
+/// Results of a run.
 #[derive(Debug)]
 pub struct RunOutcome {
-    /// How the run ended.
+    /// Reason for the end.
     pub ending: Ending,
-    /// The checks that the script made.
+    /// Checks of the script.
     pub checks: Checks,
-    /// What each simulation of the run says about itself.
+    /// Report entries of the simulations.
     pub simulations: Vec<serde_json::Value>,
-    /// The files that the run has written.
+    /// Files written.
     pub files: Vec<PathBuf>,
-    /// What stopped the run before its end, if something from outside or a limit did.
+    /// Interrupt or limit that stopped the run, if any.
     pub stopped_by: Option<Stop>,
-    /// The number of finished cases of studies that another run of the same script will not repeat.
+    /// Number of finished study cases that a repeated run will reuse.
     pub kept_cases: usize,
 }
 
 impl RunOutcome {
-    /// A run that could not begin.
+    /// Outcome of a run that could not start.
     fn refused(diagnostic: Diagnostic) -> Self {
         Self {
             ending: Ending::Failed(diagnostic),
@@ -74,18 +74,17 @@ impl RunOutcome {
     }
 }
 
-/// Runs `program` in the language of `catalog`; gives what is left after the run.
+/// Runs `program` in the language of `catalog`.
 pub fn run(program: &Program, catalog: &Catalog, settings: RunSettings) -> RunOutcome {
     let limits = settings.limits;
     let run = || run_here(program, catalog, settings);
     on_large_stack(&limits, run).unwrap_or_else(RunOutcome::refused)
 }
 
-/// The memory that a simulation may take for states to go back to, in a script that goes back [bytes].
+/// Default memory for the snapshots of a simulation in a script that goes back in time [bytes].
 pub const SNAPSHOTS: usize = 256_000_000;
 
-/// Whether a script may go back in time: a scene pays only for what it uses. The library never does; what another imported file does is
-/// not known.
+/// Returns true if a script may go back in time; only then snapshots are stored. The library never goes back; other imported files might.
 fn may_go_back(program: &Program) -> bool {
     let is_library = |path: Option<&str>| path.is_some_and(|path| path.starts_with(FOLDER));
     let source = &program.text;
@@ -119,7 +118,7 @@ fn run_here(program: &Program, catalog: &Catalog, settings: RunSettings) -> RunO
     }
 }
 
-/// Lets go of what studies have kept; a file that stays is in nobody's way, but is told of.
+/// Removes the journals of studies; failures are reported but harmless.
 fn discard_journals(context: &Context) {
     if let Err(ScriptError::Failure(failure)) = context.journals().finish() {
         context.tell(&failure.message);

@@ -1,4 +1,4 @@
-//! What scripts run in: a language, an engine that speaks it, and the state that their calls share. A run, a prompt and a judge each have one.
+//! Environment of scripts: catalog, engine and shared state. A run, a prompt and a judge each have one.
 
 use std::rc::Rc;
 
@@ -16,36 +16,35 @@ use crate::script::state::context::Context;
 use crate::script::state::settings::RunSettings;
 use crate::script::state::watchdog::Watchdog;
 
-/// What to bear in mind about an error that a dry build meets after it has pretended to run a simulation.
+/// Note on errors after a dry build has skipped a simulation.
 const ONLY_DRY: &str =
     "withy check runs no simulation: what depends on results can only be seen by withy run";
 
-/// A language, its engine, and what the calls of a run share.
+/// Catalog, engine and shared state.
 pub struct ScriptEngine {
     catalog: Catalog,
     context: Context,
-    /// Shared with the functions that scenes and simulations store.
+    /// Shared with functions stored by scenes and simulations.
     engine: Rc<Engine>,
 }
 
-/// Why a script did not come to its end.
+/// Reason why a script did not complete.
 #[derive(Debug)]
 pub enum Halt {
-    /// The script is wrong, a limit stopped it, or withy has made a mistake.
+    /// An error in the script, an exceeded limit, or an internal error.
     Failed(Diagnostic),
-    /// A dry build came to where the script waits for what only a simulation finds, as the diagnostic says.
+    /// A dry build reached a point where the script waits for a simulation result, as the diagnostic says.
     Undecided(Diagnostic),
-    /// The script was stopped from outside.
+    /// Interrupted from outside.
     Interrupted,
-    /// The run was stopped, for the reader of its output went away.
+    /// The reader of the output has closed the pipe.
     PipeClosed,
 }
 
 impl ScriptEngine {
-    /// An engine that speaks the language of `catalog`, within the limits of the settings; imports are found in their folder.
+    /// An engine for the language of `catalog` within the limits of the settings; imports are found in their folder.
     ///
-    /// # Errors
-    /// Only by a mistake of this program.
+    /// Only on internal errors.
     pub fn open(catalog: Catalog, settings: RunSettings) -> Result<Self, Diagnostic> {
         let resolver = FolderResolver::new(&settings.folder);
         let context = Context::new(settings);
@@ -57,10 +56,9 @@ impl ScriptEngine {
         Ok(Self { catalog, context, engine })
     }
 
-    /// Begins to count anew what is used, and keeps the limits as long as the guard lives.
+    /// Resets the counters and enforces the limits while the guard lives.
     ///
-    /// # Errors
-    /// When no thread can be started that keeps them.
+    /// If no thread can be started.
     pub fn watch(&self) -> Result<Watchdog, Halt> {
         self.context.meter().watch().map_err(|error| {
             let told = format!("cannot start a thread that keeps the limits: {error}");
@@ -68,11 +66,9 @@ impl ScriptEngine {
         })
     }
 
-    /// Lets the engine work while the limits are kept, and ends its progress and its output; `program` is the text that errors are
-    /// explained with, and is asked for where there is one.
+    /// Runs `work` with the engine, then ends its progress and flushes its output; `program` returns the text for error messages.
     ///
-    /// # Errors
-    /// Why the work did not come to its end. A panic in a native body is our mistake: what the script did so far can still be used.
+    /// If the work does not complete. A panic in native code is an internal error; earlier results remain valid.
     pub fn run<T>(
         &self,
         _limits_kept: &Watchdog,
@@ -106,28 +102,28 @@ impl ScriptEngine {
         }
     }
 
-    /// An error of the engine in `program`, in the words of the language.
+    /// Diagnostic of an engine error in `program`.
     pub fn explain(&self, error: &EvalAltResult, program: &Program) -> Diagnostic {
         Explainer { program, catalog: &self.catalog, engine: &self.engine }.explain(error)
     }
 
-    /// The language that the engine of the host speaks.
+    /// Catalog of the language.
     pub fn catalog(&self) -> &Catalog {
         &self.catalog
     }
 
-    /// What the calls share.
+    /// State shared by the calls.
     pub fn context(&self) -> &Context {
         &self.context
     }
 
-    /// The engine, for what runs no script: showing values, and reading texts.
+    /// Engine, for showing values and parsing.
     pub fn engine(&self) -> &Engine {
         &self.engine
     }
 }
 
-/// Simulations hold functions that hold the context, which holds the last simulation.
+/// Breaks the cycle of simulations, stored functions, and the context with the last simulation.
 impl Drop for ScriptEngine {
     fn drop(&mut self) {
         self.context.forget_simulations();

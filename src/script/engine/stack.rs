@@ -1,4 +1,4 @@
-//! A stack that a script within its limits cannot exhaust.
+//! A thread with a stack that a script within its limits cannot exhaust.
 
 use std::sync::Mutex;
 use std::thread;
@@ -7,10 +7,10 @@ use crate::panics::caught;
 use crate::script::diagnose::Diagnostic;
 use crate::script::state::limits::{LEAST_STACK, Limits};
 
-/// Does `work` on a thread with a stack that a script within these limits cannot exhaust, or a smaller one where the system has no address space for it.
+/// Runs `work` on a thread with a stack that a script within these limits cannot exhaust, or a smaller one if the address space is not
+/// available.
 ///
-/// # Errors
-/// When no thread can be started, or the work panics.
+/// If no thread can be started, or the work panics.
 pub fn on_large_stack<T: Send>(
     limits: &Limits,
     work: impl FnOnce() -> T + Send,

@@ -1,4 +1,4 @@
-//! Engines on all cores: each worker has one of its own, which has read the script of the run, and calls its functions.
+//! Worker threads, each with its own engine that has compiled the script of the run and calls its functions.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, mpsc};
@@ -21,13 +21,13 @@ use crate::script::state::limits::Limits;
 use crate::script::state::settings::{RunMode, RunSettings};
 use crate::simulation::cores;
 
-/// How often it is asked whether to go on while no job ends.
+/// Interval of checks for interruption while no job ends.
 const PULSE: Duration = Duration::from_millis(50);
 
-/// How long results gather where there are many.
+/// Waiting time for batches of results.
 const REST: Duration = Duration::from_millis(1);
 
-/// What an engine on another thread needs to be like the one of the run.
+/// Configuration of an engine on another thread.
 #[derive(Clone)]
 pub struct EngineConfig {
     catalog: Catalog,
@@ -38,11 +38,11 @@ pub struct EngineConfig {
 }
 
 impl EngineConfig {
-    /// The blueprint of the engine of a run; none where its script is not there as a whole, as at the prompt. `refusal` says why a function may write no
-    /// files there.
+    /// Configuration of the engine of a run; `None` at the prompt, where there is no complete script. `refusal` is the message for
+    /// functions that try to write files.
     pub fn of(engine: &Engine, context: &Context, refusal: &'static str) -> Option<Self> {
         let catalog = Sources::of(engine).catalog()?;
-        // The clock and the memory are those of the whole process, which the run itself keeps.
+        // Time and memory are supervised by the run itself for the whole process.
         let limits = Limits { time: None, memory: None, ..*context.meter().limits() };
         let program = context.program()?.clone();
         let snapshots = context.snapshots();
@@ -50,7 +50,7 @@ impl EngineConfig {
     }
 }
 
-/// An engine of another thread, with the functions and imports of the script, none of whose statements were run.
+/// Engine of another thread, with the functions and imports of the script, whose statements were not executed.
 pub struct Worker {
     host: ScriptEngine,
     script: AST,
@@ -81,45 +81,44 @@ impl Worker {
 
     /// Calls a function of the script by its name.
     ///
-    /// # Errors
-    /// The function's own.
+    /// Errors of the function.
     pub fn call(&self, name: &str, arguments: Vec<Dynamic>) -> EngineResult<Dynamic> {
         let options = CallFnOptions::new().eval_ast(true);
         let mut scope = Scope::new();
         self.host.engine().call_fn_with_options(options, &mut scope, &self.script, name, arguments)
     }
 
-    /// A function of the script as a value, by its name and the number of its parameters.
+    /// Function value by name and number of parameters.
     pub fn function(&self, name: &str, parameters: usize) -> Option<FnPtr> {
         self.script.shared_lib().get_script_fn(name, parameters).cloned().map(FnPtr::from)
     }
 
-    /// What the calls of the engine share.
+    /// State shared by the calls of the engine.
     pub fn context(&self) -> &Context {
         self.host.context()
     }
 
-    /// The engine.
+    /// Engine of the worker.
     pub fn engine(&self) -> &Engine {
         self.host.engine()
     }
 
-    /// An error of the script in words.
+    /// Diagnostic of an error of the script.
     pub fn explain(&self, error: &rhai::EvalAltResult) -> Diagnostic {
         self.host.explain(error, &self.program)
     }
 
-    /// Whether the work of this worker was stopped from outside.
+    /// Returns true if the work was stopped from outside.
     pub fn is_stopped(&self) -> bool {
         self.interrupt.load(Ordering::Relaxed)
     }
 }
 
-/// A worker as the thread that waits for it sees it.
+/// A worker as seen by the waiting thread.
 #[derive(Default)]
 struct Post {
     interrupt: Arc<AtomicBool>,
-    /// Since when it has been at its present job.
+    /// Start time of the current job.
     since: Mutex<Option<Instant>>,
 }
 
@@ -130,7 +129,7 @@ impl Post {
         }
     }
 
-    /// Stops what has taken longer than `wall`.
+    /// Stops a job that has taken longer than `wall`.
     fn stop_after(&self, wall: Duration) {
         let began = self.since.lock().ok().and_then(|since| *since);
         if began.is_some_and(|began| began.elapsed() > wall) {
@@ -139,7 +138,7 @@ impl Post {
     }
 }
 
-/// Workers on all cores, to whom jobs are given and from whom results are heard, as long as somebody drives them.
+/// Pool of worker threads that receives jobs and returns results while it is driven.
 pub struct WorkerPool<'c, J, R> {
     posts: &'c [Post],
     jobs: mpsc::Sender<(usize, J)>,
@@ -148,29 +147,29 @@ pub struct WorkerPool<'c, J, R> {
     wall: Duration,
 }
 
-/// What is heard of a crew.
+/// Event of a worker pool.
 pub enum WorkerEvent<R> {
-    /// The result of the job with a number.
+    /// Result of the job with this number.
     Done(usize, R),
-    /// Nothing for some time: it can be asked whether to go on.
+    /// Timeout, for checks of interruption.
     Nothing,
-    /// There are no workers, and will be no results.
+    /// No workers are left.
     Nobody,
 }
 
 impl<J, R> WorkerPool<'_, J, R> {
-    /// How many workers there are.
+    /// Number of workers.
     pub fn size(&self) -> usize {
         self.posts.len()
     }
 
-    /// Gives a job to whoever is free next; its result has the same number.
+    /// Queues a job; its result has the same number.
     pub fn give(&self, number: usize, job: J) {
-        // Without workers there is nobody to hear of.
+        // Without workers the loss is noticed on receiving.
         let _ = self.jobs.send((number, job));
     }
 
-    /// As [`hear`](Self::hear), where so many jobs were given that results may gather for a while: to wake who waits for each takes time of a worker.
+    /// Like [`hear`](Self::hear), for many queued jobs: results are collected in batches, because each wake-up costs time.
     pub fn hear_of_many(&self) -> WorkerEvent<R> {
         match self.results.try_recv() {
             Ok((number, result)) => WorkerEvent::Done(number, result),
@@ -181,7 +180,7 @@ impl<J, R> WorkerPool<'_, J, R> {
         }
     }
 
-    /// Waits for the next result, in no order. A job that takes too long is stopped.
+    /// Waits for the next result, in any order. A job that takes too long is stopped.
     pub fn hear(&self) -> WorkerEvent<R> {
         match self.results.recv_timeout(PULSE) {
             Ok((number, result)) => WorkerEvent::Done(number, result),
@@ -194,11 +193,10 @@ impl<J, R> WorkerPool<'_, J, R> {
     }
 }
 
-/// Lets `drive` give jobs to workers on all cores and hear of their results, each worker with an engine of its own; a job that takes longer than `wall` is
-/// stopped, and one that panics gives what `panicked` makes of it. What is not done when `drive` returns is stopped.
+/// Calls `drive` with a pool of worker threads, each with its own engine. A job that takes longer than `wall` is stopped; a panic is
+/// converted by `panicked`. Unfinished jobs are stopped when `drive` returns.
 ///
-/// # Errors
-/// When no worker can be made.
+/// If no worker can be created.
 pub fn with_crew<J: Send, R: Send, T>(
     blueprint: &EngineConfig,
     wall: Duration,
@@ -214,7 +212,7 @@ pub fn with_crew<J: Send, R: Send, T>(
     let next = || given.lock().ok()?.recv().ok();
     let labour = |post: &Post, done: mpsc::Sender<_>| -> Result<(), Diagnostic> {
         let worker = match Worker::open(blueprint, Arc::clone(&post.interrupt)) {
-            // All was done before this one had begun.
+            // All jobs were done before this worker started.
             Err(_) if is_over.load(Ordering::Relaxed) => return Ok(()),
             opened => opened?,
         };
@@ -225,7 +223,7 @@ pub fn with_crew<J: Send, R: Send, T>(
             post.begin(Some(Instant::now()));
             let result = caught(|| work(&worker, job)).unwrap_or_else(&panicked);
             post.begin(None);
-            // The limit of one job is not that of the next.
+            // Resets the stop flag of the previous job.
             post.interrupt.store(false, Ordering::Relaxed);
             if done.send((number, result)).is_err() {
                 break;
@@ -239,7 +237,7 @@ pub fn with_crew<J: Send, R: Send, T>(
             let is_over = &is_over;
             scope.spawn(move || {
                 let ended = on_large_stack(&limits, || labour(post, done)).flatten();
-                // How those end that are not needed any more says nothing.
+                // Errors of workers that are no longer needed are ignored.
                 if is_over.load(Ordering::Relaxed) { Ok(()) } else { ended }
             })
         };
@@ -259,7 +257,6 @@ pub fn with_crew<J: Send, R: Send, T>(
 }
 
 impl<J, R> WorkerPool<'_, J, R> {
-    /// Stops all work.
     fn dismiss(self) {
         self.is_over.store(true, Ordering::Relaxed);
         self.posts.iter().for_each(|post| post.interrupt.store(true, Ordering::Relaxed));

@@ -1,4 +1,4 @@
-//! A beam of a scene that a script holds.
+//! Handle of a beam in a script.
 
 use std::rc::Rc;
 
@@ -9,28 +9,28 @@ use crate::script::bindings::parameter_variants::ParameterSet;
 use crate::script::messages::error::ScriptError;
 use crate::script::presentation::details;
 
-/// A handle on a beam of a scene.
+/// Handle of a beam of a scene.
 #[derive(Clone)]
 pub struct BeamHandle {
-    /// The scene that the beam is in.
+    /// Scene of the beam.
     pub scene: SceneHandle,
-    /// The index of the beam among those of its scene, from 0.
+    /// Index of the beam in its scene, from 0.
     pub index: usize,
 }
 
 impl BeamHandle {
-    /// The index of the beam, if it is one of the given scene.
+    /// Returns the index of the beam if it belongs to the given scene.
     pub fn own(&self, scene: &SceneHandle) -> Result<usize, ScriptError> {
         scene.expect_same(&self.scene, "beam")?;
         Ok(self.index)
     }
 
-    /// The length of the beam as drawn [length].
+    /// Undeformed length of the beam [length].
     pub fn length(&self) -> f64 {
         self.scene.scene().borrow().beams[self.index].axis.length()
     }
 
-    /// The name of the beam.
+    /// Name of the beam.
     pub fn name(&self) -> String {
         self.scene.scene().borrow().beams[self.index].name.clone()
     }

@@ -1,4 +1,4 @@
-//! Equilibria that scripts hold.
+//! Handle of an equilibrium in a script.
 
 use std::cell::{Ref, RefCell, RefMut};
 use std::rc::Rc;
@@ -11,7 +11,7 @@ use crate::script::bindings::kind::{Details, Scripted};
 use crate::script::messages::error::ScriptError;
 use crate::statics::Equilibrium;
 
-/// A handle on an equilibrium that a script holds; clones are the same one.
+/// Handle of an equilibrium; clones share it.
 #[derive(Clone)]
 pub struct EquilibriumHandle(Rc<EquilibriumData>);
 
@@ -21,27 +21,27 @@ struct EquilibriumData {
 }
 
 impl EquilibriumHandle {
-    /// A handle on an equilibrium of a scene.
+    /// Creates the handle of an equilibrium of a scene.
     pub fn new(scene: SceneHandle, rest: Equilibrium) -> Self {
         Self(Rc::new(EquilibriumData { scene, rest: RefCell::new(rest) }))
     }
 
-    /// The scene that it is of.
+    /// Scene of the equilibrium.
     pub fn scene(&self) -> &SceneHandle {
         &self.0.scene
     }
 
-    /// The equilibrium of the handle, to look at it.
+    /// Read access to the equilibrium.
     pub fn rest(&self) -> Ref<'_, Equilibrium> {
         self.0.rest.borrow()
     }
 
-    /// The equilibrium of the handle, to ask it what it has to solve for.
+    /// Write access to the equilibrium, for queries that need a solution.
     pub fn rest_mut(&self) -> RefMut<'_, Equilibrium> {
         self.0.rest.borrow_mut()
     }
 
-    /// The place of a station of the equilibrium's scene.
+    /// Location of a station of the equilibrium's scene.
     pub fn place(&self, station: &StationHandle) -> Result<BodyPoint, ScriptError> {
         let rest = self.rest();
         station.within(&self.0.scene, rest.scene(), rest.model().meshes())

@@ -1,6 +1,6 @@
-//! Functions of a script that wait for a time of a simulation.
+//! Script functions scheduled for a simulation time.
 
-/// Functions that are called at their times in a run, and which of them were called.
+/// Scheduled functions with their times, and the number of those already called.
 #[derive(Clone)]
 pub struct Events<F> {
     functions: Vec<(f64, F)>,
@@ -14,31 +14,31 @@ impl<F> Default for Events<F> {
 }
 
 impl<F: Clone> Events<F> {
-    /// Adds a function for a time; of several for one time, the first that was added is called first.
+    /// Schedules a function; functions for the same time are called in the order of insertion.
     pub fn insert(&mut self, time: f64, function: F) {
         let place = self.functions.partition_point(|(other, _)| *other <= time);
         self.functions.insert(place.max(self.called), (time, function));
     }
 
-    /// The time at which the next function is to be called, if one waits.
+    /// Time of the next function, if any.
     pub fn next_time(&self) -> Option<f64> {
         self.functions.get(self.called).map(|(time, _)| *time)
     }
 
-    /// The next function whose time has come, which counts as called.
+    /// Takes the next function that is due.
     pub fn take_due(&mut self, now: f64) -> Option<F> {
         let (_, due) = self.functions.get(self.called).filter(|(time, _)| *time <= now)?;
         self.called += 1;
         Some(due.clone())
     }
 
-    /// Takes in that time has gone back: functions for later times will be called again.
+    /// Reschedules the functions after `now` when time goes back.
     pub fn go_back(&mut self, now: f64) {
         let passed = self.functions.partition_point(|(time, _)| *time <= now);
         self.called = self.called.min(passed);
     }
 
-    /// The number of functions that are still to be called.
+    /// Number of functions still to be called.
     pub fn waiting(&self) -> usize {
         self.functions.len() - self.called
     }

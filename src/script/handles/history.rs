@@ -1,4 +1,4 @@
-//! A part of the history of a simulation.
+//! A section of the history of a simulation.
 
 use rhai::Dynamic;
 
@@ -11,24 +11,24 @@ use crate::script::presentation::details;
 use crate::script::presentation::plots::{column_hint, column_names};
 use crate::simulation::{History, Sample};
 
-/// A handle on a part of the history of a simulation; it grows with it.
+/// Handle of a section of a history, which grows with the simulation.
 #[derive(Clone)]
 pub struct HistoryHandle {
-    /// The simulation whose history it is.
+    /// Simulation of the history.
     pub of: SimulationHandle,
-    /// The first time of the part [time].
+    /// First time of the section [time].
     pub from: f64,
-    /// The last time of the part [time].
+    /// Last time of the section [time].
     pub to: f64,
 }
 
 impl HistoryHandle {
-    /// Reads the rows of the part of the history.
+    /// Reads the rows of the section.
     pub fn read<T>(&self, read: impl FnOnce(&History) -> T) -> T {
         self.of.read_history((self.from, self.to), read)
     }
 
-    /// The error of a part of a history in which nothing was recorded.
+    /// Error of a section without recorded rows.
     pub fn no_rows(&self, call: &Call) -> ScriptError {
         let now = format_number(self.of.time());
         let recording = self.of.simulation().recording();
@@ -40,12 +40,12 @@ impl HistoryHandle {
             .hint(format!("the simulation has run from t = 0 to {now}{recorded}"))
     }
 
-    /// The names of the columns of the history in a line.
+    /// Names of the columns in one line.
     pub fn column_names(&self) -> String {
         column_names(self.of.simulation().history())
     }
 
-    /// Refuses what is not the name of a column of the history; `argument` is where the script gives it.
+    /// Checks that a value is the name of a column; `argument` is its position in the call.
     pub fn expect_column(
         &self,
         call: &Call,
@@ -72,7 +72,7 @@ impl HistoryHandle {
             .at(CallPart::Argument(argument)))
     }
 
-    /// The part of this part of the history between two times.
+    /// The intersection with a time interval.
     pub fn between(&self, from: f64, to: f64) -> Self {
         Self { of: self.of.clone(), from: self.from.max(from), to: self.to.min(to) }
     }

@@ -1,4 +1,4 @@
-//! A joint of a scene that a script holds.
+//! Handle of a joint in a script.
 
 use std::rc::Rc;
 
@@ -6,17 +6,17 @@ use super::scene::SceneHandle;
 use crate::script::bindings::kind::{Details, Scripted};
 use crate::script::bindings::parameter_variants::ParameterSet;
 
-/// A handle on a joint of a scene.
+/// Handle of a joint of a scene.
 #[derive(Clone)]
 pub struct JointHandle {
-    /// The scene that the joint is in.
+    /// Scene of the joint.
     pub scene: SceneHandle,
-    /// The index of the joint in its scene, from 0.
+    /// Index of the joint in its scene, from 0.
     pub index: usize,
 }
 
 impl JointHandle {
-    /// What the joint is called in columns and messages: its kind, and the how-manieth of that.
+    /// Name in columns and messages: kind and number.
     pub fn name(&self) -> String {
         let names = self.scene.scene().borrow().joint_names();
         names.into_iter().nth(self.index).unwrap_or_default()

@@ -1,4 +1,4 @@
-//! Scenes, beams, stations, simulations and histories as scripts hold them: clones are the same thing.
+//! Handles of scenes, beams, stations, simulations and histories in scripts; clones share the object.
 
 pub mod beam;
 pub mod equilibrium;

@@ -1,21 +1,21 @@
-//! What has been told of a simulation.
+//! Warnings of a simulation that were reported.
 
 use std::cell::RefCell;
 
 use crate::script::state::context::Context;
 use crate::simulation::{Simulation, Warning};
 
-/// Whether notes are printed.
+/// Output of warnings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Printing {
-    /// Notes are printed when a run ends.
+    /// Warnings are printed at the end of a run.
     #[default]
     AtTheEnd,
-    /// Notes are not printed: they are kept for those who ask.
+    /// Warnings are not printed, but available on request.
     Never,
 }
 
-/// The notes of a simulation that have been told.
+/// Reported warnings of a simulation.
 #[derive(Debug, Clone, Default)]
 pub struct Notes {
     printing: Printing,
@@ -23,12 +23,12 @@ pub struct Notes {
 }
 
 impl Notes {
-    /// Notes of which none has been told so far.
+    /// Creates an empty record.
     pub fn new(printing: Printing) -> Self {
         Self { printing, told: RefCell::default() }
     }
 
-    /// Tells what the steps of a simulation do not resolve, each thing once unless it gets worse.
+    /// Reports the new warnings of a simulation. A warning is repeated only if it gets worse.
     pub fn tell(&self, name: &str, simulation: &Simulation, context: &Context) {
         if self.printing == Printing::Never || context.is_stopped() {
             return;

@@ -1,4 +1,4 @@
-//! What a simulation tells when a run ends.
+//! Report entry of a simulation.
 
 use serde_json::{Value, json};
 
@@ -80,12 +80,12 @@ impl Reporter for SimulationHandle {
             .then(|| history_table(self.name(), simulation.history()))?;
         let plain = |letter: char| if letter.is_alphanumeric() { letter } else { '-' };
         let name: String = self.name().chars().map(plain).collect();
-        // Columns of one history are equally long, so that they always make a text.
+        // Columns of a history have equal lengths, so the conversion succeeds.
         Some((format!("{name}-stopped.csv"), table.to_text().ok()?))
     }
 }
 
-/// The table of all columns of a history.
+/// Table of all columns of a history.
 pub fn history_table(name: &str, history: &History) -> CsvTable {
     let table = CsvTable::new().comment(format!("simulation: {name}"));
     history.columns().fold(table, |table, (column, dimension)| {

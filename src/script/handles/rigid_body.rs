@@ -1,4 +1,4 @@
-//! A rigid body of a scene that a script holds.
+//! Handle of a rigid body in a script.
 
 use std::rc::Rc;
 
@@ -10,30 +10,29 @@ use crate::script::bindings::parameter_variants::ParameterSet;
 use crate::script::messages::error::ScriptError;
 use crate::script::presentation::details;
 
-/// A handle on a rigid body of a scene.
+/// Handle of a rigid body of a scene.
 #[derive(Clone)]
 pub struct RigidBodyHandle {
-    /// The scene that the body is in.
+    /// Scene of the body.
     pub scene: SceneHandle,
-    /// The index of the body among the rigid ones of its scene, from 0.
+    /// Index of the body among the rigid bodies of its scene, from 0.
     pub index: usize,
 }
 
 impl RigidBodyHandle {
-    /// The name of the body.
+    /// Name of the body.
     pub fn name(&self) -> String {
         self.scene.scene().borrow().rigid_bodies[self.index].name.clone()
     }
 
-    /// The station at the centre of mass of the body.
+    /// Station at the centre of mass.
     pub fn centre(&self) -> StationHandle {
         StationHandle { scene: self.scene.clone(), station: Station::on_rigid_body(self.index, 0) }
     }
 
-    /// The station at a point of the body, by its name.
+    /// Station at a named point of the body.
     ///
-    /// # Errors
-    /// When the body has no such point.
+    /// If the body has no such point.
     pub fn point(&self, name: &str) -> Result<StationHandle, ScriptError> {
         let station = self.scene.scene().borrow().point_of_body(self.index, name)?;
         Ok(StationHandle { scene: self.scene.clone(), station })

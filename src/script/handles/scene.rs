@@ -1,4 +1,4 @@
-//! A scene that a script holds.
+//! Handle of a scene in a script.
 
 use std::cell::{Cell, OnceCell, RefCell};
 use std::rc::Rc;
@@ -17,58 +17,58 @@ use crate::script::presentation::details;
 use crate::simulation::Variation;
 use crate::system::Scene;
 
-/// What to do where the shape of a scene depends on a parameter.
+/// Hint for a geometry that depends on a parameter.
 const SHAPED: &str = "numbers of sections, loads, springs, masses and velocities may depend on scene.parameter(…); for shapes and places give plain numbers and take central differences, as fit does";
 
-/// A handle on a scene that a script holds.
+/// Handle of a scene.
 #[derive(Clone)]
 pub struct SceneHandle {
     variants: Rc<Variants>,
-    /// Functions that fill columns, in the order of the columns.
+    /// Functions of user-defined columns, in the order of the columns.
     functions: Rc<RefCell<Vec<Rc<StoredFunction>>>>,
-    /// Functions that loads and drives are told by at the start of every step.
+    /// Controllers of loads and drives, called at the start of every step.
     controllers: Rc<RefCell<Vec<Rc<Controller>>>>,
-    /// Functions that say when something lets go, with the index of its release.
+    /// Release conditions, with the index of the release.
     conditions: Rc<RefCell<Vec<Condition>>>,
 }
 
-/// A scene, and those that it is beside the values of its parameters.
+/// A scene and its side variants.
 struct Variants {
     scene: Rc<RefCell<Scene>>,
-    /// Parameters that were declared by the scene.
+    /// Parameters declared for the scene.
     declared: RefCell<Option<Rc<ParameterSet>>>,
-    /// From the first call on in which something depends on a parameter.
+    /// Created by the first call with an argument that depends on a parameter.
     beside: OnceCell<Beside>,
 }
 
-/// The scenes beside one, at parameters plus and minus a distance.
+/// Side variants of a scene, at parameters plus and minus a step.
 struct Beside {
     family: Rc<ParameterSet>,
     /// In the order of the variants, from 1.
     scenes: Vec<Rc<RefCell<Scene>>>,
 }
 
-/// A function of the simulation that says whether something lets go.
+/// Condition of a release, evaluated by a script function.
 #[derive(Clone)]
 pub struct Condition {
-    /// The function of a script, called with the simulation.
+    /// Script function, called with the simulation.
     pub function: Rc<StoredFunction>,
-    /// The index of the release in the scene.
+    /// Index of the release in the scene.
     pub release: usize,
 }
 
-/// A function of time and simulation whose value holds for a step, or from one sample to the next.
+/// Script function of time and simulation whose value is held during a step or a sample interval.
 pub struct Controller {
-    /// The function of a script, called with the time and the simulation.
+    /// Script function, called with the time and the simulation.
     pub function: StoredFunction,
-    /// The value of the controller for the present step.
+    /// Value for the current step.
     pub value: Rc<Cell<f64>>,
-    /// When it is asked and acts; at every step where there is none.
+    /// Sampling of the controller; without it the function is called at every step.
     pub beat: Option<SampleClock>,
 }
 
 impl SceneHandle {
-    /// A new handle on a scene.
+    /// Creates the handle of a scene.
     pub fn new(scene: Scene) -> Self {
         let scene = Rc::new(RefCell::new(scene));
         let variants =
@@ -81,12 +81,12 @@ impl SceneHandle {
         }
     }
 
-    /// The scene of the handle, to look at or to change it, in the variant that the present call is made for.
+    /// The scene in the current variant.
     pub fn scene(&self) -> &RefCell<Scene> {
         self.of_present()
     }
 
-    /// The scene of the handle, shared with it, in the variant that the present call is made for.
+    /// The scene in the current variant, shared.
     pub fn shared(&self) -> Rc<RefCell<Scene>> {
         Rc::clone(self.of_present())
     }
@@ -96,7 +96,7 @@ impl SceneHandle {
         let Some(CurrentVariant { family, variant }) = present().filter(|of| of.variant > 0) else {
             return scene;
         };
-        // It has not been changed by the present call yet, which is made for the scene itself last.
+        // The current call has not changed the scene yet, because variant 0 is evaluated last.
         let beside = beside.get_or_init(|| {
             let copy = |_| Rc::new(RefCell::new(scene.borrow().clone()));
             Beside { scenes: (1..family.variants()).map(copy).collect(), family }
@@ -104,15 +104,14 @@ impl SceneHandle {
         beside.scenes.get(variant - 1).unwrap_or(scene)
     }
 
-    /// The parameters that the scene depends on, if it does.
+    /// Parameters that the scene depends on.
     pub fn family(&self) -> Option<Rc<ParameterSet>> {
         self.variants.beside.get().map(|beside| Rc::clone(&beside.family))
     }
 
-    /// A parameter of the scene with its value, as a number that knows what depends on it, by values at a distance on both sides.
+    /// Declares a parameter, and returns its value as a variant number with side values at a step.
     ///
-    /// # Errors
-    /// When there is one of that name, or others are in use.
+    /// If the name is in use, or other parameters are in use already.
     pub fn declare(
         &self,
         name: &str,
@@ -127,10 +126,9 @@ impl SceneHandle {
             .declare(name, value, distance)
     }
 
-    /// How the scene varies with its parameters.
+    /// Dependence of the scene on its parameters.
     ///
-    /// # Errors
-    /// When something depends on one that a run cannot take along.
+    /// If the scene has script functions, which cannot be evaluated per variant.
     pub fn variations(&self) -> Result<Vec<Variation>, ScriptError> {
         let Some(Beside { family, scenes }) = self.variants.beside.get() else {
             return Ok(Vec::new());
@@ -160,19 +158,18 @@ impl SceneHandle {
         Ok(family.parameters().into_iter().map_while(variation).collect())
     }
 
-    /// Refuses a beam, by its index, whose length depends on a parameter, where the scenes beside have it.
+    /// Rejects a beam, by its index, whose length depends on a parameter.
     ///
-    /// # Errors
-    /// When it does.
+    /// If the length differs between the variants.
     pub fn expect_length_beside(&self, beam: usize) -> Result<(), ScriptError> {
         let Some(Beside { scenes, .. }) = self.variants.beside.get() else { return Ok(()) };
         let own = self.variants.scene.borrow();
-        // The call for the scene itself comes after those for the scenes beside it.
+        // Variant 0 is created after the side variants.
         let Some(own) = own.beams.get(beam) else { return Ok(()) };
         let length = own.axis.length();
         let is_other = |scene: &Rc<RefCell<Scene>>| {
             let scene = scene.borrow();
-            // What is turned is as long but for rounding.
+            // The length of a rotated beam differs by rounding.
             let apart = scene.beams.get(beam).map_or(0.0, |of| (length - of.axis.length()).abs());
             apart > ROUNDING_OF_PLACES * length
         };
@@ -183,12 +180,12 @@ impl SceneHandle {
         Ok(())
     }
 
-    /// Whether functions are to be kept in the present call: one that is made for many variants keeps them once.
+    /// Returns true in variant 0, so that functions are stored only once.
     fn keeps(&self) -> bool {
         present().is_none_or(|present| present.variant == 0)
     }
 
-    /// Refuses parameters in a scene of which functions are asked between steps.
+    /// Rejects parameters in a scene with functions that are called between steps.
     fn expect_unasked_beside(&self) -> Result<(), ScriptError> {
         if self.controllers.borrow().is_empty() && self.conditions.borrow().is_empty() {
             return Ok(());
@@ -198,14 +195,14 @@ impl SceneHandle {
         Err(ScriptError::new(told).hint(hint))
     }
 
-    /// Keeps a function that fills the last column that was described.
+    /// Stores the function of the last defined column.
     pub fn keep_function(&self, function: StoredFunction) {
         if self.keeps() {
             self.functions.borrow_mut().push(Rc::new(function));
         }
     }
 
-    /// Keeps a function that is asked at the start of every step, or at the samples of a beat; gives where its value will be.
+    /// Stores a controller that is called at the start of every step or at samples; returns the cell of its value.
     pub fn keep_controller(
         &self,
         function: StoredFunction,
@@ -219,7 +216,7 @@ impl SceneHandle {
         value
     }
 
-    /// Keeps a function that says when the release that was described last happens.
+    /// Stores the condition of the last defined release.
     pub fn keep_condition(&self, function: StoredFunction) {
         let release = self.scene().borrow().releases.len() - 1;
         let condition = Condition { function: Rc::new(function), release };
@@ -228,15 +225,14 @@ impl SceneHandle {
         }
     }
 
-    /// The functions that say when something lets go.
+    /// Release conditions.
     pub fn conditions(&self) -> Vec<Condition> {
         self.conditions.borrow().clone()
     }
 
-    /// Refuses a scene of which functions are asked between steps: a study runs it without its script.
+    /// Rejects a scene with functions that are called between steps, because a study runs it without its script.
     ///
-    /// # Errors
-    /// When a load or a drive has a controller, or a release a condition.
+    /// If a load or drive has a controller, or a release a condition.
     pub fn expect_unasked(&self) -> Result<(), ScriptError> {
         if self.controllers.borrow().is_empty() && self.conditions.borrow().is_empty() {
             return Ok(());
@@ -246,23 +242,23 @@ impl SceneHandle {
         Err(ScriptError::new(told).hint(hint).at(CallPart::Key("scene".into())))
     }
 
-    /// The functions that are asked at the start of every step.
+    /// Controllers of loads and drives.
     pub fn controllers(&self) -> Vec<Rc<Controller>> {
         self.controllers.borrow().clone()
     }
 
-    /// The functions that fill the first columns of those that somebody outside fills.
+    /// Functions of the first `columns` user-defined columns.
     pub fn functions(&self, columns: usize) -> Vec<Rc<StoredFunction>> {
         self.functions.borrow().iter().take(columns).cloned().collect()
     }
 
-    /// The station of another handle, if it is one of this scene.
+    /// Station of another handle, if it belongs to this scene.
     pub fn own(&self, handle: &StationHandle) -> Result<Station, ScriptError> {
         self.expect_same(&handle.scene, "station")?;
         Ok(handle.station)
     }
 
-    /// Refuses a thing of another scene than this; `what` is the kind of the thing.
+    /// Rejects an object of another scene; `what` is its kind.
     pub fn expect_same(&self, other: &Self, what: &str) -> Result<(), ScriptError> {
         if Rc::ptr_eq(&self.variants, &other.variants) {
             return Ok(());

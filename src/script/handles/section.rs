@@ -1,21 +1,21 @@
-//! Cross sections that a script holds.
+//! Handle of a cross section in a script.
 
 use crate::beams::{Relaxation, Section, SectionVariation, Solid};
 use crate::output::significant;
 use crate::script::bindings::kind::{Details, Scripted};
 use crate::script::presentation::details;
 
-/// Digits of a stiffness or an inertia where it is shown.
+/// Digits of stiffness and inertia when shown.
 const DIGITS: usize = 7;
 
-/// A cross section or a taper, and the damping of its material, if it has any.
+/// A constant or tapered cross section, and its material damping.
 #[derive(Clone)]
 pub struct SectionHandle {
     /// Stiffness and inertia along a beam.
     pub variation: SectionVariation,
-    /// The material and the shape that it was made from, if it was: what tapers.
+    /// Material and shape from which it was made; needed for tapers.
     pub solid: Option<Solid>,
-    /// The relaxation times of its material; none of an elastic one.
+    /// Relaxation times of the material; `None` if elastic.
     pub relaxation: Option<Relaxation>,
 }
 
@@ -42,7 +42,6 @@ impl Scripted for SectionHandle {
     }
 }
 
-/// Stiffness and inertia in words.
 fn numbers(section: &Section) -> String {
     let [ea, ga, ei, mass, rotary] = [
         section.axial_stiffness,
@@ -55,7 +54,6 @@ fn numbers(section: &Section) -> String {
     format!("EA {ea}, GA {ga}, EI {ei}, rho_A {mass}, rho_I {rotary}")
 }
 
-/// The relaxation times of a material in words.
 fn in_words(relaxation: &Relaxation) -> String {
     let Relaxation { axial, shear, bending } = *relaxation;
     let [axial, shear, bending] = [axial, shear, bending].map(|time| significant(time, DIGITS));

@@ -1,4 +1,4 @@
-//! A simulation that a script holds: steps, events, progress and interrupts.
+//! Handle of a simulation in a script: steps, events, progress and interruption.
 
 mod commands;
 mod revisit;
@@ -31,7 +31,7 @@ use sensing::ColumnReader;
 pub use revisit::Revisit;
 pub use visit::Visited;
 
-/// A handle on a running simulation; clones are the same one.
+/// Handle of a simulation; clones share it.
 #[derive(Clone)]
 pub struct SimulationHandle(Rc<Live>);
 
@@ -40,30 +40,30 @@ struct Live {
     scene: SceneHandle,
     simulation: RefCell<Simulation>,
     events: RefCell<Events<Rc<StoredFunction>>>,
-    /// While an event is called, no other may be set for the same time.
+    /// While an event is called, no other may be scheduled for the same time.
     is_firing: Cell<bool>,
-    /// Whether the user knows that the run ended earlier than the script wanted.
+    /// True once an early end of the run was reported.
     is_ending_told: Cell<bool>,
     notes: Notes,
     sensing: ColumnReader,
 }
 
-/// How far a script lets a simulation go on, or back.
+/// Target of a forward or backward run.
 pub enum RunTarget {
-    /// The simulation goes so many steps.
+    /// A number of steps.
     Steps(usize),
-    /// The simulation goes to a time.
+    /// A time.
     Time(f64),
 }
 
-/// Tells the progress bar, counts steps, and stops when the run is interrupted or beyond a limit.
+/// Step observer that updates the progress, counts steps, and stops on interruption or at a limit.
 struct ProgressMonitor<'a> {
     context: &'a Context,
-    /// Steps beyond this time are no longer wanted.
+    /// Steps after this time are not needed.
     end: f64,
-    /// Whether functions want to look after every step.
+    /// True if script functions must be called after every step.
     pauses: bool,
-    /// Whether it stopped for that and nothing else.
+    /// True if the run was stopped only for these functions.
     is_paused: bool,
 }
 
@@ -84,7 +84,7 @@ impl Monitor for ProgressMonitor<'_> {
     }
 }
 
-/// Stops a pretended run like a real one; its steps cost nothing and do not count.
+/// Observer of a skipped run in a dry build, which is stopped like a real run but counts no steps.
 struct Pretence<'a>(&'a Context);
 
 impl Monitor for Pretence<'_> {
@@ -94,7 +94,7 @@ impl Monitor for Pretence<'_> {
 }
 
 impl SimulationHandle {
-    /// A handle on a simulation at its start, which will be in the report of the run.
+    /// Creates the handle of a new simulation and adds it to the report of the run.
     pub fn new(
         simulation: Simulation,
         scene: SceneHandle,
@@ -122,7 +122,7 @@ impl SimulationHandle {
         handle
     }
 
-    /// A copy of the simulation that goes its own way from here, with the same functions for times to come.
+    /// Independent copy of the simulation in its current state, with its scheduled functions.
     pub fn fork(&self, name: String, context: &Context) -> Result<Self, ScriptError> {
         if self.simulation().parameters().next().is_some() {
             let told =
@@ -142,7 +142,7 @@ impl SimulationHandle {
         context.note_simulation(Dynamic::from(self.clone()));
     }
 
-    /// The lowest modes of vibration about the simulation's present configuration.
+    /// Lowest natural modes about the current configuration.
     pub fn modes(
         &self,
         count: usize,
@@ -151,37 +151,37 @@ impl SimulationHandle {
         self.0.simulation.borrow_mut().modes(count, goes_on)
     }
 
-    /// Changes the memory that the simulation may take for states to go back to [bytes].
+    /// Sets the memory for snapshots [bytes].
     pub fn keep_snapshots(&self, limit: usize) {
         self.0.simulation.borrow_mut().keep_snapshots(limit);
     }
 
-    /// The number of functions that wait for a time of the simulation.
+    /// Number of scheduled functions.
     pub fn events_waiting(&self) -> usize {
         self.0.events.borrow().waiting()
     }
 
-    /// The scene that the simulation was started from.
+    /// Scene of the simulation.
     pub fn scene(&self) -> &SceneHandle {
         &self.0.scene
     }
 
-    /// Whether another handle is on the same simulation.
+    /// Returns true if both handles refer to the same simulation.
     pub fn is_same(&self, other: &Self) -> bool {
         Rc::ptr_eq(&self.0, &other.0)
     }
 
-    /// The name of the simulation.
+    /// Name of the simulation.
     pub fn name(&self) -> &str {
         &self.0.name
     }
 
-    /// The present time of the simulation [time].
+    /// Current time [time].
     pub fn time(&self) -> f64 {
         self.simulation().time()
     }
 
-    /// Makes the simulation call a script function when it reaches a time.
+    /// Schedules a script function for a time.
     pub fn at(&self, time: f64, function: StoredFunction) -> Result<(), ScriptError> {
         let now = self.time();
         let is_late = if self.0.is_firing.get() { time <= now } else { time < now };
@@ -198,7 +198,7 @@ impl SimulationHandle {
         Ok(())
     }
 
-    /// Takes the simulation back to a state that it was in; a dry build goes as near as it can.
+    /// Rewinds the simulation to an earlier state; a dry build approximates this.
     pub fn go_back(&self, call: &Call, goal: &RunTarget) -> Result<(), ScriptError> {
         self.0.sensing.expect_idle()?;
         let mut simulation = self.0.simulation.borrow_mut();
@@ -216,12 +216,12 @@ impl SimulationHandle {
         Ok(())
     }
 
-    /// By how much a time may be missed and still be reached.
+    /// Tolerance for reaching a time.
     fn slack(&self) -> f64 {
         self.simulation().slack()
     }
 
-    /// Lets the simulation go on, calling the functions of the events on its way.
+    /// Advances the simulation and calls the scheduled functions on the way.
     pub fn go_on(&self, call: &Call, goal: &RunTarget) -> Result<(), ScriptError> {
         self.0.sensing.expect_idle()?;
         let context = call.context();
@@ -248,7 +248,7 @@ impl SimulationHandle {
 
     fn take_steps(&self, call: &Call, steps: usize) -> Result<(), ScriptError> {
         for taken in 0..steps {
-            // A script that asks for a step after the end is wrong; one that asks for some too many is told.
+            // The first step after the end is an error; later ones are only reported.
             if taken > 0 && self.has_ended() {
                 self.tell_ending(call.context(), &format!("before it had taken {steps} steps"));
                 break;
@@ -267,7 +267,7 @@ impl SimulationHandle {
         self.simulation().has_ended()
     }
 
-    /// Tells once that a run ended earlier than the script wanted.
+    /// Reports an early end of the run, once.
     fn tell_ending(&self, context: &Context, when: &str) {
         let ending = self.simulation().ending().filter(|_| !self.0.is_ending_told.replace(true));
         if let Some(ending) = ending {
@@ -291,14 +291,14 @@ impl SimulationHandle {
                 self.tell_ending(call.context(), &when);
                 return Ok(());
             }
-            // An event may have gone further by itself.
+            // An event may have advanced the simulation itself.
             if self.time() >= end || stop >= end || stop.is_nan() {
                 return Ok(());
             }
         }
     }
 
-    /// What a dry build does instead of running: time passes, and events are called.
+    /// Replacement of a run in a dry build: time advances, and events are called.
     fn pretend(&self, call: &Call, end: f64) -> Result<(), ScriptError> {
         call.context().meter().count_pretended();
         call.context().proceed()?;
@@ -314,7 +314,7 @@ impl SimulationHandle {
         loop {
             let due = self.0.events.borrow_mut().take_due(self.time() + slack);
             let Some(function) = due else { return Ok(()) };
-            // What an event gives back has no meaning.
+            // The return value of an event is ignored.
             self.0.is_firing.set(true);
             let called = function.call([Dynamic::from(self.clone())]);
             self.0.is_firing.set(false);
@@ -323,7 +323,7 @@ impl SimulationHandle {
     }
 }
 
-/// An error of a run in the words of the script: interrupts stay interrupts.
+/// Converts an error of a run; interruptions stay interruptions.
 fn explain(error: SimulationError, context: &Context) -> ScriptError {
     match error {
         SimulationError::Interrupted { .. } => {
@@ -333,7 +333,7 @@ fn explain(error: SimulationError, context: &Context) -> ScriptError {
     }
 }
 
-/// How long steps are, in numbers as the language writes them.
+/// Description of a step size.
 fn step_size(size: &StepSize) -> String {
     match size {
         StepSize::Fixed(dt) => format!("dt = {}", format_number(*dt)),

@@ -1,4 +1,4 @@
-//! A place on a beam, a particle or a point of a rigid body, of a scene that a script holds.
+//! Handle of a station in a script: a point of a beam, point mass or rigid body.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -16,23 +16,23 @@ use crate::script::messages::error::ScriptError;
 use crate::script::presentation::details;
 use crate::system::Scene;
 
-/// A handle on a station of a body of a scene.
+/// Handle of a station of a scene.
 #[derive(Clone)]
 pub struct StationHandle {
-    /// The scene that the station is in.
+    /// Scene of the station.
     pub scene: SceneHandle,
-    /// The station in its scene.
+    /// Station in its scene.
     pub station: Station,
 }
 
 impl StationHandle {
-    /// The place of the station in a simulation, if that is one of its scene.
+    /// Location of the station in a simulation of its scene.
     pub fn on(&self, handle: &SimulationHandle) -> Result<beams::BodyPoint, ScriptError> {
         let simulation = handle.simulation();
         self.within(handle.scene(), simulation.scene(), simulation.model().meshes())
     }
 
-    /// The place of the station among the meshes of a scene that was built when it was `built`, if it is one of that scene.
+    /// Location of the station on the meshes of a scene `built` from the scene `of`, if it belongs to that scene.
     pub fn within(
         &self,
         of: &SceneHandle,
@@ -63,7 +63,7 @@ impl Scripted for StationHandle {
         self.scene.scene().borrow().describe(&self.station)
     }
 
-    /// A rigid body stands for its centre.
+    /// A rigid body is converted to its centre.
     fn meant_by(value: &Dynamic) -> Option<Self> {
         Some(value.read_lock::<RigidBodyHandle>()?.centre())
     }
@@ -77,7 +77,7 @@ impl Scripted for StationHandle {
     }
 }
 
-/// The scene whose method is called, and one of its stations, which is an argument of the call.
+/// The receiver scene, and one of its stations from an argument.
 pub fn here(call: &Call, name: &str) -> Result<(Station, Rc<RefCell<Scene>>), ScriptError> {
     let scene = call.receiver::<SceneHandle>()?;
     let station = scene.own(&call.get::<StationHandle>(name)?)?;

@@ -1,16 +1,16 @@
-//! Step sizes as scripts write them.
+//! Parsing of step sizes.
 
 use rhai::Dynamic;
 
 use crate::script::messages::numbers::as_number;
 use crate::simulation::{StepControl, StepSize};
 
-/// The step size that a value stands for: a positive number, or adaptive(…); none when it is something else.
+/// Step size of a value: a positive number, or adaptive(…).
 pub fn step_size(value: &Dynamic) -> Option<StepSize> {
     let fixed = as_number(value).filter(|dt| dt.is_finite() && *dt > 0.0);
     let control = || value.clone().try_cast::<StepControl>().map(StepSize::from);
     fixed.map(StepSize::from).or_else(control)
 }
 
-/// The advice on how a step size is written.
+/// Hint on step sizes.
 pub const STEP_SIZE: &str = "give positive numbers, or adaptive(#{ tolerance: 1e-4 })";

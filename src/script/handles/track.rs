@@ -1,4 +1,4 @@
-//! A track of a scene that a script holds.
+//! Handle of a track in a script.
 
 use std::rc::Rc;
 
@@ -10,33 +10,33 @@ use crate::script::bindings::parameter_variants::ParameterSet;
 use crate::script::messages::error::ScriptError;
 use crate::script::presentation::details;
 
-/// A handle on a track of a scene.
+/// Handle of a track of a scene.
 #[derive(Clone)]
 pub struct TrackHandle {
-    /// The scene that the track is in.
+    /// Scene of the track.
     pub scene: SceneHandle,
-    /// The index of the track among those of its scene, from 0.
+    /// Index of the track in its scene, from 0.
     pub index: usize,
 }
 
 impl TrackHandle {
-    /// The index of the track, if it is one of the given scene.
+    /// Returns the index of the track if it belongs to the given scene.
     pub fn own(&self, scene: &SceneHandle) -> Result<usize, ScriptError> {
         scene.expect_same(&self.scene, "track")?;
         Ok(self.index)
     }
 
-    /// The length of the track as drawn [length].
+    /// Undeformed length of the track [length].
     pub fn length(&self) -> f64 {
         self.scene.scene().borrow().track_length(self.index)
     }
 
-    /// Whether the track goes on along its first beam behind its last one.
+    /// Returns true if the end of the last beam connects to the first beam.
     pub fn is_closed(&self) -> bool {
         self.scene.scene().borrow().tracks[self.index].course == TrackEnd::Closed
     }
 
-    /// The name of the track.
+    /// Name of the track.
     pub fn name(&self) -> String {
         self.scene.scene().borrow().tracks[self.index].name.clone()
     }

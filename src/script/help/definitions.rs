@@ -1,7 +1,7 @@
-//! Definition files (`.d.rhai`) for the Rhai language server of editors, from the same rows that the engine registers.
+//! Definition files (`.d.rhai`) for the Rhai language server of editors, generated from the bindings.
 //!
-//! The format has no optional arguments: a function is declared once for each number of arguments. What may be given,
-//! units, options and examples stand in the comment above, which editors show.
+//! The format has no optional arguments: a function is declared once per number of arguments. Allowed values, units, options and examples
+//! are in the comment above, which editors show.
 
 mod types;
 
@@ -13,16 +13,16 @@ use crate::script::bindings::catalog::Catalog;
 use crate::script::bindings::table::{BindingTable, CallSyntax, FunctionBinding};
 use types::{for_kind, for_value, identifier};
 
-/// A definition file for editors: its name and its text.
+/// A definition file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DefinitionFile {
-    /// The name of the definition file.
+    /// File name.
     pub name: String,
-    /// The text of the definition file.
+    /// Text.
     pub text: String,
 }
 
-/// The definition files of a language: one for the types of all, and one for each table.
+/// Definition files of a language: one for all types, and one per table.
 pub fn definitions(catalog: &Catalog) -> Vec<DefinitionFile> {
     let mut files =
         vec![DefinitionFile { name: "types.d.rhai".into(), text: types::file(catalog) }];
@@ -136,7 +136,7 @@ fn example(script: &str) -> String {
     format!("\n# Example\n\n```rhai\n{script}\n```\n")
 }
 
-/// `text` as a documenting comment.
+/// Formats a doc comment.
 fn comment(text: &str) -> String {
     text.lines().map(|line| format!("{}\n", format!("/// {line}").trim_end())).collect()
 }

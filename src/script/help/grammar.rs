@@ -1,8 +1,7 @@
-//! A TextMate grammar for editors, from the same keywords and rows as the colours of the prompt.
+//! TextMate grammar for editors, generated from the keywords and bindings.
 //!
-//! Its rules are those of the scanner ([`scan`](crate::script::source::scanner::scan)) as regular expressions of Oniguruma. Members stand apart: an editor
-//! does not know what a
-//! value is, so every name behind a dot that is called is a member.
+//! Its rules are those of the scanner ([`scan`](crate::script::source::scanner::scan)) as Oniguruma regular expressions. Editors do not
+//! know types, so every called name after a dot counts as a member.
 
 use std::collections::BTreeSet;
 
@@ -11,12 +10,12 @@ use serde_json::{Value, json};
 use crate::script::bindings::catalog::Catalog;
 use crate::script::source::keywords::KEYWORDS;
 
-/// Keywords that are values, which editors colour as such.
+/// Keywords that are values.
 const VALUES: [&str; 2] = ["true", "false"];
-/// Keywords that stand for a thing at hand.
+/// Keywords that refer to an object.
 const THINGS: [&str; 2] = ["this", "global"];
 
-/// The text of `withy.tmLanguage.json`.
+/// Text of `withy.tmLanguage.json`.
 pub fn grammar(catalog: &Catalog) -> String {
     let built_in = catalog.built_ins().filter(|known| known.is_function());
     let functions: BTreeSet<&str> =
@@ -74,7 +73,7 @@ pub fn grammar(catalog: &Catalog) -> String {
     format!("{grammar:#}\n")
 }
 
-/// A text in quotes: it ends in its line, unless that ends in a backslash.
+/// A string in quotes, which ends on its line unless the line ends in a backslash.
 fn text(name: &str, quote: &str) -> Value {
     json!({
         "name": name, "begin": quote, "end": format!("{quote}|(?<!\\\\)$"),
@@ -93,7 +92,7 @@ mod tests {
     use crate::script::packages::language;
     use crate::script::presentation::highlight::{FUNCTION, KEYWORD, Vocabulary, highlight};
 
-    /// The words of the rules with a scope that begins so.
+    /// Words of the rules whose scope has this prefix.
     fn listed(grammar: &Value, scope: &str) -> Vec<String> {
         let rules = grammar["repository"]["words"]["patterns"].as_array().unwrap().iter();
         let rules = rules.filter(|rule| rule["name"].as_str().unwrap().starts_with(scope));

@@ -1,4 +1,4 @@
-//! One model of pages, four writers: help, the reference, definition files and colours for editors.
+//! Documentation generated from the catalog: help, reference, definition files, and editor grammar.
 
 pub mod definitions;
 pub mod grammar;

@@ -1,4 +1,4 @@
-//! The language reference as a document, from the same rows that the engine registers.
+//! Markdown language reference, generated from the bindings.
 
 use std::fmt::Write;
 
@@ -28,7 +28,7 @@ const ABOUT_RHAI: &str = "What the language takes over from Rhai. A function who
 written either way: `text.len()` is `len(text)`.
 ";
 
-/// The reference of a language in Markdown.
+/// Reference of a language in Markdown.
 pub fn reference(catalog: &Catalog) -> String {
     let mut text = format!("{HEAD}\n{}", contents(catalog));
     text += "\n## The language itself\n";
@@ -60,7 +60,7 @@ fn contents(catalog: &Catalog) -> String {
     text
 }
 
-/// The names that a table has, each once.
+/// Names in a table, without duplicates.
 fn names(table: &BindingTable) -> String {
     let mut names: Vec<&str> = table.constants.iter().map(|constant| constant.name).collect();
     for row in table.rows {
@@ -75,7 +75,7 @@ fn link(title: &str, anchor: &str) -> String {
     format!("[{title}](#{anchor})")
 }
 
-/// Headings of several parts may be the same, so each has a mark of its own to link to.
+/// Anchors, because headings of different parts may be equal.
 fn anchor(part: &str, name: &str) -> String {
     format!("{part}-{}", name.replace(' ', "-"))
 }
@@ -98,7 +98,7 @@ fn describe_topic(text: &mut String, topic: &Topic) {
 
 fn describe_table(text: &mut String, table: &BindingTable) {
     heading(text, "withy", table.name);
-    // Writing to a text cannot fail.
+    // Writing to a string cannot fail.
     let _ = writeln!(text, "\n{}", table.doc);
     for of in table.types {
         let _ = writeln!(text, "\n*{}*: {}", of.name(), of.doc());
@@ -161,12 +161,12 @@ fn see(text: &mut String, names: &[&str]) {
     }
 }
 
-/// What a row gives back, in words to be put behind a signature.
+/// Return value, as text after a signature.
 pub(super) fn gives(returns: &Returns) -> String {
     if returns.is_nothing() { String::new() } else { format!(" → {returns}") }
 }
 
-/// Adds a parameter as an entry of a list to the text, and below it the keys of its map of options.
+/// Appends a parameter as a list entry, with the keys of its option map below.
 pub(super) fn describe_parameter(text: &mut String, parameter: &Parameter, depth: usize) {
     let doc = if parameter.doc.is_empty() { String::new() } else { format!(", {}", parameter.doc) };
     let _ = writeln!(

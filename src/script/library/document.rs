@@ -1,4 +1,4 @@
-//! The standard library as a document, from the comments of its modules.
+//! Markdown document of the standard library, from the comments of its modules.
 
 use std::fmt::Write;
 
@@ -14,7 +14,7 @@ library: a file of your own in a folder `std` is never read in its place, nor at
 `help(\"sections::rectangle\")`. The files in [stdlib/](../stdlib) are meant to be read: copy what you want to change. Every example runs.
 ";
 
-/// The pages of all modules of the library, in Markdown.
+/// Pages of all modules, in Markdown.
 pub fn document() -> String {
     let mut text = HEAD.to_owned();
     text.push('\n');
@@ -22,7 +22,7 @@ pub fn document() -> String {
         let anchor = page.module.name.replace('/', "-");
         let names: Vec<_> =
             page.functions.iter().map(|known| format!("`{}`", known.name())).collect();
-        // Writing to a text cannot fail.
+        // Writing to a string cannot fail.
         let _ = writeln!(text, "- [{}](#{anchor}): {}", page.module.name, names.join(" "));
     }
     pages().iter().for_each(|page| describe(&mut text, page));

@@ -1,5 +1,5 @@
-//! The entrance of each function of the library: a native function that remembers the line it was called from and calls the
-//! function of the script. So a check that fails in the library is told at the line of the user.
+//! Native wrappers of library functions, which remember the calling line. A failed check inside the library is
+//! therefore reported at the user's line.
 
 use std::any::TypeId;
 
@@ -11,7 +11,7 @@ use rhai::{
 use crate::script::bindings::sources::Sources;
 use crate::script::messages::error::BUG;
 
-/// What the functions of a module see.
+/// Environment of the functions of a module.
 #[derive(Clone)]
 struct ModuleScope {
     file: String,
@@ -19,7 +19,7 @@ struct ModuleScope {
     imports: Vec<(String, Shared<Module>)>,
 }
 
-/// The public functions of `module`, which was made of `ast`, each behind its entrance.
+/// Wraps the public functions of `module`, which was compiled from `ast`.
 pub fn behind_entrances(module: &Module, ast: &AST, file: &str) -> Module {
     let imports = module.iter_sub_modules().map(|(name, other)| (name.to_owned(), other.clone()));
     let surroundings = ModuleScope {
@@ -62,7 +62,7 @@ fn add(module: &mut Module, function: Shared<ScriptFuncDef>, surroundings: Modul
 }
 
 impl ModuleScope {
-    /// Calls a function of the module from outside of it.
+    /// Calls a function of the module from outside.
     fn call(
         &self,
         native: &NativeCallContext,
@@ -73,7 +73,7 @@ impl ModuleScope {
         let at = native.call_position();
         let _inside = sources.enter_library(native.global_runtime_state().source(), at.line());
         let mut inside = native.global_runtime_state().clone();
-        // The function is looked up in the first library, and what it calls from the last one on.
+        // The called function is looked up in the first library; its own calls start with the last one.
         inside.lib.insert(0, self.functions.clone());
         inside.lib.push(self.functions.clone());
         inside.source = Some(self.file.as_str().into());

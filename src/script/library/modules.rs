@@ -1,4 +1,4 @@
-//! The modules and their texts. None is parsed before a script imports it.
+//! List of the library modules and their texts. A module is parsed when a script imports it.
 
 use crate::script::bindings::sources::FOLDER;
 use crate::script::messages::error::ScriptError;
@@ -8,15 +8,15 @@ use crate::script::source::program::Program;
 /// A module of the standard library.
 #[derive(Debug)]
 pub struct Module {
-    /// The name of the module in an import.
+    /// Name in an import.
     pub name: &'static str,
-    /// The file of the module, as messages name it.
+    /// File name in messages.
     pub file: &'static str,
-    /// The text of the module.
+    /// Source text.
     pub text: &'static str,
 }
 
-/// Names a file of `stdlib/`.
+/// Embeds a file of `stdlib/`.
 macro_rules! module {
     ($name:literal) => {
         Module {
@@ -27,7 +27,7 @@ macro_rules! module {
     };
 }
 
-/// All modules of the standard library, in the order of their page.
+/// All modules of the standard library, in the order of the documentation.
 pub const MODULES: &[Module] = &[
     module!("sections"),
     module!("shapes"),
@@ -38,16 +38,16 @@ pub const MODULES: &[Module] = &[
 ];
 
 impl Module {
-    /// The text of the module as a program.
+    /// Source text as a program.
     pub fn program(&self) -> Program {
         Program::named(self.file, self.text)
     }
 }
 
-/// The module that an import names, with or without `.rhai`; nothing for files of the script's own folder.
+/// Module of an import path, with or without `.rhai`; `None` for files of the script's folder.
 ///
 /// # Errors
-/// The name belongs to the library, but it has no such module.
+/// If the path belongs to the library but there is no such module.
 pub fn find(path: &str) -> Option<Result<&'static Module, ScriptError>> {
     let name = path.strip_suffix(".rhai").unwrap_or(path);
     if !name.starts_with(FOLDER) {

@@ -1,53 +1,53 @@
-//! What the modules say about themselves: the comments `//!` of a file and `///` of its functions, taken apart. They are read when
-//! someone asks for help, not when a module is imported.
+//! Help pages of the library, parsed from the comments `//!` of a file and `///` of its functions. They are parsed when
+//! help is requested, not on import.
 
 use std::sync::LazyLock;
 
 use super::modules::{MODULES, Module};
 use crate::script::bindings::sources::FOLDER;
 
-/// The page of a module of the standard library: what is said about it.
+/// Page of a module of the standard library.
 #[derive(Debug)]
 pub struct ModulePage {
-    /// The module that the page is about.
+    /// Module of the page.
     pub module: &'static Module,
-    /// What the module is for.
+    /// Description of the module.
     pub about: Vec<DocBlock>,
-    /// The public functions of the module, in the order of the file.
+    /// Public functions of the module, in the order of the file.
     pub functions: Vec<ModuleFunction>,
 }
 
-/// What is said about a function of a module of the standard library.
+/// Help on a library function.
 #[derive(Debug)]
 pub struct ModuleFunction {
-    /// The name of the function behind that of the module: `sections::rectangle`.
+    /// Name with the module: `sections::rectangle`.
     pub full_name: String,
-    /// The names of the function's parameters.
+    /// Names of the parameters.
     pub parameters: Vec<String>,
-    /// What is said of the function: the summary, what it takes, sources, and examples.
+    /// Text: summary, parameters, sources, and examples.
     pub text: Vec<DocBlock>,
 }
 
-/// A block of what is said about a module or a function.
+/// A block of help text.
 #[derive(Debug, PartialEq, Eq)]
 pub enum DocBlock {
-    /// The block is a paragraph of sentences.
+    /// A paragraph.
     Paragraph(String),
-    /// The block is an entry of a list.
+    /// A list entry.
     Item(String),
-    /// The block is a script that runs.
+    /// A runnable script.
     Example(String),
 }
 
 static PAGES: LazyLock<Vec<ModulePage>> =
     LazyLock::new(|| MODULES.iter().map(ModulePage::of).collect());
 
-/// The pages of all modules of the standard library.
+/// Pages of all modules.
 pub fn pages() -> &'static [ModulePage] {
     &PAGES
 }
 
-/// The page of the module that an import names, if it is one of the library.
+/// Page of the module of an import path, if it is in the library.
 pub fn page_of(path: &str) -> Option<&'static ModulePage> {
     let name = path.strip_suffix(".rhai").unwrap_or(path);
     PAGES.iter().find(|page| page.module.name == name)
@@ -73,14 +73,14 @@ impl ModulePage {
         page
     }
 
-    /// The function of the page that is called so, with or without the name of the module before it.
+    /// Function with this name, with or without the module.
     pub fn named(&self, name: &str) -> Option<&ModuleFunction> {
         self.functions.iter().find(|known| known.full_name == name || known.name() == name)
     }
 }
 
 impl ModuleFunction {
-    /// From what stands behind `fn`.
+    /// Parses the text after `fn`.
     fn of(module: &Module, head: &str, said: &[&str]) -> Option<Self> {
         let (name, rest) = head.split_once('(')?;
         let (parameters, _) = rest.split_once(')')?;
@@ -92,17 +92,17 @@ impl ModuleFunction {
         })
     }
 
-    /// The name of the function without that of its module.
+    /// Name of the function without its module.
     pub fn name(&self) -> &str {
         self.full_name.rsplit("::").next().unwrap_or_default()
     }
 
-    /// How the function is written when its module has the name that it has in the library.
+    /// Signature with the module's usual name.
     pub fn signature(&self) -> String {
         format!("{}({})", self.full_name, self.parameters.join(", "))
     }
 
-    /// The summary of the function: the first paragraph.
+    /// Summary of the function: the first paragraph.
     pub fn summary(&self) -> &str {
         match self.text.first() {
             Some(DocBlock::Paragraph(text)) => text,
@@ -110,7 +110,7 @@ impl ModuleFunction {
         }
     }
 
-    /// The keys of the function's options, each with what is said about it.
+    /// Option keys of the function with their descriptions.
     pub fn keys(&self) -> Vec<(String, String)> {
         let mut keys: Vec<(String, String)> = Vec::new();
         let items = self.text.iter().filter_map(|block| match block {
@@ -119,7 +119,7 @@ impl ModuleFunction {
         });
         for clause in items.flat_map(|item| item.split(';')) {
             let about = clause.replace('`', "").trim().to_owned();
-            // Every second piece stands between backquotes.
+            // Every second piece is in backquotes.
             for name in clause.split('`').skip(1).step_by(2) {
                 let is_key = name.chars().all(|letter| letter.is_alphanumeric() || letter == '_');
                 if is_key && keys.iter().all(|(known, _)| known != name) {
@@ -130,7 +130,7 @@ impl ModuleFunction {
         keys
     }
 
-    /// The examples of the function.
+    /// Examples of the function.
     pub fn examples(&self) -> impl Iterator<Item = &str> {
         self.text.iter().filter_map(|block| match block {
             DocBlock::Example(script) => Some(script.as_str()),
@@ -139,7 +139,7 @@ impl ModuleFunction {
     }
 }
 
-/// The blocks of a comment without its leaders.
+/// Blocks of a comment without its leaders.
 fn blocks(lines: &[&str]) -> Vec<DocBlock> {
     let mut blocks = Vec::new();
     let mut example: Option<Vec<&str>> = None;

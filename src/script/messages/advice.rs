@@ -1,4 +1,5 @@
-//! What to do about errors of the layers below, in words of the language: these layers tell what is wrong, and know no script.
+//! Hints for errors of lower layers, in terms of the language. The lower layers report errors without knowing about
+//! scripts.
 
 use std::error::Error;
 
@@ -9,7 +10,7 @@ use crate::simulation::{ArchiveError, DerivativeError, SimulationError};
 use crate::statics::{InTime, StaticsError, StepFailure};
 use crate::system::{Approach, SliderError, SystemError, TrackError, Turning};
 
-/// What to do about an error, or about the first of its causes that there is advice on.
+/// Returns a hint for an error, or for the first of its causes with a known hint.
 pub fn on(error: &(dyn Error + 'static)) -> Option<String> {
     let own = None
         .or_else(|| error.downcast_ref().and_then(on_simulation))
@@ -213,11 +214,11 @@ fn on_archive(error: &ArchiveError) -> Option<String> {
     Some(advice.into())
 }
 
-/// What to write for a motion that jumps.
+/// Hint for a prescribed motion that jumps.
 const SMOOTH: &str = "let it get there in a time: import \"std/schedules\" as schedules; #{ y: 0.1 * schedules::smooth_step(0, 0.05) }; \
                       what is to move with a speed from the start begins with it: |t| 3 * t";
 
-/// What is wrong with a load in a step that was refused.
+/// Load error behind a failed step.
 fn cause_of(error: &StepError) -> Option<&LoadError> {
     let StepError::Load { source, .. } = error else { return None };
     source.downcast_ref()

@@ -1,13 +1,13 @@
-//! Messages of a length that a person can read: what they quote may be of any length, and is cut in its middle.
+//! Limits the length of messages: long quoted values are cut in the middle.
 
-/// Longer messages are cut to so many characters, and a few words that say so.
+/// Maximum number of characters of a message.
 const MOST: usize = 1600;
-/// Characters that are kept of the end, where messages say what is allowed.
+/// Characters kept at the end, where messages state what is allowed.
 const END: usize = 600;
 
-/// The text, with its middle left out where it is longer than anybody reads.
+/// Returns the text, with its middle cut out if it is too long.
 pub fn brief(text: String) -> String {
-    // Only a text of so many bytes can have so many characters.
+    // The number of bytes is an upper bound of the number of characters.
     if text.len() <= MOST {
         return text;
     }

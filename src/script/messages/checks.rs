@@ -1,15 +1,15 @@
-//! The record of what a script checked about its own results.
+//! Record of the checks made by a script.
 
-/// A check of a script that did not hold.
+/// A failed check.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FailedCheck {
-    /// What the script says about the failed check.
+    /// Message of the script.
     pub message: String,
-    /// The line of the failed check in the script, from 1.
+    /// Line of the check in the script, from 1.
     pub line: usize,
 }
 
-/// How many checks a script made, and which failed.
+/// Number of checks, and the failed ones.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Checks {
     made: usize,
@@ -17,28 +17,28 @@ pub struct Checks {
 }
 
 impl Checks {
-    /// Counts a check that held.
+    /// Counts a passed check.
     pub fn pass(&mut self) {
         self.made += 1;
     }
 
-    /// Counts a check that did not hold.
+    /// Records a failed check.
     pub fn fail(&mut self, check: FailedCheck) {
         self.made += 1;
         self.failed.push(check);
     }
 
-    /// The number of checks that were made.
+    /// Number of checks made.
     pub fn made(&self) -> usize {
         self.made
     }
 
-    /// The checks that failed, in the order of the run.
+    /// Failed checks, in the order of the run.
     pub fn failed(&self) -> &[FailedCheck] {
         &self.failed
     }
 
-    /// One line on the outcome of the checks; nothing if nothing was checked.
+    /// One-line summary; `None` if there were no checks.
     pub fn summary(&self) -> Option<String> {
         match (self.made, self.failed.len()) {
             (0, _) => None,

@@ -1,4 +1,4 @@
-//! Errors that native bodies report: what is wrong, what to do, and where in the call to point.
+//! Errors of native functions: message, hint, and the part of the call to underline.
 
 use rhai::{Dynamic, EvalAltResult, Position};
 
@@ -7,59 +7,59 @@ use super::brief::brief;
 use super::raised::Raised;
 use super::stop::Stop;
 
-/// The words that mark errors of the engine that are our own mistakes.
+/// Marks engine errors that are internal errors of the program.
 pub(in crate::script) const BUG: &str = "a bug in withy";
 
-/// Why a native function of the language gave up.
+/// Error of a native function of the language.
 #[derive(Debug)]
 pub enum ScriptError {
-    /// The script asked for something that is wrong.
+    /// The request of the script is invalid.
     Failure(Failure),
-    /// The run was interrupted from outside or passed a limit; scripts cannot catch this.
+    /// The run was interrupted or exceeded a limit; scripts cannot catch this.
     Stopped(Stop),
-    /// The program made a mistake of its own; the user is asked to report it.
+    /// An internal error, which the user is asked to report.
     Bug(String),
-    /// A script function that was called back failed; its own error is handed on untouched.
+    /// Error of a called script function, passed on unchanged.
     Engine(Box<EvalAltResult>),
 }
 
-/// A wrong request: the message names the object and the value, the hint says what to do next.
+/// An invalid request: the message names the object and the value, the hint says what to do next.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Failure {
-    /// What is wrong with the request.
+    /// Error message.
     pub message: String,
-    /// What to do about the wrong request.
+    /// Suggestion for the user.
     pub hint: Option<String>,
-    /// The part of the call to underline.
+    /// Part of the call to underline.
     pub place: CallPart,
 }
 
-/// The part of a call that an error is about.
+/// Part of a call that an error refers to.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CallPart {
-    /// The error is about the called name.
+    /// The name of the function.
     Call,
-    /// The error is about the argument with this number, from 0; that of a function called behind a dot stands before it.
+    /// The argument with this index, from 0; in method notation argument 0 precedes the dot.
     Argument(usize),
-    /// The error is about the argument of a method with this number, from 0: the receiver does not count.
+    /// The argument of a method with this index, from 0, without the receiver.
     ArgumentOfMethod(usize),
-    /// The error is about this key of an option map among the arguments.
+    /// This key of an option map among the arguments.
     Key(String),
 }
 
 impl ScriptError {
-    /// The error of a wrong request by the script.
+    /// Creates the error of an invalid request.
     pub fn new(message: impl Into<String>) -> Self {
         let message = brief(message.into());
         Self::Failure(Failure { message, hint: None, place: CallPart::Call })
     }
 
-    /// The error of a mistake of this program.
+    /// Creates an internal error.
     pub fn bug(message: impl Into<String>) -> Self {
         Self::Bug(message.into())
     }
 
-    /// Adds to the error what to do about it.
+    /// Adds a hint.
     pub fn hint(mut self, hint: impl Into<String>) -> Self {
         if let Self::Failure(failure) = &mut self {
             failure.hint = Some(brief(hint.into()));
@@ -67,7 +67,7 @@ impl ScriptError {
         self
     }
 
-    /// Adds what to do about an error of the layers below that caused it, if there is advice on that.
+    /// Adds the hint for the underlying error `cause`, if one is known.
     pub fn advised(self, cause: &(dyn std::error::Error + 'static)) -> Self {
         match advice::on(cause) {
             Some(advice) => self.hint(advice),
@@ -75,7 +75,7 @@ impl ScriptError {
         }
     }
 
-    /// Makes the error point at an argument or a key instead of the call.
+    /// Moves the error to an argument or key.
     pub fn at(mut self, place: CallPart) -> Self {
         if let Self::Failure(failure) = &mut self {
             failure.place = place;
@@ -83,7 +83,7 @@ impl ScriptError {
         self
     }
 
-    /// The same error of a method, whose arguments are counted behind its dot.
+    /// Converts the argument index to that of a method, which does not count its receiver.
     pub fn of_method(mut self) -> Self {
         if let Self::Failure(Failure { place, .. }) = &mut self
             && let CallPart::Argument(number) = *place
@@ -93,7 +93,7 @@ impl ScriptError {
         self
     }
 
-    /// The same error in the form in which the engine carries it, at the position of the call.
+    /// Converts the error to an engine error at the position of the call.
     pub fn into_engine(self, call: Position) -> Box<EvalAltResult> {
         match self {
             Self::Failure(failure) => {
@@ -106,8 +106,8 @@ impl ScriptError {
     }
 }
 
-/// Errors of the layers below become failures with their own words and what to do about them; those that a script function has caused are
-/// handed on as its own.
+/// Errors of lower layers become failures with their own message and a hint. Errors caused by a script function are
+/// passed on unchanged.
 impl<E: std::error::Error + 'static> From<E> for ScriptError {
     fn from(error: E) -> Self {
         match Raised::behind(&error) {
@@ -117,5 +117,5 @@ impl<E: std::error::Error + 'static> From<E> for ScriptError {
     }
 }
 
-/// The result of the engine's own functions: a value, or an error with its place in the script.
+/// Result of functions called by the engine: a value, or an error with its position in the script.
 pub type EngineResult<T> = Result<T, Box<EvalAltResult>>;

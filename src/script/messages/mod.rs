@@ -1,4 +1,4 @@
-//! What every other wing says: errors and their places, numbers, nouns, what may have been meant, what was checked, what stops a run.
+//! Common vocabulary of the language modules: errors, numbers, nouns, suggestions, checks, stop reasons.
 
 pub mod advice;
 pub mod brief;

@@ -1,8 +1,8 @@
-//! Nouns in messages: their articles, and the names of types.
+//! Nouns in messages: articles and type names.
 
-/// A noun with its article: `a vector`, `an array`; plurals such as `knots` have none.
+/// Adds the indefinite article to a noun: `a vector`, `an array`; plurals such as `knots` have none.
 pub fn with_article(noun: &str) -> String {
-    // Of a table of costs there is one, and of a value with derivatives.
+    // The noun before "of" or "with" decides: "a table of costs".
     let head =
         [" of ", " with "].iter().fold(noun, |head, of| head.split(of).next().unwrap_or(head));
     match noun.chars().next() {
@@ -12,7 +12,7 @@ pub fn with_article(noun: &str) -> String {
     }
 }
 
-/// The word of the language for a type, also where the engine used the Rust name.
+/// Name of a type in the language, also for the engine's Rust names.
 pub fn type_word(name: &str) -> &str {
     match name.trim() {
         "i64" => "whole number",

@@ -1,19 +1,19 @@
-//! Numbers as people read and write them: conversion from script values, and printing.
+//! Conversion of script values to numbers, and number formatting.
 
 use rhai::{Array, Dynamic, Engine, INT, ImmutableString, Map};
 
 use super::nouns::with_article;
 pub use crate::output::format_number;
 
-/// The largest whole number up to which every whole number has its own `f64`.
+/// Largest integer up to which all integers are exact in `f64`.
 const LARGEST_EXACT: f64 = 9_007_199_254_740_992.0;
 
-/// A value of a script as a number, if it is one; whole numbers are welcome.
+/// Converts a script value to a number; integers are accepted.
 pub fn as_number(value: &Dynamic) -> Option<f64> {
     value.as_float().ok().or_else(|| value.as_int().ok().map(|n| n as f64))
 }
 
-/// A value of a script as a whole number, if it is one or a number without a fraction.
+/// Converts a script value to an integer; numbers without a fractional part are accepted.
 pub fn as_whole(value: &Dynamic) -> Option<INT> {
     value.as_int().ok().or_else(|| {
         let x = value.as_float().ok()?;
@@ -21,17 +21,17 @@ pub fn as_whole(value: &Dynamic) -> Option<INT> {
     })
 }
 
-/// A number with an exponent and `digits` digits after the point: `1.23e-13`.
+/// Formats a number with an exponent and `digits` decimals: `1.23e-13`.
 pub fn format_scientific(x: f64, digits: usize) -> String {
     if x.is_finite() { format!("{x:.digits$e}") } else { format_number(x) }
 }
 
-/// A number with `digits` digits after the point: `0.050`.
+/// Formats a number with `digits` decimals: `0.050`.
 pub fn format_fixed(x: f64, digits: usize) -> String {
     if x.is_finite() { format!("{x:.digits$}") } else { format_number(x) }
 }
 
-/// A value of a script in the middle of a message: `the text "abc"`, `-3`, `an array of 3`.
+/// Describes a script value in a message: `the text "abc"`, `-3`, `an array of 3`.
 pub fn describe(engine: &Engine, value: &Dynamic) -> String {
     if let Ok(text) = value.as_immutable_string_ref() {
         return format!("the text {}", shortened(&text));

@@ -1,24 +1,24 @@
-//! How far a simulation or a study is, for whoever shows it.
+//! Progress reports of simulations and studies.
 
-/// Something that shows how far a simulation or a study has got: a bar on a terminal, nothing in a pipe.
+/// Display of the progress of a simulation or study: a bar on a terminal, nothing in a pipe.
 pub trait Progress {
-    /// Begins to show that a simulation called `name` goes from time `from` to time `to`.
+    /// Starts the progress of the simulation `name` from time `from` to time `to`.
     fn begin(&self, name: &str, from: f64, to: f64);
-    /// Shows that the simulation has reached time `t`. Cheap enough to be told after every step.
+    /// Reports the current time `t`. Cheap enough for every step.
     fn reach(&self, t: f64);
-    /// Begins to show that a study called `name` has `count` cases to work on.
+    /// Starts the progress of the study `name` with `count` cases.
     fn begin_cases(&self, name: &str, count: usize);
-    /// Shows that `done` cases of the study are done. Cheap enough to be told many times a second.
+    /// Reports the number of finished cases. Cheap enough for many calls per second.
     fn reach_case(&self, done: usize);
-    /// Ends what is shown: the simulation or the study has stopped, at its end or before.
+    /// Ends the progress, whether or not the end was reached.
     fn end(&self);
-    /// Lets `write` write to the terminal without mixing its text with the progress that is shown.
+    /// Calls `write`, which writes to the terminal, without mixing its text with the progress display.
     fn step_aside(&self, write: &mut dyn FnMut()) {
         write();
     }
 }
 
-/// A progress that shows nothing.
+/// No progress display.
 pub struct NoProgress;
 
 impl Progress for NoProgress {

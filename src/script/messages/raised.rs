@@ -1,4 +1,4 @@
-//! Errors of script functions that are called from inside native loops, on their way through the layers in between.
+//! Errors of script functions that are called from native code, while they pass through the layers in between.
 
 use std::cell::RefCell;
 use std::error::Error;
@@ -6,22 +6,22 @@ use std::fmt;
 
 use rhai::EvalAltResult;
 
-/// An error of a script function as the layers below the script carry it: they tell its words; where they give it back to the script it is
-/// taken out again, with its place, its trace and what was thrown.
+/// Error of a script function as carried by the layers below the script. They report its message; on return to the
+/// script the original error is taken out, with its position, trace and thrown value.
 #[derive(Debug)]
 pub struct Raised {
     words: String,
-    /// The engine wants errors whole and cannot copy them: nothing once somebody has taken it.
+    /// The engine needs errors by value and cannot clone them; `None` after the error was taken.
     error: RefCell<Option<Box<EvalAltResult>>>,
 }
 
 impl Raised {
-    /// Wraps an error of a script function with the words for it in one line.
+    /// Wraps an error of a script function; `words` is its message in one line.
     pub fn new(words: String, error: Box<EvalAltResult>) -> Self {
         Self { words, error: RefCell::new(Some(error)) }
     }
 
-    /// Takes out the error of a script function that `error` was caused by, if it was.
+    /// Takes the script error out of `error` or its causes, if there is one.
     pub fn behind(error: &(dyn Error + 'static)) -> Option<Box<EvalAltResult>> {
         let mut cause = Some(error);
         while let Some(error) = cause {

@@ -1,32 +1,31 @@
-//! What the simulations of a run say about themselves, and what would be lost of them.
+//! Report entries and rescue files of the simulations of a run.
 
 use std::cell::RefCell;
 use std::collections::HashSet;
 
-/// Something that has gone through a run and can tell of it, such as a simulation.
+/// An object that contributes to the report of a run, such as a simulation.
 pub trait Reporter {
-    /// What the reporter says about itself in the report, asked when the run ends, however it ends.
+    /// Returns the entry in the report, called when the run ends for any reason.
     fn report(&self) -> serde_json::Value;
 
-    /// A name and the content of a file that keeps what would be lost when the script does not come to its end.
+    /// Returns name and content of a file that rescues results if the script fails.
     fn remains(&self) -> Option<(String, String)>;
 }
 
-/// Of so many simulations what would be lost is written: a script that made thousands should end soon after it was asked to.
+/// Maximum number of rescue files, so that a script with thousands of simulations ends soon after an interrupt.
 const MOST_REMAINS: usize = 20;
 
-/// All reporters of a run, which can tell of it.
+/// All reporters of a run.
 #[derive(Default)]
 pub struct Reports(RefCell<Vec<Box<dyn Reporter>>>);
 
 impl Reports {
-    /// Adds a reporter that can tell of the run.
+    /// Adds a reporter.
     pub fn add(&self, reporter: Box<dyn Reporter>) {
         self.0.borrow_mut().push(reporter);
     }
 
-    /// Names, each another one, and contents of the files that keep what would be lost of the first simulations of a run; and a note where there
-    /// are more.
+    /// Distinct names and contents of the rescue files of the first simulations of a run, and a note if there are more.
     pub fn remains(&self) -> (Vec<(String, String)>, Option<String>) {
         let reporters = self.0.borrow();
         let mut names = HashSet::new();
@@ -43,12 +42,12 @@ impl Reports {
         (files, remains.next().map(|_| note))
     }
 
-    /// Lets go of all reporters of the run.
+    /// Drops all reporters.
     pub fn forget(&self) {
         self.0.borrow_mut().clear();
     }
 
-    /// What all reporters of the run say about themselves; they are let go.
+    /// Returns the report entries and drops the reporters.
     pub fn take(&self) -> Vec<serde_json::Value> {
         self.0.take().into_iter().map(|reporter| reporter.report()).collect()
     }

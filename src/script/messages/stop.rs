@@ -1,4 +1,4 @@
-//! What stops a run before its end, and in which words.
+//! Reasons that stop a run early, and their messages.
 
 use std::io;
 use std::time::Duration;
@@ -7,40 +7,39 @@ use rhai::Dynamic;
 
 use super::numbers::format_number;
 
-/// The bytes of a megabyte.
+/// Bytes per megabyte.
 pub const MEGABYTE: u64 = 1_000_000;
 
-/// What stopped a run before its end. Scripts cannot catch it.
+/// Reason that stopped a run early. Scripts cannot catch it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
-    /// The run was stopped by Ctrl-C, or whoever else set the interrupt flag.
+    /// Interrupted by Ctrl-C or another setter of the interrupt flag.
     Interrupt,
-    /// The run was stopped, for the reader of the output went away.
+    /// The reader of the output has closed the pipe.
     PipeClosed,
-    /// The run was stopped, for it took longer than this.
+    /// The time limit was exceeded.
     Time(Duration),
-    /// The run was stopped, for its simulations wanted more steps than this.
+    /// The limit of steps was exceeded.
     Steps(u64),
-    /// The run was stopped, for the process occupied more memory than this [bytes].
+    /// The memory limit was exceeded [bytes].
     Memory(u64),
-    /// The run was stopped, for more was to be printed and written than this [bytes].
+    /// The limit of printed and written output was exceeded [bytes].
     Written(u64),
-    /// The run was stopped, for more files were to be written than this.
+    /// The limit of written files was exceeded.
     Files(u64),
-    /// The run was stopped, for what the script prints could not be written.
+    /// The output could not be written.
     OutputLost(io::ErrorKind),
-    /// A dry build pretended to go on with simulations so often that the script must wait for something which only a real one
-    /// finds.
+    /// In a dry build the script waits for a result that only a real run produces.
     Waiting,
 }
 
 impl Stop {
-    /// What stopped a run, from the token that the engine carries.
+    /// Reason stored in the token of a terminated engine.
     pub fn of_token(token: &Dynamic) -> Self {
         token.read_lock::<Self>().map_or(Self::Interrupt, |stop| *stop)
     }
 
-    /// What stopped the run in words, and what to do about it.
+    /// Message, and a hint.
     pub fn words(self) -> (String, Option<String>) {
         match self {
             Self::Interrupt => ("the run was interrupted".into(), None),

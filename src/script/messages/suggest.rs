@@ -1,11 +1,11 @@
-//! "Did you mean": the nearest known name, if it is near enough.
+//! Suggestions for misspelt names.
 
-/// The longest name that may be a slip [bytes].
+/// Maximum length of a name that is checked [bytes].
 const LONGEST: usize = 200;
 
-/// The candidate nearest to the word `wrong`, unless all are too far to be what was meant.
+/// Candidate nearest to `wrong`, if one is near enough.
 pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    // The distance takes as long as both names together: nobody means one of ours by such a name.
+    // The cost grows with both lengths, and no name of the language is that long.
     if wrong.len() > LONGEST {
         return None;
     }
@@ -24,7 +24,7 @@ pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -
         .map(|(_, candidate)| candidate)
 }
 
-/// The candidates that have the word `wrong` as one of their words, or as their beginning: `run_to` for `run`.
+/// Candidates that contain `wrong` as a word or start with it: `run_to` for `run`.
 pub fn related<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
     const MOST: usize = 5;
     const SHORTEST: usize = 3;

@@ -1,4 +1,4 @@
-//! Motions as animated pictures.
+//! Motions as animated PNG files.
 
 use rhai::Dynamic;
 
@@ -25,7 +25,7 @@ use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::presentation::motion::{Visibility, has_room_for_dots, placed, snapshot};
 use crate::script::presentation::symbols::uncrowded;
 
-/// Animations.
+/// Domain of animations.
 pub const TABLE: BindingTable = BindingTable {
     name: "animations",
     doc: "An animation is a PNG file with many frames, which browsers play and Markdown shows, as in a README; other programs show its first frame.",
@@ -62,27 +62,26 @@ const ANIMATION: &[Parameter] = &[
     Y_LIMITS,
 ];
 
-/// Pixels of a picture, alone and of several.
+/// Width of an animation of one, and of several simulations [pixels].
 const WIDTHS: (f64, f64) = (640.0, 960.0);
-/// The least height of a plot in pixels: what is less has no room for ticks and arrows.
+/// Minimum height of a plot; less leaves no space for ticks and arrows [pixels].
 const LEAST_HEIGHT: f64 = 100.0;
 
-/// A path: points with their times.
+/// Points of a path with their times.
 type TimedPath = Vec<(f64, Point)>;
 
-/// A simulation in frames.
+/// Frames of a simulation.
 struct FrameSource {
-    /// The picture without what moves.
+    /// Picture without moving parts.
     base: MotionPicture,
     snapshots: Vec<MotionFrame>,
-    /// The symbols of each snapshot.
+    /// Symbols of each snapshot.
     symbols: Vec<Vec<PlacedSymbol>>,
-    /// Paths by name.
+    /// Named paths.
     traces: Vec<(String, TimedPath)>,
 }
 
 impl FrameSource {
-    /// The picture of a frame.
     fn picture(&self, frame: usize, time: f64) -> MotionPicture {
         let until = |path: &TimedPath| {
             path.iter().filter(|(at, _)| *at <= time).map(|(_, point)| *point).collect()
@@ -93,7 +92,7 @@ impl FrameSource {
         traces.fold(picture, |picture, (name, path)| picture.trace(name.clone(), until(path)))
     }
 
-    /// All that is ever seen of it, in one picture.
+    /// Everything that is ever visible, in one picture.
     fn whole(&self) -> MotionPicture {
         let picture =
             self.snapshots.iter().cloned().fold(self.base.clone(), MotionPicture::snapshot);
@@ -147,7 +146,6 @@ fn write_animation(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(Dynamic::UNIT)
 }
 
-/// The times of the frames.
 fn times(
     call: &Call,
     simulations: &[SimulationHandle],
@@ -161,7 +159,7 @@ fn times(
     Ok((0..=pieces).map(|frame| from + (to - from) * frame as f64 / pieces as f64).collect())
 }
 
-/// How many decimals tell one frame from the next.
+/// Number of decimals that distinguish the frame times.
 fn decimals(times: &[f64]) -> usize {
     let apart = times.get(1).map_or(1.0, |second| second - times[0]);
     (0..12).find(|decimals| apart * whole_power(10.0, *decimals as i32) >= 0.999).unwrap_or(12)
@@ -208,14 +206,14 @@ fn reel(
     })
 }
 
-/// The reels with the same view of all that is ever seen.
+/// Reels with the same axis limits.
 fn framed(reels: Vec<FrameSource>) -> Vec<FrameSource> {
     let all: Vec<MotionPicture> = reels.iter().map(FrameSource::whole).collect();
     let limits = MotionPicture::shared_limits(&all);
     reels.into_iter().map(|reel| FrameSource { base: reel.base.limits(limits), ..reel }).collect()
 }
 
-/// A picture so wide, and so high that its plot has the form that suits it: what is written around it takes as much room in a small one as in a large.
+/// Figure of the given width, whose height fits the aspect ratio of the plot inside fixed margins.
 fn scaled(panel: &dyn Panel, width: f64) -> Result<Figure, OutputError> {
     let plot = |(width, height): (f64, f64)| {
         let Margins { left, right, top, bottom } = panel.margins(width, height);

@@ -1,4 +1,4 @@
-//! Arrays of numbers: sums, extremes, equal spacing. Arrays stay the engine's own.
+//! Functions of numeric arrays: sums, extremes, equal spacing.
 
 use rhai::{Array, Dynamic};
 
@@ -10,7 +10,7 @@ use crate::script::bindings::returns::Returns;
 use crate::script::bindings::table::{BindingTable, function};
 use crate::script::messages::error::{CallPart, ScriptError};
 
-/// The domain of helpers on arrays of numbers.
+/// Domain of numeric arrays.
 pub const TABLE: BindingTable = BindingTable {
     name: "arrays",
     doc: "Arrays of numbers. Indices count from 0, and -1 is the last.",
@@ -62,11 +62,11 @@ const VALUES: Parameter = numbers("values");
 fn linspace(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (from, to, count) = (call.number("from")?, call.number("to")?, call.count("count")?);
     let last = (count - 1) as f64;
-    // Weighted from both ends, so that the last number is `to` exactly.
+    // Weighted from both ends, so that the last number is exactly `to`.
     let at = |i: usize| {
         let (before, after) = (last - i as f64, i as f64);
         let x = (from * before + to * after) / last;
-        // Near the largest number the products are infinite, and the shares are not.
+        // Near the largest double the products overflow, but the fractions do not.
         if x.is_finite() { x } else { from * (before / last) + to * (after / last) }
     };
     Ok((0..count).map(|i| Dynamic::from(at(i))).collect::<Array>().into())

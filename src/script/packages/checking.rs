@@ -1,4 +1,4 @@
-//! Checks: a script judges its own results; the first to fail does not stop the others.
+//! Checks: a script judges its own results; a failed check does not stop the others.
 
 use rhai::Dynamic;
 
@@ -14,7 +14,7 @@ use crate::script::messages::numbers::format_number;
 use crate::script::presentation::details;
 use crate::script::state::settings::RunMode;
 
-/// The domain of checks, and of what `catch` receives.
+/// Domain of checks, and of caught errors.
 pub const TABLE: BindingTable = BindingTable {
     name: "checks",
     doc: "Checks are recorded and the script goes on. If one fails, `withy run` ends with exit code 1.",

@@ -1,4 +1,4 @@
-//! Studies of convergence.
+//! Convergence studies.
 
 use std::rc::Rc;
 
@@ -18,7 +18,7 @@ use crate::script::studies::convergence_chart::chart;
 use crate::script::studies::convergence_table::table;
 use crate::script::studies::options::ErrorOptions;
 
-/// The domain of studies of convergence.
+/// Domain of convergence studies.
 pub const TABLE: BindingTable = BindingTable {
     name: "convergence",
     doc: "How errors fall when the step size or the mesh is refined, for every quantity, and at which order.",

@@ -1,4 +1,4 @@
-//! What features cost.
+//! Cost studies of features.
 
 use rhai::{Array, Dynamic};
 
@@ -16,7 +16,7 @@ use crate::script::studies::cost::{CostStepping, CostTable, cases};
 use crate::script::studies::options::CostOptions;
 use crate::script::studies::plan::{patience, study_name};
 
-/// The domain of studies of what the features of a scene cost.
+/// Domain of cost studies.
 pub const TABLE: BindingTable = BindingTable {
     name: "costs",
     doc: "What a step costs, and what each feature of a scene adds.",

@@ -1,4 +1,4 @@
-//! Parameters of a scene, and derivatives by them of whatever depends on them.
+//! Parameters of a scene, and derivatives with respect to them.
 
 use rhai::Dynamic;
 
@@ -15,7 +15,7 @@ use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::numbers::format_number;
 use crate::script::messages::suggest::nearest;
 
-/// The domain of parameters and derivatives.
+/// Domain of parameters and derivatives.
 pub const TABLE: BindingTable = BindingTable {
     name: "derivatives",
     doc: "How a run changes with numbers of its scene: parameters are given names and used as numbers; what depends on them knows its derivatives.",
@@ -70,7 +70,7 @@ const KEYS: &[Parameter] = &[number("distance").positive().doc(
 ).optional()];
 const VARIED: Type = Type::of::<VariantValue>();
 const X: Parameter = anything("x");
-/// The least part of a value that its variants are away, so that a derivative has digits.
+/// Minimum relative step of a parameter, so that a derivative has enough digits.
 const LEAST_DISTANCE: f64 = 1e-10;
 
 fn declare(call: &mut Call) -> Result<Dynamic, ScriptError> {
@@ -125,7 +125,6 @@ fn derivative(call: &Call, value: &Dynamic, name: &str) -> Result<Dynamic, Scrip
     }
 }
 
-/// A value without its derivatives.
 fn plain(value: &Dynamic) -> Dynamic {
     VariantValue::project(value, 0)
 }

@@ -1,4 +1,4 @@
-//! Drag of air or water on beams, particles and stations.
+//! Drag of air or water on beams, point masses and stations.
 
 use rhai::Dynamic;
 
@@ -15,7 +15,7 @@ use crate::script::handles::station::StationHandle;
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::system::{Drag, Dragged, SpeedLaw, SystemError};
 
-/// Drag.
+/// Domain of drag.
 pub const TABLE: BindingTable = BindingTable {
     name: "drag",
     doc: "What air or water takes from all that moves through it. It is kept in the ledger: E - W + D stays constant to rounding with \
@@ -121,12 +121,11 @@ fn of_point(call: &Call, scene: &SceneHandle, options: &Options) -> Result<Dragg
     Ok(Dragged::Point { station, law })
 }
 
-/// The number that is given for an option that may be something else.
 fn call_number(options: &Options, name: &str) -> Option<f64> {
     options.get_if::<f64>(name)
 }
 
-/// Asks for one of some options at least.
+/// Requires at least one of several options.
 fn expect_one(
     call: &Call,
     options: &Options,
@@ -140,7 +139,7 @@ fn expect_one(
     Err(call.error(told).hint(hint).at(CallPart::Argument(1)))
 }
 
-/// Refuses options that mean nothing for what is dragged.
+/// Rejects options that do not apply to the dragged object.
 fn refuse(call: &Call, options: &Options, odd: &[&str], advice: &str) -> Result<(), ScriptError> {
     match odd.iter().find(|key| options.has(key)) {
         Some(key) => {

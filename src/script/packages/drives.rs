@@ -1,4 +1,4 @@
-//! Supports of single movements, and motions that are given: stations that follow functions of time, motors.
+//! Supports of single components, and prescribed motions: stations that follow functions of time, motors.
 
 use rhai::{Dynamic, FnPtr, ImmutableString};
 
@@ -20,7 +20,7 @@ use crate::script::handles::station::here;
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::system::{Drive, DriveKind, SystemError};
 
-/// The domain of supports and drives.
+/// Domain of supports and drives.
 pub const TABLE: BindingTable = BindingTable {
     name: "supports and drives",
     doc: "A support holds movements of a station, a drive gives them as functions of time. What is given is no unknown: place and angle are \
@@ -94,7 +94,7 @@ const MOVE_KEYS: &[Parameter] = &[
     SAMPLE,
     DELAY,
 ];
-/// What gives the rates of x and y.
+/// Options for the rates of x and y.
 const SPEEDS: [&str; 2] = ["x_speed", "y_speed"];
 const MOTOR_KEYS: &[Parameter] = &[
     either("angle", SCHEDULE_KINDS).unit("rad").doc("the turn since the start").optional(),
@@ -169,7 +169,7 @@ fn drive(call: &mut Call) -> Result<Dynamic, ScriptError> {
     add(call, DriveKind::Move, motions, &options)
 }
 
-/// The schedule of a place; a controller of it is told of the rate that it may have instead.
+/// Schedule of a position; the hint for a controller suggests a rate instead.
 fn place_of(
     call: &Call,
     options: &Options,
@@ -254,7 +254,7 @@ fn add(
     Ok(Dynamic::UNIT)
 }
 
-/// Points at what is wrong in the call.
+/// Moves an error to the option that caused it.
 pub(super) fn blame(error: SystemError) -> ScriptError {
     let place = match &error {
         SystemError::Unnamed { .. } | SystemError::DuplicateName { .. } => {

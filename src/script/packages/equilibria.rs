@@ -1,4 +1,4 @@
-//! Equilibrium of a scene: finding it, looking at it, and letting it go.
+//! Equilibrium of a scene: solution, results, and start of a simulation from it.
 
 use rhai::{Array, Dynamic, INT, Map};
 
@@ -27,7 +27,7 @@ use crate::simulation::Simulation;
 use crate::statics::{ArcLength, Control, Equilibrium, Loading, Stability, StaticsError};
 use crate::system::System;
 
-/// The domain of equilibria: scenes at rest under their loads.
+/// Domain of equilibria.
 pub const TABLE: BindingTable = BindingTable {
     name: "equilibrium",
     doc: "Where a scene rests under its loads. Loads are put on together, in steps from nothing to the whole; what happens over \
@@ -201,14 +201,14 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// The lines by which examples get something bent.
+/// Setup of examples with a bent beam.
 pub(super) const BENT: &str = "let scene = new_scene(\"example\");\n\
     let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\n\
     let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [2, 0]), basis: bspline(4), section: s });\n\
     scene.clamp(rod.start);\n\
     scene.moment(rod.end, s.EI * 3.14159265358979 / 4);";
 
-/// A bead that sinks into the sag of a beam.
+/// Setup of examples with a bead sliding into the sag of a beam.
 const SLID: &str = "let scene = new_scene(\"sag\");\n\
     let s = section(#{ EA: 1e6, GA: 1e6, EI: 100, rho_A: 0.1, rho_I: 1e-3 });\n\
     let wire = scene.beam(#{ axis: line([0, 0], [4, 0]), basis: bspline(8), section: s });\n\
@@ -222,7 +222,7 @@ const SLID: &str = "let scene = new_scene(\"sag\");\n\
     check_close(rest.contact_force(ring).y, -2 * 9.81, 1e-9);\n\
     check(rest.leans_on(ring) == \"\" && rest.is_stable);";
 
-/// The equilibrium type of the language, for rows of other domains.
+/// Type of equilibria, for other domains.
 pub const EQUILIBRIUM: Type = Type::of::<EquilibriumHandle>();
 const CONTROL: Type = Type::of::<Control>();
 
@@ -333,7 +333,7 @@ fn is_stable(call: &mut Call) -> Result<Dynamic, ScriptError> {
     }
 }
 
-/// Asks the model at rest about the slider of a call.
+/// Queries the slider of a call in the equilibrium.
 fn asked(call: &Call, ask: impl FnOnce(&System, usize) -> Dynamic) -> Result<Dynamic, ScriptError> {
     let handle = call.receiver::<EquilibriumHandle>()?;
     let rest = handle.rest();
@@ -341,7 +341,7 @@ fn asked(call: &Call, ask: impl FnOnce(&System, usize) -> Dynamic) -> Result<Dyn
     Ok(ask(rest.model(), slider))
 }
 
-/// The equilibrium that is called, and a place of it.
+/// Receiver equilibrium, and a station of it.
 fn place(call: &Call) -> Result<(EquilibriumHandle, BodyPoint), ScriptError> {
     let handle = call.receiver::<EquilibriumHandle>()?;
     let place = handle.place(&call.get::<StationHandle>("station")?)?;

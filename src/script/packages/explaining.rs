@@ -1,4 +1,4 @@
-//! Looking closely: what a scene uses, what it is like, and what a value is.
+//! Explanations: the models a scene uses, and the properties of a value.
 
 use rhai::Dynamic;
 
@@ -14,10 +14,10 @@ use crate::script::handles::simulation::SimulationHandle;
 use crate::script::presentation::present::present;
 use crate::system::{SystemFeature, Usage};
 
-/// Characters in a line of a description.
+/// Line width of descriptions.
 const WIDTH: usize = 100;
 
-/// The domain of explanations: looking closely at what a simulation uses.
+/// Domain of explanations.
 pub const TABLE: BindingTable = BindingTable {
     name: "looking closely",
     doc: "What a scene makes its simulation do, and what a value is.",
@@ -70,7 +70,7 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// The parts as a table.
+/// Text table of the parts.
 fn written(parts: &[SystemFeature]) -> Dynamic {
     let mut table = TextTable::new(&["part", "used", "how much, or what is left out"]);
     for SystemFeature { name, usage } in parts {

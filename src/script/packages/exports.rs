@@ -1,4 +1,4 @@
-//! Simulations and tables for other programs.
+//! Export of simulations and tables for other programs.
 
 use rhai::Dynamic;
 
@@ -22,7 +22,7 @@ use crate::script::presentation::grids::Grids;
 use crate::script::state::settings::RunMode;
 use crate::script::studies::sweeps::table::SweepTable;
 
-/// Exports.
+/// Domain of exports.
 pub const TABLE: BindingTable = BindingTable {
     name: "exports",
     doc: "What a simulation was, for other programs: ParaView, NumPy, tables. Each file is whole or not there. `withy convert` makes the same of a saved \
@@ -101,10 +101,10 @@ const HEADER: &[Parameter] =
 const MISSING: Missing =
     Missing { what: "velocities, angles and section forces", instead: "fields: \"shape\"" };
 const MOST_FRAMES: f64 = 100_000.0;
-/// Frames unless the script says how many.
+/// Default number of frames.
 const FRAMES_UNLESS_GIVEN: usize = 101;
 
-/// The name of the file, which must have a certain ending.
+/// File name, which must have a certain extension.
 fn named(call: &Call, ending: &str) -> Result<String, ScriptError> {
     let file = call.text("file")?;
     if file.strip_suffix(ending).is_none_or(|stem| stem.is_empty() || stem.ends_with('/')) {
@@ -116,13 +116,13 @@ fn named(call: &Call, ending: &str) -> Result<String, ScriptError> {
     Ok(file.to_string())
 }
 
-/// Files of an export to VTK, by the name of the collection.
+/// File names of a VTK export.
 struct VtkFiles {
-    /// The name of the collection without its ending.
+    /// Name of the collection without extension.
     stem: String,
-    /// That without its folder.
+    /// The same without its folder.
     base: String,
-    /// Digits of the number of a frame.
+    /// Digits of frame numbers.
     digits: usize,
 }
 
@@ -137,7 +137,7 @@ impl VtkFiles {
         format!("{}/{}_{:0digits$}.vtu", self.stem, self.base, index + 1, digits = self.digits)
     }
 
-    /// The same, seen from the folder of the collection.
+    /// File name of a frame relative to the folder of the collection.
     fn beside(&self, index: usize) -> String {
         format!("{}/{}_{:0digits$}.vtu", self.base, self.base, index + 1, digits = self.digits)
     }
@@ -196,7 +196,7 @@ fn write_states(
     })
 }
 
-/// The recorded configurations that are written, in the order of time.
+/// Recorded configurations to export, in order of time.
 fn frames(
     call: &Call,
     of: &SimulationHandle,

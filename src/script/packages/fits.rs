@@ -1,4 +1,4 @@
-//! Parameters found by runs: fits to data, designs within constraints, roots.
+//! Fits to data, design optimisation, and roots.
 
 use std::rc::Rc;
 use std::time::Duration;
@@ -28,7 +28,7 @@ use crate::script::studies::fits::ranges::Ranges;
 use crate::script::studies::fits::root::find_root;
 use crate::script::studies::plan::{at_key, study_name};
 
-/// The domain of fits.
+/// Domain of fits.
 pub const TABLE: BindingTable = BindingTable {
     name: "fits",
     doc: "Parameters that are found by runs. The functions of fit and minimise are called on all cores, as those of sweeps are: they may use from outside what \
@@ -152,7 +152,7 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// How examples get a fit and a design.
+/// Setup of examples with a fit and a design.
 const SETUP: &str = "let found = fit(#{ parameters: #{ slope: 1, height: 0 }, model: |p| [0, 1, 2].map(|x| p.slope * x + p.height), measured: [1, 3, 5] });\n\
     let best = minimise(#{ parameters: #{ x: [0, -3, 3] }, run: |p| #{ y: (p.x - 1) ** 2 }, least: \"y\", tolerance: 1e-5 });";
 const FIT: Type = Type::of::<FitHandle>();
@@ -176,29 +176,29 @@ const PATIENCE: Parameter = number("patience")
 option_set! {
     /// The options of `fit`.
     pub struct FitOptions {
-        /// The name of the fit and of its files.
+        /// Name of the fit and its files.
         name: String = name("name").or(Presence::Text("fit")).doc("of the fit and its files"),
-        /// Names with starts and bounds.
+        /// Parameters with start values and bounds.
         parameters: Dynamic = RANGES,
-        /// Gives differences.
+        /// Function that returns residuals.
         residuals: Option<FnPtr> = callback("residuals").doc("|p| …, gives an array of differences").optional(),
-        /// Gives what should have been measured.
+        /// Function that returns model values.
         model: Option<FnPtr> = callback("model").doc("|p| …, gives an array of what should have been measured").optional(),
-        /// What was measured.
+        /// Measured values.
         measured: Option<Vec<f64>> = numbers("measured").doc("what the model is compared with").optional().beside("model"),
-        /// Where or when.
+        /// Abscissas of the measurements.
         over: Option<Vec<f64>> = numbers("over").doc("where or when it was measured, for the picture").optional().beside("measured"),
-        /// The second argument.
+        /// Second argument of the function.
         data: Option<Dynamic> = anything("data").doc("what the function is called with behind the parameters: read_csv(\"measured.csv\")").optional(),
-        /// Of the squares.
+        /// Weights of the squares.
         weights: Option<Vec<f64>> = numbers("weights").doc("of the squares, one for each: one over the variance of what was measured").optional(),
-        /// Of intervals.
+        /// Confidence level of intervals.
         confidence: f64 = number("confidence").between(0.5, 0.9999).or(Presence::Number(0.95)).doc("with which parameters lie in their intervals"),
-        /// Of differences.
+        /// Relative step of finite differences.
         step: f64 = number("step").between(1e-8, 0.1).or(Presence::Number(RELATIVE_STEP)).doc("of differences, as a part of the size of a parameter"),
-        /// What derivatives are made of.
+        /// Source of the derivatives.
         derivatives: String = choice("derivatives", &["known", "differences"]).or(Presence::Text("known")).doc("those that runs know of themselves, or differences of runs always"),
-        /// How long a run may take [s].
+        /// Wall-clock limit of a run [s].
         patience: f64 = PATIENCE,
     }
 }
@@ -206,23 +206,23 @@ option_set! {
 option_set! {
     /// The options of `minimise`.
     pub struct DesignOptions {
-        /// Names with starts and bounds.
+        /// Parameters with start values and bounds.
         parameters: Dynamic = RANGES,
-        /// Makes a run.
+        /// Function of a run.
         run: FnPtr = callback("run").doc("|p| …, gives a map of numbers"),
-        /// What is to be least.
+        /// Name of the result to minimise.
         least: Option<String> = text("least").doc("the name of the result that is to be least").optional(),
-        /// What is to be largest.
+        /// Name of the result to maximise.
         largest: Option<String> = text("largest").doc("the name of the result that is to be largest").optional(),
-        /// What must hold.
+        /// Bounds of results.
         constraints: Option<Dynamic> = anything("constraints").doc("the least and the largest that results may be: #{ sag: [-1e-3, 1e-3], mass: [(), 5] }").optional(),
-        /// How well parameters are to be known.
+        /// Tolerance of the parameters.
         tolerance: f64 = number("tolerance").positive().or(Presence::Number(1e-4)).doc("of parameters, as a part of their ranges"),
-        /// At most.
+        /// Maximum number of runs.
         most_runs: usize = whole("most_runs").positive().or(Presence::Whole(500)),
-        /// Whether derivatives are used.
+        /// Use of derivatives.
         derivatives: String = choice("derivatives", &["known", "none"]).or(Presence::Text("known")).doc("those that runs know of themselves, or none"),
-        /// How long a run may take [s].
+        /// Wall-clock limit of a run [s].
         patience: f64 = PATIENCE,
     }
 }
@@ -267,7 +267,6 @@ fn design(call: &Call) -> Result<Rc<BestDesign>, ScriptError> {
     Ok(call.receiver::<DesignHandle>()?.0)
 }
 
-/// A number for each parameter, by their names.
 fn named(fit: &Fit, value: impl Fn(&Fit, usize) -> Option<f64>) -> Dynamic {
     let names = fit.names.iter().enumerate();
     let pair = |(at, name): (usize, &String)| {

@@ -1,7 +1,7 @@
-//! Geometry: knots and their basis functions, planar curves, Gauss rules.
+//! Geometry: knots and basis functions, planar curves, Gauss rules.
 //!
-//! Another domain takes a curve as `object("axis", geometry::CURVE)` and reads it with
-//! `call.get::<Rc<Curve>>("axis")`; knots are [`KNOTS`] and `Rc<KnotVector>`. Both never change once made.
+//! Other domains take a curve as `object("axis", geometry::CURVE)` and read it with `call.get::<Rc<Curve>>("axis")`; knots are [`KNOTS`]
+//! and `Rc<KnotVector>`. Both are immutable.
 
 pub mod curves;
 pub mod knots;
@@ -18,22 +18,22 @@ use crate::script::messages::numbers::format_number;
 pub use curves::CURVE;
 pub use knots::KNOTS;
 
-/// A parameter ξ of knots or a curve.
+/// Parameter ξ of knots or a curve.
 const XI: Parameter = number("xi").doc("the parameter ξ, inside the domain");
 
-/// How often to differentiate.
+/// Order of the derivative.
 const ORDER: Parameter = whole("order")
     .between(0.0, MAX_DEGREE as f64)
     .doc("how often to differentiate by ξ; 0 for the value itself");
 
-/// How often to insert a knot.
+/// Number of insertions of a knot.
 const TIMES: Parameter =
     whole("times").non_negative().doc("how often to insert it").or(Presence::Whole(1));
 
-/// Coordinates smaller than this fraction of a vector print as 0.
+/// Components below this fraction of a vector print as 0.
 const ROUNDING: f64 = 1e-14;
 
-/// The derivatives of all functions of `basis` as the arguments `xi` and `order` of `call` ask for.
+/// Derivatives of all functions of `basis` for the arguments `xi` and `order` of `call`.
 pub fn all_functions(basis: &Basis, call: &Call) -> Result<Dynamic, ScriptError> {
     let local = blame(0, basis.evaluate(call.number("xi")?))?;
     let mut row = vec![0.0; basis.functions()];
@@ -42,37 +42,33 @@ pub fn all_functions(basis: &Basis, call: &Call) -> Result<Dynamic, ScriptError>
     Ok(numbers(row))
 }
 
-/// An array of numbers for the script.
 fn numbers(values: impl IntoIterator<Item = f64>) -> Dynamic {
     values.into_iter().map(Dynamic::from).collect::<Array>().into()
 }
 
-/// An array of two numbers for the script.
 fn pair((start, end): (f64, f64)) -> Dynamic {
     numbers([start, end])
 }
 
-/// A vector for the script.
 fn vector(components: Vec2) -> Dynamic {
     Dynamic::from(components)
 }
 
-/// A number that counts something, for the script.
 fn count(n: usize) -> Dynamic {
     Dynamic::from(n as i64)
 }
 
-/// Puts a refusal of the geometry at the argument that caused it.
+/// Moves a geometry error to the argument that caused it.
 fn blame<T>(argument: usize, result: Result<T, GeometryError>) -> Result<T, ScriptError> {
     result.map_err(|error| ScriptError::from(error).at(CallPart::Argument(argument)))
 }
 
-/// `x` to six digits, as it is printed inside a description.
+/// Number with six digits, for descriptions.
 fn brief(x: f64) -> String {
     format_number(format!("{x:.5e}").parse().unwrap_or(x))
 }
 
-/// `point` to six digits; a coordinate that is nothing but rounding beside the other one is 0.
+/// Point with six digits; a component that is rounding relative to the other is shown as 0.
 fn brief_point(point: Vec2) -> String {
     let [x, y] = [point.x, point.y].map(|x| match x.abs() < ROUNDING * point.norm() {
         true => brief(0.0),
@@ -81,7 +77,6 @@ fn brief_point(point: Vec2) -> String {
     format!("[{x}, {y}]")
 }
 
-/// `3 spans`, `1 span`.
 fn plural(count: usize, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }

@@ -1,4 +1,4 @@
-//! Integrators, from their registry.
+//! Integrators, generated from their registry.
 
 use rhai::Dynamic;
 
@@ -9,7 +9,7 @@ use crate::script::bindings::returns::Returns;
 use crate::script::bindings::table::{BindingTable, function};
 use crate::script::presentation::details;
 
-/// The domain of integrators.
+/// Domain of integrators.
 pub const TABLE: BindingTable = BindingTable {
     name: "integrators",
     doc: "Ways to take a step. A scene is started with one: scene.start(#{ integrator: energy_momentum(), dt: 0.1 }).",
@@ -77,7 +77,7 @@ const RHO_INFINITY: &[Parameter] = &[number("rho_infinity")
     .or(Presence::Number(0.8))
     .doc("ρ∞, by what the fastest vibration is multiplied in a step; 1 is the trapezoidal rule")];
 
-/// The integrator type of the language, for rows of other domains.
+/// Type of integrators, for other domains.
 pub const INTEGRATOR: Type = Type::of::<Method>();
 
 impl Scripted for Method {
@@ -85,7 +85,7 @@ impl Scripted for Method {
     const DOC: &'static str = "A way to take steps.";
 
     fn show(&self) -> String {
-        // A name that fits into a sentence; what it does is told by details.
+        // A name that fits into a sentence; the summary describes the integrator.
         let entry = self.entry();
         let parameter = entry.parameter.zip(self.parameter());
         let tuned = parameter.map(|(of, value)| format!(" ({} = {value})", of.name));

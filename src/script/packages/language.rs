@@ -1,9 +1,9 @@
-//! The language that the domains make together.
+//! Catalog of all domains.
 
 use super::TABLES;
 use crate::script::bindings::catalog::Catalog;
 
-/// The language of withy: all its domains.
+/// Catalog of the language of withy.
 pub fn language() -> Catalog {
     Catalog::of(TABLES)
 }

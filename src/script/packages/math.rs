@@ -1,4 +1,4 @@
-//! Numbers: functions of one and two numbers, rounding, and the constants.
+//! Numbers: functions of one and two numbers, rounding, and constants.
 
 use rhai::{Dynamic, INT};
 
@@ -16,7 +16,7 @@ use crate::script::bindings::table::{
 use crate::script::messages::error::ScriptError;
 use crate::script::messages::numbers::as_number;
 
-/// The domain of functions and constants of numbers.
+/// Domain of numeric functions and constants.
 pub const TABLE: BindingTable = BindingTable {
     name: "numbers",
     doc: "Elementary functions. Whole numbers are welcome everywhere, angles are in radians, and infinite or undefined \
@@ -277,7 +277,7 @@ fn map(call: &Call, f: fn(f64) -> f64) -> Result<Dynamic, ScriptError> {
     Ok(f(x(call)?).into())
 }
 
-/// A whole number where it fits one, so that the result can be an index.
+/// Returns an integer if it fits, so that the result can be used as an index.
 fn round(call: &Call, f: fn(f64) -> f64) -> Result<Dynamic, ScriptError> {
     const LIMIT: f64 = 9e18;
     let rounded = f(x(call)?);
@@ -310,6 +310,6 @@ fn quotient(call: &mut Call) -> Result<Dynamic, ScriptError> {
 
 fn round_to(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (x, digits) = (x(call)?, call.count("digits")?);
-    // By way of the decimal text, so that the result is the number nearest to what is printed.
+    // Via the decimal text, so that the result is the double nearest to what is printed.
     Ok(format!("{x:.digits$}").parse().unwrap_or(x).into())
 }

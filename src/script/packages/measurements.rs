@@ -1,4 +1,4 @@
-//! Tables that others have written.
+//! Tables of measurements.
 
 use rhai::{Array, Dynamic, Map};
 
@@ -9,7 +9,7 @@ use crate::script::bindings::returns::Returns;
 use crate::script::bindings::table::{BindingTable, function};
 use crate::script::messages::error::{CallPart, ScriptError};
 
-/// The domain of tables that others have written.
+/// Domain of measurement tables.
 pub const TABLE: BindingTable = BindingTable {
     name: "measurements",
     doc: "Tables from other programs, as arrays of numbers.",

@@ -1,4 +1,4 @@
-//! The domains of the language, one file each. A new domain is a new file and a line in [`TABLES`].
+//! Domains of the language, one file each. A new domain is a new file and a line in [`TABLES`].
 
 mod animations;
 mod arrays;
@@ -54,7 +54,7 @@ mod viewers;
 use crate::script::bindings::table::BindingTable;
 pub use language::language;
 
-/// The domains of the language, in the order of the reference.
+/// Domains of the language, in the order of the reference.
 pub const TABLES: &[&BindingTable] = &[
     &math::TABLE,
     &vectors::TABLE,

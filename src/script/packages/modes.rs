@@ -23,7 +23,7 @@ use crate::script::messages::error::{CallPart, ScriptError};
 use crate::system::{Scene, System};
 use crate::vibration::{DampedMode, Mode, Modes, VibrationError};
 
-/// The domain of natural modes.
+/// Domain of natural modes.
 pub const TABLE: BindingTable = BindingTable {
     name: "modes",
     doc: "How a scene vibrates by little about a configuration: natural frequencies and their shapes, the lowest first. A \
@@ -139,19 +139,19 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// How examples get something that vibrates.
+/// Setup of examples with a vibrating beam.
 const VIBRATING: &str = "let scene = new_scene(\"example\");\n\
     let s = section(#{ EA: 1e6, GA: 1e6, EI: 100, rho_A: 1, rho_I: 1e-4 });\n\
     let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [4, 0]), basis: bspline(8), section: s });\n\
     scene.clamp(rod.start);";
 
-/// The parameter for how many modes are looked for.
+/// Number of modes to compute.
 pub(super) const COUNT: Parameter = whole("count").positive().or(Presence::Whole(6));
 
-/// The modes type of the language, for rows of other domains.
+/// Type of modes, for other domains.
 pub const MODES: Type = Type::of::<ModesHandle>();
 
-/// A handle on modes that a script holds, with the scene that has them.
+/// Handle of modes with their scene.
 #[derive(Clone)]
 pub struct ModesHandle(Rc<ModesData>);
 
@@ -162,27 +162,27 @@ struct ModesData {
     about: ModesReference,
 }
 
-/// The configuration about which something vibrates.
+/// Configuration of the vibration.
 #[derive(Clone, Copy, PartialEq)]
 enum ModesReference {
-    /// That of the scene as drawn, in which no load has done anything yet.
+    /// Undeformed, before any load acts.
     Drawn,
-    /// One in which loads act, at rest or in motion.
+    /// Loaded, at rest or in motion.
     Loaded,
 }
 
 impl ModesHandle {
-    /// A handle on modes about an equilibrium or a present configuration of a scene as it was built.
+    /// Handle of modes about an equilibrium or the current configuration.
     pub fn new(of: SceneHandle, scene: &Scene, modes: Modes) -> Self {
         Self(Rc::new(ModesData { of, scene: scene.clone(), modes, about: ModesReference::Loaded }))
     }
 
-    /// A handle on modes of a scene as drawn.
+    /// Handle of modes about the undeformed configuration.
     fn drawn(of: SceneHandle, scene: &Scene, modes: Modes) -> Self {
         Self(Rc::new(ModesData { of, scene: scene.clone(), modes, about: ModesReference::Drawn }))
     }
 
-    /// The scene that has the modes, as it was built, and the modes of the handle.
+    /// Scene as it was built, and its modes.
     pub fn held(&self) -> (&Scene, &Modes) {
         (&self.0.scene, &self.0.modes)
     }
@@ -227,13 +227,13 @@ impl Scripted for ModesHandle {
     }
 }
 
-/// Checks that there is memory for as many modes as the call asks for.
+/// Checks that enough memory is allowed for the requested modes.
 pub(super) fn expect_room(call: &Call, model: &System) -> Result<(), ScriptError> {
     let needed = Modes::memory(model, call.count("count")?);
     call.context().expect_room("so many modes of so large a scene", needed)
 }
 
-/// Looks for as many modes as the call asks for, until the run is stopped.
+/// Computes the requested modes, unless the run is stopped.
 pub(super) fn look(
     call: &Call,
     find: impl FnOnce(usize, &mut dyn FnMut() -> bool) -> Result<Modes, VibrationError>,
@@ -245,7 +245,7 @@ pub(super) fn look(
     }
 }
 
-/// Looks for as many damped vibrations of a model as the call asks for, until the run is stopped.
+/// Computes the requested damped modes, unless the run is stopped.
 pub(super) fn look_for_damped(call: &Call, model: &System) -> Result<Dynamic, ScriptError> {
     let context = call.context();
     let found = match DampedMode::of(model, call.count("count")?, &mut || !context.is_stopped()) {

@@ -1,4 +1,4 @@
-//! What a run is told of that its steps do not resolve.
+//! Warnings about features that the steps do not resolve.
 
 use rhai::{Array, Dynamic};
 
@@ -8,7 +8,7 @@ use crate::script::bindings::table::{BindingTable, property};
 use crate::script::handles::notes::Printing;
 use crate::script::handles::simulation::SimulationHandle;
 
-/// The domain of notes on what steps do not resolve.
+/// Domain of warnings about unresolved features.
 pub const TABLE: BindingTable = BindingTable {
     name: "notes",
     doc: "Steps may keep energy and momenta to rounding and be too long to mean anything. While a simulation runs, it measures how well its \
@@ -38,6 +38,6 @@ pub const TABLE: BindingTable = BindingTable {
     .see(&["start", "explain", "run_to"])],
 };
 
-/// The words for what becomes of notes when a run ends.
+/// Option values for the output of warnings.
 pub(super) const PRINTING: [(&str, Printing); 2] =
     [("print", Printing::AtTheEnd), ("keep", Printing::Never)];

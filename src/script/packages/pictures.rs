@@ -21,7 +21,7 @@ use crate::script::bindings::kind::Kind;
 use crate::script::bindings::parameter::{either, options};
 use crate::script::bindings::table::{BindingTable, function};
 
-/// The domain of pictures and files.
+/// Domain of pictures and files.
 pub const TABLE: BindingTable = BindingTable {
     name: "pictures",
     doc: "Pictures are SVG or PNG by the ending of the file name, tables are CSV; all go into the output folder. Given an \

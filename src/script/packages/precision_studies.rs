@@ -1,4 +1,4 @@
-//! Studies of error against run time.
+//! Work-precision studies.
 
 use std::rc::Rc;
 
@@ -19,7 +19,7 @@ use crate::script::studies::precision_comparison::comparison;
 use crate::script::studies::precision_rows::{map_of, table};
 use crate::script::studies::reference::FinestRun;
 
-/// The domain of studies of error against run time.
+/// Domain of work-precision studies.
 pub const TABLE: BindingTable = BindingTable {
     name: "error against run time",
     doc: "A study runs a scene in many ways and says what they say together. withy study FILE keeps what is finished when it is \
@@ -109,7 +109,7 @@ pub const TABLE: BindingTable = BindingTable {
 const PRECISION: Type = Type::of::<PrecisionStudy>();
 const FINEST_RUN: Type = Type::of::<FinestRun>();
 
-/// How examples get a scene, and a study of it.
+/// Setup of examples with a scene and a study.
 const SETUP: &str = "let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\n\
     let spinning = |mesh| {\n    let scene = new_scene(\"spinning\");\n    \
     scene.beam(#{ name: \"rod\", axis: line([0, 0], [2, 0]), basis: mesh, section: s, spin: 1 });\n    scene\n};\n\
@@ -169,7 +169,7 @@ fn cheapest(call: &mut Call) -> Result<Dynamic, ScriptError> {
             None => Ok(comparison(&study, &errors).into()),
         };
     };
-    // A check of a script needs some row, for it has none that ran.
+    // In a dry build a placeholder row is returned, because no row has run.
     let pretended = study.rows.first().filter(|_| call.context().mode() == RunMode::DryBuild);
     let row = pretended.or_else(|| study.cheapest(error));
     Ok(row.map_or(Dynamic::UNIT, |row| map_of(&study, row).into()))

@@ -1,4 +1,4 @@
-//! Options and arguments of functions that a script defines itself, refused as those of the language are.
+//! Checking of options and arguments of script functions, like those of the language.
 
 use rhai::{Array, Dynamic, Map};
 
@@ -12,7 +12,7 @@ use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::nouns::with_article;
 use crate::script::messages::suggest::nearest;
 
-/// The domain of options and arguments of a script's own functions.
+/// Domain of options and arguments of script functions.
 pub const TABLE: BindingTable = BindingTable {
     name: "options of functions",
     doc: "What a function of a script needs to take options and arguments as the functions of withy do.",
@@ -69,7 +69,7 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// The words for kinds; all other words are names of types.
+/// Descriptions of kinds; all other words are type names.
 const KINDS: &[(&str, Kind)] = &[
     ("a value", Kind::Anything),
     ("a number", Kind::Number(NumberRange::Finite)),
@@ -89,11 +89,11 @@ const KINDS: &[(&str, Kind)] = &[
     ("a function", Kind::Function),
 ];
 
-/// An option as a script describes it.
+/// An option as described by a script.
 struct OptionInfo {
     name: String,
     wanted: String,
-    /// What holds when it is left out; without it, the option must be given.
+    /// Default; without it the option is required.
     default: Option<Dynamic>,
 }
 
@@ -128,7 +128,7 @@ fn read_argument(call: &mut Call) -> Result<Dynamic, ScriptError> {
     accept(call, &owner, &name, &kind, call.value("value")?)
 }
 
-/// Reads `"a number"` and `["a number", default]`.
+/// Parses `"a number"` and `["a number", default]`.
 fn described(call: &Call, name: String, told: &Dynamic) -> Result<OptionInfo, ScriptError> {
     let parts = told.read_lock::<Array>();
     let (wanted, default) = match parts.as_deref().map(Vec::as_slice) {
@@ -154,7 +154,7 @@ fn unknown_option(owner: &str, unknown: &str, known: &[OptionInfo]) -> ScriptErr
         .at(CallPart::Key(unknown.to_owned()))
 }
 
-/// The value in the form that scripts use, if it is what was `wanted`.
+/// Converts a value to the form used in scripts, if it is what was `wanted`.
 fn accept(
     call: &Call,
     owner: &str,
@@ -174,7 +174,7 @@ fn accept(
         if words == type_name {
             return Ok(value);
         }
-        // A kind that refuses it is not the one: if all do, that is told below.
+        // If a kind rejects the value, the next one is tried; failure of all is reported below.
         let accept = |kind| call.accept(owner, name, (kind, wanted), value.clone()).ok();
         if let Some(accepted) = kind_named(words).and_then(accept) {
             return Ok(written(accepted));
@@ -188,7 +188,7 @@ fn kind_named(words: &str) -> Option<&'static Kind> {
     KINDS.iter().find(|(known, _)| *known == words).map(|(_, kind)| kind)
 }
 
-/// Lists in the form that scripts use.
+/// Converts lists to the form used in scripts.
 fn written(accepted: Dynamic) -> Dynamic {
     if let Some(numbers) = accepted.clone().try_cast::<Vec<f64>>() {
         return numbers.into_iter().map(Dynamic::from).collect::<Array>().into();

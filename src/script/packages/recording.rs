@@ -1,4 +1,4 @@
-//! Which states of a run are recorded.
+//! Recording options of runs.
 
 use std::num::NonZeroUsize;
 
@@ -15,7 +15,7 @@ use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::numbers::format_number;
 use crate::simulation::Recording;
 
-/// The domain of recording: which states of a run get a row.
+/// Domain of recording options.
 pub const TABLE: BindingTable = BindingTable {
     name: "recording",
     doc: "A simulation records every step: a row in its history, a configuration for pictures. A long run need not: \
@@ -42,7 +42,7 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// The recording type of the language, for rows of other domains.
+/// Type of recordings, for other domains.
 pub const RECORDING: Type = Type::of::<Recording>();
 
 impl Scripted for Recording {
@@ -54,7 +54,7 @@ impl Scripted for Recording {
     }
 }
 
-/// Refuses a call that needs a row of the history for every step.
+/// Rejects a call that needs a history row for every step.
 pub(super) fn expect_all_rows(
     call: &Call,
     of: &SimulationHandle,
@@ -72,7 +72,7 @@ pub(super) fn expect_all_rows(
     Err(call.error(told).hint("start it without the option record: scene.start(#{ dt: … })"))
 }
 
-/// Refuses a call that draws over time what has been recorded at the ends of runs only.
+/// Rejects a call that draws over time if only the ends of runs were recorded.
 pub(super) fn expect_rows_between(call: &Call, of: &SimulationHandle) -> Result<(), ScriptError> {
     let simulation = of.simulation();
     if simulation.recording() != Recording::Nothing || simulation.has_all_rows() {
@@ -82,15 +82,16 @@ pub(super) fn expect_rows_between(call: &Call, of: &SimulationHandle) -> Result<
     Err(call.error(told).hint("start it with the option record: every(100), or without it"))
 }
 
-/// What is missing from a file where the states of a run cannot be had again.
+/// Data missing in a file because states could not be reproduced.
 pub(super) struct Missing {
-    /// What is not written, in words.
+    /// Description of the missing data.
     pub what: &'static str,
-    /// What to write to have less without being told.
+    /// Alternative without the missing data.
     pub instead: &'static str,
 }
 
-/// Says that the states of a run cannot be had again, seen first at a time: refused where all of them were asked for, told where not.
+/// Reports that the states of a run cannot be reproduced from `time` on: as an error if the data was requested explicitly, otherwise as a
+/// note.
 pub(super) fn tell_another_run(
     call: &Call,
     of: &SimulationHandle,
@@ -110,7 +111,7 @@ pub(super) fn tell_another_run(
     Ok(())
 }
 
-/// Refuses a picture of a time from which the nearest recorded configuration is too far away.
+/// Rejects a picture at a time too far from the nearest recorded configuration.
 pub(super) fn expect_near(
     call: &Call,
     of: &SimulationHandle,

@@ -1,4 +1,4 @@
-//! What lets go in the course of a run: joints, sliders, springs, drives.
+//! Releases of joints, sliders, springs and drives during a run.
 
 use rhai::{Array, Dynamic, Map};
 
@@ -20,7 +20,7 @@ use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::suggest::nearest;
 use crate::system::SystemError;
 
-/// The domain of releases.
+/// Domain of releases.
 pub const TABLE: BindingTable = BindingTable {
     name: "releases",
     doc: "A joint, a slider, a spring or a drive lets go in the course of a run. Places and velocities go on as they are, so that energy and momenta of the \
@@ -60,7 +60,7 @@ const RELEASE_KEYS: &[Parameter] = &[
     callback("when").doc("the condition, |q| …: whether it lets go now").optional(),
 ];
 
-/// How it is said when something lets go.
+/// Condition of a release.
 #[derive(Clone, Copy)]
 enum ReleaseWording {
     At,
@@ -107,7 +107,7 @@ fn release(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(Dynamic::UNIT)
 }
 
-/// What is to let go: it is given itself, or by its name.
+/// Element to release, given by its handle or name.
 fn hold(call: &Call, handle: &SceneHandle) -> Result<Releasable, ScriptError> {
     if let Some(joint) = call.get_if::<JointHandle>("what") {
         handle.expect_same(&joint.scene, "joint")?;

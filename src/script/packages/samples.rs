@@ -1,4 +1,4 @@
-//! How the parameters of a sweep are spread, and the points at which they are taken together.
+//! Distributions of sweep parameters, and sampling methods.
 
 use rhai::Dynamic;
 
@@ -12,7 +12,7 @@ use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::numbers::format_number;
 use crate::script::studies::sweeps::design::{SampleKind, Samples};
 
-/// The domain of distributions and samples.
+/// Domain of distributions and samples.
 pub const TABLE: BindingTable = BindingTable {
     name: "samples",
     doc: "Distributions of parameters, and points at which they are taken together. Random numbers are those of ChaCha with twelve rounds, started by the \
@@ -83,7 +83,7 @@ pub const TABLE: BindingTable = BindingTable {
 };
 
 const DISTRIBUTION: Type = Type::of::<Distribution>();
-/// The type of samples.
+/// Type of samples.
 pub(super) const SAMPLES: Type = Type::of::<Samples>();
 const FROM: Parameter = number("from");
 const TO: Parameter = number("to");

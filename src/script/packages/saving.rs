@@ -1,4 +1,4 @@
-//! Simulations in files, the latest one, and things of a scene by their names.
+//! Saving and loading of simulations, the latest simulation, and lookup of objects by name.
 
 use rhai::{Array, Dynamic};
 
@@ -26,7 +26,7 @@ use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::suggest::nearest;
 use crate::simulation::Simulation;
 
-/// The domain of saving and loading simulations.
+/// Domain of saving and loading.
 pub const TABLE: BindingTable = BindingTable {
     name: "saving",
     doc: "A simulation can be saved and loaded, also by another script, and goes on bit for bit. What a loaded scene holds is found by name.",
@@ -118,7 +118,7 @@ pub const TABLE: BindingTable = BindingTable {
 
 const NAME: Parameter = text("name");
 
-/// The simulations in an array, also in arrays within it, each once.
+/// All simulations in an array and in nested arrays, without duplicates.
 fn simulations_among(values: &Array) -> Array {
     let mut found: Vec<SimulationHandle> = Vec::new();
     let mut left: Vec<Dynamic> = values.iter().rev().cloned().collect();
@@ -176,7 +176,7 @@ fn load(call: &mut Call) -> Result<Dynamic, ScriptError> {
     )))
 }
 
-/// The index of the thing of the called scene that has the name given.
+/// Index of the object with this name in the receiver scene.
 fn find(
     call: &Call,
     kind: &str,

@@ -1,4 +1,4 @@
-//! Scenes: beams, particles, stations, supports and joints, masses and start velocities.
+//! Scenes: beams, point masses, stations, supports and joints, masses and initial velocities.
 
 use std::rc::Rc;
 
@@ -29,7 +29,7 @@ use crate::system::{
     BeamDefinition, ParticleDefinition, PointMass, Scene, StartMotion, StationVelocity, SystemError,
 };
 
-/// The domain of scenes and what stands in them.
+/// Domain of scenes and their objects.
 pub const TABLE: BindingTable = BindingTable {
     name: "scenes",
     doc: "A scene is a description: beams, particles, joints, masses and loads. scene.start(…) makes a simulation of it.",
@@ -156,38 +156,38 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// Says that a value takes the place of an earlier one, which a reader of the script may not expect.
+/// Reports that a value replaces an earlier one.
 fn tell_replaced(call: &Call, what: &str, (earlier, now): (Vec2, Vec2)) {
     let [earlier, now] = [earlier, now]
         .map(|vector| format!("({}, {})", format_number(vector.x), format_number(vector.y)));
     call.context().tell(&format!("note: {what} was {earlier} and is now {now}"));
 }
 
-/// The lines by which examples get a beam.
+/// Setup of examples with a beam.
 pub(super) const ROD: &str = "let scene = new_scene(\"example\");\n\
     let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\n\
     let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [2, 0]), basis: bspline(4), section: s });";
 
-/// The scene type of the language, for rows of other domains.
+/// Type of scenes, for other domains.
 pub const SCENE: Type = Type::of::<SceneHandle>();
-/// The beam type of the language, for rows of other domains.
+/// Type of beams, for other domains.
 pub const BEAM: Type = Type::of::<BeamHandle>();
-/// The station type of the language, for rows of other domains.
+/// Type of stations, for other domains.
 pub const STATION: Type = Type::of::<StationHandle>();
-/// The joint type of the language, for rows of other domains.
+/// Type of joints, for other domains.
 pub const JOINT: Type = Type::of::<JointHandle>();
 
-/// Spans of a beam whose basis is not given.
+/// Default number of spans.
 const SPANS: usize = 16;
 
-/// A mesh that misses more of a section that varies, as a part of it, is told of.
+/// Relative error of a varying section on its mesh above which a warning is given.
 const MISSED: f64 = 5e-3;
 
 const AT: Parameter = object("station", STATION);
 const OTHER: Parameter = object("other", STATION).doc("the ground unless given").optional();
 const SPIN: Parameter = number("spin").unit("1/time").optional();
 const ROTARY: Parameter = number("rotary_inertia").unit("mass·length²").or(Presence::Number(0.0));
-/// The motion as a rigid body with which beams and bodies start.
+/// Options for the initial rigid body motion of beams and bodies.
 pub(super) const START_VELOCITY: Parameter =
     point("velocity").unit("length/time").doc("of the point `about`, at the start").optional();
 pub(super) const START_SPIN: Parameter =
@@ -211,7 +211,7 @@ const PARTICLE_KEYS: &[Parameter] = &[
     point("velocity").unit("length/time").doc("at the start; at rest unless given").optional(),
 ];
 
-/// The motion at the start that options give.
+/// Initial motion from the options.
 pub(super) fn start_motion(options: &Options) -> Result<StartMotion, ScriptError> {
     let given = |key: &str| options.has(key).then(|| options.point(key)).transpose();
     Ok(StartMotion {
@@ -244,12 +244,12 @@ fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
         scene.scene().borrow_mut().add_damping(index, relaxation)?;
     }
     tell_of_taper(call, &scene, index)?;
-    // The call for the scene itself comes last: those beside have their beams.
+    // Variant 0 is evaluated last, after the beams of the side variants exist.
     scene.expect_length_beside(index).map_err(|error| error.at(CallPart::Key("axis".into())))?;
     Ok(Dynamic::from(BeamHandle { scene, index }))
 }
 
-/// Tells where the points of its mesh miss what a beam is.
+/// Warns if the quadrature points of the mesh do not resolve the variation of the section.
 fn tell_of_taper(call: &Call, scene: &SceneHandle, index: usize) -> Result<(), ScriptError> {
     let scene = scene.scene().borrow();
     let BeamDefinition { name, section, mesh, .. } = &scene.beams[index];
@@ -308,7 +308,7 @@ fn join(call: &mut Call, kind: JointKind) -> Result<Dynamic, ScriptError> {
     newest_joint(call)
 }
 
-/// The joint that was added last to the scene whose method is called.
+/// Joint that was added last to the receiver scene.
 pub(super) fn newest_joint(call: &Call) -> Result<Dynamic, ScriptError> {
     let scene = call.receiver::<SceneHandle>()?;
     let index = scene.scene().borrow().joints.len() - 1;

@@ -24,7 +24,7 @@ use crate::script::presentation::details;
 use crate::script::source::program::Program;
 use crate::script::state::context::Context;
 
-/// The domain of schedules: factors of loads over time.
+/// Domain of schedules.
 pub const TABLE: BindingTable = BindingTable {
     name: "schedules",
     doc: "A schedule is a factor over time that multiplies a load. Steps end where a schedule jumps or bends.",
@@ -131,17 +131,17 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// The schedule type of the language, for rows of other domains.
+/// Type of schedules, for other domains.
 pub const SCHEDULE: Type = Type::of::<Schedule>();
-/// The kinds of value that may stand for a schedule: one, a number that is constant, or a function of time.
+/// Values accepted as a schedule: a schedule, a constant number, or a function of time.
 pub const SCHEDULE_KINDS: &[Kind] =
     &[Kind::Object(SCHEDULE), Kind::Number(NumberRange::Finite), Kind::Function];
 
-/// How often a controller is asked, among the options of a load or a drive.
+/// Option for the sampling period of a controller.
 pub(super) const SAMPLE: Parameter = number("sample").positive().unit("time").doc(
     "the sampling period of the controller |t, q| …, which is asked at 0, sample, 2 sample, … and held between; steps end there; at every step unless given",
 ).optional();
-/// How late a command acts, among the options of a load or a drive.
+/// Option for the delay of a controller.
 pub(super) const DELAY: Parameter = number("delay").non_negative().unit("time").doc(
     "the dead time of the controller: a command acts so much later than it is said, and nothing does before the first",
 ).beside("sample").optional();
@@ -214,16 +214,16 @@ fn stored(call: &Call, function: FnPtr, breaks: Vec<f64>) -> Result<Schedule, Sc
     Ok(Schedule::Function { function, breaks })
 }
 
-/// An error of a stored function in one line, as the language tells errors.
+/// One-line message of an error of a stored function.
 fn words(context: &Context, error: &EvalAltResult) -> String {
     let Some(engine) = context.engine() else { return error.to_string() };
     let Some(catalog) = Sources::of(&engine).catalog() else { return error.to_string() };
-    // The error names the file that it arose in; the script itself is not at hand here.
+    // The error names its file; the source of the script is not available here.
     let program = Program::named("", "");
     Explainer { program: &program, catalog: &catalog, engine: &engine }.explain(error).line()
 }
 
-/// The schedule of a load from the arguments of a call: given in one of [`SCHEDULE_KINDS`], or always 1.
+/// Schedule of a load, given in one of [`SCHEDULE_KINDS`]; constant 1 by default.
 pub(super) fn schedule_of(
     call: &Call,
     arguments: &Arguments,
@@ -238,8 +238,8 @@ pub(super) fn schedule_of(
     }
 }
 
-/// The schedule of a load or a drive of a scene, as [`schedule_of`] gives it, or a function of time and simulation, which is asked at the start of every
-/// step, or at the samples of a beat.
+/// Schedule of a load or drive: as for [`schedule_of`], or a controller, which is a function of time and simulation evaluated at the start
+/// of every step or at samples.
 pub(super) fn controlled_schedule_of(
     call: &Call,
     arguments: &Arguments,
@@ -263,14 +263,14 @@ pub(super) fn controlled_schedule_of(
     })
 }
 
-/// The beat of controllers among the options of a load or a drive, if one is given.
+/// Sampling of controllers from the options.
 pub(super) fn beat_of(options: &Arguments) -> Result<Option<SampleClock>, ScriptError> {
     let delay = options.number_if_given("delay").unwrap_or(0.0);
     let beat = options.number_if_given("sample").map(|period| SampleClock::new(period, delay));
     Ok(beat.transpose()?)
 }
 
-/// Refuses a beat where none of these schedules is a controller.
+/// Rejects a sampling period if none of these schedules is a controller.
 pub(super) fn expect_controller<'a>(
     call: &Call,
     beat: Option<SampleClock>,

@@ -24,7 +24,7 @@ use crate::script::handles::section::SectionHandle;
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::presentation::details;
 
-/// The domain of sections and meshes.
+/// Domain of sections and meshes.
 pub const TABLE: BindingTable = BindingTable {
     name: "sections",
     doc: "What a beam is made of and how it is discretised. Any consistent set of units will do.",
@@ -104,9 +104,9 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// The section type of the language, for rows of other domains.
+/// Type of sections, for other domains.
 pub const SECTION: Type = Type::of::<SectionHandle>();
-/// The mesh type of the language, for rows of other domains.
+/// Type of meshes, for other domains.
 pub const MESH: Type = Type::of::<Mesh>();
 
 const COUNT: Kind = Kind::Whole(NumberRange::Positive);
@@ -136,7 +136,7 @@ const DAMPING_KEYS: &[Parameter] = &[
     number("bending").non_negative().unit("time").or(Presence::Number(0.0)),
 ];
 
-/// What a section is given by.
+/// Definition of a section.
 #[derive(Clone, Copy)]
 enum GivenBy {
     Stiffness,
@@ -217,7 +217,7 @@ fn section(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(Dynamic::from(SectionHandle { variation: section.into(), solid, relaxation }))
 }
 
-/// A number of a section that is the same everywhere.
+/// Property of a constant section.
 fn of_uniform(call: &Call, number: fn(&Section) -> f64) -> Result<Dynamic, ScriptError> {
     match &call.receiver::<SectionHandle>()?.variation {
         SectionVariation::Uniform(section) => Ok(number(section).into()),
@@ -230,7 +230,7 @@ fn of_uniform(call: &Call, number: fn(&Section) -> f64) -> Result<Dynamic, Scrip
     }
 }
 
-/// The relaxation times that options give; none where all of them are zero.
+/// Relaxation times from the options; `None` if all are zero.
 fn relaxation(options: &Options) -> Result<Option<Relaxation>, ScriptError> {
     let times = options.options_or_defaults("damping")?;
     let relaxation = Relaxation {
@@ -267,7 +267,7 @@ fn from_stiffness(options: &Options) -> Result<Section, ScriptError> {
     section.validated().map_err(blamed)
 }
 
-/// Points at the option that is wrong.
+/// Moves an error to the option that caused it.
 fn blamed(error: BeamError) -> ScriptError {
     let key = match &error {
         BeamError::SectionValue { name, .. } => Some(*name),
@@ -313,11 +313,11 @@ fn with_quadrature(mesh: Mesh, options: &Options) -> Result<Dynamic, ScriptError
     ))
 }
 
-/// The mesh in an argument, given as such or as a knot vector.
+/// Mesh of an argument, given as a mesh or a knot vector.
 pub(super) fn mesh_of(arguments: &Arguments, name: &str) -> Option<Mesh> {
     let knots = |knots: Rc<KnotVector>| Mesh::new(Basis::BSpline(KnotVector::clone(&knots)));
     arguments.get_if::<Mesh>(name).or_else(|| arguments.get_if::<Rc<KnotVector>>(name).map(knots))
 }
 
-/// The kinds of value that [`mesh_of`] reads as a mesh.
+/// Values that [`mesh_of`] accepts as a mesh.
 pub(super) const MESH_KINDS: &[Kind] = &[Kind::Object(MESH), Kind::Object(KNOTS)];

@@ -1,4 +1,4 @@
-//! Sensors: more columns of the history; and what they read, asked for once.
+//! Sensors: additional columns of the history, and single readings.
 
 use rhai::{Array, Dynamic, FnPtr, Map};
 
@@ -26,7 +26,7 @@ use crate::script::messages::suggest::nearest;
 use crate::simulation::History;
 use crate::system::{Reactions, Scene, SectionSample, SystemError};
 
-/// Sensors.
+/// Domain of sensors.
 pub const TABLE: BindingTable = BindingTable {
     name: "sensors",
     doc: "A scene records what it is asked to: scene.record(\"rod.end.x\") makes a column of the history, which is told, drawn, saved and counted like every other. \
@@ -215,14 +215,14 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// How examples get something that hangs.
+/// Setup of examples with a hanging beam.
 const HANGING: &str = "let scene = new_scene(\"example\");\n\
     let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 0.01 });\n\
     let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [2, 0]), basis: bspline(4), section: s });\n\
     scene.hinge(rod.start);\n\
     scene.gravity([0, -9.81]);";
 
-/// What the mean of a step is.
+/// Help text on mean values over a step.
 const MEAN: &str = "It is summed up while steps are made, where one of the columns mean_force, mean_fx, mean_fy, mean_moment is recorded, as in \
     scene.record(\"hinge1.mean_force\"), and then for all joints and supports. With loads, weight and drives, these forces change the momentum over the step, and with \
     the moments about a place, each force in the middle of its way over the step, the angular momentum: to rounding with energy_momentum() and energy_decaying(), and \
@@ -273,7 +273,7 @@ fn joint_force(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(force_and_moment(joint.read(now.given())))
 }
 
-/// The index of the joint that is asked for among those of the scene.
+/// Index of the requested joint in the scene.
 fn joint_index(call: &mut Call) -> Result<usize, ScriptError> {
     let handle = call.receiver::<SimulationHandle>()?;
     let name = match call.get_if::<JointHandle>("joint") {
@@ -288,7 +288,7 @@ fn joint_index(call: &mut Call) -> Result<usize, ScriptError> {
     found.ok_or_else(|| unknown(call, &name, "joint", names.iter().map(String::as_str)))
 }
 
-/// What joints and supports gave in the mean of the last step, if that is summed up.
+/// Mean forces of joints and supports over the last step, if they are accumulated.
 fn given_in_step(call: &Call, handle: &SimulationHandle) -> Result<Reactions, ScriptError> {
     handle.simulation().model().given_in_step().ok_or_else(|| {
         let names = handle.simulation().scene().joint_names();
@@ -318,7 +318,7 @@ fn unknown<'a>(
     call.error(format!("there is no {what} '{name}'")).hint(hint).at(CallPart::Argument(0))
 }
 
-/// Refuses a beam that was added later.
+/// Rejects a beam that was added after the start.
 fn known(call: &Call, built: &Scene, index: usize, beam: &BeamHandle) -> Result<(), ScriptError> {
     if index < built.beams.len() {
         return Ok(());
@@ -327,7 +327,7 @@ fn known(call: &Call, built: &Scene, index: usize, beam: &BeamHandle) -> Result<
     Err(call.error(told).hint("add everything before scene.start(…), or start again"))
 }
 
-/// The station that is asked for, if it is one and not the whole beam.
+/// Requested station; `None` for the whole beam.
 fn wanted(call: &Call, scene: &Scene, beam: usize) -> Result<Option<Station>, ScriptError> {
     let Some(station) = call.number_if_given("s") else { return Ok(None) };
     let length = scene.beams[beam].axis.length();

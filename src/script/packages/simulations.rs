@@ -1,4 +1,4 @@
-//! Starting a scene, and the simulation that comes of it.
+//! Start of a scene, and the resulting simulation.
 
 use rhai::{Dynamic, INT};
 
@@ -32,7 +32,7 @@ use crate::script::messages::error::ScriptError;
 use crate::simulation::{Invariant, Recording, Simulation, SimulationError, SimulationSettings};
 use crate::system::Measures;
 
-/// The domain of simulations.
+/// Domain of simulations.
 pub const TABLE: BindingTable = BindingTable {
     name: "simulations",
     doc: "A simulation is live: step it, look, step on. Everything it went through is in its history.",
@@ -154,13 +154,13 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// The lines by which examples get a simulation.
+/// Setup of examples with a simulation.
 pub(super) const SPINNING: &str = "let scene = new_scene(\"example\");\n\
     let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\n\
     let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [2, 0]), basis: bspline(4), section: s, spin: 1 });\n\
     let sim = scene.start(#{ dt: 0.1 });";
 
-/// The simulation type of the language, for rows of other domains.
+/// Type of simulations, for other domains.
 pub const SIMULATION: Type = Type::of::<SimulationHandle>();
 const INVARIANTS: Type = Type::of::<Invariants>();
 
@@ -182,12 +182,12 @@ pub(super) const START: &[Parameter] = &[
         .or(Presence::Text("print")),
 ];
 
-/// How well the invariants were kept.
+/// Drift of the invariants.
 #[derive(Clone)]
 struct Invariants {
     measures: Measures,
     drifts: [f64; 4],
-    /// What the drifts are, over their column.
+    /// Heading of the drift column.
     changes: &'static str,
 }
 
@@ -258,7 +258,7 @@ fn start(call: &mut Call) -> Result<Dynamic, ScriptError> {
     })
 }
 
-/// Starts a simulation as the options of a call ask for it.
+/// Starts a simulation with the options of a call.
 pub(super) fn begin(
     call: &Call,
     of: SceneHandle,
@@ -303,7 +303,7 @@ fn counted(call: &Call, read: fn(&Simulation) -> usize) -> Result<Dynamic, Scrip
     Ok(Dynamic::from(count as INT))
 }
 
-/// The simulation that is called, and a place of it.
+/// Receiver simulation, and a station of it.
 fn place(call: &Call) -> Result<(SimulationHandle, BodyPoint), ScriptError> {
     let handle = call.receiver::<SimulationHandle>()?;
     let station = call.get::<StationHandle>("station")?;
@@ -318,7 +318,7 @@ fn angle(call: &mut Call) -> Result<Dynamic, ScriptError> {
     followed(call, &station, simulation.model().angle(simulation.scene(), &station.station))
 }
 
-/// The angle of the section at a station [rad], if it was followed from the start.
+/// Angle of the section at a station [rad], if it was tracked from the start.
 pub(super) fn followed(
     call: &Call,
     station: &StationHandle,

@@ -1,4 +1,4 @@
-//! Sliding joints: rules, sliders of a scene, and what a simulation says about them.
+//! Sliding joints: rules, sliders of a scene, and their results.
 
 use rhai::{Array, Dynamic, Map};
 
@@ -23,7 +23,7 @@ use crate::script::presentation::details;
 use crate::simulation::Arrival;
 use crate::system::{Scene, SliderError, System, SystemError};
 
-/// The domain of sliding joints.
+/// Domain of sliding joints.
 pub const TABLE: BindingTable = BindingTable {
     name: "sliding joints",
     doc: "A slider keeps a station, the end of a beam or a particle, on the axis of another beam, along which it slides without \
@@ -151,9 +151,9 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// The type of rules.
+/// Type of sliding rules.
 const RULE: Type = Type::of::<SlidingRule>();
-/// The slider type.
+/// Type of sliders.
 pub(super) const SLIDER: Type = Type::of::<SliderHandle>();
 
 const ON: Parameter = either("beam", &[Kind::Object(BEAM), Kind::Object(TRACK)]);
@@ -182,7 +182,7 @@ const SLIDER_KEYS: &[Parameter] = &[
     text("name").optional(),
 ];
 
-/// A handle on a slider of a scene.
+/// Handle of a slider of a scene.
 #[derive(Clone)]
 pub(super) struct SliderHandle {
     pub(super) scene: SceneHandle,
@@ -194,17 +194,17 @@ impl SliderHandle {
         self.scene.scene().borrow().sliders[self.index].name.clone()
     }
 
-    /// Its index in a scene, if it is one of it.
+    /// Index in a scene, if the slider belongs to it.
     pub(super) fn within(&self, scene: &SceneHandle) -> Result<usize, ScriptError> {
         scene.expect_same(&self.scene, "slider").map(|()| self.index)
     }
 
-    /// Its index in a simulation, if that is one of its scene.
+    /// Index in a simulation of the slider's scene.
     pub(super) fn on(&self, handle: &SimulationHandle) -> Result<usize, ScriptError> {
         self.among(handle.scene(), handle.simulation().scene())
     }
 
-    /// Its index in a copy of a scene that was taken when it was started, if it is one of that.
+    /// Index in a copy of a scene made at its start.
     pub(super) fn among(&self, scene: &SceneHandle, copy: &Scene) -> Result<usize, ScriptError> {
         scene.expect_same(&self.scene, "slider")?;
         if self.index < copy.sliders.len() {
@@ -297,13 +297,13 @@ fn slider(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(Dynamic::from(SliderHandle { scene: handle, index }))
 }
 
-/// The value that one of the words of a choice stands for; a row lets no other words through.
+/// Meaning of a choice; the parameter kind excludes other words.
 pub(super) fn meant<T: Copy + Default>(words: &[(&str, T)], word: &str) -> T {
     let found = words.iter().find(|(other, _)| *other == word);
     found.map(|(_, meaning)| *meaning).unwrap_or_default()
 }
 
-/// Points at what is wrong in the call.
+/// Moves an error to the argument or option that caused it.
 fn blame(error: SystemError, is_placed: bool) -> ScriptError {
     let place = match &error {
         SystemError::Unnamed { .. } | SystemError::DuplicateName { .. } => {
@@ -319,7 +319,7 @@ fn blame(error: SystemError, is_placed: bool) -> ScriptError {
     ScriptError::from(error).at(place)
 }
 
-/// Asks a model about the slider of a call.
+/// Queries the slider of a call in the simulation.
 fn asked(call: &Call, ask: impl FnOnce(&System, usize) -> Dynamic) -> Result<Dynamic, ScriptError> {
     let handle = call.receiver::<SimulationHandle>()?;
     let slider = call.get::<SliderHandle>("slider")?.on(&handle)?;

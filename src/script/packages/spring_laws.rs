@@ -1,4 +1,4 @@
-//! Laws of springs and dampers as options describe them: numbers, tables and functions.
+//! Laws of springs and dampers from options: numbers, tables and functions.
 
 use rhai::{Dynamic, FnPtr};
 
@@ -11,11 +11,11 @@ use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::numbers::as_number;
 use crate::system::{DampingLaw, Origin, SpringKind, SpringLaw};
 
-/// Which ways a spring may act, by name.
+/// Names of the directions of a spring force.
 pub(super) const ACTS: [(&str, Acts); 3] =
     [("both", Acts::Both), ("pull", Acts::Pull), ("push", Acts::Push)];
 
-/// Which way a spring acts.
+/// Directions in which a spring acts.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) enum Acts {
     #[default]
@@ -24,10 +24,10 @@ pub(super) enum Acts {
     Push,
 }
 
-/// A law, and what its elongations are counted from.
+/// A spring law, and the reference of its elongations.
 pub(super) type ParsedLaw = (Option<SpringLaw>, Origin);
 
-/// The law that options describe; none where there is a damper alone.
+/// Spring law from the options; `None` for a pure damper.
 pub(super) fn law(
     call: &Call,
     options: &Options,
@@ -75,7 +75,7 @@ pub(super) fn law(
     Ok((Some(law), origin))
 }
 
-/// The damping that options describe.
+/// Damping law from the options.
 pub(super) fn damping(call: &Call, options: &Options) -> Result<DampingLaw, ScriptError> {
     let Some(function) = options.get_if::<FnPtr>("damping") else {
         if options.has("rates") {
@@ -111,7 +111,7 @@ pub(super) fn damping(call: &Call, options: &Options) -> Result<DampingLaw, Scri
     Ok(law)
 }
 
-/// The law of a function, which is asked over a range of elongations now and never again.
+/// Law of a function, which is sampled over a range of elongations now and not called again.
 fn sampled(call: &Call, options: &Options, ease: &str) -> Result<ParsedLaw, ScriptError> {
     let function = options.callback("law")?;
     call.expect_arguments(&function, 1, "law: |e| 100 * e, e being the elongation")?;
@@ -141,7 +141,7 @@ fn sampled(call: &Call, options: &Options, ease: &str) -> Result<ParsedLaw, Scri
     })
 }
 
-/// The force that a function of the script gives under a key, over what it is a function of.
+/// Adapter for a script function of a force, given for option `key`.
 fn force_of<'a>(
     call: &'a Call,
     function: &'a FnPtr,
@@ -156,7 +156,7 @@ fn force_of<'a>(
     }
 }
 
-/// Refuses a function that its finest polygon does not follow; the hint says what to write instead.
+/// Rejects a function that the finest polygon does not approximate well; the hint suggests an alternative.
 fn expect_smooth(
     call: &Call,
     polygon: &SpringLaw,

@@ -1,4 +1,4 @@
-//! Springs, dampers, tendons and torsion springs of a scene, and what a simulation says about them.
+//! Springs, dampers, tendons and torsion springs of a scene, and their results.
 
 use rhai::{Dynamic, ImmutableString};
 
@@ -24,7 +24,7 @@ use crate::system::{
     Anchor, DampingLaw, Origin, Spring, SpringKind, SpringLaw, SpringState, SystemError,
 };
 
-/// Springs and dampers.
+/// Domain of springs and dampers.
 pub const TABLE: BindingTable = BindingTable {
     name: "springs and dampers",
     doc: "What stores energy and gives it back, and what takes it. The energies of springs are a part of the energy of the scene, and \
@@ -111,7 +111,7 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// The spring type.
+/// Type of springs.
 pub(super) const SPRING: Type = Type::of::<SpringHandle>();
 
 const WHICH: Parameter = object("spring", SPRING);
@@ -181,7 +181,7 @@ const TORSION_KEYS: &[Parameter] = &[
     text("name").optional(),
 ];
 
-/// A spring of a scene.
+/// Handle of a spring of a scene.
 #[derive(Clone)]
 pub(super) struct SpringHandle {
     scene: SceneHandle,
@@ -189,7 +189,7 @@ pub(super) struct SpringHandle {
 }
 
 impl SpringHandle {
-    /// Its index in a scene, if it is one of it.
+    /// Index in a scene, if the spring belongs to it.
     pub(super) fn within(&self, scene: &SceneHandle) -> Result<usize, ScriptError> {
         scene.expect_same(&self.scene, "spring").map(|()| self.index)
     }
@@ -247,7 +247,7 @@ impl Scripted for SpringHandle {
     }
 }
 
-/// The place of a call at which a spring is attached.
+/// Attachment of a spring from an argument.
 fn anchor(call: &Call, name: &str) -> Result<Anchor, ScriptError> {
     match call.get_if::<StationHandle>(name) {
         Some(station) => Ok(Anchor::Station(call.receiver::<SceneHandle>()?.own(&station)?)),
@@ -255,7 +255,7 @@ fn anchor(call: &Call, name: &str) -> Result<Anchor, ScriptError> {
     }
 }
 
-/// Adds what resists with the law that options describe.
+/// Adds a spring or damper with the law in the options.
 fn resist(call: &Call, kind: SpringKind, options: &Options) -> Result<Dynamic, ScriptError> {
     let law = law(call, options, &kind)?;
     add(call, kind, law, options)
@@ -317,7 +317,7 @@ fn torsion(call: &mut Call) -> Result<Dynamic, ScriptError> {
     }
 }
 
-/// Points at what is wrong in the call.
+/// Moves an error to the argument or option that caused it.
 fn blame(error: SystemError) -> ScriptError {
     let place = match &error {
         SystemError::Unnamed { .. } | SystemError::DuplicateName { .. } => {
@@ -334,7 +334,7 @@ fn blame(error: SystemError) -> ScriptError {
     ScriptError::from(error).at(place)
 }
 
-/// Asks a simulation about the spring of a call.
+/// Queries the spring of a call in the simulation.
 fn asked(call: &Call, ask: impl FnOnce(&SpringState) -> f64) -> Result<Dynamic, ScriptError> {
     let handle = call.receiver::<SimulationHandle>()?;
     let spring = call.get::<SpringHandle>("spring")?;

@@ -16,7 +16,7 @@ use crate::script::studies::options::StabilityOptions;
 use crate::script::studies::plan::patience;
 use crate::script::studies::stability::{MapColouring, StabilityMap, StabilityPlan};
 
-/// The domain of stability maps.
+/// Domain of stability maps.
 pub const TABLE: BindingTable = BindingTable {
     name: "stability maps",
     doc: "What becomes of a simulation on the edge: a run for every combination of parameters, on all cores.",
@@ -94,7 +94,7 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
             let cases: Vec<Case> = made.iter().flatten().cloned().collect();
             let verdicts =
                 desk.in_parallel(task, &cases, |verdict: &StabilityVerdict| verdict.steps, work)?;
-            // The others are made elsewhere.
+            // The other parts are computed elsewhere.
             let pretended =
                 || vec![Ok(StabilityVerdict::without_a_run(CaseOutcome::Finished)); cases.len()];
             let verdicts = verdicts.unwrap_or_else(pretended);

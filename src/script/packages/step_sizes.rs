@@ -1,4 +1,4 @@
-//! Steps as long as a tolerance allows.
+//! Adaptive step sizes.
 
 use rhai::Dynamic;
 
@@ -10,7 +10,7 @@ use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::presentation::details;
 use crate::simulation::{StepControl, StepSize};
 
-/// The domain of step sizes.
+/// Domain of step sizes.
 pub const TABLE: BindingTable = BindingTable {
     name: "step sizes",
     doc: "A scene is started with a step size, dt: 0.1, or with a tolerance, dt: adaptive(#{ tolerance: 1e-4 }).",
@@ -72,7 +72,7 @@ const ADAPTIVE: &[Parameter] = &[
         .optional(),
 ];
 
-/// The type of what steps of varying size keep to, for other domains.
+/// Type of step controls, for other domains.
 pub const STEP_CONTROL: Type = Type::of::<StepControl>();
 
 impl Scripted for StepControl {

@@ -14,7 +14,7 @@ use crate::script::state::settings::RunMode;
 use crate::script::studies::sweeps::pictures::{MOST_COLUMNS, Picture};
 use crate::script::studies::sweeps::table::SweepTable;
 
-/// The domain of pictures of sweeps.
+/// Domain of pictures of sweeps.
 pub const TABLE: BindingTable = BindingTable {
     name: "pictures of sweeps",
     doc: "Each is written into a file that is named by the sweep and its columns: NAME-speed-mass-peak.svg. Rows that failed are not drawn. What sweeps have, \
@@ -76,7 +76,7 @@ fn table(call: &Call) -> Result<SweepTable, ScriptError> {
     handle.map(SweepHandle::table).or_else(|_| call.receiver::<SweepTable>())
 }
 
-/// Writes a picture into a file that is named by the sweep and its columns.
+/// Writes a picture to a file named after the sweep and its columns.
 fn write(
     call: &Call,
     table: &SweepTable,
@@ -93,7 +93,7 @@ fn write(
     Ok(Dynamic::UNIT)
 }
 
-/// The name of a picture of some rows, which must not take the place of that of all, nor of one of other rows: the first that this run has not written.
+/// Unused file name for a picture of some rows, which must not overwrite that of all or of other rows.
 fn numbered(call: &Call, name: &str) -> Result<String, ScriptError> {
     let output = call.context().output();
     let written = output.written();
@@ -107,7 +107,7 @@ fn numbered(call: &Call, name: &str) -> Result<String, ScriptError> {
     }
 }
 
-/// Rows that can be drawn are expected of a run that has made all of them.
+/// Requires rows with numbers, if the run computes all rows.
 fn expect_rows(call: &Call, picture: &Picture, names: &[&str]) -> Result<(), ScriptError> {
     let context = call.context();
     let is_whole = context.mode() == RunMode::Run && context.studies().part.is_none();

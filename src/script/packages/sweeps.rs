@@ -1,4 +1,4 @@
-//! Sweeps: a function of parameters, called for all of their values.
+//! Sweeps: a function called for all values of its parameters.
 
 use std::rc::Rc;
 use std::time::Duration;
@@ -29,7 +29,7 @@ use crate::script::studies::sweeps::rows::{RowOutcome, found};
 use crate::script::studies::sweeps::run::SweepRequest;
 use crate::script::studies::sweeps::table::{FAILURE, FinishedSweep, SweepTable};
 
-/// The domain of sweeps.
+/// Domain of sweeps.
 pub const TABLE: BindingTable = BindingTable {
     name: "sweeps",
     doc: "A function of parameters, called with all of their values on all cores: what a thousand runs say together. withy study FILE keeps what is finished \
@@ -106,30 +106,30 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// How examples get a sweep.
+/// Setup of examples with a sweep.
 pub(super) const SETUP: &str = "let sweep = study_sweep(#{\n    name: \"first\", parameters: #{ speed: [1, 2, 3], mass: [1, 2] },\n    \
             run: |p| #{ energy: p.mass * p.speed ** 2 / 2 },\n});";
-/// The type of sweeps.
+/// Type of sweeps.
 pub(super) const SWEEP: Type = Type::of::<SweepHandle>();
-/// The type of tables of sweeps.
+/// Type of sweep tables.
 pub(super) const SWEEP_TABLE: Type = Type::of::<SweepTable>();
 const RESULT: Parameter = text("result").doc("a name that the runs give");
 const KEYS: &[Parameter] = SweepOptions::KEYS;
-/// What a row takes as a map, about.
+/// Approximate size of a row as a map.
 const BYTES_OF_A_ROW: u64 = 500;
 
 option_set! {
     /// The options of `study_sweep`.
     pub struct SweepOptions {
-        /// The name of the study and of its files.
+        /// Name of the study and its files.
         name: String = name("name").doc("of the study and its files"),
-        /// Names and values, or distributions.
+        /// Values or distributions of the parameters.
         parameters: Dynamic = anything("parameters").doc("names with values or distributions: #{ speed: linspace(0.1, 2, 20), mass: [1, 2] }"),
-        /// Makes a run.
+        /// Function of a run.
         run: FnPtr = callback("run").doc("|p| …, a function of the values of a row that gives a map of numbers"),
-        /// Points in the place of a grid.
+        /// Sampling instead of a grid.
         samples: Option<Samples> = object("samples", SAMPLES).doc("points in the place of a grid: latin_hypercube(2000), sobol(4096), saltelli(1024)").optional(),
-        /// How long a run may take [s].
+        /// Wall-clock limit of a run [s].
         patience: f64 = number("patience").positive().unit("s").or(Presence::Number(600.0)).doc("the longest that a run may take by the clock"),
     }
 }
@@ -140,12 +140,12 @@ impl FromOption for Samples {
     }
 }
 
-/// A finished sweep.
+/// Handle of a finished sweep.
 #[derive(Clone)]
 pub(super) struct SweepHandle(Rc<FinishedSweep>);
 
 impl SweepHandle {
-    /// The table of all rows.
+    /// Table of all rows.
     pub(super) fn table(self) -> SweepTable {
         SweepTable::new(self.0)
     }
@@ -185,7 +185,7 @@ fn table_of(call: &Call) -> Result<SweepTable, ScriptError> {
     Ok(call.receiver::<SweepHandle>()?.table())
 }
 
-/// The error about the name of a column that a sweep has not, which is the argument with this number.
+/// Error of an unknown column; `argument` is its position in the call.
 pub(super) fn no_column(
     call: &Call,
     sweep: &Sweep,
@@ -244,7 +244,7 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(Dynamic::from(SweepHandle(table.into_swept())))
 }
 
-/// Parameters and results stand in one table.
+/// Rejects results named like a parameter, because both are columns of one table.
 fn expect_other_names(call: &Call, sweep: &Sweep) -> Result<(), ScriptError> {
     let own = |name: &&String| sweep.design.parameters.iter().any(|of| of.name == **name);
     let wrong = sweep.results.names.iter().find(|name| own(name) || *name == FAILURE);
@@ -254,13 +254,13 @@ fn expect_other_names(call: &Call, sweep: &Sweep) -> Result<(), ScriptError> {
     })
 }
 
-/// A sweep that a dry build pretends to have made: the function is called with the first row, whose results all rows have.
+/// Result of a dry build: the function is called for the first row, whose results are used for all rows.
 fn pretended(call: &Call, order: SweepRequest) -> Result<FinishedSweep, ScriptError> {
     RunFunction::read(call, "run", order.function)?;
     let given = order.invoked(call, 0)?;
     let (names, values) = match found(&given) {
         RowOutcome::Found(names, values) => (names.to_vec(), values),
-        // A simulation that is not run may find nothing.
+        // A simulation that was skipped may return non-numbers.
         RowOutcome::Failed(_) => (
             given
                 .read_lock::<Map>()
@@ -296,7 +296,7 @@ fn sensitivity(call: &mut Call) -> Result<Dynamic, ScriptError> {
     };
     let names = sweep.design.parameters.iter().map(|of| of.name.as_str());
     let Some(shares) = sweep.shares(&result) else {
-        // A dry build has made no runs.
+        // A dry build has no runs.
         if call.context().mode() == RunMode::DryBuild {
             let none = VarianceShare { first: 0.0, total: Some(0.0) };
             return Ok(names.map(|name| of((name, none))).collect::<Array>().into());

@@ -1,4 +1,4 @@
-//! Tables of what scripts hold: histories, sweeps, and arrays of maps as studies give them.
+//! Tables of histories, sweeps, and arrays of maps.
 
 use std::collections::BTreeSet;
 
@@ -18,12 +18,12 @@ use crate::script::messages::numbers::as_number;
 use crate::script::presentation::arrays;
 use crate::script::studies::sweeps::table::SweepTable;
 
-/// What a table can be made of.
+/// Parameter for anything that can be converted to a table.
 pub(super) const TABULAR: Parameter =
     either("of", &[Kind::Object(SIMULATION), Kind::Object(HISTORY), Kind::Object(SWEEP_TABLE), Kind::Array])
         .doc("a simulation or history, the table of a sweep, or an array of maps such as the cells of a stability map");
 
-/// The table of what the call gives: a row for each row of a history, or for each map.
+/// Table of the argument: one row per history row or map.
 pub(super) fn table(call: &Call) -> Result<DataTable, ScriptError> {
     let of = call.value("of")?;
     if let Some(simulation) = of.clone().try_cast::<SimulationHandle>() {
@@ -56,7 +56,7 @@ pub(super) fn table(call: &Call) -> Result<DataTable, ScriptError> {
     Ok(DataTable { columns: names.into_iter().map(column).collect() })
 }
 
-/// The values of all rows under a name: of the narrowest kind that has room for all of them. A row without it, or with (), has none.
+/// Values of a key in all rows, of the narrowest type that fits. Missing keys and unit values are missing values.
 fn values(call: &Call, rows: &[Map], name: &str) -> DataValues {
     let cells: Vec<Option<&Dynamic>> =
         rows.iter().map(|row| row.get(name).filter(|cell| !cell.is_unit())).collect();

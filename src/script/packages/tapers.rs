@@ -1,4 +1,4 @@
-//! Sections that vary along a beam.
+//! Tapered sections.
 
 use rhai::{Array, Dynamic};
 
@@ -12,7 +12,7 @@ use crate::script::bindings::table::{BindingTable, function, method};
 use crate::script::handles::section::SectionHandle;
 use crate::script::messages::error::{CallPart, ScriptError};
 
-/// The domain of tapers.
+/// Domain of tapers.
 pub const TABLE: BindingTable = BindingTable {
     name: "tapers",
     doc: "Sections that vary along a beam: blades, whips, fly rods.",
@@ -66,7 +66,7 @@ fn taper(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(Dynamic::from(SectionHandle { variation, solid: None, relaxation }))
 }
 
-/// Between solids of one kind dimensions are linear, otherwise the numbers are.
+/// Interpolates dimensions between solids of one kind, otherwise stiffnesses and inertias.
 fn variation(all: &[(f64, SectionHandle)]) -> SectionVariation {
     let solids: Option<Vec<(f64, Solid)>> =
         all.iter().map(|(place, section)| Some((*place, section.solid?))).collect();
@@ -82,7 +82,7 @@ fn variation(all: &[(f64, SectionHandle)]) -> SectionVariation {
     }
 }
 
-/// One place of a taper: a part of the length, and a section.
+/// A point of a taper: fraction of the length, and section.
 fn place(call: &Call, index: usize, given: Dynamic) -> Result<(f64, SectionHandle), ScriptError> {
     let read = |given: Dynamic| {
         let pair = given.try_cast::<Array>()?;

@@ -1,4 +1,4 @@
-//! What every table must fulfil: documented rows, names that can be written, examples that run.
+//! Tests of all tables: documented bindings, valid names, runnable examples.
 
 use std::collections::HashSet;
 
@@ -96,7 +96,7 @@ fn check_kind(kind: &Kind) {
     }
 }
 
-/// Whether Rhai takes the name as a function, a method, a property and a key.
+/// Returns true if Rhai accepts the name as a function, a method, a property and a key.
 fn can_be_written(name: &str) -> bool {
     let script = format!("let x = #{{ {name}: 1 }}; x.{name}; x.{name}(); {name}(x);");
     rhai::Engine::new_raw().compile(script).is_ok()

@@ -1,4 +1,4 @@
-//! Numbers as text, with a chosen number of digits, and tables of them.
+//! Formatting of numbers with a given number of digits, and text tables.
 
 use rhai::{Array, Dynamic};
 
@@ -10,7 +10,7 @@ use crate::script::bindings::table::{BindingTable, function};
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::numbers::{format_fixed, format_scientific};
 
-/// The domain of formats for numbers.
+/// Domain of formats.
 pub const TABLE: BindingTable = BindingTable {
     name: "text",
     doc: "Numbers print with as many digits as they need: 0.05, 3, 1e-12. These functions choose the digits, and \
@@ -46,7 +46,7 @@ fn write(call: &Call, format: fn(f64, usize) -> String) -> Result<Dynamic, Scrip
 
 fn tabulate(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let words = |cell: &Dynamic| {
-        // What is no text is shown.
+        // Values other than texts are formatted.
         let text = cell.clone().into_immutable_string().map(|text| text.to_string());
         text.unwrap_or_else(|_| call.show(cell))
     };

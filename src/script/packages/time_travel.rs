@@ -1,4 +1,4 @@
-//! Going back in time, and simulations that branch off.
+//! Rewinding and forking of simulations.
 
 use rhai::Dynamic;
 
@@ -10,7 +10,7 @@ use crate::script::bindings::table::{BindingTable, method};
 use crate::script::handles::simulation::{RunTarget, SimulationHandle};
 use crate::script::messages::error::ScriptError;
 
-/// The domain of going back in a simulation.
+/// Domain of rewinding.
 pub const TABLE: BindingTable = BindingTable {
     name: "going back",
     doc: "A simulation can go back to states that it was in, bit for bit, as long as these fit into the memory set aside for them. \
@@ -60,7 +60,7 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// Megabytes in bytes; more than there can be count as the most that there can be.
+/// Megabytes in bytes, saturating.
 pub(super) fn bytes(megabytes: f64) -> usize {
     (megabytes * 1e6) as usize
 }

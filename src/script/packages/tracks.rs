@@ -1,4 +1,4 @@
-//! Tracks: beams one after the other, along which sliders pass from one to the next.
+//! Tracks: connected beams along which sliders pass from one to the next.
 
 use rhai::Dynamic;
 
@@ -16,7 +16,7 @@ use crate::script::handles::track::TrackHandle;
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::system::{Scene, SystemError, TrackError};
 
-/// The domain of tracks.
+/// Domain of tracks.
 pub const TABLE: BindingTable = BindingTable {
     name: "tracks",
     doc: "Beams that meet end to end are a track, along which a slider passes from one to the next: scene.slider(bead, track). Its position counts along the whole track, and \
@@ -68,7 +68,7 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// The track type.
+/// Type of tracks.
 pub(super) const TRACK: Type = Type::of::<TrackHandle>();
 
 const TRACK_KEYS: &[Parameter] = &[
@@ -78,7 +78,7 @@ const TRACK_KEYS: &[Parameter] = &[
     text("name").optional(),
 ];
 
-/// What a slider slides on, by its index.
+/// Beam or track of a slider, by index.
 #[derive(Clone, Copy)]
 pub(super) enum SliderGuide {
     Beam(usize),
@@ -86,7 +86,7 @@ pub(super) enum SliderGuide {
 }
 
 impl SliderGuide {
-    /// That which an argument of a call is, in a scene.
+    /// Beam or track given in an argument.
     pub(super) fn of(call: &Call, name: &str, scene: &SceneHandle) -> Result<Self, ScriptError> {
         match call.get_if::<TrackHandle>(name) {
             Some(track) => track.own(scene).map(Self::Track),
@@ -101,7 +101,7 @@ impl SliderGuide {
         }
     }
 
-    /// The beam on which a slider starts, and the arc length there: where it is said, or at the nearest place.
+    /// First beam of a slider and its arc length: as given, or at the nearest point.
     pub(super) fn start(
         self,
         scene: &Scene,

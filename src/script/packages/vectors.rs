@@ -1,4 +1,4 @@
-//! Vectors of the plane. Everything that takes a vector also takes an array `[x, y]`.
+//! Vectors of the plane. Every parameter that accepts a vector also accepts an array `[x, y]`.
 
 use rhai::Dynamic;
 
@@ -16,7 +16,7 @@ use crate::script::bindings::table::{BindingTable, function, operator, property}
 use crate::script::messages::error::ScriptError;
 use crate::script::presentation::details;
 
-/// The domain of vectors and their arithmetic.
+/// Domain of vectors.
 pub const TABLE: BindingTable = BindingTable {
     name: "vectors",
     doc: "Points and vectors of the plane, with components x and y.",

@@ -1,4 +1,4 @@
-//! Pages on which simulations move.
+//! Viewer pages that animate simulations.
 
 use rhai::Dynamic;
 
@@ -23,7 +23,7 @@ use crate::script::presentation::plots::column_hint;
 use crate::script::presentation::viewer_data::{FIELDS, FieldReader, ViewerOptions, film};
 use crate::script::state::settings::RunMode;
 
-/// Viewers.
+/// Domain of viewers.
 pub const TABLE: BindingTable = BindingTable {
     name: "viewers",
     doc: "A viewer is one HTML file that plays simulations in any browser, without network and without withy: to look at, to send, to keep. \
@@ -76,10 +76,10 @@ const MISSING: Missing = Missing {
     instead: "fields: [\"speed\", \"stretch\", \"curvature\"]",
 };
 
-/// What beams can be coloured by unless it is said.
+/// Default fields for the colours of beams.
 const USUAL_FIELDS: [&str; 4] = ["speed", "M", "stretch", "curvature"];
 
-/// What is drawn below the motion unless columns are named.
+/// Default columns below the motion.
 const LEDGER: [&str; 5] = ["kinetic", "strain", "potential", "energy", "work"];
 
 fn write_viewer(call: &mut Call) -> Result<Dynamic, ScriptError> {
@@ -125,8 +125,8 @@ fn write_viewer(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(Dynamic::UNIT)
 }
 
-/// The fields that the states of a simulation tell: those that are kept, or those of the run made again. None where that is another run,
-/// which is told, or refused where the fields were asked for.
+/// Fields computed from the states of a simulation: from snapshots, or by repeating the run. `None` if the repeated run differs, which is a
+/// note, or an error if the fields were requested explicitly.
 fn inside(
     call: &Call,
     of: &SimulationHandle,
@@ -153,7 +153,7 @@ fn inside(
     }
 }
 
-/// What the simulations are called.
+/// Labels of the simulations.
 fn labels(
     call: &Call,
     simulations: &[SimulationHandle],
@@ -173,7 +173,7 @@ fn labels(
     Ok(given.iter().map(Dynamic::to_string).collect())
 }
 
-/// The span of time that is shown of a simulation, in which something is recorded.
+/// Time interval shown of a simulation; it must contain recorded states.
 pub(super) fn span(
     call: &Call,
     of: &SimulationHandle,
@@ -190,7 +190,7 @@ pub(super) fn span(
     Ok((from, to))
 }
 
-/// The stations of each simulation among those given: each must be one of them at least.
+/// Stations by simulation; each must belong to at least one.
 fn assigned(
     given: &[StationHandle],
     simulations: &[SimulationHandle],
@@ -207,7 +207,7 @@ fn assigned(
     Ok(simulations.iter().map(of).collect())
 }
 
-/// The columns that are asked for, which the simulation must have.
+/// Requested columns, which the simulation must have.
 fn columns(
     call: &Call,
     of: &SimulationHandle,
@@ -229,7 +229,7 @@ fn columns(
     given.iter().map(column).collect()
 }
 
-/// The names of the fields that are asked for.
+/// Requested fields.
 fn fields(call: &Call, options: &Options) -> Result<Vec<String>, ScriptError> {
     let Ok(given) = options.array("fields") else {
         return Ok(USUAL_FIELDS.map(str::to_owned).to_vec());

@@ -1,4 +1,4 @@
-//! Pictures of what is inside of beams: strips, charts and colours, from the same description.
+//! Pictures of section results along beams: strips, charts and colours.
 
 use super::quantities::BeamQuantity;
 use super::symbols::{SceneAt, uncrowded};
@@ -11,14 +11,14 @@ use crate::simulation::{Outline, Simulation};
 use crate::statics::Equilibrium;
 use crate::system::{BeamPlaces, BeamSample, System, SystemError};
 
-/// Digits of numbers in words.
+/// Digits of numbers in text.
 const DIGITS: usize = 6;
 
-/// What is inside of some beams at one time.
+/// Section results of some beams at one time.
 pub struct SectionForceProfile {
-    /// What stands above pictures, before the quantity.
+    /// First part of the titles, before the quantity.
     pub title: String,
-    /// When it is, in words; may be empty.
+    /// Time as text; may be empty.
     pub when: String,
     beams: Vec<BeamProfile>,
     scenery: MechanismOutline,
@@ -31,20 +31,18 @@ struct BeamProfile {
 }
 
 impl SectionForceProfile {
-    /// The present of a simulation; of all beams where none is named by its index.
+    /// Results at the present time of a simulation, for the beams with these indices, or all if there are none.
     ///
-    /// # Errors
-    /// When an axis has a point without a tangent.
+    /// If an axis has a point without a tangent.
     pub fn of_simulation(simulation: &Simulation, beams: &[usize]) -> Result<Self, SystemError> {
         let when = format!("t = {}", significant(simulation.time(), DIGITS));
         let at = SceneAt::of(simulation, simulation.time());
         Self::of_model(&at, simulation.model(), beams).map(|inside| Self { when, ..inside })
     }
 
-    /// An equilibrium, under all of its loads.
+    /// Results of an equilibrium under full load.
     ///
-    /// # Errors
-    /// When an axis has a point without a tangent.
+    /// If an axis has a point without a tangent.
     pub fn of_equilibrium(rest: &Equilibrium, beams: &[usize]) -> Result<Self, SystemError> {
         Self::of_model(&SceneAt::at_rest(rest), rest.model(), beams)
     }
@@ -75,13 +73,13 @@ impl SectionForceProfile {
         })
     }
 
-    /// Leaves symbols out of which there are so many that they would hide the beams.
+    /// Removes symbols if there are so many that they would hide the beams.
     pub fn with_uncrowded_symbols(mut self) -> Self {
         self.scenery.symbols = uncrowded(self.scenery.symbols);
         self
     }
 
-    /// Leaves symbols of supports and loads out.
+    /// Removes the symbols of supports and loads.
     pub fn without_symbols(mut self) -> Self {
         self.scenery.symbols.clear();
         self
@@ -96,7 +94,7 @@ impl SectionForceProfile {
         }
     }
 
-    /// The quantity as strips across the beams.
+    /// Strips perpendicular to the beams.
     pub fn strips(&self, quantity: &BeamQuantity) -> StripPicture {
         let caption = match quantity.name {
             "M" | "curvature" => {
@@ -115,24 +113,24 @@ impl SectionForceProfile {
         self.beams.iter().map(of_beam).fold(picture, StripPicture::strip)
     }
 
-    /// The quantity over the arc lengths of the beams; without a title, to stand beside strips that have it.
+    /// Chart over the arc length of the beams, without a title.
     pub fn chart(&self, quantity: &BeamQuantity) -> LineChart {
         let chart = LineChart::new("")
             .x_label("s, from the start of the beam [length]")
             .y_label(quantity.label());
         self.beams.iter().fold(chart, |chart, beam| {
             let points = beam.along.iter().map(|at| (at.arc_length, (quantity.of)(at)));
-            // A lone beam needs no legend.
+            // A single beam needs no legend.
             let name = if self.beams.len() > 1 { beam.name.clone() } else { String::new() };
             chart.series(Series::new(name, points.collect()))
         })
     }
 
-    /// The magnitude of the quantity as colours and widths of the beams.
+    /// Magnitude of the quantity as colour and width of the beams.
     pub fn field(&self, quantity: &BeamQuantity) -> FieldPicture {
         let label = match quantity.sign {
             sign if sign.len() == 1 => format!("|{sign}| [{}]", quantity.dimension),
-            // The title says it.
+            // The title names the quantity.
             _ => format!("[{}]", quantity.dimension),
         };
         let picture =
@@ -143,12 +141,12 @@ impl SectionForceProfile {
         })
     }
 
-    /// The chart as text for a terminal.
+    /// Chart as text for a terminal.
     pub fn text(&self, quantity: &BeamQuantity, style: &TerminalStyle) -> String {
         self.chart(quantity).title(self.heading(quantity)).x_label("s").text(style)
     }
 
-    /// What the chart would show, in lines: where there is no terminal.
+    /// Summary in lines, without a terminal.
     pub fn summary(&self, quantity: &BeamQuantity) -> String {
         let number = |value: f64| significant(value, DIGITS);
         let line = |beam: &BeamProfile| {

@@ -1,9 +1,9 @@
-//! Simulations as arrays: control points over time, columns of the history.
+//! Simulations as arrays: control points over time, and columns of the history.
 
 use crate::output::{DataColumn, DataTable, DataValues, NpzArchive, NpzArray};
 use crate::simulation::{History, Simulation};
 
-/// What is recorded of a simulation: times and control points of its configurations, and the columns of its history.
+/// Recorded data of a simulation: times, control points and history columns.
 pub fn archive(simulation: &Simulation) -> NpzArchive {
     let (scene, trajectory) = (simulation.scene(), simulation.trajectory());
     let times = trajectory.times();
@@ -32,7 +32,7 @@ pub fn archive(simulation: &Simulation) -> NpzArchive {
     NpzArchive { arrays }
 }
 
-/// The columns of a history with their dimensions.
+/// Columns of a history with their dimensions.
 pub fn table(history: &History) -> DataTable {
     let column = |(name, dimension): (&str, &str)| {
         let values = history.column(name).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! The bodies of a simulation as grids for VTK: beams as lines through their knots and three places between, particles as dots.
+//! VTK grids of a simulation: beams as lines through their knots and three points in between, point masses as dots.
 
 use crate::beams::BodyPoint;
 use crate::geometry::Vec2;
@@ -6,21 +6,20 @@ use crate::output::{Point, VtkCell, VtkField, VtkGrid, VtkValues};
 use crate::simulation::Simulation;
 use crate::system::{BeamPlaces, BeamSample, SystemError};
 
-/// The places of all beams, found once for many frames.
+/// Sample locations of all beams, computed once for all frames.
 pub struct Grids {
-    /// Beams first, then particles and the centres of rigid bodies.
+    /// Names: beams, then point masses and centres of rigid bodies.
     names: Vec<String>,
     beams: Vec<BeamPlaces>,
 }
 
-/// What a particle has of a field that is measured along beams.
+/// Value at a point mass of a field along beams.
 const OF_A_PARTICLE: f64 = 0.0;
 
 impl Grids {
-    /// The grids of the beams of a simulation.
+    /// Grids of the beams of a simulation.
     ///
-    /// # Errors
-    /// When an axis has a point without a tangent.
+    /// If an axis has a point without a tangent.
     pub fn of(simulation: &Simulation) -> Result<Self, SystemError> {
         let scene = simulation.scene();
         let beams = (0..scene.beams.len())
@@ -34,7 +33,7 @@ impl Grids {
         })
     }
 
-    /// What a recorded configuration has: where everything is.
+    /// Grid of a recorded configuration: positions only.
     pub fn of_configuration(&self, simulation: &Simulation, index: usize) -> VtkGrid {
         let bodies = simulation.control_points_at(index);
         let (of_beams, of_particles) = bodies.split_at(self.beams.len());
@@ -45,7 +44,7 @@ impl Grids {
         VtkGrid { cells: self.cells(lines.chain(dots)), fields: vec![self.arc_lengths()] }
     }
 
-    /// The grid of the present state: places, velocities, angles and section forces.
+    /// Grid of the current state: positions, velocities, angles and section forces.
     pub fn of_state(&self, simulation: &Simulation) -> VtkGrid {
         let model = simulation.model();
         let samples: Vec<Vec<BeamSample>> =

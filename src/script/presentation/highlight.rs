@@ -1,4 +1,4 @@
-//! Colours of the language. Only colours: what can be read stays as it was typed, right or wrong, finished or not.
+//! Syntax highlighting, which preserves the text, also of incomplete or wrong input.
 
 use std::collections::{HashMap, HashSet};
 
@@ -7,42 +7,42 @@ use crate::script::bindings::table::CallSyntax;
 use crate::script::source::keywords::is_keyword;
 use crate::script::source::scanner::{Token, TokenKind, pair, scan};
 
-/// How a piece of an input is drawn, as numbers of an ANSI sequence.
+/// Style as ANSI colour codes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct HighlightStyle(pub &'static str);
 
-/// The style of a keyword.
+/// Keywords.
 pub const KEYWORD: HighlightStyle = HighlightStyle("35");
-/// The style of a number.
+/// Numbers.
 pub const NUMBER: HighlightStyle = HighlightStyle("36");
-/// The style of a text.
+/// Texts.
 pub const TEXT: HighlightStyle = HighlightStyle("32");
-/// The style of a comment.
+/// Comments.
 pub const COMMENT: HighlightStyle = HighlightStyle("2");
-/// The style of the name of a function.
+/// Function names.
 pub const FUNCTION: HighlightStyle = HighlightStyle("34");
-/// The style of the name of a number.
+/// Constants.
 pub const CONSTANT: HighlightStyle = HighlightStyle("36");
-/// The style of a member that its value has not.
+/// Unknown members.
 pub const UNKNOWN_MEMBER: HighlightStyle = HighlightStyle("4");
-/// The style of the bracket at the cursor, and of its partner.
+/// Bracket at the cursor, and its partner.
 pub const PARTNER: HighlightStyle = HighlightStyle("1;4");
-/// The style of what does not belong where it stands.
+/// Unmatched tokens.
 pub const STRAY: HighlightStyle = HighlightStyle("31");
 
-/// Names that are drawn in colours of their own; made once for many texts, as lines are drawn at each key.
+/// Names with their own colours, built once for many texts.
 pub struct Vocabulary {
     functions: HashSet<String>,
     constants: HashSet<String>,
-    /// The type of each variable whose type has members of ours.
+    /// Types of variables with native types.
     variables: HashMap<String, &'static str>,
     members: HashMap<&'static str, HashSet<&'static str>>,
-    /// What stands behind the `::` of a module.
+    /// Functions of imported modules.
     modules: HashMap<String, HashSet<String>>,
 }
 
 impl Vocabulary {
-    /// The vocabulary of the language itself: enough for a file.
+    /// Vocabulary of the language, sufficient for files.
     pub fn of_language(catalog: &Catalog) -> Self {
         let built_in = catalog.built_ins().filter(|known| known.is_function());
         let built_in = built_in.map(|known| known.name().to_owned());
@@ -63,24 +63,24 @@ impl Vocabulary {
         Self { functions, constants, members, variables: HashMap::new(), modules: HashMap::new() }
     }
 
-    /// Adds the name of a function to the vocabulary.
+    /// Adds a function name.
     pub fn add_function(&mut self, name: &str) {
         self.functions.insert(name.to_owned());
     }
 
-    /// Adds the name of a variable to the vocabulary, and its type in the words of the language.
+    /// Adds a variable and its type name.
     pub fn add_variable(&mut self, name: &str, of: &str) {
         if let Some((of, _)) = self.members.get_key_value(of) {
             self.variables.insert(name.to_owned(), *of);
         }
     }
 
-    /// Adds the functions of a module to the vocabulary, by the name that the module was given.
+    /// Adds the functions of a module by its alias.
     pub fn add_module<'n>(&mut self, alias: &str, functions: impl Iterator<Item = &'n str>) {
         self.modules.insert(alias.to_owned(), functions.map(str::to_owned).collect());
     }
 
-    /// Whether the value called `variable` has no member `name`; not if either is unknown.
+    /// Returns true if the variable is known and has no such member.
     fn lacks(&self, variable: &str, name: &str) -> bool {
         let members = self.variables.get(variable).and_then(|of| self.members.get(of));
         members.is_some_and(|members| !members.contains(name)) && !self.functions.contains(name)
@@ -105,9 +105,9 @@ impl Vocabulary {
     }
 }
 
-/// `text` of the language with colours; a bracket at the cursor and its partner stand out.
+/// Text with colours. A bracket at the cursor and its partner are emphasised.
 pub fn highlight(text: &str, cursor: Option<usize>, vocabulary: &Vocabulary) -> String {
-    // An escape character in the input could join with ours; nobody types one.
+    // An escape character in the input would interfere with the inserted sequences.
     if text.contains('\x1b') {
         return text.to_owned();
     }
@@ -115,7 +115,7 @@ pub fn highlight(text: &str, cursor: Option<usize>, vocabulary: &Vocabulary) -> 
     let (partners, _) = pair(&tokens);
     let touched = cursor.and_then(|cursor| bracket_at(&tokens, cursor));
     let marked = touched.and_then(|at| partners[at].map(|partner| [at, partner]));
-    // Parameters of functions hide variables of the session: their members are not judged.
+    // Parameters and local variables may shadow session variables, so members are not checked.
     let has_parameters =
         tokens.iter().any(|token| matches!(token.of(text), "fn" | "|" | "let" | "for"));
     let mut drawn = String::with_capacity(text.len() * 2);
@@ -138,7 +138,7 @@ pub fn highlight(text: &str, cursor: Option<usize>, vocabulary: &Vocabulary) -> 
                     "::" if index > 1 => vocabulary.style_in_module(value, written),
                     _ => vocabulary.style_of_word(written),
                 };
-                // The last name may still be typed.
+                // The last name may be incomplete.
                 let is_last = index + 1 == tokens.len();
                 style.filter(|style| !is_last || *style != UNKNOWN_MEMBER)
             }
@@ -152,14 +152,14 @@ pub fn highlight(text: &str, cursor: Option<usize>, vocabulary: &Vocabulary) -> 
     drawn
 }
 
-/// The bracket under the cursor, or else the one before it.
+/// Bracket under the cursor, or else before it.
 fn bracket_at(tokens: &[Token], cursor: usize) -> Option<usize> {
     let is_bracket = |token: &Token| matches!(token.kind, TokenKind::Open(_) | TokenKind::Close(_));
     let under = tokens.iter().position(|token| token.start == cursor && is_bracket(token));
     under.or_else(|| tokens.iter().position(|token| token.end == cursor && is_bracket(token)))
 }
 
-/// Adds a text in a style, if it has one, to what is drawn.
+/// Appends a text with a style.
 pub fn draw(drawn: &mut String, text: &str, style: Option<HighlightStyle>) {
     match style.filter(|_| !text.is_empty()) {
         Some(HighlightStyle(numbers)) => {

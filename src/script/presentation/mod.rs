@@ -1,4 +1,4 @@
-//! How values look: at the prompt, in charts and pictures, in colours.
+//! Presentation of values: prompt, charts, pictures, and colours.
 
 pub mod along;
 pub mod arrays;

@@ -1,4 +1,4 @@
-//! What a picture of a motion shows, found once for files and for terminals.
+//! Content of motion pictures, for files and terminals.
 
 use super::symbols::{SceneAt, symbols, uncrowded};
 use crate::beams::BodyPoint;
@@ -10,52 +10,52 @@ use crate::output::{
 use crate::script::messages::error::ScriptError;
 use crate::simulation::{Configuration, Simulation};
 
-/// Beams with more spans than this in all have no dots at their knots unless they are asked for.
+/// With more spans, knots are marked only on request.
 const MOST_SPANS_WITH_DOTS: usize = 40;
-/// Most snapshots of one picture.
+/// Maximum number of snapshots in a picture.
 const MOST_SNAPSHOTS: f64 = 2000.0;
-/// Digits of numbers in words.
+/// Digits of numbers in text.
 const DIGITS: usize = 6;
 
-/// Which snapshots there are.
+/// Times of the snapshots.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Times {
-    /// The first.
+    /// First time.
     pub from: f64,
-    /// The last.
+    /// Last time.
     pub to: f64,
-    /// Between two.
+    /// Interval.
     pub every: f64,
 }
 
-/// What is asked for.
+/// Options of a motion picture.
 pub struct MotionOptions {
-    /// Which snapshots.
+    /// Times of the snapshots.
     pub times: Times,
-    /// Places whose paths are drawn, with their names.
+    /// Stations whose paths are drawn, with their names.
     pub traces: Vec<(String, BodyPoint)>,
-    /// How many times displacements since the start are drawn; as they are where it is none.
+    /// Magnification of displacements since the start; `None` for 1.
     pub magnify: Option<f64>,
-    /// Whether knots or nodes have dots; as many spans allow unless it is said.
+    /// Marks at knots or nodes; `None` decides by the number of spans.
     pub dots: Option<bool>,
-    /// Which symbols there are.
+    /// Display of symbols.
     pub symbols: Visibility,
-    /// The ends of the axes.
+    /// Ends of the axes.
     pub limits: AxisLimits,
 }
 
-/// Whether something is shown.
+/// Display of symbols.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Visibility {
-    /// It is.
+    /// All.
     Yes,
-    /// It is, but for what there is so much of that it would hide the rest.
+    /// All, except kinds so numerous that they would hide the rest.
     WhereThereIsRoom,
-    /// It is not.
+    /// None.
     No,
 }
 
-/// What is seen.
+/// Content of a motion picture.
 pub struct MotionView {
     beams: Vec<String>,
     snapshots: Vec<MotionFrame>,
@@ -65,7 +65,7 @@ pub struct MotionView {
     limits: AxisLimits,
 }
 
-/// Magnifies displacements.
+/// Magnification of displacements.
 #[derive(Clone, Copy)]
 struct Magnifier(f64);
 
@@ -81,10 +81,9 @@ impl Magnifier {
 }
 
 impl MotionView {
-    /// What is wanted of a simulation; `expect` is asked about every snapshot, with the time that is wanted and the one that was recorded.
+    /// Collects the content from a simulation; `expect` checks each snapshot, with the requested and the recorded time.
     ///
-    /// # Errors
-    /// When nothing lies between the times, too many snapshots do, or `expect` has one.
+    /// If no or too many snapshots lie in the interval, or `expect` fails.
     pub fn of(
         simulation: &Simulation,
         wanted: MotionOptions,
@@ -138,7 +137,7 @@ impl MotionView {
         Ok(Self { beams, snapshots, traces, symbols, magnify, limits })
     }
 
-    /// For a file.
+    /// Picture for a file.
     pub fn picture(self, title: impl Into<String>) -> MotionPicture {
         let picture =
             MotionPicture::new(title).beams(self.beams).symbols(self.symbols).limits(self.limits);
@@ -153,7 +152,7 @@ impl MotionView {
         self.traces.into_iter().fold(picture, |picture, (name, path)| picture.trace(name, path))
     }
 
-    /// For a terminal: the last snapshot, and what was before it dotted.
+    /// Text for a terminal: the last snapshot, with earlier ones dotted.
     pub fn text(self, title: impl Into<String>, style: &TerminalStyle) -> String {
         let mut picture = ConfigurationPicture::new(title).limits(self.limits);
         let count = self.snapshots.len();
@@ -174,7 +173,7 @@ impl MotionView {
     }
 }
 
-/// A picture for a terminal with symbols: springs as lines, supports, joints and sliders as signs.
+/// Adds symbols to a terminal picture: springs as lines; supports, joints and sliders as marks.
 pub fn marked(picture: ConfigurationPicture, symbols: &[PlacedSymbol]) -> ConfigurationPicture {
     let links = symbols.iter().filter_map(PlacedSymbol::link);
     let picture = links.fold(picture, |picture, link| picture.ghost(link.to_vec()));
@@ -182,19 +181,19 @@ pub fn marked(picture: ConfigurationPicture, symbols: &[PlacedSymbol]) -> Config
     marks.fold(picture, |picture, (mark, at)| picture.mark(mark, at))
 }
 
-/// The sign of a symbol at a terminal.
+/// Mark of a symbol in a terminal.
 fn mark(placed: &PlacedSymbol) -> Option<PictureMark> {
     match placed.symbol {
         Symbol::Hinge | Symbol::Roller => Some(PictureMark::Hinge),
         Symbol::Clamp | Symbol::Guided | Symbol::Carriage => Some(PictureMark::Clamp),
         Symbol::Slider => Some(PictureMark::Slider),
         Symbol::Joint | Symbol::RigidJoint => Some(PictureMark::Joint),
-        // Springs are lines, loads are not drawn.
+        // Springs are lines; loads are not drawn.
         _ => None,
     }
 }
 
-/// The times of the snapshots. The last is asked for by itself, whether or not `every` meets it.
+/// Times of the snapshots. The last time is included even if it is no multiple of `every`.
 fn times(simulation: &Simulation, times: &Times) -> Result<Vec<f64>, ScriptError> {
     let Times { from, to, every } = *times;
     let now = simulation.time();
@@ -214,7 +213,7 @@ fn times(simulation: &Simulation, times: &Times) -> Result<Vec<f64>, ScriptError
     Ok(met.chain((!is_met).then_some(last)).collect())
 }
 
-/// The configuration nearest to a time; at the present, whether or not it was recorded, that of the present.
+/// Configuration nearest to a time; at the present time the current one, recorded or not.
 fn configuration(simulation: &Simulation, time: f64) -> Result<Option<Configuration>, ScriptError> {
     Ok(match time >= simulation.time() {
         true => Some(simulation.configuration()?),
@@ -222,14 +221,14 @@ fn configuration(simulation: &Simulation, time: f64) -> Result<Option<Configurat
     })
 }
 
-/// Whether the beams have so few spans in all that dots at their knots do not hide them.
+/// Returns true if the beams have few enough spans for marks at their knots.
 pub fn has_room_for_dots(simulation: &Simulation) -> bool {
     let meshes = simulation.model().meshes();
     let spans: usize = meshes.iter().map(|mesh| mesh.basis().breaks().len() - 1).sum();
     spans <= MOST_SPANS_WITH_DOTS
 }
 
-/// A configuration as it is drawn.
+/// Converts a configuration to a snapshot.
 pub fn snapshot(configuration: &Configuration) -> MotionFrame {
     let plain = |point: &Vec2| (point.x, point.y);
     let plain_line = |line: &Vec<Vec2>| line.iter().map(plain).collect();
@@ -255,10 +254,9 @@ fn magnified(start: &Configuration, now: &Configuration, lens: Magnifier) -> Mot
     }
 }
 
-/// The symbols of a simulation in the configuration nearest to a time, displacements magnified where that is asked for.
+/// Symbols in the configuration nearest to a time, with magnified displacements.
 ///
-/// # Errors
-/// When a station lies outside its beam.
+/// If a station lies outside its beam.
 pub fn placed(
     simulation: &Simulation,
     time: f64,

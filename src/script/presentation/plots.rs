@@ -1,5 +1,4 @@
-//! Seeing a simulation: charts of its history and pictures of its configuration, from the same description for files and for
-//! a terminal.
+//! Charts of histories and pictures of configurations, for files and terminals.
 
 use super::motion::{marked, placed};
 use crate::geometry::Vec2;
@@ -11,13 +10,12 @@ use crate::script::messages::error::ScriptError;
 use crate::script::messages::suggest::nearest;
 use crate::simulation::{Configuration, History, Invariant, Simulation};
 
-/// Digits of the numbers in a summary.
+/// Digits of numbers in a summary.
 const DIGITS: usize = 6;
 
-/// A chart of columns of a history over time, as text for a terminal.
+/// Chart of history columns over time, as text for a terminal.
 ///
-/// # Errors
-/// When no column or an unknown one is named, with the names that there are.
+/// If no column or an unknown one is named; the error lists the columns.
 pub fn history_chart(
     history: &History,
     columns: &[String],
@@ -38,12 +36,12 @@ pub fn history_chart(
     Ok(line_chart(title, history, columns, History::column).y_label(label).text(style))
 }
 
-/// A chart of the drifts of a history's energy and momenta on a logarithmic axis, as text for a terminal.
+/// Chart of the drift of energy and momenta on a logarithmic axis, as text for a terminal.
 pub fn drift_chart(history: &History, style: &TerminalStyle) -> String {
     drift_lines("", history).text(style)
 }
 
-/// What a chart of the drifts of a history would show, in lines: where there is no terminal.
+/// Summary of the drifts in lines, without a terminal.
 pub fn drift_summary(history: &History) -> String {
     let line = |(name, of): &(&str, Invariant)| {
         format!("drift of {}: {}", name.replace('_', " "), scientific(history.drift(*of), 2))
@@ -52,10 +50,9 @@ pub fn drift_summary(history: &History) -> String {
     moving.map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// What a chart of a column of a history would show, in a line: where there is no terminal.
+/// One-line summary of a column, without a terminal.
 ///
-/// # Errors
-/// When the column is unknown, with the names that there are.
+/// If the column is unknown; the error lists the columns.
 pub fn column_summary(history: &History, column: &str) -> Result<String, ScriptError> {
     let dimension = expect_column(history, column)?;
     let values = history.column(column).unwrap_or_default();
@@ -79,11 +76,9 @@ pub fn column_summary(history: &History, column: &str) -> Result<String, ScriptE
     Ok(format!("{name}: {first} at the start, least {least}, most {most}, now {last} ({rows})"))
 }
 
-/// The configuration of a simulation, the present one or the one recorded nearest to a time, as text for a terminal; the
-/// start is a ghost behind it.
+/// Configuration at the present time or nearest to a time, as text for a terminal, with the initial configuration dotted.
 ///
-/// # Errors
-/// When an axis has a point without a tangent.
+/// If an axis has a point without a tangent.
 pub fn configuration_picture(
     simulation: &Simulation,
     time: Option<f64>,
@@ -107,10 +102,9 @@ pub fn configuration_picture(
     Ok(marked(picture, &symbols).text(style))
 }
 
-/// What a picture of the configuration of a simulation would show, in lines: where there is no terminal.
+/// Summary of a configuration in lines, without a terminal.
 ///
-/// # Errors
-/// When an axis has a point without a tangent.
+/// If an axis has a point without a tangent.
 pub fn configuration_summary(
     simulation: &Simulation,
     time: Option<f64>,
@@ -133,7 +127,7 @@ pub fn configuration_summary(
     Ok(format!("t = {}\n{}", significant(shown.time, DIGITS), lines.join("\n")))
 }
 
-/// The present configuration, or the one recorded nearest to a time.
+/// Configuration at the present time, or recorded nearest to a time.
 fn shown_at(
     simulation: &Simulation,
     time: Option<f64>,
@@ -144,7 +138,7 @@ fn shown_at(
     })
 }
 
-/// A chart of columns of a history over time, read in one of its ways.
+/// Chart of history columns over time; `read` extracts the values.
 pub fn line_chart(
     title: impl Into<String>,
     history: &History,
@@ -158,7 +152,7 @@ pub fn line_chart(
     })
 }
 
-/// A chart of the drifts of a history's energy and momenta over time, on a logarithmic axis.
+/// Chart of the drift of energy and momenta over time, on a logarithmic axis.
 pub fn drift_lines(title: impl Into<String>, history: &History) -> LineChart {
     let chart = LineChart::new(title)
         .x_label("t")
@@ -173,7 +167,7 @@ pub fn drift_lines(title: impl Into<String>, history: &History) -> LineChart {
     })
 }
 
-/// A column in the words of a legend; the name of a thing of the scene stays as it is.
+/// Legend text of a column; names of objects are kept.
 fn series_name(column: &str) -> String {
     match column.rsplit_once('.') {
         Some((thing, quantity)) => format!("{thing} {}", quantity.replace('_', " ")),
@@ -181,7 +175,7 @@ fn series_name(column: &str) -> String {
     }
 }
 
-/// The dimension that all columns share.
+/// Common dimension of all columns, or an empty text.
 fn dimension_of(history: &History, names: &[String]) -> &'static str {
     let mut dimensions = names.iter().map(|name| history.dimension(name).unwrap_or_default());
     let first = dimensions.next().unwrap_or_default();
@@ -192,7 +186,7 @@ fn over_time(history: &History, values: Vec<f64>) -> Vec<(f64, f64)> {
     history.samples().iter().map(|row| row.measures.time).zip(values).collect()
 }
 
-/// The dimension of a column that must be there.
+/// Dimension of a column, or an error.
 fn expect_column(history: &History, name: &str) -> Result<&'static str, ScriptError> {
     history.dimension(name).ok_or_else(|| {
         ScriptError::new(format!("the history has no column {name:?}"))
@@ -200,7 +194,7 @@ fn expect_column(history: &History, name: &str) -> Result<&'static str, ScriptEr
     })
 }
 
-/// What to write instead of a name that is no column of a history.
+/// Hint for an unknown column name.
 pub fn column_hint(history: &History, name: &str) -> String {
     let missing = MISSING.iter().find(|(kind, _)| name.split('.').next() == Some(kind));
     let is_there = |kind: &str| history.columns().any(|(column, _)| column == kind);
@@ -212,7 +206,7 @@ pub fn column_hint(history: &History, name: &str) -> String {
     format!("{suggestion}columns: {}", column_names(history))
 }
 
-/// Columns that only some scenes have, and why others have none.
+/// Columns that exist only in some scenes, with the reason.
 const MISSING: [(&str, &str); 2] = [
     (
         "dissipated",
@@ -224,7 +218,7 @@ const MISSING: [(&str, &str); 2] = [
     ),
 ];
 
-/// The names of the columns of a history in a line.
+/// Names of the columns in one line.
 pub fn column_names(history: &History) -> String {
     history.columns().map(|(name, _)| name).collect::<Vec<_>>().join(", ")
 }
@@ -245,7 +239,7 @@ mod tests {
     const STYLE: TerminalStyle =
         TerminalStyle { glyphs: Glyphs::Ascii, colours: Colours::None, width: 50, height: 14 };
 
-    /// A rod that turns about a hinge at its start.
+    /// A rod rotating about a hinge at its start.
     fn turning() -> Simulation {
         let mut scene = Scene::new("turning");
         let section = Section {

@@ -1,4 +1,4 @@
-//! Any value of a script as a person at a prompt wants to see it.
+//! Display of script values at the prompt.
 
 use std::ops::{Range, RangeInclusive};
 
@@ -9,30 +9,30 @@ use crate::output::{beginning, columns, cut, padded, significant};
 use crate::script::bindings::catalog::Catalog;
 use crate::script::bindings::kind::{Details, Type};
 
-/// Digits of a number: those of decimal fractions, not the crumbs of binary ones.
+/// Digits of a number, few enough to hide binary rounding.
 const DIGITS: usize = 10;
-/// More items of an array than this are elided.
+/// Arrays with more items are abbreviated.
 const MOST_ITEMS: usize = 8;
-/// Items at the beginning of an array that is elided; the last one is shown too.
+/// Number of leading items shown of an abbreviated array, besides the last one.
 const FIRST_ITEMS: usize = 3;
-/// More keys of a map than this are elided.
+/// Maps with more keys are abbreviated.
 const MOST_KEYS: usize = 12;
-/// Collections within collections deeper than this are not opened; there may be no end to them.
+/// Maximum nesting depth; nesting may be infinite.
 const DEEPEST: usize = 4;
-/// Most letters of a text within something else.
+/// Maximum length of a nested text.
 const LONGEST_TEXT: usize = 40;
-/// Details have at least so many columns in a line, however long their labels are.
+/// Minimum width of the values in summaries.
 const LEAST_ROOM: usize = 20;
-/// Most lines of a text.
+/// Maximum number of lines of a text.
 const MOST_LINES: usize = 200;
 
-/// Shows values on lines of at most so many columns, but for texts that have lines of their own.
+/// Formats values to a line width; texts with several lines are excepted.
 pub struct Presenter<'a> {
     catalog: &'a Catalog,
     width: usize,
 }
 
-/// A line that is being written; what has no room is left out, and not even looked at.
+/// A line with limited space; surplus values are not even formatted.
 struct OutputLine {
     text: String,
     room: usize,
@@ -44,7 +44,7 @@ impl OutputLine {
     }
 
     fn write(&mut self, text: &str) {
-        // Enough to see that it is too much, also where a character takes two columns.
+        // Enough to detect the overflow, also with wide characters.
         self.text.push_str(beginning(text, self.room + 2));
         self.room = self.room.saturating_sub(columns(text));
     }
@@ -53,7 +53,7 @@ impl OutputLine {
         self.room == 0
     }
 
-    /// What was written in at most `width` columns, and whether that is all of it.
+    /// Text cut to `width` columns, and true if nothing was cut.
     fn cut(self, width: usize) -> (String, bool) {
         let shown = cut(&self.text, width, '…');
         let is_whole = shown == self.text;
@@ -61,13 +61,13 @@ impl OutputLine {
     }
 }
 
-/// Shows a value of a language on lines of `width` columns: numbers with up to ten digits, long arrays and maps elided, what
-/// is ours with its details below. Nothing is an empty text.
+/// Formats a value on lines of `width` columns: numbers with up to ten digits, long arrays and maps abbreviated, native values with their
+/// summary below. The unit value gives an empty text.
 pub fn present(catalog: &Catalog, value: &Dynamic, width: usize) -> String {
     Presenter { catalog, width: width.max(20) }.show(value)
 }
 
-/// Shows a value of a language in one line of `width` characters: collections elided until they fit, of all else the first line.
+/// Formats a value in one line of `width` columns: abbreviated collections, or the first line.
 pub fn present_in_a_line(catalog: &Catalog, value: &Dynamic, width: usize) -> String {
     let presenter = Presenter { catalog, width };
     if is_collection(value) {
@@ -103,7 +103,7 @@ impl Presenter<'_> {
         }
     }
 
-    /// A text with lines of its own, as it would be printed.
+    /// A text with several lines, as printed.
     fn lines_of(&self, text: &str) -> String {
         let text = text.trim_end_matches('\n');
         let shown: Vec<&str> = text.lines().take(MOST_LINES).collect();
@@ -125,16 +125,16 @@ impl Presenter<'_> {
         text
     }
 
-    /// The type of one of our own, and how it is printed.
+    /// Type and printed form of a native value.
     fn native(&self, value: &Dynamic) -> Option<(Type, String)> {
         let mut types = self.catalog.tables().flat_map(|table| table.types);
         let (of, shown) = types.find_map(|of| Some((*of, of.show(value)?)))?;
-        // Brackets are for arrays here.
+        // Brackets are used for arrays here.
         let vector = value.read_lock::<Vec2>().map(|vector| written(&vector));
         Some((of, vector.unwrap_or(shown)))
     }
 
-    /// The value in one line, and whether that is all of it.
+    /// Value in one line, and true if nothing was cut.
     fn inline(&self, value: &Dynamic, width: usize) -> (String, bool) {
         let mut line = OutputLine::new(width);
         self.write(&mut line, value, 0);
@@ -150,7 +150,7 @@ impl Presenter<'_> {
         } else if let Some(map) = value.read_lock::<Map>() {
             self.write_map(line, &map, depth);
         } else if let Some((of, shown)) = self.native(value) {
-            // What shows as a table has no place in a line.
+            // Tables do not fit into a line.
             line.write(if shown.contains('\n') { of.name() } else { &shown });
         } else {
             let longest = if depth == 0 { self.width } else { LONGEST_TEXT };
@@ -192,7 +192,7 @@ impl Presenter<'_> {
         line.write("}");
     }
 
-    /// An array of collections, one in a line.
+    /// An array of collections, one per line.
     fn rows(&self, array: &Array) -> String {
         let items = elided(array);
         let last = items.len() - 1;
@@ -212,7 +212,7 @@ impl Presenter<'_> {
         format!("{}{count}", rows.join("\n"))
     }
 
-    /// A map, one key in a line.
+    /// A map, one key per line.
     fn keys(&self, map: &Map) -> String {
         let mut lines = vec!["#{".to_owned()];
         for (key, value) in map.iter().take(MOST_KEYS) {
@@ -229,7 +229,7 @@ impl Presenter<'_> {
     }
 }
 
-/// A text in lines of at most `room` columns, broken between words where there are some.
+/// Wraps a text at `room` columns, between words if possible.
 fn wrapped(text: &str, room: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     let mut used = 0;
@@ -247,12 +247,11 @@ fn wrapped(text: &str, room: usize) -> Vec<String> {
     lines
 }
 
-/// A word in pieces of at most `room` columns.
 fn pieces(word: &str, room: usize) -> Vec<String> {
     let mut rest = word;
     let mut pieces = Vec::new();
     while !rest.is_empty() {
-        // A piece has a character at least, however narrow the room is.
+        // At least one character per piece, however narrow the space is.
         let least = rest.chars().next().map_or(0, char::len_utf8);
         let (piece, behind) = rest.split_at(beginning(rest, room).len().max(least));
         pieces.push(piece.to_owned());
@@ -261,7 +260,7 @@ fn pieces(word: &str, room: usize) -> Vec<String> {
     pieces
 }
 
-/// The items that are shown, none where some are left out.
+/// Items shown; `None` marks omitted ones.
 fn elided(array: &Array) -> Vec<Option<&Dynamic>> {
     if array.len() <= MOST_ITEMS {
         return array.iter().map(Some).collect();
@@ -277,16 +276,15 @@ fn written(vector: &Vec2) -> String {
     format!("({}, {})", significant(vector.x, DIGITS), significant(vector.y, DIGITS))
 }
 
-/// A key as it is written in a map.
 fn written_key(key: &str) -> String {
     let is_name = key.starts_with(|first: char| first.is_alphabetic() || first == '_')
         && key.chars().all(|letter| letter.is_alphanumeric() || letter == '_');
     if is_name { key.to_owned() } else { format!("{key:?}") }
 }
 
-/// A value that is neither a collection nor one of our own.
+/// A value that is neither a collection nor native.
 fn plain(value: &Dynamic, longest: usize) -> String {
-    // What a closure has captured is behind a lock.
+    // Variables captured by closures are shared values behind a lock.
     let value = value.flatten_clone();
     if let Ok(x) = value.as_float() {
         return significant(x, DIGITS);

@@ -1,30 +1,30 @@
-//! What can be drawn along beams.
+//! Quantities that can be drawn along beams.
 
 use crate::output::BeamSide;
 use crate::system::BeamSample;
 
 /// A quantity along a beam.
 pub struct BeamQuantity {
-    /// The name of the quantity in scripts.
+    /// Name in scripts.
     pub name: &'static str,
-    /// What it is called in titles.
+    /// Name in titles.
     pub words: &'static str,
-    /// How axes write it.
+    /// Symbol on axes.
     pub sign: &'static str,
-    /// The dimension of the quantity.
+    /// Dimension of the quantity.
     pub dimension: &'static str,
-    /// The value of the quantity at a sample of a beam.
+    /// Evaluates the quantity at a sample of a beam.
     pub of: fn(&BeamSample) -> f64,
-    /// The side of a beam on which strips stand where it is positive.
+    /// Side of the beam for strips with positive values.
     pub side: BeamSide,
 }
 
-/// All of them, in the order of [`NAMES`].
+/// All quantities, in the order of [`NAMES`].
 const QUANTITIES: [BeamQuantity; 8] = [
     quantity("N", "axial force", "force", |at| at.forces.axial),
     quantity("Q", "shear force", "force", |at| at.forces.shear),
     BeamQuantity {
-        // Where the beam is stretched.
+        // The stretched side.
         side: BeamSide::Right,
         ..quantity("M", "bending moment", "force·length", |at| at.forces.moment)
     },
@@ -38,7 +38,7 @@ const QUANTITIES: [BeamQuantity; 8] = [
     quantity("speed", "speed", "length/time", |at| at.velocity.norm()),
 ];
 
-/// Their names.
+/// Names of the quantities.
 pub const NAMES: &[&str] =
     &["N", "Q", "M", "axial_strain", "shear_strain", "curvature", "strain_energy", "speed"];
 
@@ -53,13 +53,13 @@ const fn quantity(
 }
 
 impl BeamQuantity {
-    /// The one of a name.
+    /// Quantity with this name.
     pub fn named(name: &str) -> Option<&'static Self> {
         const ALL: &[BeamQuantity] = &QUANTITIES;
         ALL.iter().find(|quantity| quantity.name == name)
     }
 
-    /// The label of an axis: `M [force·length]`.
+    /// Axis label: `M [force·length]`.
     pub fn label(&self) -> String {
         format!("{} [{}]", self.sign, self.dimension)
     }

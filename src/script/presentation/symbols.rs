@@ -1,4 +1,4 @@
-//! The symbols of a scene: supports, joints, sliders and loads where they are at some time.
+//! Symbols of a scene at a time: supports, joints, sliders and loads.
 
 use crate::beams::Station;
 use crate::elementary::atan2;
@@ -10,35 +10,35 @@ use crate::simulation::Simulation;
 use crate::statics::Equilibrium;
 use crate::system::{Anchor, Drive, Scene, Spring, SpringKind, System, SystemError};
 
-/// The arrows of a load that is spread along a beam.
+/// Arrows of a line load.
 const ARROWS: usize = 5;
-/// The direction of a beam is looked for so far around a place, as a part of its length.
+/// Offset for the tangent direction at a station, as a fraction of the beam length.
 const AROUND: f64 = 1e-3;
 
-/// A symbol at a station, wherever that is.
+/// A symbol at a station.
 pub struct StationSymbol<'a> {
-    /// What it is.
+    /// Kind of symbol.
     pub symbol: Symbol,
-    /// The name of what it stands for.
+    /// Name of the element.
     pub name: &'a str,
-    /// The station.
+    /// Station.
     pub at: Station,
-    /// The direction in which the symbol points.
+    /// Direction.
     pub pointing: Pointing,
-    /// What it is of those that may let go.
+    /// Releasable connection that it represents.
     pub hold: Option<Releasable>,
 }
 
-/// Where a symbol points.
+/// Direction of a symbol.
 pub enum Pointing {
-    /// In space.
+    /// Fixed in space.
     To(Vec2),
-    /// With the beam: components along it and to its left.
+    /// Relative to the beam: components along it and to its left.
     WithBeam(Vec2),
 }
 
 impl Pointing {
-    /// The direction where the beam runs along another one.
+    /// Direction in space for a given beam direction.
     fn direction(&self, along: Vec2) -> Vec2 {
         match self {
             Self::To(direction) => *direction,
@@ -49,7 +49,7 @@ impl Pointing {
         }
     }
 
-    /// The angle of the direction where the beam runs at some angle [rad].
+    /// Angle in space for a given beam angle [rad].
     pub fn angle(&self, along: f64) -> f64 {
         match self {
             Self::To(direction) => atan2(direction.y, direction.x),
@@ -60,16 +60,16 @@ impl Pointing {
 
 /// A scene at a time.
 pub struct SceneAt<'a> {
-    /// The scene.
+    /// Scene.
     pub scene: &'a Scene,
-    /// The time.
+    /// Time.
     pub time: f64,
-    /// What has let go.
+    /// Released connections.
     pub released: Vec<Releasable>,
 }
 
 impl<'a> SceneAt<'a> {
-    /// The scene of a simulation at a time, without what has let go by then.
+    /// Scene of a simulation at a time, without released connections.
     pub fn of(simulation: &'a Simulation, time: f64) -> Self {
         let scene = simulation.scene();
         let holds = scene.holds().into_iter().map(|(_, hold)| hold);
@@ -77,25 +77,23 @@ impl<'a> SceneAt<'a> {
         Self { scene, time, released: holds.filter(is_gone).collect() }
     }
 
-    /// The scene of an equilibrium, under all of its loads.
+    /// Scene of an equilibrium under full load.
     pub fn at_rest(rest: &'a Equilibrium) -> Self {
         Self { scene: rest.scene(), time: 0.0, released: Vec::new() }
     }
 
-    /// The symbols where a model of the scene is at present.
+    /// Symbols in the current configuration of a model.
     ///
-    /// # Errors
-    /// When a station lies outside its beam.
+    /// If a station lies outside its beam.
     pub fn symbols(&self, model: &System) -> Result<Vec<PlacedSymbol>, SystemError> {
         let place = |at: &_| Ok(model.position(&self.scene.place(at, model.meshes())?));
         symbols(self, |stations| stations.iter().map(place).collect())
     }
 }
 
-/// The symbols of a scene at a time. `places` finds stations; loads that are zero then have none.
+/// Symbols of a scene at a time. `places` returns the positions of stations. Loads that are zero have no symbol.
 ///
-/// # Errors
-/// Those of `places`.
+/// Errors of `places`.
 pub fn symbols(
     at: &SceneAt,
     places: impl FnOnce(&[Station]) -> Result<Vec<Vec2>, SystemError>,
@@ -104,7 +102,7 @@ pub fn symbols(
     let is_there = |sign: &StationSymbol| sign.hold.is_none_or(|hold| !at.released.contains(&hold));
     let held = of_supports(scene).chain(of_sliders(scene)).filter(is_there);
     let unplaced: Vec<StationSymbol> = held.chain(of_loads(scene, time)).collect();
-    // For each its place, and one before and one behind it on its beam; then those of springs.
+    // Each symbol needs its position and one before and after it on the beam; then follow the springs.
     let around = unplaced.iter().flat_map(|symbol| around(scene, &symbol.at));
     let springs = scene.springs().enumerate();
     let springs = springs.filter(|(index, _)| !at.released.contains(&Releasable::Spring(*index)));
@@ -121,10 +119,10 @@ pub fn symbols(
     Ok(placed.chain(springs.flat_map(|spring| of_spring(spring, &mut ends))).collect())
 }
 
-/// The most symbols of supports, joints and sliders that do not hide what they stand on.
+/// Limit on the symbols of supports, joints and sliders.
 const MOST_HOLDING: usize = 60;
 
-/// The symbols without those of supports, joints and sliders where there are too many of these.
+/// Removes the symbols of supports, joints and sliders if there are too many.
 pub fn uncrowded(symbols: Vec<PlacedSymbol>) -> Vec<PlacedSymbol> {
     let holds = |placed: &PlacedSymbol| placed.symbol.holds();
     match symbols.iter().filter(|placed| holds(placed)).count() > MOST_HOLDING {
@@ -133,7 +131,7 @@ pub fn uncrowded(symbols: Vec<PlacedSymbol>) -> Vec<PlacedSymbol> {
     }
 }
 
-/// The symbols of a spring, whose stations come next among the places found: a tendon has one for each part of its way.
+/// Symbols of a spring, whose stations are the next of the positions; a tendon has one per segment.
 fn of_spring(spring: &Spring, found: &mut impl Iterator<Item = Vec2>) -> Vec<PlacedSymbol> {
     let place = |anchor: &Anchor| match anchor {
         Anchor::Station(_) => found.next(),
@@ -167,7 +165,7 @@ fn around(scene: &Scene, at: &Station) -> [Station; 3] {
     [*at, moved(-AROUND), moved(AROUND)]
 }
 
-/// The symbol of a spring, a damper or a tendon.
+/// Symbol of a spring, damper or tendon.
 pub fn of_spring_kind(spring: &Spring) -> Symbol {
     match (&spring.kind, &spring.law) {
         (SpringKind::Torsion(_), _) => Symbol::TorsionSpring,
@@ -177,14 +175,14 @@ pub fn of_spring_kind(spring: &Spring) -> Symbol {
     }
 }
 
-/// The signs of joints and supports, and of what gives motions.
+/// Symbols of joints, supports and prescribed motions.
 pub fn of_supports(scene: &Scene) -> impl Iterator<Item = StationSymbol<'_>> {
     let joints = scene.joints.iter().enumerate();
     let joints = joints.map(|(index, joint)| of_joint(scene, joint, Releasable::Joint(index)));
     joints.chain(scene.drives.iter().flat_map(|drive| of_drive(scene, drive)))
 }
 
-/// The signs of all sliders, in their order.
+/// Symbols of all sliders, in order.
 pub fn of_sliders(scene: &Scene) -> impl Iterator<Item = StationSymbol<'_>> {
     scene.sliders.iter().enumerate().map(|(index, slider)| StationSymbol {
         hold: Some(Releasable::Slider(index)),
@@ -209,7 +207,7 @@ fn of_joint<'a>(scene: &Scene, joint: &'a Joint, hold: Releasable) -> StationSym
     StationSymbol { symbol, name: &joint.name, at, pointing, hold: Some(hold) }
 }
 
-/// The symbol of what the ground holds at a station, and where that points.
+/// Symbol and direction of a support at a station.
 fn of_held(scene: &Scene, at: &Station, held: Components) -> (Symbol, Pointing) {
     match held {
         Components::X => (Symbol::Roller, Pointing::To(Vec2::x())),
@@ -222,19 +220,19 @@ fn of_held(scene: &Scene, at: &Station, held: Components) -> (Symbol, Pointing) 
     }
 }
 
-/// Across the line of an inclined roller, upwards: it stands below.
+/// Perpendicular to an inclined roller, upwards, with the support below.
 fn across(along: Vec2) -> Pointing {
     let across = perpendicular(along);
     Pointing::To(if across.y < 0.0 { -across } else { across })
 }
 
-/// Away from a support that stands at the end of a beam, the beam runs backwards.
+/// Direction away from a support; at the end of a beam this is backwards.
 fn away(scene: &Scene, at: &Station) -> Pointing {
     let is_end = at.beam().is_some() && at.arc_length > 0.5 * scene.length_at(at);
     Pointing::WithBeam(if is_end { -Vec2::x() } else { Vec2::x() })
 }
 
-/// The signs of a drive: what moves, or else what is held.
+/// Symbols of a drive: moved components, or else fixed ones.
 fn of_drive<'a>(scene: &Scene, drive: &'a Drive) -> Vec<StationSymbol<'a>> {
     let is_moved = |component: Component| {
         let motion = drive.motions[component as usize].as_ref();
@@ -303,7 +301,7 @@ fn of_loads(scene: &Scene, time: f64) -> impl Iterator<Item = StationSymbol<'_>>
     })
 }
 
-/// The sign with which a load acts just before a time, at the start just after it. Functions of a script are not asked for a picture.
+/// Sign of a load just before a time, or just after the start. Script functions are not called.
 fn factor(load: &Load, time: f64) -> f64 {
     if load.schedule.functions() > 0 {
         return 1.0;

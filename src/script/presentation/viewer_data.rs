@@ -1,4 +1,4 @@
-//! A simulation as a film for the viewer: its bodies, supports and loads in frames, and columns of its history.
+//! Conversion of a simulation to viewer data: bodies, supports, loads per frame, and history columns.
 
 mod fields;
 
@@ -19,33 +19,32 @@ use crate::script::messages::error::ScriptError;
 use crate::simulation::{Axes, AxisStation, Outline, Simulation};
 use crate::system;
 
-/// Paths of free ends are drawn where there are at most so many.
+/// Paths of free ends are drawn if there are at most this many.
 const MOST_FREE_ENDS: usize = 8;
-/// Arrows of a line load on a beam.
+/// Arrows of a line load per beam.
 const ARROWS_A_BEAM: usize = 6;
 
-/// What of a simulation a film shows.
+/// Options of the viewer data.
 pub struct ViewerOptions<'a> {
-    /// From when to when [time].
+    /// Time interval [time].
     pub span: (f64, f64),
-    /// The configurations shown, by their index in the trajectory.
+    /// Configurations shown, by index in the trajectory.
     pub frames: Vec<usize>,
-    /// What it is called.
+    /// Label of the motion.
     pub label: String,
-    /// The places whose paths are drawn; where none are given, free ends.
+    /// Stations whose paths are drawn; free ends by default.
     pub trails: Option<&'a [Station]>,
-    /// Columns of its history.
+    /// Columns of the history.
     pub columns: &'a [String],
-    /// Quantities along beams, of [`FIELDS`].
+    /// Quantities along beams, from [`FIELDS`].
     pub fields: &'a [&'a str],
-    /// The fields that states tell.
+    /// Fields computed from states.
     pub inside: Vec<ColourField>,
 }
 
-/// A film of the frames that are recorded.
+/// Creates the viewer data of the recorded frames.
 ///
-/// # Errors
-/// When nothing is recorded in the span, a station lies outside its beam, or the function of a load fails.
+/// If nothing is recorded in the interval, a station lies outside its beam, or the function of a load fails.
 pub fn film(simulation: &Simulation, wishes: ViewerOptions) -> Result<ViewerData, ScriptError> {
     let (from, to) = wishes.span;
     let shown = FrameSelection::of(simulation, wishes.frames);
@@ -72,18 +71,17 @@ pub fn film(simulation: &Simulation, wishes: ViewerOptions) -> Result<ViewerData
     })
 }
 
-/// Points as a film has them.
 fn plain<'a>(points: impl Iterator<Item = &'a Vec2>) -> Vec<(f64, f64)> {
     points.map(|point| (point.x, point.y)).collect()
 }
 
-/// The configurations that are shown.
+/// Configurations shown.
 struct FrameSelection {
-    /// By their index in the trajectory.
+    /// Indices in the trajectory.
     indices: Vec<usize>,
-    /// The control points of each body in each of them.
+    /// Control points by frame and body.
     frames: Vec<Vec<Vec<Vec2>>>,
-    /// The first point of each body among all.
+    /// Index of the first point of each body.
     first: Vec<usize>,
 }
 
@@ -109,7 +107,6 @@ impl FrameSelection {
         }
     }
 
-    /// The place of a station.
     fn station(
         &self,
         simulation: &Simulation,
@@ -150,7 +147,7 @@ fn particles(
 
 fn bodies(simulation: &Simulation, shown: &FrameSelection) -> Result<Vec<BodyShape>, ScriptError> {
     let scene = simulation.scene();
-    // Those that have points have outlines, behind those of the beams.
+    // Outlines of bodies with points follow those of the beams.
     let mut outlines = simulation.outlines()?.iter().skip(scene.beams.len());
     let body = |(index, body): (usize, &system::RigidBodyDefinition)| {
         let place = |point: usize| shown.station(simulation, &Station::on_rigid_body(index, point));
@@ -220,7 +217,7 @@ fn trails(
     stations.iter().map(trail).collect()
 }
 
-/// Ends of beams that nothing holds at the ground, of those that are joined one, and particles; none where there are many.
+/// Unsupported beam ends, one per joint, and point masses; empty if there are many.
 fn free_ends(simulation: &Simulation) -> Vec<Station> {
     let scene = simulation.scene();
     let of_beam = |beam: usize| {
@@ -282,7 +279,7 @@ fn arrows(simulation: &Simulation, shown: &FrameSelection) -> Result<Vec<Arrow>,
     Ok(arrows)
 }
 
-/// A load in space; one that follows its section is drawn as if that stood across the axis.
+/// Load vector in space; a follower load is drawn as if the section were perpendicular to the axis.
 fn turned(force: Vec2, frame: LoadFrame, axis: Option<&AxisStation>, points: &[Vec2]) -> Vec2 {
     match (frame, axis) {
         (LoadFrame::Follower, Some(axis)) => {
@@ -293,7 +290,7 @@ fn turned(force: Vec2, frame: LoadFrame, axis: Option<&AxisStation>, points: &[V
     }
 }
 
-/// The factors of a load in the configurations that are shown.
+/// Load factors in the configurations shown.
 fn factors(
     load: &Load,
     simulation: &Simulation,

@@ -1,24 +1,24 @@
-//! The functions that a text defines, found in its tokens; and the brackets around them.
+//! Function definitions in a token stream, and bracket matching.
 
 use rhai::Token;
 
 use super::text::{Lexeme, name_of};
 
-/// A function that a text defines, as its tokens stand there.
+/// A function definition in a token stream.
 #[derive(Clone, Copy, Debug)]
 pub struct Definition<'t> {
     tokens: &'t [Lexeme],
-    /// The index of the function's first token: `fn`, or `private` before that.
+    /// Index of the first token: `fn`, or `private` before it.
     pub first: usize,
     start: usize,
-    /// The number of the bracket before its parameters; where there is none, of its body.
+    /// Index of the bracket before the parameters, or of the body if there is none.
     opening: usize,
     body: usize,
-    /// The index of the token behind the function.
+    /// Index after the last token.
     pub end: usize,
 }
 
-/// All functions that a text with these tokens defines, in their order. The text need not be right.
+/// All function definitions in these tokens, in order. The text may contain errors.
 pub fn definitions(tokens: &[Lexeme]) -> impl DoubleEndedIterator<Item = Definition<'_>> {
     let starts = tokens.iter().enumerate().filter(|(_, (token, _))| matches!(token, Token::Fn));
     starts.map(|(start, _)| Definition::at(tokens, start))
@@ -31,7 +31,7 @@ impl<'t> Definition<'t> {
             found.map_or(tokens.len(), |ahead| from + ahead)
         };
         let opens = |token: &Token| {
-            // Empty parentheses are one token.
+            // Empty parentheses are a single token.
             matches!(token, Token::LeftParen | Token::Unit | Token::LeftBrace)
         };
         let opening = find(start + 1, opens);
@@ -42,7 +42,7 @@ impl<'t> Definition<'t> {
         Self { tokens, first, start, opening, body, end: closing(tokens, body) }
     }
 
-    /// The name of the function and where it stands; none for a method of a type, which is no function of its name.
+    /// Name of the function and its token; `None` for a method of a type.
     pub fn name(&self) -> Option<(&'t str, &'t Lexeme)> {
         match &self.tokens[self.start + 1..self.opening] {
             [lexeme] => Some((name_of(&lexeme.0)?, lexeme)),
@@ -50,7 +50,7 @@ impl<'t> Definition<'t> {
         }
     }
 
-    /// The name of the function, for a method of a type with that before it: `number.twice`.
+    /// Name of the function, for a method with its type: `number.twice`.
     pub fn full_name(&self) -> String {
         let words =
             self.tokens[self.start + 1..self.opening].iter().filter_map(|(token, _)| match token {
@@ -60,18 +60,18 @@ impl<'t> Definition<'t> {
         words.collect::<Vec<_>>().join(".")
     }
 
-    /// The names of the function's parameters.
+    /// Names of the parameters.
     pub fn parameters(&self) -> impl Iterator<Item = &'t str> + use<'t> {
         self.tokens[self.opening..self.body].iter().filter_map(|(token, _)| name_of(token))
     }
 
-    /// The tokens of the function from the bracket before its parameters to the end of its body.
+    /// Tokens from the bracket before the parameters to the end of the body.
     pub fn inside(&self) -> &'t [Lexeme] {
         &self.tokens[self.opening..self.end]
     }
 }
 
-/// By how much a token changes the depth of brackets.
+/// Change of the bracket depth by a token.
 pub fn nesting(token: &Token) -> isize {
     match token {
         Token::LeftBrace
@@ -84,7 +84,7 @@ pub fn nesting(token: &Token) -> isize {
     }
 }
 
-/// The index of the token behind the bracket that closes the one at `open`; the number of all tokens, if none does.
+/// Index of the bracket that closes the one at `open`; the number of tokens if there is none.
 pub fn closing(tokens: &[Lexeme], open: usize) -> usize {
     let mut depth = 0;
     for (index, (token, _)) in tokens.iter().enumerate().skip(open) {

@@ -1,18 +1,18 @@
-//! From a text to its tokens, as the engine's own lexer sees them (a volatile interface of Rhai).
+//! Tokenisation with the engine's own lexer (a volatile interface of Rhai).
 
 use rhai::{Engine, Token};
 
 use super::text::Lexeme;
 
-/// What the lexer finds in a text.
+/// Result of the lexer.
 pub(super) struct Lexed {
-    /// All tokens of the text, comments left out.
+    /// Tokens of the text, without comments.
     pub tokens: Vec<Lexeme>,
-    /// Whether the text ends within a block comment.
+    /// True if the text ends inside a block comment.
     pub ends_in_comment: bool,
 }
 
-/// Lexes `text`, the only place where it is done: [`Source`](super::text::Source) keeps what is found.
+/// Tokenises `text`. Called only by [`Source`](super::text::Source), which caches the result.
 pub(super) fn lex(text: &str) -> Lexed {
     #[cfg(test)]
     LEXINGS.set(LEXINGS.get() + 1);
@@ -20,7 +20,7 @@ pub(super) fn lex(text: &str) -> Lexed {
     let inputs = [text];
     let (mut stream, control) = engine.lex(&inputs);
     let mut depth = 0_usize;
-    // Depths at which an interpolation `${ … }` was opened: its closing brace leads back into the text.
+    // Bracket depths of open interpolations `${ … }`; their closing brace returns to the string literal.
     let mut interpolations = Vec::new();
     let mut tokens = Vec::new();
     for (token, position) in stream.by_ref() {
@@ -47,7 +47,7 @@ thread_local! {
     static LEXINGS: std::cell::Cell<usize> = const { std::cell::Cell::new(0) };
 }
 
-/// The number of texts that this thread has lexed.
+/// Number of texts that this thread has tokenised.
 #[cfg(test)]
 pub fn lexings() -> usize {
     LEXINGS.get()

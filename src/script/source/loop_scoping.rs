@@ -1,27 +1,27 @@
-//! A variable of its own for every round of a `for` loop: what a closure that is kept sees is what it saw when it was made.
+//! Fresh loop variables for every iteration of a `for` loop, so that a closure captures the values of its iteration.
 //!
-//! Rhai gives all rounds of a loop one variable, and closures share it: those of the first round would see the last value.
-//! A loop whose body has a closure that mentions its variable therefore begins each round with a statement that Rhai does
-//! not have, which declares the variable again, in the block of the round. The statement is put into the text before it is
-//! parsed, in the place of blanks around the brace that opens the body, so that columns stay right; where there are no two
-//! blanks, what follows on the line seems to stand a column or two further right.
+//! In Rhai all iterations of a loop share one variable, so that closures of the first iteration would see the last
+//! value. If the body contains a closure that uses the loop variable, it gets an additional first statement that
+//! declares the variable again in the scope of the iteration. The statement is inserted into the text before parsing,
+//! in place of blanks around the opening brace, so that columns stay right; without two blanks the rest of the line
+//! moves one or two columns to the right.
 
 use rhai::{Dynamic, Engine, EvalContext, Position, Token};
 
 use super::definitions::{closing, nesting};
 use super::text::{Lexeme, name_of};
 
-/// The private-use character that stands for the statement of rounds in a loop with one variable.
+/// Private-use character of the scoping statement in a loop with one variable.
 pub const ONE: char = '\u{E003}';
-/// The private-use character that stands for the statement of rounds in a loop that counts as well.
+/// Private-use character of the scoping statement in a loop with a counter.
 pub const TWO: char = '\u{E004}';
 
-/// The name of the statement of rounds for the parser, in a loop with one variable.
+/// Name of the scoping statement for the parser, with one variable.
 pub const ONE_NAME: &str = "\u{E003}";
-/// The name of the statement of rounds for the parser, in a loop that counts as well.
+/// Name of the scoping statement for the parser, with a counter.
 pub const TWO_NAME: &str = "\u{E004}";
 
-/// Teaches `engine` the statement of rounds, which makes a body of a loop begin with fresh variables.
+/// Registers the scoping statement, which declares fresh loop variables.
 pub fn install(engine: &mut Engine) {
     for (name, variables) in [(ONE_NAME, 1), (TWO_NAME, 2)] {
         engine.register_custom_syntax_with_state_raw(
@@ -36,10 +36,11 @@ pub fn install(engine: &mut Engine) {
     }
 }
 
-/// Declares the last variables of the scope again, with their values: the loop sets its own anew for every round.
+/// Declares the last variables of the scope again, with their values; the loop assigns its own variables in every
+/// iteration.
 fn declare_again(context: &mut EvalContext, variables: usize) {
     let scope = context.scope_mut();
-    // The last come first.
+    // The newest variables come first.
     let names: Vec<String> =
         scope.iter_raw().take(variables).map(|(name, _, _)| name.to_owned()).collect();
     for name in names {
@@ -48,7 +49,7 @@ fn declare_again(context: &mut EvalContext, variables: usize) {
     }
 }
 
-/// The places where bodies of loops begin that need the statement of rounds, with its character.
+/// Positions of the loop bodies that need the scoping statement, with its character.
 pub fn bodies(tokens: &[Lexeme]) -> Vec<(Position, char)> {
     let loops = tokens.iter().enumerate().filter(|(_, (token, _))| matches!(token, Token::For));
     loops.filter_map(|(start, _)| body(tokens, start)).collect()
@@ -72,12 +73,12 @@ fn body(tokens: &[Lexeme], start: usize) -> Option<(Position, char)> {
     is_captured.then_some((tokens[open].1, letter))
 }
 
-/// Whether a brace belongs to a text `${…}`.
+/// Returns true if a brace belongs to an interpolation `${…}`.
 fn is_interpolation(tokens: &[Lexeme], index: usize) -> bool {
     matches!(tokens.get(index.wrapping_sub(1)), Some((Token::InterpolatedString(_), _)))
 }
 
-/// The brace that opens the body of a loop whose `in` stands at `after`; none where what is gone over has blocks of its own.
+/// Brace that opens the body of a loop whose `in` is at `after`; `None` if the iterated expression contains blocks.
 fn opening(tokens: &[Lexeme], after: usize) -> Option<usize> {
     let mut depth = 0_usize;
     for (index, (token, _)) in tokens.iter().enumerate().skip(after) {
@@ -92,7 +93,7 @@ fn opening(tokens: &[Lexeme], after: usize) -> Option<usize> {
     None
 }
 
-/// Puts the statement of rounds behind the brace at `column`, from 0, of a line: in the place of blanks where there are some.
+/// Inserts the scoping statement after the brace at `column`, from 0, of a line, in place of blanks if there are any.
 pub fn put(line: &mut Vec<char>, column: usize, letter: char) {
     const LENGTH: usize = 2;
     let is_blank = |letter: &&char| matches!(letter, ' ' | '\t');

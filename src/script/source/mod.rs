@@ -1,4 +1,4 @@
-//! From the text of a script to its tokens: the text, the lexer, what a text declares, tokens, rounds and choices that Rhai has not.
+//! Text of a script and its tokens: source text, lexer, declarations, and syntax extensions of Rhai.
 
 pub mod definitions;
 pub mod keywords;

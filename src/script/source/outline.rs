@@ -1,27 +1,27 @@
-//! The names that a script declares, read off its tokens: what a misspelt name may have meant.
+//! Names declared by a script, used for suggestions.
 
 use rhai::{Position, Token};
 
 use super::definitions::{Definition, definitions};
 use super::text::{Lexeme, Source, name_of};
 
-/// The outline of a script: the names that it declares.
+/// Names declared by a script.
 #[derive(Debug, Default)]
 pub struct ScriptOutline {
-    /// Variables and constants declared outside functions and blocks, with their lines.
+    /// Variables and constants outside functions and blocks, with their lines.
     pub top_level: Vec<(String, usize)>,
-    /// The names of all variables, loop variables and parameters of the script.
+    /// Names of all variables, loop variables and parameters.
     pub variables: Vec<String>,
-    /// The script's functions with their counts of parameters.
+    /// Functions with their numbers of parameters.
     pub functions: Vec<(String, usize)>,
-    /// The keys of map literals in the script.
+    /// Keys of map literals.
     pub keys: Vec<String>,
-    /// The paths that the script imports, with the names that they get.
+    /// Imported paths, with their names.
     pub imports: Vec<(String, String)>,
 }
 
 impl ScriptOutline {
-    /// The outline of `source`, which need not be correct.
+    /// Outline of `source`, which may contain errors.
     pub fn of(source: &Source) -> Self {
         let tokens = source.tokens();
         let mut outline = Self::default();

@@ -1,31 +1,32 @@
-//! The text of a script and where it came from.
+//! Text of a script and its origin.
 
 use std::path::{Path, PathBuf};
 
 use super::text::Source;
 use crate::sandbox_fs::read_file;
 
-/// The largest script, or file that one imports [bytes]: more is data, and takes a lot of memory to be read as a script.
+/// Maximum size of a script or imported file [bytes]. Larger files are usually data, and parsing them needs much
+/// memory.
 pub const LARGEST_SCRIPT: u64 = 16 << 20;
 
-/// A script to be run: its name in messages, its text, and the folder that `import` looks in.
+/// A script: its name in messages, its text, and the folder for `import`.
 #[derive(Clone, Debug)]
 pub struct Program {
-    /// The name of the script in messages.
+    /// Name of the script in messages.
     pub name: String,
-    /// The text of the script.
+    /// Text of the script.
     pub text: Source,
-    /// The folder in which the script's imports are found.
+    /// Folder for imports.
     pub folder: PathBuf,
 }
 
-/// Why a script cannot be read.
+/// Error of reading a script.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{told}")]
 pub struct Unreadable {
-    /// What is wrong with which file, in words.
+    /// Message that names the file.
     pub told: String,
-    /// What to do about a script that cannot be read.
+    /// Suggestion for the user.
     pub hint: String,
 }
 
@@ -55,10 +56,10 @@ impl Program {
         Self::from_bytes(path, bytes)
     }
 
-    /// The script that a file holds, from its bytes.
+    /// Script from the bytes of a file.
     ///
     /// # Errors
-    /// When it is not UTF-8.
+    /// If it is not UTF-8.
     pub fn from_bytes(path: &Path, bytes: Vec<u8>) -> Result<Self, Unreadable> {
         let name = path.display().to_string();
         let text = String::from_utf8(bytes).map_err(|error| {
@@ -70,14 +71,14 @@ impl Program {
         })?;
         let folder =
             path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        // A mark of byte order is no text, and a line for the shell is a comment here.
+        // A byte order mark is dropped, and a `#!` line becomes a comment.
         let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
         let text =
             text.strip_prefix("#!").map_or_else(|| text.to_owned(), |rest| format!("// {rest}"));
         Ok(Self { name, text: text.into(), folder: folder.into() })
     }
 
-    /// The byte offset of a line and column of the script, both from 1 and columns in characters.
+    /// Byte offset of a line and column, both from 1 and columns in characters.
     pub fn offset(&self, line: usize, column: usize) -> usize {
         self.text.offset(line, column)
     }

@@ -1,65 +1,65 @@
-//! Tokens of an input that need not be correct, nor finished: every character belongs to exactly one token.
+//! Lossless tokenisation of incomplete or incorrect input: every character belongs to exactly one token.
 //!
-//! The engine's own lexer stops at the first error and leaves out comments and spaces; an input is wrong most of the time
-//! while it is typed, and what is drawn must be all of it.
+//! The engine's lexer stops at the first error and drops comments and spaces, but the editor must highlight all of an
+//! unfinished input.
 
-/// A token: a piece of an input, `start..end` in bytes.
+/// A piece of an input, `start..end` in bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Token {
-    /// The kind of the token.
+    /// Kind of the token.
     pub kind: TokenKind,
-    /// Where the token begins in the input [bytes].
+    /// Start in the input [bytes].
     pub start: usize,
-    /// Where the token ends in the input [bytes].
+    /// End in the input [bytes].
     pub end: usize,
 }
 
-/// The kind of a token.
+/// Kind of a token.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TokenKind {
-    /// The token is spaces and line ends.
+    /// Spaces and line ends.
     Space,
-    /// The token is a comment: one to the end of its line, or a block comment that ends.
+    /// A line comment, or a closed block comment.
     Comment,
-    /// The token is a block comment that does not end.
+    /// A block comment that is not closed.
     OpenComment,
-    /// The token is a text in quotes or marks, or a letter in apostrophes.
+    /// A string or character literal, or a raw string.
     Text,
-    /// The token is a text in quotes that does not end in its line.
+    /// A string literal in quotes that is not closed on its line.
     OpenText,
-    /// The token is a text in backticks, or what of it stands before, between or after interpolations; not all of them need be there.
+    /// A string in backticks, or its part before, between or after interpolations.
     Piece,
-    /// The token is a text in backticks, or a text in marks, that does not end.
+    /// A string in backticks or a raw string that is not closed.
     OpenPiece,
-    /// The token is a name or a keyword.
+    /// A name or keyword.
     Word,
-    /// The token is a number.
+    /// A number.
     Number,
-    /// The token is an opening bracket.
+    /// An opening bracket.
     Open(Bracket),
-    /// The token is a closing bracket.
+    /// A closing bracket.
     Close(Bracket),
-    /// The token is an operator or a sign.
+    /// An operator or punctuation.
     Symbol,
 }
 
-/// The kind of a bracket, by what it opens or closes.
+/// Kind of a bracket.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bracket {
-    /// The bracket `(` of arguments or values.
+    /// Parentheses.
     Round,
-    /// The bracket `[` or `?[` of arrays and indices.
+    /// The brackets `[` or `?[` of arrays and indices.
     Square,
-    /// The bracket `{` of blocks.
+    /// The brace `{` of blocks.
     Curly,
     /// The bracket `#{` of maps.
     Map,
-    /// The bracket `${` of an interpolation in a text.
+    /// The bracket `${` of an interpolation.
     Interpolation,
 }
 
 impl Bracket {
-    /// Whether the bracket `closer` closes this one; the brace does so for maps too.
+    /// Returns true if the bracket `closer` closes this one; `}` closes maps too.
     pub fn is_closed_by(self, closer: Self) -> bool {
         match self {
             Self::Map => closer == Self::Curly,
@@ -69,24 +69,24 @@ impl Bracket {
 }
 
 impl Token {
-    /// The piece of `text` that the token is.
+    /// Text of the token.
     pub fn of<'t>(&self, text: &'t str) -> &'t str {
         text.get(self.start..self.end).unwrap_or_default()
     }
 
-    /// Whether the token means something: it is neither spaces nor a comment.
+    /// Returns true if the token is neither space nor comment.
     pub fn is_significant(&self) -> bool {
         !matches!(self.kind, TokenKind::Space | TokenKind::Comment | TokenKind::OpenComment)
     }
 }
 
-/// Signs of more than one character, longer ones first.
+/// Operators of more than one character, longer ones first.
 const SIGNS: &[&str] = &[
     "..=", "...", "**=", "<<=", ">>=", "::", "?.", "??", "..", "=>", "==", "!=", "<=", ">=", "&&",
     "||", "+=", "-=", "*=", "/=", "%=", "^=", "&=", "|=", "**", "<<", ">>",
 ];
 
-/// The tokens of `text`, in order and without gaps.
+/// Tokens of `text`, in order and without gaps.
 pub fn scan(text: &str) -> Vec<Token> {
     let mut scanner = Scanner { text, at: 0, open: Vec::new(), is_within_text: false };
     let mut tokens = Vec::new();
@@ -98,7 +98,7 @@ pub fn scan(text: &str) -> Vec<Token> {
     tokens
 }
 
-/// The partner of each token that is a bracket, and the brackets that stay open, by the indices of tokens.
+/// Partner of each bracket token, and the unclosed brackets, as token indices.
 pub fn pair(tokens: &[Token]) -> (Vec<Option<usize>>, Vec<usize>) {
     let mut partners = vec![None; tokens.len()];
     let mut open: Vec<(usize, Bracket)> = Vec::new();
@@ -122,7 +122,7 @@ struct Scanner<'t> {
     text: &'t str,
     at: usize,
     open: Vec<Bracket>,
-    /// Whether a text in backticks goes on here.
+    /// True inside a string in backticks.
     is_within_text: bool,
 }
 
@@ -136,7 +136,7 @@ impl Scanner<'_> {
         self.at += rest.find(|letter| !belongs(letter)).unwrap_or(rest.len());
     }
 
-    /// Reads one token, of one character at least.
+    /// Reads one token of at least one character.
     fn next(&mut self) -> TokenKind {
         let rest = self.rest();
         let first = rest.chars().next().unwrap_or(' ');
@@ -182,7 +182,7 @@ impl Scanner<'_> {
         TokenKind::Open(bracket)
     }
 
-    /// A closing bracket; after that of an interpolation the text goes on.
+    /// A closing bracket; after that of an interpolation the string continues.
     fn closed(&mut self, bracket: Bracket) -> TokenKind {
         self.at += 1;
         let opened = self.open.last().copied();
@@ -197,7 +197,7 @@ impl Scanner<'_> {
         TokenKind::Close(bracket)
     }
 
-    /// A text in backticks, whose first `known` bytes are read, up to its end or its next interpolation.
+    /// A string in backticks, whose first `known` bytes are read, up to its end or next interpolation.
     fn piece(&mut self, known: usize) -> TokenKind {
         let rest = &self.rest()[known..];
         let (end, interpolation) = (rest.find('`'), rest.find("${"));
@@ -220,7 +220,7 @@ impl Scanner<'_> {
         }
     }
 
-    /// A text in quotes: it ends in its line, unless that ends in a backslash.
+    /// A string in quotes. It ends on its line, unless the line ends in a backslash.
     fn quoted(&mut self, quote: char) -> TokenKind {
         let mut is_escaped = false;
         for (at, letter) in self.rest().char_indices().skip(1) {
@@ -242,7 +242,7 @@ impl Scanner<'_> {
         TokenKind::OpenText
     }
 
-    /// A text in marks, `#"…"#`, of any number of marks.
+    /// A raw string, `#"…"#`, with any number of `#`.
     fn marked(&mut self) -> TokenKind {
         let rest = self.rest();
         let marks = rest.len() - rest.trim_start_matches('#').len();
@@ -304,14 +304,14 @@ impl Scanner<'_> {
     }
 }
 
-/// Most marks before a text in marks; without a limit a row of marks would take long.
+/// Maximum number of `#` before a raw string, which bounds the run time on a long row of `#`.
 const MOST_MARKS: usize = 16;
 
 fn begins_marked(rest: &str) -> bool {
     rest.bytes().take(MOST_MARKS + 1).find(|byte| *byte != b'#') == Some(b'"')
 }
 
-/// Whether a letter may stand in a name.
+/// Returns true if a character may occur in a name.
 pub fn is_name(letter: char) -> bool {
     letter.is_alphanumeric() || letter == '_'
 }

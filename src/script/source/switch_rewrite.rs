@@ -1,23 +1,24 @@
-//! What `switch` chooses by, handed to a judge: Rhai takes the default for whatever it cannot compare, without a word.
+//! Checking of `switch` values. Rhai silently takes the default case for values that it cannot compare.
 //!
-//! A character of our own behind the word `switch` wraps the expression that follows; it is put into the text before it is parsed, in the place of a blank,
-//! so that columns stay right; where there is none, what follows on the line seems to stand a column further right.
+//! A private-use character after the keyword `switch` wraps the expression that follows. It is inserted into the text
+//! before parsing, in place of a blank, so that columns stay right; without a blank the rest of the line moves one
+//! column to the right.
 
 use rhai::{Dynamic, Engine, Position, Token};
 
 use super::text::Lexeme;
 use crate::script::messages::error::EngineResult;
 
-/// The private-use character that wraps what `switch` chooses by.
+/// Private-use character that wraps the `switch` expression.
 pub const CHOICE: char = '\u{E007}';
 
-/// The name of the wrapper for the parser.
+/// Name of the wrapper for the parser.
 pub const CHOICE_NAME: &str = "\u{E007}";
 
-/// The letters of the word `switch`.
+/// Length of the keyword `switch`.
 const WORD: usize = 6;
 
-/// Teaches `engine` to hand what `switch` chooses by to a judge, which gives what is chosen by.
+/// Registers the wrapper; `judge` checks the value of the `switch` expression and returns the value to compare.
 pub fn install(
     engine: &mut Engine,
     judge: impl Fn(&Engine, Dynamic, Position) -> EngineResult<Dynamic> + 'static,
@@ -36,12 +37,12 @@ pub fn install(
     );
 }
 
-/// The places of the word `switch`.
+/// Positions of the keyword `switch`.
 pub fn words(tokens: &[Lexeme]) -> impl Iterator<Item = Position> + '_ {
     tokens.iter().filter(|(token, _)| matches!(token, Token::Switch)).map(|(_, at)| *at)
 }
 
-/// Puts the wrapper behind the word at `column`, from 0, of a line: in the place of a blank where there is one.
+/// Inserts the wrapper after the keyword at `column`, from 0, of a line, in place of a blank if there is one.
 pub fn put(line: &mut Vec<char>, column: usize) {
     let behind = column + WORD;
     match line.get_mut(behind) {

@@ -1,15 +1,15 @@
-//! Numbers as in science, at the level of tokens: which operators the parser sees in place of Rhai's own.
+//! Scientific number semantics at the token level: replacement of Rhai's operators for the parser.
 //!
-//! Rhai's built-in comparisons and its whole-number division bypass everything that is registered, so the parser
-//! is given operators of our own instead ([`operators`](crate::script::dialect::operators) says what they do):
+//! Rhai's built-in comparisons and its integer division bypass all registered functions. Therefore the parser sees
+//! other operator names ([`operators`](crate::script::dialect::operators) implements them):
 //!
 //! - `/ << >> < > <= >= == !=` become `num/`, `num<`, … of the same precedence;
 //! - `^` and `**` become `num^0`, `num^1`, … along a chain of powers, each binding tighter than the one before, because
-//!   an operator of ours would otherwise bind to the left and `2^3^2` would be 64;
-//! - `-x^2` is refused, because Rhai's minus binds tighter than any operator and would give the square of `-x`;
-//! - `/=`, `^=`, `**=`, `<<=` and `>>=` are lexed as two tokens, and loops get a statement of their own ([`rounds`]), see [`mark`].
+//!   custom operators bind to the left and `2^3^2` would be 64;
+//! - `-x^2` is an error, because Rhai's minus binds tighter than any operator and would give the square of `-x`;
+//! - `/=`, `^=`, `**=`, `<<=` and `>>=` are lexed as two tokens, and loops get an additional statement ([`rounds`]), see [`mark`].
 //!
-//! All of this uses hooks that Rhai calls volatile; they are used in this file and in `lexing` only.
+//! Rhai marks the hooks used here as volatile; they are used in this file and in `lexing` only.
 
 use std::borrow::Cow;
 use std::cell::{Cell, RefCell};
@@ -21,10 +21,10 @@ use super::text::Source;
 use super::{loop_scoping, switch_rewrite};
 use crate::script::messages::stop::Stop;
 
-/// The prefix of the names of operators that stand in for Rhai's own.
+/// Prefix of the names of replaced operators.
 pub const OWN: &str = "num";
 
-/// Comparison, division and shifts of bits with their precedences in Rhai.
+/// Comparison, division and shift operators with their precedences in Rhai.
 pub const REPLACED: [(&str, u8); 9] = [
     ("<<", 210),
     (">>", 210),
@@ -37,13 +37,13 @@ pub const REPLACED: [(&str, u8); 9] = [
     ("!=", 90),
 ];
 
-/// The most powers that may follow each other: `a^b^c^…`.
+/// Maximum length of a chain of powers `a^b^c^…`.
 pub const LONGEST_CHAIN: u8 = 16;
 
 /// Rhai's precedence of the power; the next operator above it is at 210.
 const POWER_PRECEDENCE: u8 = 190;
 
-/// Private-use characters: the operator half of `/=`, that of `^=`, and the half that wraps the right-hand side.
+/// Private-use characters: operator halves of `/=`, `^=`, `<<=` and `>>=`, and the half that wraps the right-hand side.
 const DIVIDE_HALF: char = '\u{E000}';
 const POWER_HALF: char = '\u{E001}';
 const OPERAND_HALF: char = '\u{E002}';
@@ -51,32 +51,32 @@ const UP_HALF: char = '\u{E005}';
 const DOWN_HALF: char = '\u{E006}';
 const OPERAND: &str = "\u{E002}";
 
-/// The right-hand side of `x /= y`: a type of its own, so that Rhai's built-in whole-number `/=` does not apply.
+/// Right-hand side of `x /= y`. A separate type keeps Rhai's built-in integer `/=` from applying.
 #[derive(Clone)]
 pub struct DivisionOperand(pub Dynamic);
 
-/// The operator that stands for the power at place `chain` of a chain of powers.
+/// Operator that replaces the power at position `chain` of a chain of powers.
 pub fn power_name(chain: u8) -> String {
     format!("{OWN}^{chain}")
 }
 
-/// What the engine's hook for tokens remembers of the text that is being read.
+/// State of the token hook while a text is parsed.
 #[derive(Clone, Default)]
 pub struct TokenReader {
     nesting: Rc<RefCell<Nesting>>,
     stopped: Rc<Cell<Option<Stop>>>,
-    /// Whether nothing may stop it.
+    /// True while parsing must not be stopped.
     is_undisturbed: Rc<Cell<bool>>,
 }
 
 impl TokenReader {
-    /// Forgets the text before, which may have ended in the middle of an expression.
+    /// Resets the state, because the previous text may have ended in the middle of an expression.
     pub fn begin(&self) {
         *self.nesting.borrow_mut() = Nesting::default();
         self.stopped.set(None);
     }
 
-    /// Lets texts be read to their ends, although the run is to stop: those that were read before.
+    /// Calls `work` with parsing that cannot be stopped, for texts that were parsed before.
     pub fn undisturbed<T>(&self, work: impl FnOnce() -> T) -> T {
         let was_undisturbed = self.is_undisturbed.replace(true);
         let result = work();
@@ -84,16 +84,17 @@ impl TokenReader {
         result
     }
 
-    /// What stopped the reading of a text before its end.
+    /// Reason that stopped parsing, if any.
     pub fn stopped(&self) -> Option<Stop> {
         self.stopped.get()
     }
 }
 
-/// After so many tokens it is asked whether to go on: the parser looks through all names it knows for each of them.
+/// Number of tokens between checks of the stop condition; the parser searches all known names for each token.
 const PULSE: u32 = 64;
 
-/// Teaches `engine` the tokens of this language; what is given back is told when another text begins. `stop` says why not to read on.
+/// Registers the tokens of this language. The returned reader must be reset before each text. `stop` returns a reason
+/// to stop parsing.
 pub fn install(
     engine: &mut Engine,
     stop: impl Fn() -> Option<Stop> + 'static,
@@ -119,7 +120,7 @@ pub fn install(
     let reader = TokenReader::default();
     let TokenReader { nesting, stopped, is_undisturbed } = reader.clone();
     let count = Cell::new(0_u32);
-    // "Deprecated" marks the hook as volatile, not as going away.
+    // The hook is "deprecated" only to mark it as volatile.
     #[allow(deprecated)]
     engine.on_parse_token(move |token, _, _| {
         count.set(count.get().wrapping_add(1));
@@ -128,7 +129,7 @@ pub fn install(
         }
         match (stopped.get(), &token) {
             (None, _) => nesting.borrow_mut().map(token),
-            // Within a text the parser takes no other errors than its own for possible, and panics.
+            // Inside a string the parser expects no foreign errors, and would panic.
             (Some(_), Token::StringConstant(_) | Token::InterpolatedString(_)) => token,
             (Some(_), _) => refuse("the reading was stopped"),
         }
@@ -136,8 +137,8 @@ pub fn install(
     Ok(reader)
 }
 
-/// Rewrites `/=`, `^=`, `**=`, `<<=` and `>>=` so that they lex as an operator and a wrapper of what follows, and marks the rounds of loops and what
-/// `switch` chooses by; columns do not move.
+/// Rewrites `/=`, `^=`, `**=`, `<<=` and `>>=` so that they lex as an operator and a wrapper of the operand, and marks
+/// loop bodies and `switch` expressions. Columns do not move.
 pub fn mark(source: &Source) -> Cow<'_, str> {
     let tokens = source.tokens();
     let halves = |token: &Token| -> &[char] {
@@ -164,7 +165,7 @@ pub fn mark(source: &Source) -> Cow<'_, str> {
     if marks.is_empty() {
         return Cow::Borrowed(source);
     }
-    // From the end on: a mark may move what stands behind it.
+    // From the end, because a mark may move the text after it.
     marks.sort_by_key(|(at, _)| std::cmp::Reverse((at.line(), at.position())));
     let mut lines: Vec<Vec<char>> = source.split('\n').map(|line| line.chars().collect()).collect();
     for (at, mark) in marks {
@@ -184,24 +185,23 @@ pub fn mark(source: &Source) -> Cow<'_, str> {
     Cow::Owned(lines.join("\n"))
 }
 
-/// What is put into a text.
+/// Kind of inserted mark.
 enum InsertedMark<'m> {
-    /// In the place of an operator that assigns.
+    /// Replaces an assignment operator.
     Assign(&'m [char]),
-    /// Behind the brace that opens the body of a loop.
+    /// After the brace that opens the body of a loop.
     Round(char),
-    /// Behind the word `switch`.
+    /// After the keyword `switch`.
     Choice,
 }
 
-/// What the mapper remembers of the operands read so far at one depth of brackets.
+/// Operands seen so far at one bracket depth.
 #[derive(Clone, Copy, Default)]
 struct Chain {
     powers: u8,
     minus: bool,
 }
 
-/// One [`Chain`] for each open bracket.
 #[derive(Default)]
 struct Nesting {
     outer: Vec<Chain>,
@@ -271,7 +271,7 @@ impl Nesting {
     }
 }
 
-/// Whether a literal is a whole number that Rhai has made a number of because it has too many digits.
+/// Returns true for an integer literal that Rhai has converted to a float because it is too large.
 fn is_too_large(literal: &str) -> bool {
     !literal.contains(['.', 'e', 'E'])
 }
@@ -298,7 +298,7 @@ fn replace(token: Token) -> Token {
     custom(&format!("{OWN}{symbol}"))
 }
 
-/// The token for one half of a marked assignment.
+/// Token for one half of a marked assignment.
 fn half(error: &LexError) -> Option<Token> {
     let LexError::UnexpectedInput(text) = error else { return None };
     match text.chars().next()? {

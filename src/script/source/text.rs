@@ -1,7 +1,7 @@
-//! The text of a script with its tokens: who reads tokens asks here, so that a text is lexed once, however many read it.
+//! Text of a script with cached tokens, so that it is tokenised only once.
 //!
-//! Rhai's parser has its own pass over the text, with the tokens of [`syntax`](super::syntax) put in; there is no way to hand it
-//! tokens. That one more pass is all.
+//! Rhai's parser makes its own pass over the text, with the replacements of [`syntax`](super::syntax), because it
+//! cannot take tokens.
 
 use std::fmt;
 use std::ops::Deref;
@@ -11,10 +11,10 @@ use rhai::{Position, Token};
 
 use super::lexing::{Lexed, lex};
 
-/// A token and where it stands.
+/// A token and its position.
 pub type Lexeme = (Token, Position);
 
-/// A text of the language. Its copies are one text, and share its tokens, which are found when somebody asks for them first.
+/// A source text. Clones share the text and its tokens, which are computed on first use.
 #[derive(Clone)]
 pub struct Source(Arc<SourceData>);
 
@@ -24,12 +24,12 @@ struct SourceData {
 }
 
 impl Source {
-    /// All tokens of the text, comments left out. Text after a lexical error is lexed as well as it can be.
+    /// Tokens of the text, without comments. Text after a lexical error is tokenised as far as possible.
     pub fn tokens(&self) -> &[Lexeme] {
         &self.lexed().tokens
     }
 
-    /// The position where a comment of the text begins that is never closed: Rhai would take the rest of the script for a part of it.
+    /// Position of a block comment that is never closed; Rhai would silently ignore the rest of the script.
     pub fn open_comment(&self) -> Option<Position> {
         if !self.lexed().ends_in_comment {
             return None;
@@ -39,12 +39,12 @@ impl Source {
         Some(position(before.matches('\n').count() + 1, column))
     }
 
-    /// All names in the text, of whatever they are names, in their order.
+    /// All names in the text, in order.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.tokens().iter().filter_map(|(token, _)| name_of(token))
     }
 
-    /// The paths that the text imports, where a path is written as a text.
+    /// Imported paths; `None` for a path that is not a string literal.
     pub fn imports(&self) -> impl Iterator<Item = Option<&str>> {
         let tokens = self.tokens();
         let starts = (0..tokens.len()).filter(|index| matches!(tokens[*index].0, Token::Import));
@@ -54,12 +54,12 @@ impl Source {
         })
     }
 
-    /// Whether the last token of the text is a semicolon.
+    /// Returns true if the last token is a semicolon.
     pub fn ends_in_semicolon(&self) -> bool {
         matches!(self.tokens().last(), Some((Token::SemiColon, _)))
     }
 
-    /// The byte offset of a line and column of the script, both from 1 and columns in characters.
+    /// Byte offset of a line and column, both from 1 and columns in characters.
     pub fn offset(&self, line: usize, column: usize) -> usize {
         let mut start = 0;
         for (index, text) in self.split_inclusive('\n').enumerate() {
@@ -73,7 +73,7 @@ impl Source {
         self.len()
     }
 
-    /// The offset of a token in the text [bytes].
+    /// Byte offset of a token.
     pub fn offset_of(&self, (_, at): &Lexeme) -> usize {
         self.offset(at.line().unwrap_or(1), at.position().unwrap_or(1))
     }
@@ -83,7 +83,7 @@ impl Source {
     }
 }
 
-/// The name that a token is; none if it is something else.
+/// Name of an identifier token.
 pub fn name_of(token: &Token) -> Option<&str> {
     match token {
         Token::Identifier(name) => Some(name.as_str()),
@@ -91,13 +91,13 @@ pub fn name_of(token: &Token) -> Option<&str> {
     }
 }
 
-/// A position of the engine, which counts lines and columns up to 65 535 and no further.
+/// A position of the engine, which saturates lines and columns at 65 535.
 pub fn position(line: usize, column: usize) -> Position {
     let counted = |number: usize| number.try_into().unwrap_or(u16::MAX);
     Position::new(counted(line), counted(column))
 }
 
-/// The position in a text that stands behind so many lines.
+/// Moves a position down by some lines.
 pub fn behind(at: Position, lines: usize) -> Position {
     match (at.line(), at.position()) {
         (Some(line), column) if lines > 0 => position(line + lines, column.unwrap_or(1)),

@@ -1,4 +1,4 @@
-//! What all native calls of one run share: where output goes, what was checked, whether to go on.
+//! State shared by all native calls of a run: output, checks, limits, and interruption.
 
 mod written;
 
@@ -23,10 +23,10 @@ use crate::script::messages::reports::{Reporter, Reports};
 use crate::script::messages::stop::{MEGABYTE, Stop};
 use crate::script::source::program::Program;
 
-/// A function that tells why a value of a native type cannot be used now, if the value is busy.
+/// Function that returns the reason why a value of a native type is in use, if it is.
 pub type BusyCheck = fn(&Dynamic) -> Option<String>;
 
-/// A cheap handle on the state of one run.
+/// A cheap handle to the state of a run.
 #[derive(Clone)]
 pub struct Context(Rc<ContextData>);
 
@@ -45,11 +45,11 @@ struct ContextData {
     refuses_files: Cell<Option<&'static str>>,
     checks: RefCell<Checks>,
     reports: Reports,
-    /// The names of studies so far.
+    /// Names of studies used so far.
     study_names: RefCell<HashSet<PathBuf>>,
     snapshots: usize,
     latest_simulation: RefCell<Option<Dynamic>>,
-    /// Weak, for the engine has this context in all its functions.
+    /// Weak, because all functions of the engine hold this context.
     engine: RefCell<Weak<Engine>>,
     level: Cell<usize>,
     is_calling_back: Cell<bool>,
@@ -58,9 +58,9 @@ struct ContextData {
 }
 
 impl Context {
-    /// The state at the start of a run with these settings.
+    /// State at the start of a run.
     pub fn new(settings: RunSettings) -> Self {
-        // Who makes a part of studies writes down nothing else.
+        // A run that computes a part of studies writes no other files.
         let writing = settings.studies.part.map_or(settings.mode, |_| RunMode::DryBuild);
         Self(Rc::new(ContextData {
             mode: settings.mode,
@@ -88,50 +88,50 @@ impl Context {
         }))
     }
 
-    /// Whether simulations of the run really run.
+    /// Mode of the run.
     pub fn mode(&self) -> RunMode {
         self.0.mode
     }
 
-    /// The folder for files that the script writes.
+    /// Folder for the output files of the script.
     pub fn output(&self) -> &OutputFolder {
         &self.0.output
     }
 
-    /// The script of the run; none where there is no whole one, as at the prompt.
+    /// Script of the run; `None` at the prompt.
     pub fn program(&self) -> Option<&Program> {
         self.0.program.as_ref()
     }
 
-    /// What shows how far a simulation of the run is.
+    /// Progress display.
     pub fn progress(&self) -> &dyn Progress {
         &*self.0.progress
     }
 
-    /// How the studies of the run are made.
+    /// Options of the studies of the run.
     pub fn studies(&self) -> &StudyPreferences {
         &self.0.studies
     }
 
-    /// The journals of the run: what is kept of its studies until the script has come to its end.
+    /// Journals of the studies, kept until the script ends.
     pub fn journals(&self) -> &Journals {
         &self.0.journals
     }
 
-    /// Takes a name for a study of the run; whether no other one had it, however it is written.
+    /// Reserves the name of a study; returns false if it is in use, in any spelling.
     pub fn claim_study(&self, name: &str) -> bool {
         self.0.study_names.borrow_mut().insert(PathBuf::from(name))
     }
 
-    /// Refuses to go on with the run after an interrupt, beyond a limit, or when nobody reads the output any more.
+    /// Returns an error if the run is interrupted, exceeds a limit, or the reader of the output has closed the pipe.
     pub fn proceed(&self) -> Result<(), ScriptError> {
         self.stopped_by().map_or(Ok(()), |stop| Err(ScriptError::Stopped(stop)))
     }
 
-    /// Checks that there is room for something that takes memory all at once, before anybody could stop it [bytes].
+    /// Checks in advance that the run may use this much memory at once [bytes].
     ///
     /// # Errors
-    /// When a run may not use so much memory.
+    /// If this exceeds the memory limit.
     pub fn expect_room(&self, what: &str, bytes: u64) -> Result<(), ScriptError> {
         match self.meter().limits().memory.filter(|limit| bytes > *limit) {
             None => Ok(()),
@@ -145,8 +145,8 @@ impl Context {
         }
     }
 
-    /// Why something that is asked again and again whether to go on did not: the limit or the interrupt that stopped it. `what` stopped
-    /// without any would be a mistake of ours.
+    /// Reason why a loop that polls for interruption was stopped: a limit or an interrupt. It is an internal error if
+    /// `what` stopped without a reason.
     pub fn why_stopped(&self, what: &str) -> ScriptError {
         match self.proceed() {
             Err(stopped) => stopped,
@@ -154,12 +154,12 @@ impl Context {
         }
     }
 
-    /// Whether the run should end as soon as it can.
+    /// Returns true if the run should end as soon as possible.
     pub fn is_stopped(&self) -> bool {
         self.stopped_by().is_some()
     }
 
-    /// Why the run should end as soon as it can, if it should.
+    /// Reason to end the run, if there is one.
     pub fn stopped_by(&self) -> Option<Stop> {
         if self.0.pipe_closed.get() {
             return Some(Stop::PipeClosed);
@@ -171,23 +171,23 @@ impl Context {
         self.0.meter.passed()
     }
 
-    /// What the run may use, and how much of it is used. Code that lets a script run calls
-    /// [`watch`](Meter::watch) before, and keeps the guard until it has ended.
+    /// Resource use and limits of the run. Code that runs a script calls [`watch`](Meter::watch) before and keeps the
+    /// guard until the script has ended.
     pub fn meter(&self) -> &Meter {
         &self.0.meter
     }
 
-    /// The flag that stops the run, for native loops that know nothing of scripts.
+    /// Flag that stops the run, for native loops.
     pub fn interrupt_flag(&self) -> Arc<AtomicBool> {
         Arc::clone(&self.0.interrupt)
     }
 
-    /// Whether the reader of the output went away.
+    /// Returns true if the reader of the output has closed the pipe.
     pub fn is_pipe_closed(&self) -> bool {
         self.0.pipe_closed.get()
     }
 
-    /// Prints a line for the script.
+    /// Prints a line of script output.
     pub fn print(&self, text: &str) {
         if self.0.is_silent.get() || !self.meter().allows_to_write(text.len() as u64 + 1) {
             return;
@@ -197,18 +197,18 @@ impl Context {
         });
     }
 
-    /// Tells the user something that is not the script's own output.
+    /// Prints a message for the user that is not script output.
     pub fn tell(&self, text: &str) {
         if self.0.is_silent.get() {
             return;
         }
         self.0.progress.step_aside(&mut || {
-            // When nobody listens, the exit code still tells.
+            // Errors are ignored; the exit code still reports the result.
             let _ = writeln!(self.0.told.borrow_mut(), "{text}");
         });
     }
 
-    /// Does something of which nothing is printed or told.
+    /// Calls `work` without printing anything.
     pub fn silently<T>(&self, work: impl FnOnce() -> T) -> T {
         let was_silent = self.0.is_silent.replace(true);
         let result = work();
@@ -216,7 +216,8 @@ impl Context {
         result
     }
 
-    /// Does something of which nothing is printed or told, and which may write no files; `refusal` says why not.
+    /// Calls `work` without printing anything and without writing files; `refusal` is the message for attempts to
+    /// write.
     pub fn tracelessly<T>(&self, refusal: &'static str, work: impl FnOnce() -> T) -> T {
         let refused_before = self.0.refuses_files.replace(Some(refusal));
         let result = self.silently(work);
@@ -224,20 +225,20 @@ impl Context {
         result
     }
 
-    /// Tells what the script itself asks to be told beside its output, and counts it as what it prints.
+    /// Prints a message that the script requested besides its output, and counts it as output.
     pub fn remark(&self, text: &str) {
         if self.meter().allows_to_write(text.len() as u64 + 1) {
             self.tell(text);
         }
     }
 
-    /// Writes out the printed text that is buffered.
+    /// Flushes the printed text.
     pub fn flush(&self) {
         let written = self.0.printed.borrow_mut().flush();
         self.notice(written);
     }
 
-    /// A closed pipe ends the run quietly; that the script prints where there is no room is an error.
+    /// A closed pipe ends the run quietly; other write failures are errors.
     fn notice(&self, written: io::Result<()>) {
         match written {
             Err(error) if error.kind() == io::ErrorKind::BrokenPipe => {
@@ -248,53 +249,53 @@ impl Context {
         }
     }
 
-    /// Changes the record of the checks of the run.
+    /// Calls a function with the record of checks.
     pub fn with_checks<T>(&self, change: impl FnOnce(&mut Checks) -> T) -> T {
         change(&mut self.0.checks.borrow_mut())
     }
 
-    /// The memory that a simulation may take for states to go back to, unless the script says otherwise [bytes].
+    /// Default memory for the snapshots of a simulation [bytes].
     pub fn snapshots(&self) -> usize {
         self.0.snapshots
     }
 
-    /// Remembers the simulation that something was done with last.
+    /// Sets the last used simulation.
     pub fn note_simulation(&self, simulation: Dynamic) {
         self.0.latest_simulation.replace(Some(simulation));
     }
 
-    /// The simulation that was started, loaded, forked, stepped or taken back last.
+    /// Simulation that was started, loaded, forked, stepped or rewound last.
     pub fn latest_simulation(&self) -> Option<Dynamic> {
         self.0.latest_simulation.borrow().clone()
     }
 
-    /// Forgets which simulation was the last, and lets go of those that the report would tell of.
+    /// Clears the last simulation and the reporters.
     pub fn forget_simulations(&self) {
         self.0.latest_simulation.take();
         self.forget_reporters();
     }
 
-    /// Lets functions that the script has stored be called by its own engine, as long as that is kept by the caller.
+    /// Sets the engine for calls of stored functions; the caller keeps it alive.
     pub fn lend(&self, engine: &Rc<Engine>) {
         self.0.engine.replace(Rc::downgrade(engine));
     }
 
-    /// The engine of the script while it runs.
+    /// Engine of the running script.
     pub fn engine(&self) -> Option<Rc<Engine>> {
         self.0.engine.borrow().upgrade()
     }
 
-    /// Notes at which depth of calls of script functions the running native call is.
+    /// Sets the call depth of script functions at the current native call.
     pub fn enter(&self, level: usize) {
         self.0.level.set(level);
     }
 
-    /// The depth of calls of script functions at which the running native call is.
+    /// Call depth of script functions at the current native call.
     pub fn level(&self) -> usize {
         self.0.level.get()
     }
 
-    /// Calls a stored function while a native call is at work.
+    /// Calls a stored function from within a native call.
     pub fn call_back<T>(&self, call: impl FnOnce() -> T) -> T {
         let was_calling_back = self.0.is_calling_back.replace(true);
         let result = call();
@@ -302,17 +303,17 @@ impl Context {
         result
     }
 
-    /// Whether a stored function is running, and with it the native call that called it.
+    /// Returns true while a stored function runs within a native call.
     pub fn is_calling_back(&self) -> bool {
         self.0.is_calling_back.get()
     }
 
-    /// Keeps a function that tells whether values of a native type are busy.
+    /// Registers a function that detects values in use.
     pub fn know(&self, busy: BusyCheck) {
         self.0.busy.borrow_mut().push(busy);
     }
 
-    /// Why a value cannot be used now, if it is busy.
+    /// Reason why a value is in use, if it is.
     pub fn busy(&self, value: &Dynamic) -> Option<String> {
         self.0.busy.borrow().iter().find_map(|busy| busy(value))
     }
@@ -322,7 +323,7 @@ impl Context {
         self.0.reports.add(reporter);
     }
 
-    /// Writes what would be lost of the simulations, after a script that did not come to its end.
+    /// Writes the rescue files of the simulations, after a script that failed.
     pub fn save_remains(&self) {
         let (files, note) = self.0.reports.remains();
         for (name, content) in files {
@@ -335,14 +336,13 @@ impl Context {
         note.inspect(|note| self.tell(note));
     }
 
-    /// Lets go of the simulations that the report would tell of, and of the names of studies: a session has no report, and the
-    /// next input may make a study anew.
+    /// Drops the reporters and the names of studies. A session writes no report, and its next input may repeat a study.
     pub fn forget_reporters(&self) {
         self.0.study_names.borrow_mut().clear();
         self.0.reports.forget();
     }
 
-    /// What all simulations of the run say about themselves; they are let go.
+    /// Report entries of all simulations; the reporters are dropped.
     pub fn report(&self) -> Vec<serde_json::Value> {
         self.0.latest_simulation.take();
         self.0.reports.take()

@@ -1,5 +1,5 @@
-//! Files of a script. It reads below its own folder and the output folder, and writes below the output folder, each
-//! file whole or not at all. Links are not followed, and nothing but ordinary files is opened.
+//! File access of scripts. Scripts read in their own folder and the output folder, and write atomically in the output
+//! folder. Links are not followed, and only regular files are opened.
 
 use std::cell::{OnceCell, RefCell};
 use std::collections::HashMap;
@@ -11,28 +11,29 @@ use crate::output::OutputError;
 use crate::sandbox_fs::{ChecksumWriter, Folder, WrittenFiles, is_plain};
 use crate::script::messages::error::ScriptError;
 
-/// Most bytes of a file that a script reads.
+/// Maximum size of a file that a script reads [bytes].
 const LARGEST_INPUT: u64 = 1 << 30;
 
-/// The folder that a script may write into. It is made when the first file is written.
+/// Folder that a script may write into, created with the first file.
 pub struct OutputFolder {
     folder: PathBuf,
-    /// The folder of the script, where it may read.
+    /// Folder of the script, which it may read.
     beside: PathBuf,
     mode: RunMode,
     written: RefCell<Vec<PathBuf>>,
-    /// What earlier runs have written into the folder, read before the first file of this one.
+    /// Record of the files written by earlier runs, read before the first file is written.
     record: OnceCell<RefCell<WrittenFiles>>,
-    /// What a dry build would have written to read it again.
+    /// Files that a dry build would have written, for reading them again.
     pretended: RefCell<HashMap<PathBuf, Vec<u8>>>,
 }
 
-/// A file that was written.
+/// A written file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WrittenFile {
-    /// The path of the file that was written.
+    /// Path of the file.
     pub path: PathBuf,
-    /// The path of an older file of the same name, which is kept because it was not written by this program, or was changed since.
+    /// Path under which an older file of the same name is kept, because it was not written by this program or was
+    /// changed since.
     pub kept: Option<PathBuf>,
 }
 
@@ -48,18 +49,19 @@ impl OutputFolder {
         }
     }
 
-    /// Writes the file `name` of the output folder. A dry build only checks the name.
+    /// Writes the file `name` in the output folder. A dry build only checks the name.
     ///
     /// # Errors
-    /// When the name leads out of the folder, or something cannot be written.
+    /// If the name leads out of the folder, or writing fails.
     pub fn write(&self, name: &str, content: &[u8]) -> Result<WrittenFile, ScriptError> {
         self.write_by(name, |file| file.write_all(content))
     }
 
-    /// Writes the file `name` of the output folder piece by piece: whatever `write` puts into it. A dry build only checks the name.
+    /// Writes the file `name` in the output folder piece by piece, by calls of `write`. A dry build only checks the
+    /// name.
     ///
     /// # Errors
-    /// When the name leads out of the folder, or something cannot be written.
+    /// If the name leads out of the folder, or writing fails.
     pub fn write_by(
         &self,
         name: &str,
@@ -82,7 +84,7 @@ impl OutputFolder {
         Ok(WrittenFile { path, kept })
     }
 
-    /// Opens the folder anew for each file: somebody may have moved it away while a session waited.
+    /// Opens the folder for each file, because it may be moved while a session waits.
     fn put(
         &self,
         name: &str,
@@ -108,10 +110,10 @@ impl OutputFolder {
         Ok(kept.map(|kept| self.folder.join(kept)))
     }
 
-    /// Writes a file that the script may [`read`](Self::read) again, which a dry build then can too.
+    /// Writes a file that the script may [`read`](Self::read) again, also in a dry build.
     ///
     /// # Errors
-    /// When the name leads out of the folder, or something cannot be written.
+    /// If the name leads out of the folder, or writing fails.
     pub fn write_to_read(&self, name: &str, content: Vec<u8>) -> Result<WrittenFile, ScriptError> {
         let written = self.write(name, &content)?;
         if self.mode == RunMode::DryBuild {
@@ -120,10 +122,10 @@ impl OutputFolder {
         Ok(written)
     }
 
-    /// Reads the file `name` of the output folder or, where there is none, of the folder of the script: at most `most` bytes.
+    /// Reads the file `name` of the output folder or else of the script's folder, at most `most` bytes.
     ///
     /// # Errors
-    /// When there is none, or it is no ordinary file of that length.
+    /// If there is none, or it is too long or no regular file.
     pub fn read(&self, name: &str, most: Option<u64>) -> Result<Vec<u8>, ScriptError> {
         if let Some(content) = self.pretended.borrow().get(&self.folder.join(name)) {
             return Ok(content.clone());
@@ -141,20 +143,20 @@ impl OutputFolder {
         })
     }
 
-    /// The files of the output folder that were written so far.
+    /// Files written to the output folder so far.
     pub fn written(&self) -> Vec<PathBuf> {
         self.written.borrow().clone()
     }
 
-    /// The path of the output folder, which need not exist yet.
+    /// Path of the output folder, which need not exist yet.
     pub fn folder(&self) -> &Path {
         &self.folder
     }
 
-    /// The path of the file `name` of the output folder.
+    /// Path of the file `name` in the output folder.
     ///
     /// # Errors
-    /// When the name leads out of the folder.
+    /// If the name leads out of the folder.
     pub fn path_of(&self, name: &str) -> Result<PathBuf, ScriptError> {
         if !is_plain(Path::new(name)) {
             return Err(ScriptError::new(format!(
@@ -174,7 +176,7 @@ impl OutputFolder {
     }
 }
 
-/// The name by which somebody else's file is kept.
+/// Name under which a foreign file is kept.
 fn kept_name(path: &Path, number: usize) -> PathBuf {
     let mut kept = path.as_os_str().to_owned();
     kept.push(match number {
@@ -184,36 +186,36 @@ fn kept_name(path: &Path, number: usize) -> PathBuf {
     kept.into()
 }
 
-/// A folder that a script may read from.
+/// A folder that a script may read.
 pub struct InputFolder {
-    /// A word for the folder in messages.
+    /// Name of the folder in messages.
     pub word: &'static str,
-    /// The path of the folder to read from.
+    /// Path of the folder.
     pub path: PathBuf,
-    /// How the folder to read from is opened.
+    /// Function that opens the folder.
     pub open: fn(&Path) -> io::Result<Folder>,
 }
 
 impl InputFolder {
-    /// The folder of a script, which a person has named.
+    /// The folder of a script, given by the user.
     pub fn beside(path: &Path) -> Self {
         Self { word: "script's own folder", path: path.to_owned(), open: Folder::open }
     }
 }
 
-/// The folders that a script may read from.
+/// Folders that a script may read.
 pub struct InputFolders(Vec<InputFolder>);
 
 impl InputFolders {
-    /// The folders that a script may read from, in the order in which a file is looked for.
+    /// Folders in search order.
     pub fn new(folders: impl IntoIterator<Item = InputFolder>) -> Self {
         Self(folders.into_iter().collect())
     }
 
-    /// The content of the file `name`, from the first folder that has it: at most `most` bytes.
+    /// Content of the file `name` in the first folder that has it, at most `most` bytes.
     ///
     /// # Errors
-    /// When no folder has it, a link or the name itself leads elsewhere, or it is no ordinary file.
+    /// If no folder has it, a link or the name leads out of the folder, or it is too long or no regular file.
     pub fn read(&self, name: &str, most: u64) -> Result<Vec<u8>, ScriptError> {
         let words = self
             .0
@@ -244,7 +246,7 @@ impl InputFolders {
     }
 }
 
-/// Whether a file, or a folder on the way to it, does not exist.
+/// Returns true if a file or one of its parent folders does not exist.
 fn is_missing(error: &io::Error) -> bool {
     matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory)
 }

@@ -1,5 +1,5 @@
-//! The journals of the studies of a run. They stay until the whole script has come to its end: one that is interrupted, or wrong
-//! behind its first study, does not repeat what that found.
+//! Journals of the studies of a run. They are kept until the script ends, so that a repeated run after an interrupt or
+//! error reuses finished cases.
 
 use std::cell::{Cell, RefCell};
 use std::io;
@@ -12,36 +12,36 @@ use super::settings::JournalPreference;
 use crate::analysis::{Journal, JournalError, RowEntry, RowJournal, read_rows, remove_rows};
 use crate::script::messages::error::ScriptError;
 
-/// The journals of a run: what is kept of its studies.
+/// Journals of a run.
 #[derive(Default)]
 pub struct Journals {
     open: RefCell<Vec<(Journal, JournalLifetime)>>,
-    /// Journals of sweeps, which are kept open by these.
+    /// Paths of the journals of sweeps, which hold them open themselves.
     of_rows: RefCell<Vec<PathBuf>>,
-    /// Whether parts are made, which stay.
+    /// True if the run computes parts, whose journals are kept.
     has_parts: Cell<bool>,
-    /// Cases that were found in them or written into them.
+    /// Number of cases found in journals or written to them.
     kept: Cell<usize>,
 }
 
-/// How long a journal lasts.
+/// Lifetime of a journal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum JournalLifetime {
-    /// It is removed when the script has come to its end.
+    /// Removed when the script has ended.
     UntilTheEnd,
-    /// It stays, for it is a part that will be joined with others.
+    /// Kept, because it is a part to be merged.
     Longer,
 }
 
-/// The number of one of the journals of a run.
+/// Index of a journal of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct JournalNumber(usize);
 
 impl Journals {
-    /// Opens the journal of a study as the run wants it, if it wants one.
+    /// Opens the journal of a study, if the run uses journals.
     ///
     /// # Errors
-    /// When there is a file that cannot be read, or removed where the study begins anew.
+    /// If an existing file cannot be read, or cannot be removed for a fresh start.
     pub fn open(
         &self,
         path: PathBuf,
@@ -61,10 +61,10 @@ impl Journals {
         Ok(Some(self.keep(journal, lasting)))
     }
 
-    /// Opens files of parts as one journal, which is not written.
+    /// Opens the files of parts as one read-only journal.
     ///
     /// # Errors
-    /// When one cannot be read.
+    /// If one cannot be read.
     pub fn open_parts(
         &self,
         paths: impl IntoIterator<Item = PathBuf>,
@@ -78,17 +78,17 @@ impl Journals {
         JournalNumber(open.len() - 1)
     }
 
-    /// The result of a case that a journal knows, by the case's fingerprint.
+    /// Result of a case in a journal, by the fingerprint of the case.
     pub fn find<T: DeserializeOwned>(&self, journal: JournalNumber, fingerprint: u64) -> Option<T> {
         let found = self.open.borrow().get(journal.0)?.0.find(fingerprint);
         self.kept.set(self.kept.get() + usize::from(found.is_some()));
         found
     }
 
-    /// Writes down in a journal what was found of a case; gives the bytes that this takes.
+    /// Writes the result of a case; returns the number of bytes.
     ///
     /// # Errors
-    /// When the file cannot be written.
+    /// If the file cannot be written.
     pub fn write<T: Serialize>(
         &self,
         journal: JournalNumber,
@@ -102,11 +102,11 @@ impl Journals {
         Ok(bytes)
     }
 
-    /// Opens the journal of a sweep as the run wants it, if it wants one; `recall` is given what it knows, where it is about the same sweep, which `about`
-    /// tells.
+    /// Opens the journal of a sweep, if the run uses journals. `recall` receives its entries if the journal is of the
+    /// same sweep, which `about` identifies.
     ///
     /// # Errors
-    /// When it cannot be read or written.
+    /// If it cannot be read or written.
     pub fn open_rows(
         &self,
         path: PathBuf,
@@ -144,15 +144,15 @@ impl Journals {
         Ok(Some(keeper))
     }
 
-    /// How many finished cases of this run are kept for the next one.
+    /// Number of finished cases of this run that are kept for the next one.
     pub fn kept(&self) -> usize {
         self.kept.get()
     }
 
-    /// Removes the journals of a script that has come to its end: there is nothing to go on with.
+    /// Removes the journals after the script has ended.
     ///
     /// # Errors
-    /// When a file cannot be removed.
+    /// If a file cannot be removed.
     pub fn finish(&self) -> Result<(), ScriptError> {
         if !self.has_parts.get() {
             self.kept.set(0);
@@ -166,7 +166,7 @@ impl Journals {
     }
 }
 
-/// The journal of a sweep at work.
+/// Journal of a running sweep.
 #[derive(Debug)]
 pub struct RowKeeper {
     path: PathBuf,
@@ -174,10 +174,10 @@ pub struct RowKeeper {
 }
 
 impl RowKeeper {
-    /// Writes down an entry of one of the journals of a run; gives the bytes that it takes.
+    /// Writes an entry; returns the number of bytes.
     ///
     /// # Errors
-    /// When it cannot be written.
+    /// If it cannot be written.
     pub fn write(&mut self, journals: &Journals, entry: &RowEntry) -> Result<u64, ScriptError> {
         if matches!(entry, RowEntry::Found(..) | RowEntry::Failed(..)) {
             journals.kept.set(journals.kept.get() + 1);
@@ -189,18 +189,18 @@ impl RowKeeper {
         self.journal.write(entry).map_err(|error| refused_rows(&self.path, &error))
     }
 
-    /// Lets what was written last reach the disk, now and then.
+    /// Syncs the file periodically.
     ///
     /// # Errors
-    /// When it cannot be written.
+    /// If it cannot be written.
     pub fn beat(&mut self) -> Result<(), ScriptError> {
         self.journal.beat().map_err(|error| refused_rows(&self.path, &error))
     }
 
-    /// Lets what was written reach the disk.
+    /// Syncs the file.
     ///
     /// # Errors
-    /// When it cannot be written.
+    /// If it cannot be written.
     pub fn flush(&mut self) -> Result<(), ScriptError> {
         self.journal.flush().map_err(|error| refused_rows(&self.path, &error))
     }

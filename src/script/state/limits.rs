@@ -1,4 +1,4 @@
-//! What a run may use: time, steps, memory, calls within calls, what is written; and what stopped a run before its end.
+//! Resource limits of a run: time, steps, memory, call depth, output; and their supervision.
 
 use std::cell::Cell;
 use std::io;
@@ -9,46 +9,46 @@ use std::time::Duration;
 use super::watchdog::Watchdog;
 use crate::script::messages::stop::{MEGABYTE, Stop};
 
-/// The default limit of memory, in megabytes.
+/// Default memory limit [MB].
 pub const DEFAULT_MEGABYTES: u64 = 4096;
-/// The default limit of what is written, in megabytes.
+/// Default limit of written output [MB].
 pub const DEFAULT_MEGABYTES_WRITTEN: u64 = 10_000;
-/// The default limit of files written.
+/// Default limit of written files.
 pub const DEFAULT_FILES: u64 = 100_000;
-/// The default limit of calls within calls.
+/// Default limit of the call depth.
 pub const DEFAULT_DEPTH: usize = 400;
-/// The most calls within calls that can be allowed: they fit [`LEAST_STACK`].
+/// Maximum call depth that can be set; it fits [`LEAST_STACK`].
 pub const DEEPEST: usize = 1000;
-/// Address space for the stack of [`DEEPEST`] calls within calls; memory is used only as deep as a script really goes [bytes].
+/// Address space of the stack for [`DEEPEST`] nested calls [bytes]; memory is used only as needed.
 pub const LEAST_STACK: usize = 256 << 20;
-/// Most address space for the stack that values need when they are let go [bytes].
+/// Maximum address space of the stack for dropping nested values [bytes].
 const LARGEST_FOR_VALUES: usize = 16 << 30;
 
-/// The limits of what a run may use. `None` is without limit.
+/// Resource limits of a run. `None` is unlimited.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// The longest time of the run by the clock.
+    /// Maximum wall-clock time.
     pub time: Option<Duration>,
-    /// The most steps of all simulations of the run together, failed tries included.
+    /// Maximum number of steps of all simulations together, including failed ones.
     pub steps: Option<u64>,
-    /// The most memory that the whole process really occupies [bytes].
+    /// Maximum resident memory of the process [bytes].
     pub memory: Option<u64>,
-    /// The most calls of script functions within calls, at most [`DEEPEST`].
+    /// Maximum depth of script function calls, at most [`DEEPEST`].
     pub depth: usize,
-    /// The most that is printed and written into files, all together [bytes].
+    /// Maximum amount of printed and written output [bytes].
     pub written: Option<u64>,
-    /// The most files that are written; one that is written again counts again.
+    /// Maximum number of written files; rewriting a file counts again.
     pub files: Option<u64>,
 }
 
-/// Ends the whole program: a limit was passed, and what runs did not hear of it or grows too fast.
+/// Ends the whole program when a limit is exceeded and the run does not react.
 pub type HardAbort = Arc<dyn Fn(Stop) + Send + Sync>;
 
 impl Limits {
-    /// Address space for a stack that a script within these limits cannot exhaust [bytes].
+    /// Address space of a stack that a script within these limits cannot exhaust [bytes].
     ///
-    /// Closures that hold closures that hold closures … are let go one within the other. A link of such a chain takes less stack than
-    /// twice its memory, so the memory allowed bounds the stack that it may need.
+    /// Nested closures are dropped recursively. A link of such a chain takes less stack than twice its memory, so the
+    /// memory limit bounds the stack.
     pub fn stack(&self) -> usize {
         let memory = self.memory.unwrap_or(DEFAULT_MEGABYTES * MEGABYTE);
         let memory = usize::try_from(memory).unwrap_or(LARGEST_FOR_VALUES);
@@ -69,7 +69,7 @@ impl Default for Limits {
     }
 }
 
-/// How much of its limits a run has used.
+/// Resource use of a run.
 pub struct Meter {
     limits: Limits,
     alarm: Arc<AtomicU8>,
@@ -78,30 +78,30 @@ pub struct Meter {
     wants_too_many_steps: Cell<bool>,
     written: Cell<u64>,
     files: Cell<u64>,
-    /// What the run stopped itself by.
+    /// Reason set by the run itself.
     stopped: Cell<Option<Stop>>,
-    /// How often a dry build pretended to go on with a simulation.
+    /// Number of simulation advances skipped by a dry build.
     pretended: Cell<u64>,
 }
 
-/// So often may it do that: a loop that waits for a time is long through by then.
+/// Limit of `pretended`; loops that wait for a time end long before.
 const MOST_PRETENDED: u64 = 100_000;
 
-/// Whether a run of this process has heard that it was interrupted: it is about to stop, and to keep what ran.
+/// True after a run of this process has noticed an interrupt. It is then about to stop and to save results.
 pub static INTERRUPT_HEARD: AtomicBool = AtomicBool::new(false);
 
-/// The state of a watchdog that has nothing to say.
+/// Watchdog states: no alarm, time limit, memory limit.
 pub(super) const QUIET: u8 = 0;
 pub(super) const TOO_LATE: u8 = 1;
 pub(super) const TOO_LARGE: u8 = 2;
 
 impl Meter {
-    /// The meter of a run of which nothing is used yet.
+    /// Meter of a new run.
     pub fn new(limits: Limits) -> Self {
         Self::guarded(limits, None)
     }
 
-    /// The meter of a run of which nothing is used yet, with code that ends the program when a limit is passed and nothing hears of it.
+    /// Meter of a new run; `resort` ends the program when a limit is exceeded and the run does not react.
     pub fn guarded(limits: Limits, resort: Option<HardAbort>) -> Self {
         Self {
             limits,
@@ -116,12 +116,12 @@ impl Meter {
         }
     }
 
-    /// The limits of what the run may use.
+    /// Limits of the run.
     pub fn limits(&self) -> &Limits {
         &self.limits
     }
 
-    /// The limit of the run that was passed, if one was.
+    /// Limit that was exceeded, if any.
     pub fn passed(&self) -> Option<Stop> {
         match self.alarm.load(Ordering::Relaxed) {
             TOO_LATE => self.limits.time.map(Stop::Time),
@@ -133,32 +133,32 @@ impl Meter {
         }
     }
 
-    /// Counts that a dry build pretends to go on with a simulation.
+    /// Counts a skipped simulation advance of a dry build.
     pub fn count_pretended(&self) {
         self.pretended.set(self.pretended.get() + 1);
     }
 
-    /// Whether the script has gone by results that a dry build only pretends to have.
+    /// Returns true if the script depends on results that a dry build does not compute.
     pub fn has_pretended(&self) -> bool {
         self.pretended.get() > 0
     }
 
-    /// Counts a step of a simulation of the run, or a try of one.
+    /// Counts a step or failed step of a simulation.
     pub fn count_step(&self) {
         self.steps.set(self.steps.get() + 1);
     }
 
-    /// Counts steps of the run that were made elsewhere.
+    /// Counts steps made elsewhere.
     pub fn count_steps(&self, steps: usize) {
         self.steps.set(self.steps.get().saturating_add(steps as u64));
     }
 
-    /// The steps of simulations so far, failed tries included.
+    /// Number of simulation steps, including failed ones.
     pub fn steps(&self) -> u64 {
         self.steps.get()
     }
 
-    /// Whether one more step is allowed; if not, the limit counts as passed.
+    /// Returns true if another step is allowed; otherwise the limit counts as exceeded.
     pub fn allows_a_step(&self) -> bool {
         let allowed = self.limits.steps.is_none_or(|limit| self.steps.get() < limit);
         if !allowed {
@@ -167,12 +167,12 @@ impl Meter {
         allowed
     }
 
-    /// Stops the run for a reason, as soon as it asks.
+    /// Stops the run at its next check.
     pub fn stop(&self, why: Stop) {
         self.stopped.set(self.stopped.get().or(Some(why)));
     }
 
-    /// Counts what is to be printed or written, and whether it may be [bytes]; if not, the limit counts as passed.
+    /// Counts output [bytes]; returns false if the limit is exceeded.
     pub fn allows_to_write(&self, bytes: u64) -> bool {
         self.written.set(self.written.get().saturating_add(bytes));
         let beyond = self.limits.written.filter(|limit| self.written.get() > *limit);
@@ -180,7 +180,7 @@ impl Meter {
         beyond.is_none()
     }
 
-    /// Counts a file of so many bytes that is to be written, and whether it may be; if not, the limit counts as passed.
+    /// Counts a file and its bytes; returns false if a limit is exceeded.
     pub fn allows_a_file(&self, bytes: u64) -> bool {
         self.files.set(self.files.get() + 1);
         match self.limits.files.filter(|limit| self.files.get() > *limit) {
@@ -192,17 +192,17 @@ impl Meter {
         }
     }
 
-    /// Begins to count anew and watches the clock and the memory until the guard is dropped.
+    /// Resets the counters and supervises time and memory until the guard is dropped.
     ///
     /// # Errors
-    /// When no thread can be started.
+    /// If no thread can be started.
     pub fn watch(&self) -> io::Result<Watchdog> {
         self.alarm.store(QUIET, Ordering::Relaxed);
         self.steps.set(0);
         self.wants_too_many_steps.set(false);
         self.written.set(0);
         self.files.set(0);
-        // What is lost stays lost.
+        // Lost output stays an error.
         self.stopped.set(self.stopped.get().filter(|stop| matches!(stop, Stop::OutputLost(_))));
         Watchdog::start(self.limits, Arc::clone(&self.alarm), self.resort.clone())
     }

@@ -1,4 +1,4 @@
-//! What the calls of a run share: settings, limits, files, journals, the context that holds them.
+//! State shared by the calls of a run: settings, limits, files, journals, and the context that holds them.
 
 pub mod context;
 pub mod files;

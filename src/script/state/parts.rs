@@ -1,4 +1,5 @@
-//! Parts of studies, as several machines make them: which cases belong to one, and the files in which parts are kept until they are joined.
+//! Parts of studies for distributed computation: assignment of cases to parts, and the files of parts until they are
+//! merged.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -7,16 +8,16 @@ use std::str::FromStr;
 use crate::sandbox_fs::Folder;
 use crate::script::messages::error::ScriptError;
 
-/// A part of all studies of a script: every so manieth case of each.
+/// A part of every study of a script: every `of`-th case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct StudyPart {
-    /// How many parts there are.
+    /// Number of parts.
     pub of: u32,
-    /// The number of the part, from 1.
+    /// Index of the part, from 1.
     pub number: u32,
 }
 
-/// A text that names no part.
+/// Error of parsing a part.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("a part is written as 3/16: its number, from 1, and how many there are")]
 pub struct InvalidStudyPart;
@@ -35,20 +36,20 @@ impl FromStr for StudyPart {
 }
 
 impl StudyPart {
-    /// All of a study.
+    /// The whole study.
     pub const WHOLE: Self = Self { of: 1, number: 1 };
 
-    /// Whether a case belongs to the part.
+    /// Returns true if a case belongs to the part.
     pub fn has(self, case: usize) -> bool {
         case % self.of as usize == self.number as usize - 1
     }
 
-    /// The name of the file in which the part of a study is kept.
+    /// File name of the part of a study.
     pub fn file(self, study: &str) -> String {
         format!("{study}.{}-of-{}.part", self.number, self.of)
     }
 
-    /// The part that a file of the part of a study is, by its name.
+    /// Part of a study from its file name.
     fn of_file(study: &str, file: &str) -> Option<Self> {
         let middle = file.strip_prefix(study)?.strip_prefix('.')?.strip_suffix(".part")?;
         let (number, of) = middle.split_once("-of-")?;
@@ -56,10 +57,10 @@ impl StudyPart {
     }
 }
 
-/// The files of all parts of a study in some folders, in the order of the parts.
+/// Files of all parts of a study in some folders, ordered by part.
 ///
 /// # Errors
-/// When there are none, some are missing, one is there twice, or they are parts of different numbers; or a folder cannot be read.
+/// If there are none, some are missing or duplicate, the numbers of parts differ, or a folder cannot be read.
 pub fn find_parts(
     study: &str,
     folders: &[PathBuf],
@@ -112,7 +113,7 @@ pub fn find_parts(
     }
 }
 
-/// The names of the files beside a path; none where there is no such folder.
+/// File names next to a path; empty if the folder does not exist.
 fn file_names(path: &Path) -> io::Result<Vec<String>> {
     let folder = path.parent().filter(|above| !above.as_os_str().is_empty());
     let folder = match Folder::open(folder.unwrap_or(Path::new("."))) {

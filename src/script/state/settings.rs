@@ -1,4 +1,4 @@
-//! How a run talks to the world outside, and what is wanted of it.
+//! Settings of a run: input, output, limits, and options of studies.
 
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -10,72 +10,72 @@ use super::parts::StudyPart;
 use crate::script::messages::progress::{NoProgress, Progress};
 use crate::script::source::program::Program;
 
-/// Whether simulations of a run really run.
+/// Mode of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RunMode {
-    /// Everything of the run really runs.
+    /// Full execution.
     Run,
     /// Scenes are built and checked; nothing is stepped, printed, judged or written.
     DryBuild,
 }
 
-/// How a run talks to the world outside. Made by the command line, the prompt or a test.
+/// Settings of a run, made by the command line, the prompt or a test.
 pub struct RunSettings {
-    /// Whether simulations of the run really run.
+    /// Mode of the run.
     pub mode: RunMode,
-    /// The folder for files of the script; made when the first one is written.
+    /// Folder for output files, created when the first one is written.
     pub out: PathBuf,
-    /// The folder of the script, beside which it may read files.
+    /// Folder of the script, where it may read files.
     pub folder: PathBuf,
-    /// The memory that each simulation may take for states to go back to, unless the script says otherwise [bytes].
+    /// Default memory for the snapshots of each simulation [bytes].
     pub snapshots: usize,
-    /// The flag that is set from outside (Ctrl-C) to stop the run as soon as possible.
+    /// Flag set from outside (Ctrl-C) to stop the run as soon as possible.
     pub interrupt: Arc<AtomicBool>,
-    /// The limits of what the run may use.
+    /// Resource limits.
     pub limits: Limits,
-    /// The writer that `print` writes to.
+    /// Writer for `print`.
     pub printed: Box<dyn Write + Send>,
-    /// The writer to which failed checks and `debug` are told, at once.
+    /// Writer for failed checks and `debug`.
     pub told: Box<dyn Write + Send>,
-    /// What shows how far a simulation of the run is.
+    /// Progress display.
     pub progress: Box<dyn Progress + Send>,
-    /// How the studies of the run are made.
+    /// Options of the studies.
     pub studies: StudyPreferences,
-    /// What ends the whole program when a limit of the run is passed and nothing hears of it.
+    /// Ends the whole program when a limit is exceeded and the run does not react.
     pub last_resort: Option<HardAbort>,
-    /// The script of the run, which engines of other threads read too; none where there is no whole one, as at the prompt.
+    /// Script of the run, which engines of other threads compile too; `None` at the prompt.
     pub program: Option<Program>,
-    /// Why the run may write no files, if it may not.
+    /// Reason why the run may not write files, if it may not.
     pub refuses_files: Option<&'static str>,
 }
 
-/// How the studies of a run are made.
+/// Options of the studies of a run.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct StudyPreferences {
-    /// Whether the studies can go on where an earlier run of them was interrupted.
+    /// Use of journals to resume interrupted studies.
     pub journal: JournalPreference,
-    /// How often cases of the studies are timed, whatever the script says.
+    /// Number of timing repetitions, overriding the script.
     pub repeats: Option<usize>,
-    /// The part of each study that is made; then nothing is written but that.
+    /// Part of each study to compute; no other files are written.
     pub part: Option<StudyPart>,
-    /// The folders of parts that are joined into whole studies, in the place of making them.
+    /// Folders with parts that are merged instead of computing the studies.
     pub merge: Vec<PathBuf>,
 }
 
-/// What becomes of finished cases when a study is interrupted.
+/// Treatment of finished cases when a study is interrupted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum JournalPreference {
     /// Finished cases are lost.
     #[default]
     Without,
-    /// Finished cases are kept in the output folder, and those that are there are not run again.
+    /// Finished cases are kept in the output folder and reused.
     GoOn,
-    /// Finished cases are kept in the output folder; what is there is forgotten first.
+    /// Finished cases are kept in the output folder; earlier ones are removed first.
     Anew,
 }
 
 impl RunSettings {
-    /// The settings of a run that writes to nowhere, for dry builds and as a start for others.
+    /// Settings without any output, for dry builds and as a base for others.
     pub fn silent(mode: RunMode) -> Self {
         Self {
             mode,

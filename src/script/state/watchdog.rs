@@ -1,4 +1,4 @@
-//! Somebody who watches the clock and the memory of a run, and ends the program when the run does not hear.
+//! Watchdog thread for time and memory, which ends the program if the run does not react.
 
 use std::io;
 use std::sync::Arc;
@@ -10,18 +10,18 @@ use std::time::{Duration, Instant};
 use super::limits::{HardAbort, Limits, TOO_LARGE, TOO_LATE};
 use crate::script::messages::stop::Stop;
 
-/// How often the watchdog looks.
+/// Polling interval.
 const INTERVAL: Duration = Duration::from_millis(10);
 
-/// How long a run has to hear of a limit that it has passed: a part of the time allowed, so that the limit holds within twice
-/// its figure, and within these bounds.
+/// Time for a run to react to an exceeded limit, as a fraction of the time limit. The limit then holds within twice its
+/// value. The result is clamped to these bounds.
 const PATIENCE: f64 = 0.7;
 const LEAST_PATIENCE: Duration = Duration::from_millis(700);
 const MOST_PATIENCE: Duration = Duration::from_secs(5);
 
-/// A watchdog: a thread that watches the clock and the memory of a run; it ends when this is dropped.
+/// Guard of a thread that supervises time and memory of a run; dropping it ends the thread.
 pub struct Watchdog {
-    /// The thread ends when this is let go.
+    /// Dropping the sender ends the thread.
     leash: Option<Sender<()>>,
     thread: Option<JoinHandle<()>>,
 }
@@ -62,7 +62,7 @@ impl Watchdog {
     }
 }
 
-/// The limit that is passed now, and the alarm for it.
+/// Exceeded limit and its alarm code.
 fn first_passed(limits: &Limits, begun: Instant) -> Option<(Stop, u8)> {
     let late = limits.time.filter(|limit| begun.elapsed() > *limit);
     let large = || limits.memory.filter(|limit| occupied() > *limit);
@@ -79,13 +79,13 @@ impl Drop for Watchdog {
     fn drop(&mut self) {
         self.leash = None;
         if let Some(thread) = self.thread.take() {
-            // It has nothing to tell, and a panic of it must not become ours.
+            // A panic of the watchdog must not propagate.
             let _ = thread.join();
         }
     }
 }
 
-/// The memory that the process occupies [bytes]; nothing where the system does not tell.
+/// Resident memory of the process [bytes]; 0 if unknown.
 fn occupied() -> u64 {
     memory_stats::memory_stats().map_or(0, |stats| stats.physical_mem as u64)
 }

@@ -1,5 +1,4 @@
-//! Where the cases of a study are worked on: in parallel or one by one, with progress and limits, and with a journal where one
-//! is wanted.
+//! Execution of study cases in parallel or one by one, with progress, limits, and an optional journal.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::AtomicBool;
@@ -16,9 +15,9 @@ use crate::script::state::journals::{JournalLifetime, JournalNumber};
 use crate::script::state::parts::find_parts;
 use crate::script::state::settings::RunMode;
 
-/// What a study finds of a case.
+/// Result of a case.
 pub trait Finding: Serialize + DeserializeOwned {
-    /// Whether the journal keeps what was found: what ran out of patience may come to its end another time.
+    /// Returns true if the result is worth keeping in the journal; a run that exceeded its limits may complete another time.
     fn is_final(&self) -> bool;
 }
 
@@ -40,7 +39,7 @@ impl Finding for Option<Timing> {
     }
 }
 
-/// Prints the table of a study for the script, and a free line behind it; a dry build has none.
+/// Prints the table of a study and an empty line, except in a dry build.
 pub fn print_table(context: &Context, table: &str) {
     if context.mode() == RunMode::Run {
         context.print(table);
@@ -48,34 +47,33 @@ pub fn print_table(context: &Context, table: &str) {
     }
 }
 
-/// A desk: a study at work on its cases.
+/// Execution of a study.
 pub struct CaseRunner<'c> {
     context: &'c Context,
     name: String,
     journal: Option<JournalNumber>,
 }
 
-/// A kind of work that a study does with each of some cases.
+/// A kind of computation applied to the cases of a study.
 #[derive(Clone, Copy)]
 pub struct CaseTask<'t> {
-    /// What is done with the cases, in a word or two.
+    /// Name of the computation.
     pub name: &'t str,
-    /// What the results of the work depend on besides the cases, as bytes.
+    /// Data that the results depend on besides the cases, as bytes.
     pub parts: &'t [u8],
 }
 
 impl CaseTask<'_> {
-    /// A number for a case under this task; none when the case cannot be written down.
+    /// Fingerprint of a case for this computation; `None` if the case cannot be serialised.
     fn fingerprint(&self, case: &Case) -> Option<u64> {
         Some(Journal::fingerprint(&[self.name.as_bytes(), self.parts, &case.to_bytes()?]))
     }
 }
 
 impl<'c> CaseRunner<'c> {
-    /// Makes room for a study at work, whose name is that of its files; a journal is opened where the run wants one.
+    /// Starts a study, whose name is that of its files; opens a journal if requested.
     ///
-    /// # Errors
-    /// When the name is not one of a file in the output folder, or the journal cannot be read.
+    /// If the name is not valid for a file in the output folder, or the journal cannot be read.
     pub fn open(context: &'c Context, name: &str) -> Result<Self, ScriptError> {
         let wishes = context.studies();
         let path = |file: String| context.output().path_of(&file);
@@ -97,12 +95,11 @@ impl<'c> CaseRunner<'c> {
         Ok(Self { context, name: name.to_owned(), journal })
     }
 
-    /// Works on all cases that the journal does not know, on all cores. `steps_of` counts the steps of a result for the limits
-    /// of the run. A panic is the result of its case alone. Where only a part of the study is wanted, its cases are worked on, and nothing is given: the
-    /// others are worked on elsewhere.
+    /// Computes all cases that are not in the journal, in parallel. `steps_of` returns the steps of a result, which count against the
+    /// limits of the run. A panic affects only its case. If the run computes a part of the study, only the cases of that part are computed,
+    /// and `None` is returned.
     ///
-    /// # Errors
-    /// When the run is stopped: what was finished by then is in the journal; and when parts are joined in which a case is missing.
+    /// If the run is stopped, with finished cases in the journal, or if a case is missing in merged parts.
     pub fn in_parallel<R: Finding + Clone + Send>(
         &self,
         task: CaseTask,
@@ -167,11 +164,10 @@ impl<'c> CaseRunner<'c> {
         })
     }
 
-    /// Works on one case after another on this thread, so that they can be timed; on those that the journal knows not again.
-    /// `work` is given a question whether it may go on.
+    /// Computes the cases one by one on this thread, for timing; cases in the journal are skipped. `work` receives a function that returns
+    /// false to stop.
     ///
-    /// # Errors
-    /// When the run is stopped: what was finished by then is in the journal.
+    /// If the run is stopped; finished cases are in the journal.
     pub fn one_by_one<R: Finding>(
         &self,
         task: CaseTask,
@@ -191,12 +187,12 @@ impl<'c> CaseRunner<'c> {
             Ok(found)
         });
         let results = results.collect();
-        // The bar ends before a reason to stop is told.
+        // Ends the progress bar before an error is reported.
         context.progress().end();
         results
     }
 
-    /// Refuses parts in which a case is missing that could be in one.
+    /// Rejects merged parts in which a case is missing.
     fn expect_parts<R>(
         &self,
         task: CaseTask,
@@ -240,7 +236,7 @@ impl<'c> CaseRunner<'c> {
         match (self.journal, task.fingerprint(case)) {
             (Some(journal), Some(fingerprint)) if result.is_final() || is_part => {
                 let bytes = self.context.journals().write(journal, fingerprint, result)?;
-                // The study stops before its next case where that was too much.
+                // If the limit is exceeded, the study stops before its next case.
                 self.context.meter().allows_to_write(bytes);
             }
             _ => (),

@@ -1,4 +1,4 @@
-//! What the function of a stability study gives for a cell, or throws.
+//! Result of the function of a stability study for a cell.
 
 use rhai::{Dynamic, EvalAltResult, Map};
 
@@ -15,24 +15,24 @@ use crate::script::messages::numbers::as_number;
 use crate::script::messages::suggest::nearest;
 use crate::simulation::SimulationSettings;
 
-/// What a function may say of a cell.
+/// Keys that a function may set for a cell.
 const KEYS: [&str; 4] = ["scene", "dt", "end", "integrator"];
 
-/// What a script has thrown, or a function of ours has refused, in words; none for other errors.
+/// Message of a thrown value or a native error; `None` for other errors.
 pub fn thrown(call: &Call, error: &EvalAltResult) -> Option<String> {
     match error {
         EvalAltResult::ErrorInFunctionCall(_, _, inner, _) => thrown(call, inner),
         EvalAltResult::ErrorRuntime(value, _) => Some(match value.read_lock::<Failure>() {
             Some(failure) => failure.message.clone(),
-            // What is no text is shown.
+            // Values other than texts are formatted.
             None => value.clone().into_string().unwrap_or_else(|_| call.show(value)),
         }),
         _ => None,
     }
 }
 
-/// A case of a study from a scene, or from a map of the scene and how it is simulated; what it leaves open is taken from the values of
-/// the cell, then from the options of the study.
+/// Creates a case from a scene, or from a map with a scene and settings. Missing settings come from the values of the cell, then from the
+/// options of the study.
 pub fn case(
     call: &Call,
     options: &StabilityOptions,
@@ -55,7 +55,7 @@ pub fn case(
             "as an option of the study, among its values, or in what the function gives: #{{ scene: scene, {name}: 0.1 }}"
         ))
     };
-    // What is given but is something else must not be replaced by an option: the cell would run what its label does not say.
+    // An invalid setting must not be replaced by an option, or the cell would differ from its label.
     let wrong = |name: &str, value: &Dynamic, hint: &str| {
         call.error(format!("the '{name}' of a cell is {}", call.describe(value))).hint(hint)
     };
@@ -83,7 +83,7 @@ pub fn case(
     Ok(Case { scene, settings, stops })
 }
 
-/// Whether what a function says of a run is what the label of its cell says: a value of the cell that could be taken as it is, is.
+/// Checks that settings returned by the function agree with the label of the cell.
 fn expect_no_other_value(call: &Call, own: &Map, values: &Map) -> Result<(), ScriptError> {
     let pair = |name| own.get(name).zip(values.get(name));
     fn differ<T: PartialEq>(
@@ -108,7 +108,7 @@ fn expect_no_other_value(call: &Call, own: &Map, values: &Map) -> Result<(), Scr
     Err(call.error(told).hint(hint).at(CallPart::Key("scene".into())))
 }
 
-/// Whether the map that a function gives says nothing that has no meaning.
+/// Checks that the map of a function has only known keys.
 fn expect_known_keys(call: &Call, given: &Map) -> Result<(), ScriptError> {
     let Some(unknown) = given.keys().find(|key| !KEYS.contains(&key.as_str())) else {
         return Ok(());

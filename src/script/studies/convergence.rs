@@ -1,4 +1,4 @@
-//! Convergence: the study made, written into the output folder, and as maps for scripts.
+//! Convergence studies: execution, output files, and conversion to script maps.
 
 use rhai::{Dynamic, Map};
 
@@ -19,7 +19,7 @@ use crate::script::messages::error::ScriptError;
 use crate::script::state::settings::RunMode;
 use crate::simulation::{SimulationSettings, StepSize};
 
-/// Makes the study that the options ask for; in a dry build nothing runs.
+/// Runs the study; nothing is computed in a dry build.
 pub fn study(call: &Call, options: &ErrorOptions) -> Result<Convergence, ScriptError> {
     let mut plan = ErrorStudyPlan::read(call, options)?;
     let refined = refined(call, &plan)?;
@@ -67,7 +67,7 @@ pub fn study(call: &Call, options: &ErrorOptions) -> Result<Convergence, ScriptE
     Ok(study)
 }
 
-/// What is refined: there are several of it, and one of the other.
+/// The refined quantity, step or mesh; the other must have one value.
 fn refined(call: &Call, plan: &ErrorStudyPlan) -> Result<RefinedParameter, ScriptError> {
     let is_adaptive = |dt: &StepSize| matches!(dt, StepSize::Adaptive(_));
     if plan.dts.len() > 1 && plan.dts.iter().any(is_adaptive) {
@@ -85,7 +85,7 @@ fn refined(call: &Call, plan: &ErrorStudyPlan) -> Result<RefinedParameter, Scrip
     }
 }
 
-/// Table and picture in the output folder.
+/// Writes table and picture.
 fn write(call: &Call, study: &Convergence) -> Result<(), ScriptError> {
     let context = call.context();
     context.write_file(&format!("{}.csv", study.name), records(study).to_text()?.as_bytes())?;
@@ -94,7 +94,7 @@ fn write(call: &Call, study: &Convergence) -> Result<(), ScriptError> {
     Ok(())
 }
 
-/// What the sizes of the study are sizes of: steps or meshes.
+/// Name of the refined size: step or mesh.
 pub(super) fn size_name(study: &Convergence) -> &'static str {
     match study.refined {
         RefinedParameter::Step => "dt",
@@ -102,7 +102,7 @@ pub(super) fn size_name(study: &Convergence) -> &'static str {
     }
 }
 
-/// All errors for other programs.
+/// All errors as CSV records.
 fn records(study: &Convergence) -> CsvRecords {
     let names = ["quantity", "integrator", size_name(study), "error", "is_resolved", "order"];
     let number = |value: Option<f64>| value.map_or_else(String::new, format_number);
@@ -130,7 +130,7 @@ fn records(study: &Convergence) -> CsvRecords {
     }
 }
 
-/// The errors of one quantity as a map of a script.
+/// Errors of one quantity as a script map.
 pub fn map_of(study: &Convergence, ladder: &Ladder) -> Map {
     let array = |values: Vec<f64>| -> Dynamic {
         values.into_iter().map(Dynamic::from).collect::<rhai::Array>().into()
@@ -150,7 +150,7 @@ pub fn map_of(study: &Convergence, ladder: &Ladder) -> Map {
     facts.into_iter().map(|(name, value)| (name.into(), value)).collect()
 }
 
-/// Refuses a quantity that the study has not, with the names that there are.
+/// Rejects an unknown quantity; the error lists the known ones.
 pub fn expect_quantity(
     call: &Call,
     study: &Convergence,
@@ -164,10 +164,9 @@ pub fn expect_quantity(
     Err(call.error(told).hint(format!("quantities: {}", known.join(", "))))
 }
 
-/// The errors of a quantity with an integrator; none in a dry build, which has not seen all quantities.
+/// Errors of a quantity with an integrator; `None` in a dry build.
 ///
-/// # Errors
-/// When the study has no such quantity or integrator; they name those that there are.
+/// If the quantity or integrator is not in the study; the error lists the known ones.
 pub fn find<'s>(
     call: &Call,
     study: &'s Convergence,

@@ -1,20 +1,20 @@
-//! The picture of a convergence study.
+//! Chart of a convergence study.
 
 use super::labels;
 use crate::analysis::{Convergence, Ladder, RefinedParameter};
 use crate::elementary::{ln, power};
 use crate::output::{AxisScale, LineChart, Marker, Series, SeriesColour, Stroke};
 
-/// Orders between neighbours that differ by less are the same one.
+/// Orders that differ by less are considered equal.
 const SAME_ORDER: f64 = 0.3;
 
-/// A line of an order, from its coarse end to its fine one.
+/// A reference line of an order, from coarse to fine.
 struct Slope {
     told: String,
     ends: [(f64, f64); 2],
 }
 
-/// A chart of the errors of a quantity over the sizes, with lines of the orders that are claimed, or else of those that are seen.
+/// Chart of the errors of a quantity over the sizes, with lines of the claimed orders, or else of the observed ones.
 pub fn chart(study: &Convergence, quantity: &str) -> LineChart {
     let relative = match quantity.starts_with("position") {
         true => " / length",
@@ -50,7 +50,7 @@ pub fn chart(study: &Convergence, quantity: &str) -> LineChart {
             chart.series(Series::new(name, points).ink(ink).marker(marker).stroke(Stroke::Marked));
         let Some(Slope { told, ends }) = slope else { continue };
         let [(coarse, large), (fine, small)] = ends;
-        // Lines of the same order that lie one over the other need one word.
+        // Overlapping lines of the same order share one label.
         let is_near =
             |(other, error): &(String, f64)| *other == told && ln(error / large).abs() < 0.4;
         if !noted.iter().any(is_near) {
@@ -63,12 +63,12 @@ pub fn chart(study: &Convergence, quantity: &str) -> LineChart {
     chart
 }
 
-/// The rungs that tell an order, from coarse to fine.
+/// Rungs usable for an order, from coarse to fine.
 fn told(ladder: &Ladder) -> impl DoubleEndedIterator<Item = usize> {
     (0..ladder.sizes.len()).filter(|rung| ladder.tells_an_order(*rung))
 }
 
-/// A line with the slope of an order through the last point that tells one, over all sizes.
+/// Line of an order through the last usable point, over all sizes.
 fn claimed(ladder: &Ladder, order: u32, points: &[(f64, f64)]) -> Option<Slope> {
     let last = told(ladder).next_back()?;
     let line = through(ladder, last, f64::from(order));
@@ -78,8 +78,8 @@ fn claimed(ladder: &Ladder, order: u32, points: &[(f64, f64)]) -> Option<Slope> 
     })
 }
 
-/// A line with the order at which the finest errors fall, over the sizes where neighbours agree on it; none where the last ones do not:
-/// there errors do not fall at an order yet.
+/// Line of the order observed for the finest sizes, over the range where neighbours agree; `None` if the errors are not in the asymptotic
+/// range.
 fn seen(ladder: &Ladder) -> Option<Slope> {
     let last = told(ladder).next_back()?;
     let mut orders = vec![ladder.order(last)?];
@@ -103,7 +103,7 @@ fn seen(ladder: &Ladder) -> Option<Slope> {
     })
 }
 
-/// Points on the line of an order through the point of a rung.
+/// Line of an order through the point of a rung.
 fn through(ladder: &Ladder, rung: usize, order: f64) -> impl Fn(f64) -> Option<(f64, f64)> {
     let (size, error) = (ladder.sizes[rung], ladder.error(rung));
     move |other| Some((other, error? * power(other / size, order)))

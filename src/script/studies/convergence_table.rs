@@ -1,18 +1,18 @@
-//! The errors and orders of a convergence study, as tables for people.
+//! Text tables of the errors and orders of a convergence study.
 
 use super::convergence::size_name;
 use super::labels;
 use crate::analysis::{ALL_POSITIONS, Convergence, Ladder, RefinedParameter};
 use crate::output::{Cell, TextTable, significant};
 
-/// A table for every quantity of the study as text: errors and orders of all integrators side by side, the order of all rungs together below.
+/// Tables of all quantities: errors and orders of all integrators side by side, with the fitted order below.
 pub fn table(study: &Convergence) -> String {
     let tables = study.quantities().into_iter().map(|of| table_of(study, of));
     let tables: String = tables.map(|table| format!("\n\n{table}")).collect();
     format!("{}{tables}{}", head(study), failures(study))
 }
 
-/// The study in short as text: the table of all positions together, and the orders of the other quantities.
+/// Short report: the table of all positions together, and the orders of the other quantities.
 pub fn summary(study: &Convergence) -> String {
     let positions = table_of(study, ALL_POSITIONS);
     format!("{}\n\n{positions}{}{}", head(study), other_orders(study), failures(study))
@@ -54,7 +54,7 @@ fn table_of(study: &Convergence, quantity: &str) -> String {
     table.to_string().trim_end().to_owned()
 }
 
-/// A line for each quantity but the positions together; nothing where there is none.
+/// One line per quantity except the positions together; empty if there is none.
 fn other_orders(study: &Convergence) -> String {
     let of = |quantity: &str| {
         let ladders = study.ladders_with(quantity);

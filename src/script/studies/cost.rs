@@ -1,4 +1,4 @@
-//! Cost studies: the same scene with features added one by one.
+//! Cost studies: the same scene with features added one at a time.
 
 use rhai::{Dynamic, FnPtr, Map};
 
@@ -14,31 +14,31 @@ use crate::script::messages::error::{CallPart, ScriptError};
 use crate::simulation::{Recording, SimulationSettings};
 use crate::system::Scene;
 
-/// The memory for snapshots in the row that has some [bytes].
+/// Memory for snapshots in the row with snapshots [bytes].
 const SNAPSHOTS: usize = 256_000_000;
 
-/// The names of the first two rows: the scene as it is, and the same once more, to see how far times can be trusted.
+/// Names of the first two rows: the plain scene, and its repetition, which shows the reliability of the times.
 const PLAIN: [&str; 2] = ["the scene alone", "the same again"];
 
-/// Times of the same work that differ by more than this factor cast doubt on all ratios.
+/// A larger ratio between the times of equal work casts doubt on all ratios.
 const TRUSTED_RATIO: f64 = 1.1;
 
-/// How the steps of all rows of a study of costs are taken, unless a row is about that.
+/// Settings of all rows of a cost study, unless a row varies them.
 #[derive(Clone, Copy)]
 pub struct CostStepping {
-    /// The integrator of the study's steps.
+    /// Integrator.
     pub method: Method,
-    /// The step size of the study [time].
+    /// Step size [time].
     pub dt: f64,
-    /// The number of steps of each run of the study.
+    /// Number of steps of each run.
     pub steps: usize,
 }
 
-/// A table of what the features of a scene cost.
+/// Cost of the features of a scene.
 #[derive(Clone)]
 pub struct CostTable {
     name: String,
-    /// The scene alone comes first.
+    /// The plain scene comes first.
     costs: Vec<StepCost>,
 }
 
@@ -54,7 +54,7 @@ impl CostStepping {
     }
 }
 
-/// The rows of a study: the scene alone, twice; with each feature; and in each other way.
+/// Rows of the study: the plain scene twice, with each feature, and with each variation of the settings.
 pub fn cases(
     call: &Call,
     options: &CostOptions,
@@ -95,7 +95,7 @@ pub fn cases(
                         .at(CallPart::Key("features".into()))
                 })?;
                 call.expect_arguments(&add, 1, "|scene| …, a function that adds the feature")?;
-                // What it gives has no meaning.
+                // The return value is ignored.
                 let _ = call.invoke(&add, [Dynamic::from(handle.clone())])?;
                 let scene = handle.scene().borrow().clone();
                 cases.push(way.case(name.as_str(), scene));
@@ -105,7 +105,7 @@ pub fn cases(
             let has_beams = !cases[0].case.scene.beams.is_empty();
             for feature in FEATURES.iter().filter(|_| has_beams) {
                 let mut scene = fresh()?;
-                // What a scene cannot have, such as a second hinge at the same place, is no row.
+                // Features that the scene cannot have, such as a second hinge at the same station, give no row.
                 if (feature.add)(&mut scene).is_ok() {
                     cases.push(way.case(feature.name, scene));
                 }
@@ -125,23 +125,23 @@ pub fn cases(
 }
 
 impl CostTable {
-    /// The table of some costs of steps, that of the scene alone first.
+    /// Creates the table, with the plain scene first.
     pub fn new(name: String, costs: Vec<StepCost>) -> Self {
         Self { name, costs }
     }
 
-    /// The name of the study.
+    /// Name of the study.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// The time of a step as a multiple of that of the scene alone.
+    /// Time of a step relative to that of the plain scene.
     fn ratio(&self, cost: &StepCost) -> f64 {
         let alone = self.costs.first().map_or(f64::NAN, |first| first.shortest.as_secs_f64());
         cost.shortest.as_secs_f64() / alone
     }
 
-    /// The rows of the study as maps of a script.
+    /// Rows as script maps.
     pub fn rows(&self) -> Vec<Map> {
         let row = |cost: &StepCost| {
             let whole = |count: usize| Dynamic::from(count as rhai::INT);
@@ -163,7 +163,7 @@ impl CostTable {
         self.costs.iter().map(row).collect()
     }
 
-    /// The table of the study as text.
+    /// Table as text.
     pub fn text(&self) -> String {
         let heads = [
             "feature",
@@ -203,7 +203,7 @@ impl CostTable {
             .join("\n")
     }
 
-    /// Why some rows have no numbers.
+    /// Reasons of failed rows.
     fn failures(&self) -> Option<String> {
         let failed: Vec<&StepCost> =
             self.costs.iter().filter(|cost| !cost.outcome.is_finished()).collect();
@@ -214,7 +214,7 @@ impl CostTable {
         (some > 0).then(|| format!("\n{some} of {all} did not finish:{lines}"))
     }
 
-    /// A warning, when the same work took another time.
+    /// Warning if the repetition took a different time.
     fn doubt(&self) -> Option<String> {
         let ratio = self.ratio(self.costs.get(1).filter(|cost| cost.name == PLAIN[1])?);
         (!(1.0 / TRUSTED_RATIO..=TRUSTED_RATIO).contains(&ratio)).then(|| {
@@ -226,7 +226,7 @@ impl CostTable {
         })
     }
 
-    /// The table of the study for other programs.
+    /// Table as CSV records.
     pub fn records(&self) -> CsvRecords {
         let rows = self.rows();
         let names = [
@@ -253,7 +253,7 @@ impl CostTable {
         }
     }
 
-    /// The times of the study as bars, the scene alone marked.
+    /// Bar chart of the times, with the plain scene marked.
     pub fn chart(&self) -> BarChart {
         let micro = |cost: &StepCost| cost.shortest.as_secs_f64() * 1e6;
         let empty =

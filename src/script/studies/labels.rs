@@ -1,24 +1,24 @@
-//! What things of a study are called in tables and legends: short, and no two the same.
+//! Short and unique labels for tables and legends of studies.
 
 use crate::analysis::Deviation;
 use crate::integrators::Method;
 use crate::output::{Cell, format_number, scientific, significant};
 use crate::simulation::{SimulationSettings, StepSize};
 
-/// The most digits of a step size.
+/// Maximum number of digits of a step size.
 const STEP_DIGITS: usize = 6;
-/// Characters of a reason in a table.
+/// Maximum number of characters of a reason.
 const LONGEST_REASON: usize = 100;
 /// Digits of an error.
 const ERROR_DIGITS: usize = 2;
 
-/// The label of an integrator with its parameter: `energy_momentum`, `energy_decaying(0.1)`.
+/// Label of an integrator with its parameter: `energy_momentum`, `energy_decaying(0.1)`.
 pub fn method(method: &Method) -> String {
     let parameter = method.parameter().map(|value| format!("({})", format_number(value)));
     format!("{}{}", method.entry().name, parameter.unwrap_or_default())
 }
 
-/// The label of a step size: `0.05`, or `tolerance 1e-4`.
+/// Label of a step size: `0.05`, or `tolerance 1e-4`.
 pub fn step_size(settings: &SimulationSettings) -> String {
     match settings.dt {
         StepSize::Fixed(dt) => significant(dt, STEP_DIGITS),
@@ -26,7 +26,7 @@ pub fn step_size(settings: &SimulationSettings) -> String {
     }
 }
 
-/// The label of an error: `3.4e-5`, or `≤ 2.1e-6` where the reference is not good enough to tell these digits.
+/// Label of an error: `3.4e-5`, or `≤ 2.1e-6` if the reference is not accurate enough.
 pub fn deviation(deviation: Option<Deviation>) -> String {
     let Some(of) = deviation else { return "-".to_owned() };
     let told = scientific(of.error(), ERROR_DIGITS);
@@ -36,22 +36,22 @@ pub fn deviation(deviation: Option<Deviation>) -> String {
     }
 }
 
-/// The label of a drift; a bar where there is none.
+/// Label of a drift; `-` if unknown.
 pub fn drift(drift: f64) -> String {
     if drift.is_nan() { "-".to_owned() } else { scientific(drift, ERROR_DIGITS) }
 }
 
-/// The label of a time by the clock [s], in milliseconds.
+/// Label of a time [s], in milliseconds.
 pub fn milliseconds(seconds: f64) -> String {
     significant(1e3 * seconds, 3)
 }
 
-/// A cell of a table with a text that is set as a number.
+/// Table cell with a number given as text.
 pub fn number(text: String) -> Cell {
     Cell::Number(text)
 }
 
-/// A reason, shortened to the end of its first sentence or half of one, and to no more than a line.
+/// First sentence or clause of a reason, at most one line.
 pub fn first_sentence(text: &str) -> String {
     let ends = ["; ", ". ", "\n"].iter().filter_map(|end| text.find(end));
     let sentence = &text[..ends.min().unwrap_or(text.len())];
@@ -63,7 +63,7 @@ pub fn first_sentence(text: &str) -> String {
     format!("{whole_words} …")
 }
 
-/// Times in words: `t = 2.5, 7.5`.
+/// List of times: `t = 2.5, 7.5`.
 pub fn at_times(times: &[f64]) -> String {
     let times: Vec<String> = times.iter().map(|time| format_number(*time)).collect();
     format!("t = {}", times.join(", "))

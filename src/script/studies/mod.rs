@@ -1,4 +1,4 @@
-//! Studies as scripts ask for them: from options to cases, and from results to tables, files and pictures.
+//! Studies: from options to cases, and from results to tables, files and pictures.
 
 pub mod calls;
 pub mod case_runner;

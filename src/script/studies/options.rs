@@ -1,4 +1,4 @@
-//! What may be said of studies: the keys of their options, and the values that they are read into.
+//! Options of the studies: keys and typed structs.
 
 use rhai::{Array, Dynamic, FnPtr};
 
@@ -19,31 +19,31 @@ const FINEST_RUN: Type = Type::of::<FinestRun>();
 option_set! {
     /// The options of `study_stability`.
     pub struct StabilityOptions {
-        /// The name of the study and of its files.
+        /// Name of the study and its files.
         name: String = name("name").doc("of the study and its files"),
-        /// Makes what is run in a cell.
+        /// Function that makes the scene of a cell.
         scene: FnPtr = callback("scene").doc("|cell| …, a function that makes the scene of a cell"),
-        /// A map of a name and its values.
+        /// Map with a name and its values.
         rows: Dynamic = anything("rows").doc("a name and its values: #{ stiffness: [1e4, 1e8] }"),
-        /// A map of a name and its values.
+        /// Map with a name and its values.
         columns: Dynamic = anything("columns").doc("a name and its values: #{ dt: [0.1, 0.2] }"),
-        /// A map of a name and its values.
+        /// Map with a name and its values.
         maps: Option<Dynamic> =
             anything("maps").doc("a name and its values, one map for each").optional(),
-        /// For cells that do not say.
+        /// Default integrator of the cells.
         integrator: Option<Method> =
             object("integrator", INTEGRATOR).doc("energy_momentum() unless given").optional(),
-        /// For cells that do not say [time].
+        /// Default step size of the cells [time].
         dt: Option<f64> =
             number("dt").positive().unit("time").doc("the step size of all cells").optional(),
-        /// For cells that do not say [time].
+        /// Default end of the runs [time].
         end: Option<f64> =
             number("end").positive().unit("time").doc("the end of all runs").optional(),
-        /// What colours the cells, in words.
+        /// Quantity that colours the cells.
         show: String = choice("show", &["energy growth", "iterations", "retries"])
             .or(Presence::Text("energy growth"))
             .doc("what colours the cells"),
-        /// How long a cell may take [s].
+        /// Wall-clock limit of a cell [s].
         patience: f64 = number("patience")
             .positive()
             .unit("s")
@@ -55,21 +55,21 @@ option_set! {
 option_set! {
     /// The options of `study_cost`.
     pub struct CostOptions {
-        /// The name of the study and of its files.
+        /// Name of the study and its files.
         name: String = name("name").doc("of the study and its files"),
-        /// Makes the scene.
+        /// Function that makes the scene.
         scene: FnPtr = callback("scene").doc("|| …, a function that makes the scene"),
-        /// Of all rows [time].
+        /// Step size of all rows [time].
         dt: f64 = number("dt").positive().unit("time").doc("the step size"),
-        /// A map of names and functions that add something to a scene.
+        /// Map of names and functions that add a feature to a scene.
         features: Option<Dynamic> =
             anything("features").doc("names and functions: #{ gravity: |scene| … }").optional(),
-        /// Of all rows that are not about integrators.
+        /// Integrator of all rows that do not vary it.
         integrator: Option<Method> =
             object("integrator", INTEGRATOR).doc("energy_momentum() unless given").optional(),
-        /// Of each run.
+        /// Number of steps of each run.
         steps: usize = whole("steps").positive().or(Presence::Whole(200)).doc("of each run"),
-        /// How often each run is timed.
+        /// Number of timed repetitions.
         repeats: usize = whole("repeats")
             .positive()
             .or(Presence::Whole(5))
@@ -78,37 +78,37 @@ option_set! {
 }
 
 option_set! {
-    /// The options of all studies of errors.
+    /// Options of all studies of errors.
     pub struct ErrorOptions {
-        /// The name of the study and of its files.
+        /// Name of the study and its files.
         name: String = name("name").doc("of the study and of its files"),
-        /// Makes the scene on a mesh.
+        /// Function that makes the scene on a mesh.
         scene: FnPtr = callback("scene").doc("|mesh| …, makes the scene on a mesh"),
-        /// What the function is called with.
+        /// Arguments of the function.
         meshes: Array = array("meshes").doc("what `scene` is called with, one by one"),
-        /// The integrators.
+        /// Integrators.
         integrators: Array = array("integrators").doc("at least one"),
-        /// The step sizes.
+        /// Step sizes.
         dts: Array =
             array("dts").unit("time").doc("step sizes, adaptive(#{ tolerance: 1e-4 }) among them"),
-        /// When results are compared [time].
+        /// Times of the comparison [time].
         times: Vec<f64> =
             numbers("times").unit("time").doc("when results are compared; the last one ends a run"),
-        /// What results are compared with.
+        /// Reference of the comparison.
         reference: Option<ReferenceOption> = either("reference", &[Kind::Text, Kind::Object(FINEST_RUN)])
             .doc("the name of a table, or finest_run(…), which holds unless given")
             .optional(),
-        /// A map of columns of the reference and what they are here.
+        /// Map of reference columns to history columns.
         columns: Option<Dynamic> = anything("columns")
             .doc("columns of the reference that are columns of the history: #{ S: \"slider1.position\" }, or with a factor: [\"…\", 3.2]")
             .optional(),
-        /// What errors of positions are relative to [length].
+        /// Length scale of position errors [length].
         length: Option<f64> = number("length")
             .positive()
             .unit("length")
             .doc("errors of positions are relative to it; that of the longest beam unless given")
             .optional(),
-        /// How long a run may take [s].
+        /// Wall-clock limit of a run [s].
         patience: f64 = number("patience")
             .positive()
             .or(Presence::Number(600.0))
@@ -117,12 +117,12 @@ option_set! {
 }
 
 option_set! {
-    /// The options of `study_work_precision`, besides those of all studies of errors.
+    /// Additional options of `study_work_precision`.
     pub struct TimedOptions {
-        /// The name of a table.
+        /// Name of a table with results of other programs.
         rivals: Option<String> =
             text("rivals").doc("the name of a table of what other programs need").optional(),
-        /// How often each run is timed.
+        /// Number of timed repetitions.
         repeats: usize = whole("repeats").positive().or(Presence::Whole(5)).doc(
             "how often a run is timed, with every step recorded; fewer when that takes more than 10 s",
         ),
@@ -133,23 +133,23 @@ option_set! {
 pub const PRECISION_KEYS: &[Parameter] = &both::<12>(ErrorOptions::KEYS, TimedOptions::KEYS);
 
 option_set! {
-    /// The options of `finest_run`.
+    /// Options of `finest_run`.
     pub struct FinestOptions {
-        /// What the function of the study makes the scene of.
+        /// Argument of the scene function.
         mesh: Option<Dynamic> = anything("mesh").doc("what `scene` is called with").optional(),
-        /// [time]
+        /// Step size [time].
         dt: Option<f64> = number("dt").positive().unit("time").doc("its step size").optional(),
-        /// The integrator.
+        /// Integrator.
         integrator: Option<Method> = object("integrator", INTEGRATOR).optional(),
     }
 }
 
-/// What a script wants results to be compared with.
+/// Reference requested by a script.
 #[derive(Clone)]
 pub enum ReferenceOption {
-    /// The table of this name.
+    /// A table file.
     Table(String),
-    /// A run of our own.
+    /// A reference run.
     Run(FinestRun),
 }
 

@@ -1,4 +1,4 @@
-//! Parameters of a study: a name, and the values that it goes through.
+//! Swept parameters of a study.
 
 use rhai::{Array, Dynamic, Map};
 
@@ -10,22 +10,22 @@ use crate::script::bindings::call::Call;
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::numbers::{as_number, format_number};
 
-/// The most significant digits of a number in a label.
+/// Maximum number of significant digits in a label.
 const DIGITS: usize = 6;
 
-/// A swept parameter of a study: a name and its values.
+/// A named parameter with its values.
 #[derive(Clone, Debug)]
 pub struct StudyParameter {
-    /// The key under which a cell of the study finds its value.
+    /// Key of the value in a cell of the study.
     pub name: String,
-    /// The values of the swept parameter.
+    /// Values.
     pub values: Array,
-    /// A label for each value of the swept parameter.
+    /// Labels of the values.
     pub labels: Vec<String>,
 }
 
 impl StudyParameter {
-    /// Reads the value of the option `key`, which is a map of one name, such as `#{ dt: [0.1, 0.2] }`.
+    /// Reads the option `key`, a map with one name, such as `#{ dt: [0.1, 0.2] }`.
     pub fn read(call: &Call, key: &str, given: &Dynamic) -> Result<Self, ScriptError> {
         let wrong = |told: String| {
             call.error(told)
@@ -45,17 +45,17 @@ impl StudyParameter {
         Ok(Self { name, values, labels })
     }
 
-    /// A swept parameter of a single nameless value, for an option that is left out.
+    /// A placeholder with a single nameless value, for an omitted option.
     pub fn none() -> Self {
         Self { name: String::new(), values: vec![Dynamic::UNIT], labels: vec![String::new()] }
     }
 
-    /// The value number `index` of the swept parameter as a text for other programs: of a number all digits, else its label.
+    /// Value as text for other programs: all digits of a number, otherwise the label.
     pub fn exact(&self, index: usize) -> String {
         as_number(&self.values[index]).map_or_else(|| self.labels[index].clone(), format_number)
     }
 
-    /// Puts the value number `index` of the swept parameter under its name into a map.
+    /// Inserts the value with this index into a map.
     pub fn put(&self, index: usize, into: &mut Map) {
         if !self.name.is_empty() {
             into.insert(self.name.as_str().into(), self.values[index].clone());
@@ -63,7 +63,7 @@ impl StudyParameter {
     }
 }
 
-/// The label of a value in few words: numbers, large ones as powers of ten, and texts as they are, integrators and maps by their names.
+/// Short label of a value: numbers, large ones as powers of ten; texts unchanged; integrators and maps by name.
 pub fn label(call: &Call, value: &Dynamic) -> String {
     if let Some(number) = as_number(value) {
         let short = significant(number, DIGITS);

@@ -1,4 +1,4 @@
-//! What a script asks of a study, read from its options: scenes on meshes, settings, times.
+//! Plan of an error study, read from its options: scenes on meshes, settings, times.
 
 use rhai::{Dynamic, FnPtr, Map};
 
@@ -18,27 +18,26 @@ use crate::script::messages::numbers::{as_number, format_number};
 use crate::simulation::{History, SimulationSettings, StepSize};
 use crate::system::Scene;
 
-/// The plan of a study of errors: everything that it needs but its reference.
+/// Plan of an error study, without its reference.
 pub struct ErrorStudyPlan {
-    /// The name of the study and of its files.
+    /// Name of the study and its files.
     pub name: String,
-    /// A scene for each mesh of the study.
+    /// One scene per mesh.
     pub subjects: Vec<ObservedScene>,
-    /// The integrators of the study.
+    /// Integrators.
     pub methods: Vec<Method>,
-    /// The step sizes of the study.
+    /// Step sizes.
     pub dts: Vec<StepSize>,
-    /// The times at which results are compared, in order [time].
+    /// Times of the comparison, sorted [time].
     pub times: Vec<f64>,
-    /// The length that errors of positions are relative to [length].
+    /// Length scale of position errors [length].
     pub length: f64,
-    /// How much a case of the study may take.
+    /// Limits of a case.
     pub patience: RunLimits,
 }
 
 impl ErrorStudyPlan {
-    /// Reads the options that all studies of errors have into a plan. Every scene is made, and the first is built, so that mistakes show
-    /// before anything runs.
+    /// Reads the common options of error studies. All scenes are made and the first is built, so that errors show before anything runs.
     pub fn read(call: &Call, options: &ErrorOptions) -> Result<Self, ScriptError> {
         let name = study_name(call, &options.name)?;
         let methods = all_of::<Method>(call, "integrators", &options.integrators, "an integrator")?;
@@ -69,12 +68,12 @@ impl ErrorStudyPlan {
         Ok(Self { name, subjects, methods, dts, times, length, patience })
     }
 
-    /// The settings of a run with an integrator and a step size.
+    /// Settings of a run.
     pub fn settings(method: Method, dt: StepSize) -> SimulationSettings {
         SimulationSettings { method, dt, tolerance: Tolerance::default() }
     }
 
-    /// The settings of all integrators of the study with all its step sizes.
+    /// Settings of all combinations of integrators and step sizes.
     pub fn all_settings(&self) -> Vec<SimulationSettings> {
         let with = |method: &Method| {
             let method = *method;
@@ -83,12 +82,12 @@ impl ErrorStudyPlan {
         self.methods.iter().flat_map(with).collect()
     }
 
-    /// The observables that the study looks at.
+    /// Observables of the study.
     pub fn observables(&self) -> &[Observable] {
         &self.subjects[0].observables
     }
 
-    /// The history of a run of the study that has just begun, for its columns; the scene is built for it.
+    /// History at the start of a run, which provides the columns; the scene is built for this.
     pub fn history(&self) -> Result<History, ScriptError> {
         let (scene, stops) = (self.subjects[0].scene.clone(), self.times.clone());
         let case = Case { scene, settings: self.all_settings()[0], stops };
@@ -97,8 +96,8 @@ impl ErrorStudyPlan {
         Ok(built.history().clone())
     }
 
-    /// Makes the study look at more than stations: at columns of the history. Those that a table of solutions has are meant by its names: the
-    /// symbols E, KE, SE, px, py and Lz, names of columns, or what `given` says they are. Without a table all columns are.
+    /// Adds columns of the history to the observables. Columns of a reference table are identified by the symbols E, KE, SE, px, py and Lz,
+    /// by column names, or by `given`. Without a table all columns are added.
     pub fn add_columns(
         &mut self,
         call: &Call,
@@ -126,7 +125,7 @@ impl ErrorStudyPlan {
     }
 }
 
-/// What the option `columns` says of one: the name of a column, or the name and a factor.
+/// Entry of the option `columns`: a column name, or a name and a factor.
 fn column_of(
     call: &Call,
     name: &str,
@@ -135,7 +134,7 @@ fn column_of(
 ) -> Result<Observable, ScriptError> {
     let name =
         &readable("columns", name).map_err(|error| error.at(CallPart::Key("columns".into())))?;
-    // What is no array is a name alone.
+    // A value that is no array is a name only.
     let parts = meant.clone().into_array().unwrap_or_else(|_| vec![meant.clone()]);
     let text = |value: &Dynamic| value.clone().into_string().ok();
     let (column, factor) = match parts.as_slice() {
@@ -161,7 +160,7 @@ fn column_of(
     Ok(Observable::of_column(name, &column, factor))
 }
 
-/// The name of a study and of its files, which no other study of the run has.
+/// Checks the name of a study and its files, which must be unique in the run.
 pub fn study_name(call: &Call, name: &str) -> Result<String, ScriptError> {
     if !call.context().claim_study(name) {
         let told = format!("there is a study '{name}' in this run already");
@@ -171,7 +170,7 @@ pub fn study_name(call: &Call, name: &str) -> Result<String, ScriptError> {
     Ok(name.to_owned())
 }
 
-/// Refuses to do the same work twice under one name.
+/// Rejects duplicate values.
 fn expect_all_different<T: PartialEq>(
     call: &Call,
     key: &str,
@@ -185,7 +184,7 @@ fn expect_all_different<T: PartialEq>(
     })
 }
 
-/// An error of a call about one of its options.
+/// Error at an option of a call.
 pub fn at_key(
     call: &Call,
     key: &str,
@@ -195,7 +194,7 @@ pub fn at_key(
     call.error(told).hint(hint).at(CallPart::Key(key.to_owned()))
 }
 
-/// The values of an array that must all be of one type, at least one.
+/// Elements of a non-empty array that must all have one type.
 fn all_of<T: Clone + 'static>(
     call: &Call,
     key: &str,
@@ -214,7 +213,7 @@ fn all_of<T: Clone + 'static>(
     }
 }
 
-/// How much a case of a study may take: so many seconds, and no more steps than the whole run may take.
+/// Limits of a case: time in seconds, and the step limit of the run.
 pub fn patience(call: &Call, seconds: f64) -> RunLimits {
     let steps = call.context().meter().limits().steps;
     RunLimits {
@@ -236,7 +235,7 @@ fn step_sizes(call: &Call, dts: &[Dynamic]) -> Result<Vec<StepSize>, ScriptError
     }
 }
 
-/// Refuses numbers that are not positive; there must be one at least.
+/// Requires a non-empty list of positive numbers.
 fn expect_positive(call: &Call, key: &str, numbers: &[f64]) -> Result<(), ScriptError> {
     match numbers.iter().find(|number| **number <= 0.0) {
         _ if numbers.is_empty() => {
@@ -250,12 +249,11 @@ fn expect_positive(call: &Call, key: &str, numbers: &[f64]) -> Result<(), Script
     }
 }
 
-/// What a mesh is called.
 fn label_of(call: &Call, mesh: &Dynamic) -> String {
     mesh.read_lock::<Mesh>().map_or_else(|| call.show(mesh), |mesh| mesh.describe())
 }
 
-/// The scene on a mesh, from the function of the study.
+/// Scene on a mesh, made by the function of the study.
 pub fn subject_on(
     call: &Call,
     scene_of: &FnPtr,
@@ -265,7 +263,7 @@ pub fn subject_on(
     subject(call, label_of(call, mesh), &made)
 }
 
-/// What the function of a study gave for a mesh: a scene, or a map with it and its stations.
+/// Converts the result of the scene function: a scene, or a map with scene and stations.
 fn subject(call: &Call, mesh: String, made: &Dynamic) -> Result<ObservedScene, ScriptError> {
     let hint = "it gives the scene, or #{ scene: scene, stations: #{ tip: rod.end } }";
     let refused = || {
@@ -312,7 +310,7 @@ fn subject(call: &Call, mesh: String, made: &Dynamic) -> Result<ObservedScene, S
     Ok(ObservedScene { mesh, scene, observables })
 }
 
-/// The ends of all beams, and all particles.
+/// Ends of all beams, and all point masses.
 fn usual_stations(scene: &Scene) -> Vec<(String, Station)> {
     let ends = scene.beams.iter().enumerate().flat_map(|(index, beam)| {
         [("start", 0.0), ("end", beam.axis.length())]
@@ -326,7 +324,7 @@ fn usual_stations(scene: &Scene) -> Vec<(String, Station)> {
     ends.chain(particles).chain(bodies).collect()
 }
 
-/// Refuses other scenes of a study without the stations of the first one; their columns are not looked for yet.
+/// Rejects scenes whose stations differ from those of the first one; columns are checked later.
 pub fn expect_same_observables(
     call: &Call,
     first: &ObservedScene,
@@ -342,7 +340,7 @@ pub fn expect_same_observables(
     })
 }
 
-/// The length of the longest beam, or the largest distance of a particle from the first one; one where there is none.
+/// Length of the longest beam, or largest distance of a point mass from the first one; 1 if there is none.
 fn size_of(scene: &Scene) -> f64 {
     let first = scene.particles.first().map(|first| first.position).unwrap_or_default();
     let particles = scene.particles.iter().map(|other| (other.position - first).norm());

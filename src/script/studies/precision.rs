@@ -1,4 +1,4 @@
-//! Error against run time: the study made, and written into the output folder.
+//! Work-precision studies: execution and output files.
 
 use super::case_runner::{CaseRunner, CaseTask, print_table};
 use super::options::{ErrorOptions, TimedOptions};
@@ -14,7 +14,7 @@ use crate::script::bindings::call::Call;
 use crate::script::messages::error::ScriptError;
 use crate::script::state::settings::RunMode;
 
-/// Makes the study that the options ask for; in a dry build nothing runs.
+/// Runs the study; nothing is computed in a dry build.
 pub fn study(
     call: &Call,
     options: &ErrorOptions,
@@ -34,7 +34,7 @@ pub fn study(
             at_key(call, "rivals", format!("\"{file}\": {error}"), hint)
         })
     };
-    // Wrong rivals are told of before anything runs.
+    // Reports errors in the table of other programs before anything runs.
     compared(&reference.foreseen(call, &plan)?)?;
     let desk = CaseRunner::open(call.context(), &plan.name)?;
     let combinations = all_combinations(&plan.subjects, &plan.all_settings());
@@ -47,7 +47,7 @@ pub fn study(
     };
     let is_found = found.is_some();
     let (trials, truth) = found.unwrap_or_else(|| Reference::no_trials(&cases));
-    // Times of several machines are no comparison: where a study is made in parts, they are taken where these are joined.
+    // Times of different machines are not comparable: for a study computed in parts they are measured when the parts are merged.
     let timings = match is_found {
         true => timings(&desk, &plan, (&cases, &trials), repeats)?,
         false => vec![None; cases.len()],
@@ -74,7 +74,7 @@ pub fn study(
     Ok(study)
 }
 
-/// The run times of those that came to their end.
+/// Run times of the completed cases.
 fn timings(
     desk: &CaseRunner,
     plan: &ErrorStudyPlan,
@@ -93,7 +93,7 @@ fn timings(
     Ok(trials.iter().map(of).collect())
 }
 
-/// Table and picture in the output folder.
+/// Writes table and picture.
 fn write(call: &Call, study: &Precision) -> Result<(), ScriptError> {
     let context = call.context();
     context.write_file(&format!("{}.csv", study.name), records(study).to_text()?.as_bytes())?;

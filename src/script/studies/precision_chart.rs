@@ -1,11 +1,11 @@
-//! The picture of a study of error against run time.
+//! Chart of a work-precision study.
 
 use super::labels;
 use crate::analysis::{Precision, PrecisionRow, machines};
 use crate::output::{AxisScale, LineChart, Marker, Series, SeriesColour, Stroke};
 use crate::simulation::StepSize;
 
-/// The series that a row belongs to: runs with adaptive steps follow a tolerance and no size, and make a line of their own.
+/// Series of a row; runs with adaptive steps form their own series.
 fn series_of(row: &PrecisionRow) -> String {
     let method = labels::method(&row.settings.method);
     match row.settings.dt {
@@ -14,7 +14,7 @@ fn series_of(row: &PrecisionRow) -> String {
     }
 }
 
-/// A chart of error over run time, one colour for an integrator or a rival, the front of ours drawn through.
+/// Chart of error over run time, with one colour per integrator or other program, and the Pareto front as a line.
 pub fn chart(study: &Precision) -> LineChart {
     let mut chart = LineChart::new(format!(
         "{}: error at {} against run time",

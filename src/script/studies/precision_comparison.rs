@@ -1,11 +1,11 @@
-//! Our fastest combinations beside the fastest runs of other programs.
+//! Comparison of the fastest combinations with other programs.
 
 use super::labels;
 use super::precision_rows::with;
 use crate::analysis::{Precision, machines};
 use crate::output::{Cell, TextTable, format_number, scientific};
 
-/// A table as text of the fastest of ours and of every rival for each of some errors.
+/// Text table of the fastest own run and the fastest run of every other program for several errors.
 pub fn comparison(study: &Precision, errors: &[f64]) -> String {
     let heads = [
         "error ≤",
@@ -65,7 +65,7 @@ pub fn comparison(study: &Precision, errors: &[f64]) -> String {
     format!("{}{measured}{confirmed}", table.to_string().trim_end())
 }
 
-/// A line on the fastest combination that smaller steps confirm, where the fastest of all is right by luck.
+/// Note on the fastest combination confirmed by smaller steps, if the fastest one is accurate only by chance.
 fn confirmation(study: &Precision, error: f64) -> Option<String> {
     let fastest = study.cheapest(error)?;
     let told = match study.cheapest_confirmed(error) {
@@ -77,7 +77,7 @@ fn confirmation(study: &Precision, error: f64) -> Option<String> {
     Some(format!("\n{error} at all smaller steps of the mesh, too, and not by luck: {told}"))
 }
 
-/// The programs of rivals that have a run with at most this error, the first of all when none has; nobody without rivals.
+/// Other programs with a run of at most this error, or the first one; `None` without other programs.
 fn able_peers(study: &Precision, error: f64) -> Vec<Option<&str>> {
     let peers = study.peers();
     let able = peers.iter().copied().filter(|peer| study.cheapest_of(peer, error).is_some());

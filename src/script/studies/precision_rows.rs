@@ -1,4 +1,4 @@
-//! The combinations of a study of error against run time, as a table for people, as maps for scripts and as CSV.
+//! Rows of a work-precision study as text, script maps and CSV.
 
 use rhai::{Dynamic, INT, Map};
 
@@ -7,7 +7,7 @@ use crate::analysis::{Precision, PrecisionRow, Timing};
 use crate::output::{Cell, CsvRecords, TextTable, format_number};
 use crate::simulation::StepSize;
 
-/// All combinations of the study as text, a table for each mesh, those on the front marked; below, why some failed.
+/// Text of all combinations, one table per mesh, with the Pareto front marked and the reasons of failures below.
 pub fn table(study: &Precision) -> String {
     let mut text = format!(
         "study '{}': error at {} against run time\nreference: {}",
@@ -53,7 +53,7 @@ fn table_of_mesh(rows: &[PrecisionRow]) -> TextTable {
     table
 }
 
-/// What is known of a row: names and values.
+/// Data of a row: names and values.
 fn facts(study: &Precision, row: &PrecisionRow) -> Vec<(String, Dynamic)> {
     let trial = &row.trial;
     let seconds = |read: fn(&Timing) -> f64| row.timing.map_or(f64::NAN, |timing| read(&timing));
@@ -93,12 +93,12 @@ fn facts(study: &Precision, row: &PrecisionRow) -> Vec<(String, Dynamic)> {
     facts
 }
 
-/// A row of the study as a map of a script.
+/// Row as a script map.
 pub fn map_of(study: &Precision, row: &PrecisionRow) -> Map {
     facts(study, row).into_iter().map(|(name, value)| (name.into(), value)).collect()
 }
 
-/// All rows of the study for other programs.
+/// All rows as CSV records.
 pub fn records(study: &Precision) -> CsvRecords {
     let text = |value: Dynamic| match value.as_float() {
         Ok(number) => format_number(number),
@@ -124,7 +124,7 @@ pub fn records(study: &Precision) -> CsvRecords {
     CsvRecords { comments, names: names.unwrap_or_default(), rows }
 }
 
-/// How a row of the study was computed, in words.
+/// Description of the settings of a row.
 pub fn with(row: &PrecisionRow) -> String {
     let (method, dt) = (labels::method(&row.settings.method), labels::step_size(&row.settings));
     format!("{}, {method}, dt = {dt}", row.mesh)

@@ -1,4 +1,4 @@
-//! What results are compared with: a table of an independent solution, or a finer run of our own.
+//! Reference solutions: an independent table, or a finer run.
 
 use rhai::{Dynamic, Map};
 
@@ -19,14 +19,14 @@ use crate::script::messages::error::ScriptError;
 use crate::script::messages::numbers::format_number;
 use crate::simulation::{StepControl, StepSize};
 
-/// A reference that is a run of our own, as far as the script says how it is made.
+/// A reference run, as specified by the script.
 #[derive(Clone, Default)]
 pub struct FinestRun {
-    /// The mesh of the reference run, from which the function of the study makes the scene; the finest mesh of the study unless given.
+    /// Mesh of the reference run, passed to the scene function; by default the finest mesh of the study.
     pub mesh: Option<Dynamic>,
-    /// The step size of the reference run [time]; a quarter of the smallest step size of the study unless given.
+    /// Step size [time]; by default a quarter of the smallest step size of the study.
     pub dt: Option<f64>,
-    /// The integrator of the reference run; that of the highest order in the study unless given.
+    /// Integrator; by default that of the highest order in the study.
     pub method: Option<Method>,
 }
 
@@ -43,7 +43,7 @@ impl Scripted for FinestRun {
     }
 }
 
-/// A part of the smallest of the fixed step sizes; where none is fixed, of the smallest tolerance.
+/// A fraction of the smallest fixed step size, or else of the smallest tolerance.
 fn finer(dts: &[StepSize]) -> StepSize {
     let fixed = dts.iter().filter_map(|dt| match dt {
         StepSize::Fixed(dt) => Some(*dt),
@@ -62,7 +62,7 @@ fn finer(dts: &[StepSize]) -> StepSize {
         .map_or(StepSize::Adaptive(control), |dt| StepSize::Fixed(PART_OF_THE_SMALLEST_STEP * dt))
 }
 
-/// Twice the step, or the tolerance that gives about that with a method of second order.
+/// Twice the step, or the tolerance that has about this effect with a second-order method.
 fn doubled(dt: StepSize) -> StepSize {
     match dt {
         StepSize::Fixed(dt) => StepSize::Fixed(2.0 * dt),
@@ -72,16 +72,16 @@ fn doubled(dt: StepSize) -> StepSize {
     }
 }
 
-/// The reference of a study, before anything runs.
+/// Reference of a study, before anything runs.
 pub enum Reference {
-    /// The reference is a table of an independent solution, from a file of this name.
+    /// An independent solution from a table file.
     Table(String, ParsedCsv),
-    /// The reference is a run of our own: what is told of it, its case, and the same with twice the step, which shows how well it is known.
-    /// Where all runs of the study have its very settings, errors in time are common to all, and there is no second one.
+    /// A reference run: description, its case, and the case with twice the step, which estimates its error. The second case is missing if
+    /// all runs of the study have the same time settings, so that time errors cancel.
     OwnRun(String, Vec<Case>),
 }
 
-/// Reads a table of the script's folder or the output folder.
+/// Reads a table from the script's folder or the output folder.
 pub fn read_sheet(call: &Call, key: &str, file: &str) -> Result<ParsedCsv, ScriptError> {
     let bytes = call.context().read_file(file)?;
     let text = String::from_utf8_lossy(&bytes);
@@ -90,7 +90,7 @@ pub fn read_sheet(call: &Call, key: &str, file: &str) -> Result<ParsedCsv, Scrip
     })
 }
 
-/// Refuses to judge meshes by a run on one of them, whose own error would be taken for none.
+/// Rejects a reference run on one of the meshes being compared, whose own error would be zero.
 pub fn expect_finer_than_all_meshes(
     call: &Call,
     reference: Option<&ReferenceOption>,
@@ -106,8 +106,8 @@ pub fn expect_finer_than_all_meshes(
     Err(at_key(call, "meshes", told, hint))
 }
 
-/// Refuses a reference whose steps are no finer than those of a run that it would judge; `is_of_a_mesh` tells whether it is on a mesh
-/// of the study. Adaptive steps have no size to compare.
+/// Rejects a reference with steps no finer than those of the compared runs; `is_of_a_mesh` is true if it is on a mesh of the study.
+/// Adaptive steps are not comparable.
 fn expect_finer_steps(
     call: &Call,
     plan: &ErrorStudyPlan,
@@ -140,7 +140,7 @@ fn expect_finer_steps(
     Err(at_key(call, "reference", told, hint))
 }
 
-/// Refuses a reference that takes the same steps when its step size is doubled: nothing would tell how good it is.
+/// Rejects a reference that takes the same steps with a doubled step size, so that its error cannot be estimated.
 fn expect_other_steps_if_doubled(call: &Call, finest: &Case) -> Result<(), ScriptError> {
     match finest.settings.dt {
         StepSize::Fixed(dt) if finest.is_one_step_from_stop_to_stop(dt) => {
@@ -155,7 +155,7 @@ fn expect_other_steps_if_doubled(call: &Call, finest: &Case) -> Result<(), Scrip
     }
 }
 
-/// The option `columns`, if it is given.
+/// Option `columns`.
 fn columns_of(call: &Call, options: &ErrorOptions) -> Result<Option<Map>, ScriptError> {
     let Some(given) = &options.columns else { return Ok(None) };
     let got = call.describe(given);
@@ -166,7 +166,7 @@ fn columns_of(call: &Call, options: &ErrorOptions) -> Result<Option<Map>, Script
 }
 
 impl Reference {
-    /// Reads the option `reference`, and looks in the plan at what it can be compared with.
+    /// Reads the option `reference`, and adds the comparable columns to the plan.
     pub fn read(
         call: &Call,
         options: &ErrorOptions,
@@ -178,7 +178,7 @@ impl Reference {
                 let sheet = read_sheet(call, "reference", file)?;
                 plan.add_columns(call, columns, Some(&sheet))?;
                 let reference = Self::Table(file.clone(), sheet);
-                // A wrong table is told of before anything runs.
+                // Reports errors in the table before anything runs.
                 reference.truth(call, plan, &[])?;
                 return Ok(reference);
             }
@@ -215,7 +215,7 @@ impl Reference {
         Ok(Self::OwnRun(told, [finest].into_iter().chain(coarser).collect()))
     }
 
-    /// The cases that must be run for it, if it is of our own.
+    /// Cases of the reference run.
     fn cases(&self) -> &[Case] {
         match self {
             Self::Table(..) => &[],
@@ -223,7 +223,7 @@ impl Reference {
         }
     }
 
-    /// What the observables should be; `own` is what its own runs showed.
+    /// Reference values of the observables; `own` are the results of the reference run.
     fn truth(
         &self,
         call: &Call,
@@ -254,7 +254,7 @@ impl Reference {
         }
     }
 
-    /// A truth whose numbers mean nothing, but that knows what the one of the run will know: for what can be checked before.
+    /// Reference values with placeholder numbers, for checks before the run.
     pub fn foreseen(
         &self,
         call: &Call,
@@ -269,8 +269,7 @@ impl Reference {
         }
     }
 
-    /// Runs all cases of a study, and those of the reference with them: what each showed, and what it should have. None where only a part of them is
-    /// wanted here.
+    /// Runs all cases of a study and of its reference; `None` if only a part was computed.
     pub fn trials(
         &self,
         call: &Call,
@@ -293,7 +292,7 @@ impl Reference {
         Ok(Some((trials, truth)))
     }
 
-    /// What there is of trials where none is made.
+    /// Results of a dry build.
     pub fn no_trials(cases: &[Case]) -> (Vec<RunResult>, ReferenceSolution) {
         let reason = "nothing is run here".to_owned();
         let trial = RunResult::without_a_run(CaseOutcome::Failed { time: 0.0, reason });

@@ -1,4 +1,4 @@
-//! Stability maps: a run for every combination of parameters, and what became of each.
+//! Stability maps: one run per combination of parameters, and its outcome.
 
 use rhai::{Dynamic, INT, Map};
 
@@ -15,34 +15,33 @@ use crate::output::{
 use crate::script::bindings::call::Call;
 use crate::script::messages::error::ScriptError;
 
-/// Columns of text that a map on a terminal may take.
+/// Maximum width of a map in a terminal, in columns.
 const WIDTH: usize = 160;
-/// What a cell of a script says of its run.
+/// Result keys of a cell.
 const RESULTS: [&str; 7] =
     ["finished", "outcome", "energy_growth", "iterations", "most_iterations", "retries", "steps"];
-/// Maps beside each other on a page.
+/// Number of maps per row of a page.
 const ABREAST: usize = 2;
 
-/// What colours the cells of a stability map.
+/// Quantity that colours the cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MapColouring {
-    /// The largest relative growth of the energy colours the cells.
+    /// Largest relative growth of the energy.
     EnergyGrowth,
-    /// The Newton iterations of a step, on average, colour the cells.
+    /// Average number of Newton iterations per step.
     Iterations,
-    /// The failed tries of steps colour the cells.
+    /// Number of retried steps.
     Retries,
 }
 
 impl MapColouring {
-    /// All that may colour the cells, by their names in scripts.
+    /// All quantities by their names in scripts.
     pub const ALL: [(&'static str, Self); 3] = [
         ("energy growth", Self::EnergyGrowth),
         ("iterations", Self::Iterations),
         ("retries", Self::Retries),
     ];
 
-    /// The number that is shown.
     fn of(self, verdict: &StabilityVerdict) -> f64 {
         match self {
             Self::EnergyGrowth => verdict.energy_growth,
@@ -51,7 +50,7 @@ impl MapColouring {
         }
     }
 
-    /// What it is called, and the powers of ten at which colours begin and end.
+    /// Name, and the powers of ten at the ends of the colour scale.
     fn scale(self) -> (&'static str, (i32, i32)) {
         match self {
             Self::EnergyGrowth => ("energy growth", (-12, 0)),
@@ -61,25 +60,25 @@ impl MapColouring {
     }
 }
 
-/// The plan of a stability study: maps of rows and columns of cells.
+/// Plan of a stability study.
 #[derive(Clone, Debug)]
 pub struct StabilityPlan {
-    /// The name of the study and of its files.
+    /// Name of the study and its files.
     pub name: String,
-    /// The swept parameter with one map for each value.
+    /// Parameter with one map per value.
     pub maps: StudyParameter,
-    /// The swept parameter of the rows of a map, from above.
+    /// Parameter of the rows, from the top.
     pub rows: StudyParameter,
-    /// The swept parameter of the columns of a map, from the left.
+    /// Parameter of the columns, from the left.
     pub columns: StudyParameter,
 }
 
-/// A stability map: a plan with what became of its cells.
+/// A stability map with results.
 #[derive(Clone, Debug)]
 pub struct StabilityMap {
     plan: StabilityPlan,
     shown: MapColouring,
-    /// Map by map, row by row.
+    /// By map, then by row.
     verdicts: Vec<StabilityVerdict>,
 }
 
@@ -108,14 +107,13 @@ impl StabilityPlan {
         Ok(Self { name: study_name(call, &options.name)?, maps, rows, columns })
     }
 
-    /// Numbers of map, row and column of all cells, in order.
     fn cells(&self) -> impl Iterator<Item = [usize; 3]> + '_ {
         let (rows, columns) = (self.rows.values.len(), self.columns.values.len());
         let all = self.maps.values.len() * rows * columns;
         (0..all).map(move |at| [at / (rows * columns), at / columns % rows, at % columns])
     }
 
-    /// The values of a cell by their names.
+    /// Named values of a cell.
     fn values(&self, [map, row, column]: [usize; 3]) -> Map {
         let mut values = Map::new();
         self.maps.put(map, &mut values);
@@ -124,7 +122,7 @@ impl StabilityPlan {
         values
     }
 
-    /// The parameters that have a name, and which of their values a cell has.
+    /// Named parameters with the value index of a cell.
     fn axes(
         &self,
         [map, row, column]: [usize; 3],
@@ -133,16 +131,15 @@ impl StabilityPlan {
         all.into_iter().filter(|(of, _)| !of.name.is_empty())
     }
 
-    /// The labels of a cell, with their names.
+    /// Labels of a cell with their names.
     fn labels(&self, [map, row, column]: [usize; 3]) -> Vec<(&str, &str)> {
         let axes = self.axes([map, row, column]);
         axes.map(|(of, at)| (of.name.as_str(), of.labels[at].as_str())).collect()
     }
 
-    /// The run of each cell of the plan, from what the function of the script gives for its values, or what it throws.
+    /// Case of each cell, or the message thrown by the script function.
     ///
-    /// # Errors
-    /// When it gives something wrong, fails otherwise, or throws at every cell: then it is the function that is wrong.
+    /// If the function returns an invalid value, fails otherwise, or throws at every cell, which means that the function is wrong.
     pub fn cases(
         &self,
         call: &Call,
@@ -170,7 +167,7 @@ impl StabilityPlan {
         }
     }
 
-    /// The stability map of the plan with the verdicts on its cells.
+    /// Adds the verdicts of the cells.
     pub fn judged(self, shown: MapColouring, verdicts: Vec<StabilityVerdict>) -> StabilityMap {
         StabilityMap { plan: self, shown, verdicts }
     }
@@ -181,18 +178,18 @@ impl StabilityMap {
         self.plan.cells().zip(&self.verdicts)
     }
 
-    /// How many cells the map has, and how many came to their end.
+    /// Number of cells, and of completed ones.
     pub fn counts(&self) -> (usize, usize) {
         let finished = self.verdicts.iter().filter(|verdict| verdict.outcome.is_finished());
         (self.verdicts.len(), finished.count())
     }
 
-    /// The name of the study.
+    /// Name of the study.
     pub fn name(&self) -> &str {
         &self.plan.name
     }
 
-    /// The cells of the map as maps of a script: the values, and what became of each.
+    /// Cells as script maps: values and results.
     pub fn cells(&self) -> Vec<Map> {
         let cell = |(at, verdict): ([usize; 3], &StabilityVerdict)| {
             let mut cell = self.plan.values(at);
@@ -212,7 +209,7 @@ impl StabilityMap {
         self.judged().map(cell).collect()
     }
 
-    /// A map for each value of the plan's; `words` writes what is in a finished cell.
+    /// One heat map per value of `maps`; `words` formats a completed cell.
     fn heat_maps(&self, words: fn(&Self, &StabilityVerdict) -> String) -> Vec<HeatMap> {
         let StabilityPlan { name, maps, rows, columns } = &self.plan;
         let per_map = rows.values.len() * columns.values.len();
@@ -254,7 +251,7 @@ impl StabilityMap {
         }
     }
 
-    /// The number that colours a finished cell.
+    /// Number that colours a completed cell.
     fn coloured(&self, verdict: &StabilityVerdict) -> String {
         let value = self.shown.of(verdict);
         match self.shown {
@@ -263,7 +260,7 @@ impl StabilityMap {
         }
     }
 
-    /// What is in a finished cell of a picture.
+    /// Text of a completed cell in a picture.
     fn in_lines(&self, verdict: &StabilityVerdict) -> String {
         let halved = match verdict.retries {
             0 => String::new(),
@@ -273,7 +270,7 @@ impl StabilityMap {
         format!("{}\n{iterations} it.{halved}", self.coloured(verdict))
     }
 
-    /// The same in a few characters, for a table.
+    /// Text of a completed cell in a table.
     fn in_short(&self, verdict: &StabilityVerdict) -> String {
         let halved = match verdict.retries {
             0 => String::new(),
@@ -286,13 +283,13 @@ impl StabilityMap {
     pub fn page(&self) -> Page {
         let maps = self.heat_maps(Self::in_lines);
         let page = Page::grid(ABREAST.min(maps.len()));
-        // A lone map has the name of the study itself.
+        // A single map has the name of the study.
         let is_lone = matches!(self.plan.maps.labels.as_slice(), [label] if label.is_empty());
         let page = if is_lone { page } else { page.title(&self.plan.name) };
         maps.into_iter().fold(page, Page::panel)
     }
 
-    /// The maps of the study as text, and why cells did not come to their end.
+    /// Maps as text, and the reasons of failures.
     pub fn text(&self) -> String {
         let style = TerminalStyle {
             glyphs: Glyphs::Braille,
@@ -326,7 +323,7 @@ impl StabilityMap {
         text
     }
 
-    /// All cells of the study as a table for other programs.
+    /// All cells as CSV records.
     pub fn records(&self) -> CsvRecords {
         let numbers = ["energy growth", "mean iterations", "most iterations", "retries", "steps"];
         let first = self.plan.labels([0; 3]);

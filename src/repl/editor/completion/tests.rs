@@ -1,4 +1,4 @@
-//! What is offered in a session, with the cursor where the bar `¦` stands.
+//! Tests of completion in a session. The bar `¦` marks the cursor.
 
 use std::fs;
 
@@ -6,7 +6,7 @@ use super::super::samples::surroundings;
 use super::*;
 use proptest::prelude::*;
 
-/// The line as it is after each candidate is taken.
+/// Lines that result from accepting each candidate.
 fn offered_in(line: &str, surroundings: &CompletionContext) -> Vec<String> {
     let (before, after) = line.split_once('¦').unwrap_or((line, ""));
     let (start, candidates) = complete(&format!("{before}{after}"), before.len(), surroundings);
@@ -20,7 +20,7 @@ fn offered(line: &str) -> Vec<String> {
     offered_in(line, &surroundings())
 }
 
-/// The names offered, without what stands before them.
+/// Replacement texts of the candidates.
 fn names(line: &str) -> Vec<String> {
     let (_, candidates) = complete(line, line.len(), &surroundings());
     candidates.into_iter().map(|candidate| candidate.replacement).collect()

@@ -1,4 +1,4 @@
-//! Looks through the text of a function for what decides by a parameter of a scene: itself, in functions that it calls, and in those that it has captured.
+//! Search of the syntax tree of a function, its callees and captured functions for branches that depend on a parameter of a scene.
 
 use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -11,45 +11,45 @@ use crate::script::bindings::call::{body_named, defined, written_within};
 use crate::script::bindings::parameter_variants::VariantValue;
 use crate::script::source::syntax::OWN;
 
-/// Operators, functions and methods that jump where their arguments change a little.
+/// Operators, functions and methods with jumps in their arguments.
 const JUMPS: &[&str] = &[
     "<", ">", "<=", ">=", "==", "!=", "%", "floor", "ceiling", "round", "round_to", "int",
     "to_int", "fraction", "quotient", "sign", "is_zero",
 ];
 
-/// Functions that make a schedule which jumps at times that they are given.
+/// Functions that create a schedule with jumps at given times.
 const JUMPING_SCHEDULES: &[&str] = &["pulse", "hold_for", "table"];
 
-/// The most functions that are looked into on one another's behalf.
+/// Maximum depth of nested calls that are searched.
 const DEEPEST: usize = 8;
 
-/// The most functions that are looked into in all: one that calls itself several times would have no end of them.
+/// Maximum number of functions that are searched; recursive calls would be endless.
 const MOST: usize = 100;
 
-/// A place where a function decides by something that depends on a parameter, and by what it is asked at.
+/// Position where a function branches on a variable that depends on a parameter and on its argument.
 pub(super) struct Decision {
-    /// The variable that depends on the parameter.
+    /// Variable that depends on the parameter.
     pub(super) parameter: String,
-    /// The operator, function or method.
+    /// Operator, function or method.
     pub(super) sign: String,
-    /// Where it is written.
+    /// Position in the script.
     pub(super) at: Position,
 }
 
-/// What is known of the variables of a function.
+/// Properties of the variables of a function.
 #[derive(Clone, Default)]
 struct VariableFacts {
-    /// Those that depend on a parameter.
+    /// Variables that depend on a parameter.
     varied: BTreeSet<String>,
-    /// Those that depend on what the function is asked at.
+    /// Variables that depend on the argument of the function.
     asked: BTreeSet<String>,
-    /// Those that hold schedules which jump at times that depend on a parameter.
+    /// Variables with schedules that jump at times which depend on a parameter.
     jumping: BTreeSet<String>,
-    /// Those that hold functions.
+    /// Variables with functions.
     functions: BTreeMap<String, FnPtr>,
 }
 
-/// What is known of a value.
+/// Properties of a value.
 #[derive(Default)]
 struct Facts {
     is_varied: bool,
@@ -58,16 +58,15 @@ struct Facts {
     function: Option<FnPtr>,
 }
 
-/// Looks through functions.
 struct BranchSearch<'s, 'n> {
     native: &'s NativeCallContext<'n>,
     depth: usize,
-    /// How many more functions may be looked into.
+    /// Remaining number of functions to search.
     left: &'s Cell<usize>,
 }
 
 impl Decision {
-    /// The first one in a function, which is asked at its arguments.
+    /// Finds the first branch in a function that is called with its own arguments.
     pub(super) fn find(native: &NativeCallContext, function: &FnPtr) -> Option<Self> {
         let definition = defined(native, function.fn_name(), None)?;
         let (mut known, own) = VariableFacts::of(function, &definition);
@@ -77,7 +76,7 @@ impl Decision {
 }
 
 impl VariableFacts {
-    /// What is known of what a function has captured, and the names of its own arguments.
+    /// Properties of the captured variables, and the names of the arguments.
     fn of(function: &FnPtr, definition: &ScriptFuncDef) -> (Self, Vec<String>) {
         let names: Vec<String> = definition.params.iter().map(ToString::to_string).collect();
         let (captured, own) = names.split_at(function.curry().len().min(names.len()));
@@ -88,7 +87,6 @@ impl VariableFacts {
         (known, own.to_vec())
     }
 
-    /// A variable holds a value.
     fn hold(&mut self, name: &str, value: &Dynamic) {
         let facts = Facts {
             is_varied: VariantValue::family_of(value).is_some(),
@@ -99,7 +97,6 @@ impl VariableFacts {
         self.keep(name, facts);
     }
 
-    /// What is known of what an expression gives.
     fn about(&self, expression: &Expr) -> Facts {
         let function = match expression {
             Expr::Variable(variable, ..) => self.functions.get(variable.1.as_str()).cloned(),
@@ -113,7 +110,7 @@ impl VariableFacts {
         }
     }
 
-    /// What was known of a variable, and this besides.
+    /// Adds properties to a variable.
     fn keep(&mut self, name: &str, facts: Facts) {
         let Facts { is_varied, is_asked, jumps, function } = facts;
         for (names, is_one) in
@@ -128,7 +125,7 @@ impl VariableFacts {
         }
     }
 
-    /// The first variable in an expression of a schedule whose jumps depend on a parameter, or of what one is made with.
+    /// First variable in an expression whose schedule jumps at times that depend on a parameter, or from which such a schedule is made.
     fn jumping_in(&self, expression: &Expr) -> Option<String> {
         first_in(expression, |node| match node {
             Expr::Variable(variable, ..) => self.jumping.get(variable.1.as_str()).cloned(),
@@ -139,7 +136,7 @@ impl VariableFacts {
         })
     }
 
-    /// A decision by some expressions together, if they depend on a parameter and on what the function is asked at.
+    /// Branch on several expressions that together depend on a parameter and on the argument.
     fn by<'e>(
         &self,
         expressions: impl Iterator<Item = &'e Expr> + Clone,
@@ -153,7 +150,7 @@ impl VariableFacts {
 }
 
 impl BranchSearch<'_, '_> {
-    /// The first decision in a function of which this is known.
+    /// First branch in a function with the given variables.
     fn function(&self, definition: &ScriptFuncDef, mut known: VariableFacts) -> Option<Decision> {
         if self.depth == DEEPEST || self.left.get() == 0 {
             return None;
@@ -201,7 +198,7 @@ impl BranchSearch<'_, '_> {
         if JUMPS.contains(&sign) {
             return known.by(call.args.iter(), sign, at);
         }
-        // A function that is written within: its first arguments are what it captures.
+        // A closure: its first arguments are the captured variables.
         if let Some((function, captured)) = written_within(call) {
             return self.within(&function, captured, known);
         }
@@ -216,7 +213,7 @@ impl BranchSearch<'_, '_> {
         self.deeper().function(&definition, own)
     }
 
-    /// Methods that are called one after the other.
+    /// A chain of method calls.
     fn chain(&self, chain: &BinaryExpr, known: &VariableFacts) -> Option<Decision> {
         let mut receivers = vec![&chain.lhs];
         let mut rest = &chain.rhs;
@@ -259,7 +256,7 @@ impl BranchSearch<'_, '_> {
         }
     }
 
-    /// In a function that a variable holds, called with some arguments.
+    /// Searches a function held by a variable and called with arguments.
     fn held(
         &self,
         function: &FnPtr,
@@ -274,7 +271,7 @@ impl BranchSearch<'_, '_> {
         self.deeper().function(&definition, own)
     }
 
-    /// In a function that is written within another one, from which it captures variables; it may be asked at anything that the outer one is.
+    /// Searches a closure inside another function; its arguments are treated like those of the outer function.
     fn within(
         &self,
         function: &FnPtr,
@@ -297,7 +294,6 @@ impl BranchSearch<'_, '_> {
     }
 }
 
-/// The variable to whose value, or to a part of it, is assigned.
 fn root_of(target: &Expr) -> Option<&str> {
     match target {
         Expr::Variable(variable, ..) => Some(variable.1.as_str()),
@@ -306,7 +302,7 @@ fn root_of(target: &Expr) -> Option<&str> {
     }
 }
 
-/// The first of some variables that an expression reads.
+/// First of the given variables that an expression reads.
 fn first_of(expression: &Expr, names: &BTreeSet<String>) -> Option<String> {
     first_in(expression, |node| match node {
         Expr::Variable(variable, ..) => names.get(variable.1.as_str()).cloned(),
@@ -314,7 +310,7 @@ fn first_of(expression: &Expr, names: &BTreeSet<String>) -> Option<String> {
     })
 }
 
-/// The first that is found in an expression or a part of it.
+/// First match in an expression and its parts.
 fn first_in<T>(expression: &Expr, mut what: impl FnMut(&Expr) -> Option<T>) -> Option<T> {
     let mut found = None;
     expression.walk(&mut Vec::new(), &mut |path: &[ASTNode]| {

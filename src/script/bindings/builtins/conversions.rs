@@ -1,9 +1,9 @@
-//! From one kind of value to another, and questions about numbers.
+//! Conversions between kinds of values, and tests of numbers.
 
 use crate::script::bindings::built_in::{BuiltInTable, built_in};
 use crate::script::bindings::returns::Returns;
 
-/// The table of Rhai's conversions between kinds of value.
+/// Table of Rhai's conversions.
 pub const TABLE: BuiltInTable = BuiltInTable {
     name: "conversions",
     doc: "Whole numbers become other numbers by themselves where they must; these functions are for the rest.",

@@ -1,4 +1,4 @@
-//! What the language keeps of Rhai's own functions, one file for each kind of value.
+//! Tables of the functions of Rhai that are part of the language, one file per kind of value.
 
 mod arrays;
 mod conversions;

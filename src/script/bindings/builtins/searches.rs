@@ -1,9 +1,9 @@
-//! Arrays: searching them, and making values of them with functions.
+//! Methods of arrays that search and transform with functions.
 
 use crate::script::bindings::built_in::{BuiltInTable, built_in};
 use crate::script::bindings::returns::Returns;
 
-/// The table of Rhai's methods of arrays that leave the array as it is.
+/// Table of Rhai's methods that leave the array unchanged.
 pub const TABLE: BuiltInTable = BuiltInTable {
     name: "searches",
     doc: "Methods of arrays that take a function and leave the array as it is. The function may take the index as its second \

@@ -1,4 +1,4 @@
-//! Every function of the engine has help, every help has a function, every example runs.
+//! Tests: every engine function has help, every help entry has a function, every example runs.
 
 use std::collections::HashSet;
 
@@ -18,7 +18,7 @@ use crate::script::source::program::Program;
 use crate::script::state::context::Context;
 use crate::script::state::settings::{RunMode, RunSettings};
 
-/// A function of the engine: its name, how many arguments it takes, and what the engine knows of their types.
+/// Name, number of arguments and known argument types of an engine function.
 struct EngineFunction {
     name: String,
     count: usize,
@@ -30,7 +30,7 @@ fn standard_engine() -> Engine {
     engine::build(&language(), &context).unwrap()
 }
 
-/// Everything that is registered, and what the engine has without registering it.
+/// All registered functions, and those built into the engine.
 fn known() -> Vec<EngineFunction> {
     let engine = standard_engine();
     let mut known = engine.collect_fn_metadata(
@@ -61,7 +61,7 @@ fn known() -> Vec<EngineFunction> {
     known
 }
 
-/// Types that no value of a script has.
+/// Returns true for types that no script value has.
 fn is_out_of_reach(of: &str) -> bool {
     const NUMBERS: [&str; 10] =
         ["i8", "i16", "i32", "i128", "u8", "u16", "u32", "u64", "u128", "f32"];
@@ -73,7 +73,7 @@ fn built_ins() -> impl Iterator<Item = &'static BuiltIn> {
     TABLES.iter().flat_map(|table| table.rows)
 }
 
-/// Whether help says that `name` can be called with so many values.
+/// Returns true if the help covers a call with this many values.
 fn is_documented(name: &str, count: usize) -> bool {
     let catalog = language();
     catalog.named(name).any(|row| {
@@ -138,7 +138,7 @@ fn every_number_of_arguments_that_help_allows_exists() {
                 let exists = known
                     .iter()
                     .any(|function| function.name == form.name && function.count == count)
-                    // Written into the engine for any number of arguments.
+                    // Built into the engine for any number of arguments.
                     || ["print", "debug", "type_of"].contains(&form.name);
                 assert!(exists, "there is no {} of {count}", form.name);
             }

@@ -1,9 +1,9 @@
-//! Printing, and questions about any value.
+//! Printing, and functions of any value.
 
 use crate::script::bindings::built_in::{BuiltInTable, built_in};
 use crate::script::bindings::returns::Returns;
 
-/// The table of Rhai's functions for values of any kind, and the clock.
+/// Table of Rhai's functions for values of any kind, and the clock.
 pub const TABLE: BuiltInTable = BuiltInTable {
     name: "values",
     doc: "Printing, questions about values and variables, and the clock.",

@@ -1,4 +1,4 @@
-//! From what a call gave in each variant to one value.
+//! Combination of the results of all variants into one value.
 
 use std::rc::Rc;
 
@@ -10,11 +10,10 @@ use crate::geometry::Vec2;
 use crate::script::messages::error::ScriptError;
 use crate::script::messages::numbers::as_number;
 
-/// One value that is in each variant what `results` are, those of variant 0 first. What is the same in all stays as it is; things of a scene (`is_thing`)
-/// know their variants themselves; truth values, texts and whole numbers are those of variant 0.
+/// Combines `results`, one per variant, variant 0 first, into one value. Equal results stay plain values; scene objects (`is_thing`)
+/// contain their variants; for booleans, texts and integers the result of variant 0 is used.
 ///
-/// # Errors
-/// When arrays or maps differ in more than numbers.
+/// If arrays or maps differ in more than numbers.
 pub fn gather(
     family: &Rc<ParameterSet>,
     results: &[Dynamic],
@@ -69,14 +68,14 @@ fn differ(what: &str) -> ScriptError {
     )
 }
 
-/// Whether a value is no number or vector that is infinite or undefined.
+/// Returns false for numbers and vectors that are infinite or NaN.
 fn is_defined(value: &Dynamic) -> bool {
     let vector = value.read_lock::<Vec2>();
     as_number(value).is_none_or(f64::is_finite)
         && vector.is_none_or(|of| of.x.is_finite() && of.y.is_finite())
 }
 
-/// Whether two values are the same number or vector, to the last bit.
+/// Returns true if two values are bitwise equal numbers or equal vectors.
 fn are_equal(one: &Dynamic, other: &Dynamic) -> bool {
     if let (Some(one), Some(other)) = (as_number(one), as_number(other)) {
         return one.to_bits() == other.to_bits();

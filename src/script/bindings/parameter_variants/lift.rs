@@ -1,4 +1,4 @@
-//! A call, made as often as there are variants of what it depends on.
+//! Evaluation of a call for all variants of its arguments.
 
 use std::rc::Rc;
 
@@ -14,16 +14,15 @@ use crate::script::bindings::parameter::Parameter;
 use crate::script::bindings::table::{CallSyntax, FunctionBinding};
 use crate::script::messages::error::{CallPart, ScriptError};
 
-/// What to do about an error that is one only beside the value of a parameter.
+/// Hint for an error that occurs only in a side variant.
 const BESIDE: &str = "derivatives are found from values on both sides of a parameter: choose it within what is allowed, or give value_of(x) here, which has none";
 
-/// Makes a call of a row.
+/// Evaluates a binding once.
 type Make<'m> = &'m mut dyn FnMut(Option<&mut Dynamic>, &[Dynamic]) -> Result<Dynamic, ScriptError>;
 
-/// Makes a call of a row for each variant of what its receiver and its arguments depend on, as the row's domain wants it.
+/// Evaluates a binding for each variant of its receiver and arguments, according to the policy of its domain.
 ///
-/// # Errors
-/// Those of the call; also where derivatives would be lost, and where parameters of two scenes meet.
+/// Errors of the call; also if derivatives would be lost, or parameters of two scenes are combined.
 pub fn lift(
     (row, lifting): (&FunctionBinding, Lifting),
     mut receiver: Option<&mut Dynamic>,
@@ -63,7 +62,7 @@ pub fn lift(
         let _within = VariantGuard::of(&family, variant);
         let given: Vec<Dynamic> = given.iter().map(|of| project(of, variant)).collect();
         match &mut receiver {
-            // A thing of a scene has variants of its own.
+            // Scene objects handle their variants themselves.
             Some(held) if is_thing(held) => make(Some(held), &given),
             Some(held) => {
                 let mut own = project(held, variant);
@@ -74,12 +73,12 @@ pub fn lift(
         }
     };
     let mut results = Vec::with_capacity(family.variants());
-    // The one at the values last: a scene begins to have variants as it was before.
+    // Variant 0 comes last, because a scene starts its variants from the state before the call.
     for variant in (0..family.variants()).rev() {
         match at(variant) {
             Ok(made) => results.push(made),
             Err(error) if variant == 0 => return Err(error),
-            // What is wrong at the values too is told with these.
+            // If variant 0 fails too, its error is reported.
             Err(beside) => return Err(at(0).err().unwrap_or(beside.said(&family, variant))),
         }
     }
@@ -96,7 +95,7 @@ pub fn lift(
     }
 }
 
-/// Makes a call for one variant of what it is made with.
+/// Evaluates a call for one variant.
 fn make_at(
     variant: usize,
     receiver: Option<&mut Dynamic>,
@@ -110,7 +109,7 @@ fn make_at(
     }
 }
 
-/// Refuses what depends on parameters where a whole number must be given: between two whole numbers there is none.
+/// Rejects variant numbers where an integer is required, because integers have no derivative.
 fn expect_plain_whole_numbers(
     row: &FunctionBinding,
     parameters: &[Parameter],
@@ -133,7 +132,7 @@ fn expect_plain_whole_numbers(
     }
 }
 
-/// The error about an argument that depends on parameters where none may: at the option that does, if it is one.
+/// Error of an argument that must not depend on parameters; it points at the option that does.
 fn refusal(
     row: &FunctionBinding,
     parameter: Option<&Parameter>,
@@ -157,7 +156,7 @@ fn refusal(
     ScriptError::new(told).hint(hint).at(place)
 }
 
-/// The innermost option that depends on parameters, with its name.
+/// Innermost option that depends on parameters, with its name.
 fn option_in(options: &Dynamic) -> Option<(String, Dynamic)> {
     let map = options.read_lock::<Map>()?;
     let (key, value) = map.iter().find(|(_, of)| family_of(of).is_some())?;
@@ -165,7 +164,7 @@ fn option_in(options: &Dynamic) -> Option<(String, Dynamic)> {
 }
 
 impl ScriptError {
-    /// The same error of a call beside that at the values of the parameters, which says so.
+    /// Adds the variant to the message of an error in a side variant.
     fn said(self, family: &ParameterSet, variant: usize) -> Self {
         match self {
             Self::Failure(mut failure) => {
@@ -179,12 +178,12 @@ impl ScriptError {
     }
 }
 
-/// Whether a function takes values with their derivatives as they are.
+/// Returns true if a function accepts variant values unchanged.
 fn is_about_derivatives(row: &FunctionBinding) -> bool {
     row.parameters.first().is_some_and(|of| matches!(of.kind, Kind::Anything))
 }
 
-/// The parameters that a call depends on.
+/// Parameter set that a call depends on.
 fn families(
     receiver: Option<&Dynamic>,
     given: &[Dynamic],
@@ -194,10 +193,9 @@ fn families(
 }
 
 impl ParameterSet {
-    /// The parameters that some values depend on, if any does.
+    /// Common parameter set of some values, if any depends on one.
     ///
-    /// # Errors
-    /// When they depend on those of two scenes.
+    /// If they depend on parameters of two scenes.
     pub fn common(values: &[&Dynamic]) -> Result<Option<Rc<Self>>, ScriptError> {
         let own = |value: &&Dynamic| family_of(value).or_else(|| of_thing(value));
         let mut found: Option<Rc<Self>> = None;
@@ -221,10 +219,9 @@ impl ParameterSet {
     }
 }
 
-/// One value of what was made of some values in each variant.
+/// Combines the results that were computed from some values in each variant.
 ///
-/// # Errors
-/// When arrays or maps differ in more than numbers.
+/// If arrays or maps differ in more than numbers.
 pub fn gathered(
     family: &Rc<ParameterSet>,
     results: &[Dynamic],
@@ -235,10 +232,9 @@ pub fn gathered(
     gather(family, results, lost.as_ref(), &|_| false)
 }
 
-/// One value of what was made in each variant, without derivatives: why.
+/// Combines the results of all variants to one value without derivatives, with the reason.
 ///
-/// # Errors
-/// When arrays or maps differ in more than numbers.
+/// If arrays or maps differ in more than numbers.
 pub fn gathered_without(
     family: &Rc<ParameterSet>,
     results: &[Dynamic],

@@ -1,6 +1,7 @@
-//! Calls for each value of the parameters of a scene: a call with a number that depends on one is made for the scene and for those beside it.
+//! Evaluation of calls for variants of the parameters of a scene: a call with an argument that depends on a parameter is evaluated for the
+//! scene and for all side variants.
 //!
-//! So derivatives go through whatever is made of them: sections, loads, simulations, functions of what these tell.
+//! Derivatives thereby propagate through sections, loads, simulations, and functions of their results.
 
 mod gather;
 mod lift;

@@ -1,4 +1,4 @@
-//! Functions with corners, jumps and infinite slopes: where these lie between the variants of a parameter, or very near, there is no derivative.
+//! Non-differentiable functions: corners, jumps and infinite slopes at or near the variants of a parameter, where derivatives do not exist.
 
 use std::rc::Rc;
 
@@ -11,32 +11,33 @@ use crate::geometry::Vec2;
 use crate::script::bindings::accept::as_point;
 use crate::script::messages::numbers::as_number;
 
-/// So many times the change of an argument from the place where a slope is infinite, differences are off by its inverse squared, a part in 1e5.
+/// Minimum distance from an infinite slope, in steps of the argument. The relative error of the difference quotient is about its inverse
+/// square, 1e-5.
 const NEAR: f64 = 300.0;
 
-/// The arguments of a call at the values of the parameters, and at one of them plus and minus its distance.
+/// Arguments of a call at the parameter values, and at one of them plus and minus its step.
 pub struct Sides<'s> {
-    /// At the values.
+    /// At the parameter values.
     pub at: &'s [Dynamic],
-    /// At one more.
+    /// At plus one step.
     pub plus: &'s [Dynamic],
-    /// At one less.
+    /// At minus one step.
     pub minus: &'s [Dynamic],
 }
 
-/// Why there is no derivative.
+/// Reason why a derivative does not exist.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoDerivative {
-    /// A corner or a jump lies between the variants.
+    /// A corner or jump lies between the variants.
     Broken,
-    /// The place where the slope is infinite is too near.
+    /// A point of infinite slope is too near.
     Steep,
 }
 
-/// Whether and why a function has no derivative between the arguments of its calls.
+/// Test for a missing derivative between the arguments of the variants.
 pub type NonsmoothCheck = fn(&Sides) -> Option<NoDerivative>;
 
-/// Why what a function gives has no derivatives although it was made with what has.
+/// Message if the result of a function has no derivative although its arguments have.
 pub fn corner_of(
     (name, corner): (&str, NonsmoothCheck),
     family: &ParameterSet,
@@ -62,25 +63,25 @@ pub fn corner_of(
 }
 
 impl Sides<'_> {
-    /// A number that is made of the arguments, at the values and on both sides.
+    /// Evaluates a quantity of the arguments at the three variants.
     fn each(&self, what: impl Fn(&[Dynamic]) -> f64) -> [f64; 3] {
         [self.at, self.plus, self.minus].map(what)
     }
 
-    /// Whether a number that is made of the arguments passes zero between both sides.
+    /// Tests if a quantity of the arguments changes its sign between the sides.
     fn passes_zero(&self, what: impl Fn(&[Dynamic]) -> f64) -> Option<NoDerivative> {
         let [_, plus, minus] = self.each(what);
         (plus * minus < 0.0).then_some(NoDerivative::Broken)
     }
 
-    /// Whether a number that is made of the arguments changes, and is zero or near it.
+    /// Tests if a quantity of the arguments varies, and is zero or near it.
     fn nears_zero(&self, what: impl Fn(&[Dynamic]) -> f64) -> Option<NoDerivative> {
         let [at, plus, minus] = self.each(what);
         let change = (plus - at).abs().max((minus - at).abs());
         (change > 0.0 && at.abs() <= NEAR * change).then_some(NoDerivative::Steep)
     }
 
-    /// Whether a vector that is made of the arguments changes, and is zero or near it.
+    /// Tests if a vector made from the arguments varies, and is zero or near it.
     fn nears_origin(&self, what: impl Fn(&[Dynamic]) -> Option<Vec2>) -> Option<NoDerivative> {
         let (at, plus, minus) = (what(self.at)?, what(self.plus)?, what(self.minus)?);
         let change = (plus - at).norm().max((minus - at).norm());
@@ -88,17 +89,17 @@ impl Sides<'_> {
     }
 }
 
-/// At zero of the one argument, as that of `abs`.
+/// At zero of the argument, as for `abs`.
 pub fn at_zero(sides: &Sides) -> Option<NoDerivative> {
     sides.passes_zero(|given| number(given, 0))
 }
 
-/// Near zero of the one argument, as that of `sqrt` and `ln`.
+/// Near zero of the argument, as for `sqrt` and `ln`.
 pub fn near_zero(sides: &Sides) -> Option<NoDerivative> {
     sides.nears_zero(|given| number(given, 0))
 }
 
-/// Near one and minus one, as that of `acos`.
+/// Near one and minus one, as for `acos`.
 pub fn near_one(sides: &Sides) -> Option<NoDerivative> {
     sides.nears_zero(|given| number(given, 0).abs() - 1.0)
 }
@@ -108,28 +109,28 @@ pub fn near_quarters(sides: &Sides) -> Option<NoDerivative> {
     sides.nears_zero(|given| cos(number(given, 0)))
 }
 
-/// Near zero of the argument, and near one of the base, of a logarithm.
+/// Near zero of the argument, and near zero and one of the base, of a logarithm.
 pub fn near_ends_of_logarithm(sides: &Sides) -> Option<NoDerivative> {
     let base = || sides.nears_zero(|given| number(given, 1) - 1.0);
     near_zero(sides).or_else(base).or_else(|| sides.nears_zero(|given| number(given, 1)))
 }
 
-/// Where both arguments are equal, as that of `max`.
+/// At equal arguments, as for `max`.
 pub fn where_equal(sides: &Sides) -> Option<NoDerivative> {
     sides.passes_zero(|given| number(given, 0) - number(given, 1))
 }
 
-/// Near the origin of the vector of both arguments, as that of `hypot`.
+/// Near the origin of the vector of both arguments, as for `hypot`.
 pub fn at_origin(sides: &Sides) -> Option<NoDerivative> {
     sides.nears_origin(|given| Some(Vec2::new(number(given, 0), number(given, 1))))
 }
 
-/// Near the origin, and where an angle goes from half a turn to minus that, of the vector of both arguments, the second of which is along.
+/// Near the origin and at the branch cut of the angle of the vector `(second, first)`, as for `atan2`.
 pub fn at_cut(sides: &Sides) -> Option<NoDerivative> {
     cut(sides, |given| Some(Vec2::new(number(given, 1), number(given, 0))))
 }
 
-/// Near the origin, and where an angle goes from half a turn to minus that, of the vector that is the argument.
+/// Near the origin and at the branch cut of the angle of a vector argument.
 pub fn at_cut_of_vector(sides: &Sides) -> Option<NoDerivative> {
     cut(sides, |given| point(given, 0))
 }
@@ -142,23 +143,23 @@ fn cut(sides: &Sides, what: fn(&[Dynamic]) -> Option<Vec2>) -> Option<NoDerivati
     sides.nears_origin(what).or_else(passes)
 }
 
-/// Near the origin of the argument, as that of `norm`.
+/// Near the zero vector, as for `norm`.
 pub fn at_zero_vector(sides: &Sides) -> Option<NoDerivative> {
     sides.nears_origin(|given| point(given, 0))
 }
 
-/// Near where both points are one, as that of `distance`.
+/// Near coinciding points, as for `distance`.
 pub fn where_points_meet(sides: &Sides) -> Option<NoDerivative> {
     sides.nears_origin(|given| point(given, 1).zip(point(given, 0)).map(|(b, a)| b - a))
 }
 
-/// At whole numbers, as that of `fraction`.
+/// At integers, as for `fraction`.
 pub fn at_whole_numbers(sides: &Sides) -> Option<NoDerivative> {
     let [_, plus, minus] = sides.each(|given| number(given, 0).trunc());
     (plus != minus).then_some(NoDerivative::Broken)
 }
 
-/// Where digits change, as those of `round_to` do.
+/// Where digits change, as for `round_to`.
 pub fn where_rounded_differs(sides: &Sides) -> Option<NoDerivative> {
     let [_, plus, minus] = sides.each(|given| {
         let digits = number(given, 1);
@@ -167,18 +168,18 @@ pub fn where_rounded_differs(sides: &Sides) -> Option<NoDerivative> {
     (plus != minus).then_some(NoDerivative::Broken)
 }
 
-/// At multiples of the divisor, of a remainder.
+/// At multiples of the divisor, for a remainder.
 pub fn at_multiples(sides: &Sides) -> Option<NoDerivative> {
     let [at, plus, minus] = sides.each(|given| (number(given, 0) / number(given, 1)).trunc());
     (plus != at || minus != at).then_some(NoDerivative::Broken)
 }
 
-/// Near zero of what is divided by.
+/// Near zero of the divisor.
 pub fn near_zero_divisor(sides: &Sides) -> Option<NoDerivative> {
     sides.nears_zero(|given| number(given, 1))
 }
 
-/// Near zero of the base of a power, unless its exponent is a whole number.
+/// Near zero of the base of a power, unless its exponent is a constant non-negative integer.
 pub fn near_zero_base(sides: &Sides) -> Option<NoDerivative> {
     let exponents = sides.each(|given| number(given, 1));
     let is_smooth = exponents[0] >= 0.0
@@ -187,12 +188,12 @@ pub fn near_zero_base(sides: &Sides) -> Option<NoDerivative> {
     if is_smooth { None } else { sides.nears_zero(|given| number(given, 0)) }
 }
 
-/// Where another number of the array becomes the largest.
+/// Where another element of the array becomes the largest.
 pub fn where_largest_changes(sides: &Sides) -> Option<NoDerivative> {
     chosen_changes(sides, |x, y| x > y)
 }
 
-/// Where another number of the array becomes the smallest.
+/// Where another element of the array becomes the smallest.
 pub fn where_smallest_changes(sides: &Sides) -> Option<NoDerivative> {
     chosen_changes(sides, |x, y| x < y)
 }
@@ -239,7 +240,6 @@ mod tests {
         corner(&Sides { at: &at, plus: &plus, minus: &minus })
     }
 
-    /// Of numbers that change by `h`.
     fn about(corner: NonsmoothCheck, at: &[f64], h: f64) -> Option<NoDerivative> {
         let moved = |by: f64| of(&[&[at[0] + by], &at[1..]].concat());
         asked(corner, [moved(0.0), moved(h), moved(-h)])

@@ -1,4 +1,4 @@
-//! Parameters that belong together: those of one scene. For each there is a variant of everything at the parameter plus and minus a distance.
+//! Set of the parameters of a scene. Each parameter has two variants, at its value plus and minus a step.
 
 use std::any::TypeId;
 use std::cell::{Cell, RefCell};
@@ -11,87 +11,88 @@ use super::variant_value::VariantValue;
 use crate::output::significant;
 use crate::script::messages::error::{CallPart, ScriptError};
 
-/// The distance to the variants beside, as a part of the size of a parameter. What is made of it errs by its square and by rounding over it.
+/// Default step, relative to the size of the parameter. The error of the difference quotient is of the order of its square, plus rounding
+/// divided by it.
 pub const RELATIVE_DISTANCE: f64 = 1e-5;
 
-/// Parameters that belong together. Variant 0 is at their values; 1 and 2 are at the first one plus and minus a distance, 3 and 4 at the second one.
+/// Parameters of a scene. Variant 0 is at their values; 1 and 2 are at the first one plus and minus its step, 3 and 4 at the second one.
 #[derive(Default)]
 pub struct ParameterSet {
     parameters: RefCell<Vec<DeclaredParameter>>,
-    /// Whether variants are in use, so that none may be added.
+    /// True once variants are in use, when no parameter may be added.
     is_in_use: Cell<bool>,
-    /// The places of the script, by line and column, where a function decides by a parameter.
+    /// Script positions, by line and column, where a branch that depends on a parameter was reported.
     told: RefCell<BTreeSet<(usize, usize)>>,
 }
 
-/// A parameter of a family.
+/// A declared parameter.
 #[derive(Clone)]
 struct DeclaredParameter {
     name: String,
     distance: f64,
 }
 
-/// The variant that a call is made for.
+/// Variant that the current call is evaluated for.
 #[derive(Clone)]
 pub struct CurrentVariant {
-    /// The parameters.
+    /// Parameter set.
     pub family: Rc<ParameterSet>,
-    /// The variant of them.
+    /// Index of the variant.
     pub variant: usize,
 }
 
 thread_local! {
-    /// Whether there has been a family in this thread.
+    /// True if a parameter set was created in this thread.
     static ANY: Cell<bool> = const { Cell::new(false) };
-    /// The names of types, and how things of a scene tell the parameters that it depends on.
+    /// Type names, and functions that return the parameter set of scene objects.
     static THINGS: RefCell<HashMap<TypeId, (&'static str, SceneParameters)>> = RefCell::default();
     static PRESENT: RefCell<Option<CurrentVariant>> = const { RefCell::new(None) };
-    /// Why what is asked beside is not known.
+    /// Reason for missing values in a side variant.
     static LOST: RefCell<Option<Rc<str>>> = const { RefCell::new(None) };
 }
 
-/// The parameters that a thing of a scene depends on, if it does.
+/// Returns the parameter set of a scene object.
 type SceneParameters = fn(&Dynamic) -> Option<Rc<ParameterSet>>;
 
-/// Keeps the name of a type, and how its values tell the parameters that they depend on.
+/// Registers the name of a type, and the function that returns the parameter set of its values.
 pub fn know(id: TypeId, name: &'static str, family_of: SceneParameters) {
     THINGS.with_borrow_mut(|known| {
         known.insert(id, (name, family_of));
     });
 }
 
-/// The name of the type of a value, if it is one of ours.
+/// Name of a native type, if the value is of one.
 pub(super) fn name_of(value: &Dynamic) -> Option<&'static str> {
     THINGS.with_borrow(|known| known.get(&value.type_id()).map(|(name, _)| *name))
 }
 
-/// The parameters that a thing of a scene depends on, if the value is one and does.
+/// Parameter set of a scene object.
 pub(super) fn of_thing(value: &Dynamic) -> Option<Rc<ParameterSet>> {
     let known = THINGS.with_borrow(|known| known.get(&value.type_id()).copied());
     known.and_then(|(_, family_of)| family_of(value))
 }
 
-/// The variant that the present call is made for; none where it is made once.
+/// Variant of the current call; `None` outside of variant evaluation.
 pub fn present() -> Option<CurrentVariant> {
     PRESENT.with_borrow(Clone::clone)
 }
 
-/// The number of the variant that the present call is made for; the first where it is made once.
+/// Index of the current variant; 0 outside of variant evaluation.
 pub fn present_variant() -> usize {
     present().map_or(0, |present| present.variant)
 }
 
-/// What is asked beside is not known: why.
+/// Marks results of side variants as unavailable, with a reason.
 pub fn lose(reason: &str) {
     LOST.set(Some(reason.into()));
 }
 
-/// Why what was asked beside since the last time is not known, if so.
+/// Takes the reason set since the last call.
 pub(super) fn take_lost() -> Option<Rc<str>> {
     LOST.take()
 }
 
-/// Calls are made for a variant as long as this lives.
+/// Guard: calls are evaluated for a variant while it lives.
 pub(super) struct VariantGuard;
 
 impl VariantGuard {
@@ -108,21 +109,20 @@ impl Drop for VariantGuard {
 }
 
 impl ParameterSet {
-    /// A family without parameters yet.
+    /// An empty parameter set.
     pub fn new() -> Rc<Self> {
         ANY.set(true);
         Rc::default()
     }
 
-    /// Whether there may be values that depend on a parameter: without any, calls are made as they are.
+    /// Returns false if no parameter set exists, so that calls need no variant handling.
     pub fn is_any() -> bool {
         ANY.get()
     }
 
-    /// Adds a parameter with its value, and variants at a distance, or at the usual one; gives the number that depends on it.
+    /// Adds a parameter with its value and a step, or the default step; returns the variant number.
     ///
-    /// # Errors
-    /// When there is one of that name, or variants of the others are in use.
+    /// If the name is in use, or variants are in use already.
     pub fn declare(
         self: &Rc<Self>,
         name: &str,
@@ -141,7 +141,7 @@ impl ParameterSet {
         }
         let size = if value == 0.0 { 1.0 } else { value.abs() };
         let distance = distance.unwrap_or(RELATIVE_DISTANCE * size);
-        // What is so near can be told apart exactly.
+        // Rounds the step so that the side variants are exact.
         let distance = 0.5 * ((value + distance) - (value - distance));
         let mut values = vec![Dynamic::from(value); self.variants()];
         values.extend([value + distance, value - distance].map(Dynamic::from));
@@ -149,44 +149,44 @@ impl ParameterSet {
         Ok(VariantValue::new(self, values, None))
     }
 
-    /// Whether nothing was told of a place of the script so far; now something is.
+    /// Returns true on the first call for a position of the script.
     pub fn is_told_first(&self, line: usize, column: usize) -> bool {
         self.told.borrow_mut().insert((line, column))
     }
 
-    /// Whether a function of the scene decides by a parameter, so that derivatives are wrong where it jumps.
+    /// Returns true if a function of the scene branches on a parameter, so that derivatives are wrong at its jumps.
     pub fn is_decided_by(&self) -> bool {
         !self.told.borrow().is_empty()
     }
 
-    /// No parameter is added any more.
+    /// Disallows further parameters.
     pub fn use_variants(&self) {
         self.is_in_use.set(true);
     }
 
-    /// The number of variants.
+    /// Number of variants.
     pub fn variants(&self) -> usize {
         1 + 2 * self.parameters.borrow().len()
     }
 
-    /// The names of the parameters, with the distances of their variants.
+    /// Names of the parameters, with their steps.
     pub fn parameters(&self) -> Vec<(String, f64)> {
         let parameters = self.parameters.borrow();
         parameters.iter().map(|of| (of.name.clone(), of.distance)).collect()
     }
 
-    /// The number of a parameter by its name, from 0.
+    /// Index of a parameter by its name, from 0.
     pub fn number_of(&self, name: &str) -> Option<usize> {
         self.parameters.borrow().iter().position(|of| of.name == name)
     }
 
-    /// The parameter that a variant beside is about, by its number, and whether it is the one at plus the distance.
+    /// Parameter index of a side variant, and true for its plus side.
     pub fn beside(variant: usize) -> Option<(usize, bool)> {
         let beside = variant.checked_sub(1)?;
         Some((beside / 2, beside % 2 == 0))
     }
 
-    /// What a variant is at, in words: `EI = … + 1e-3`; empty for the one at the values.
+    /// Description of a variant: `EI = … + 1e-3`; empty for variant 0.
     pub fn describe(&self, variant: usize) -> String {
         let parameters = self.parameters.borrow();
         let of = Self::beside(variant).and_then(|(at, plus)| Some((parameters.get(at)?, plus)));

@@ -1,21 +1,21 @@
-//! What a domain of the language does with values that depend on parameters.
+//! Policy of each domain for arguments that depend on parameters.
 
 use crate::script::bindings::table::{BindingTable, CallSyntax, FunctionBinding};
 
-/// How a call is made when something in it depends on parameters.
+/// Evaluation of a call with arguments that depend on parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lifting {
-    /// For each variant.
+    /// Once per variant.
     Each,
-    /// Once, at the values of the parameters, and with these.
+    /// Once, with the values of variant 0.
     AtValues,
-    /// Once, for what has variants of its own; arguments that depend on parameters are refused.
+    /// Once, for receivers with their own variants; arguments that depend on parameters are rejected.
     Once,
-    /// Not at all: what it gives would have lost its derivatives.
+    /// Rejected, because the result would have no derivatives.
     Refused,
 }
 
-/// Domains that describe scenes, reckon and ask.
+/// Domains of definitions, calculations and queries.
 const EACH: &[&str] = &[
     "numbers",
     "vectors",
@@ -40,7 +40,7 @@ const EACH: &[&str] = &[
     "derivatives",
 ];
 
-/// Domains that look at numbers.
+/// Domains that display numbers.
 const AT_VALUES: &[&str] = &[
     "text",
     "checks",
@@ -55,16 +55,16 @@ const AT_VALUES: &[&str] = &[
     "animations",
 ];
 
-/// Domains whose results have no derivatives yet.
+/// Domains without derivatives.
 const REFUSED: &[&str] = &["equilibrium", "modes"];
 
-/// What takes whole numbers, which do not change a little.
+/// Functions of integers.
 const WHOLE: &[&str] = &["quotient"];
 
-/// What makes a simulation go on, which takes its variants along, or gives what is about it alone, as its time is.
+/// Methods that advance a simulation together with its variants, or return values that do not depend on them, such as the time.
 const ONCE: &[&str] = &["start", "step", "run_to", "at", "t", "dt", "invariants", "parameter"];
 
-/// What a row of a domain does with values that depend on parameters.
+/// Policy of a binding.
 pub fn lifting_of(table: &BindingTable, row: &FunctionBinding) -> Lifting {
     let is_of = |names: &[&str]| names.contains(&table.name);
     match row.form {
@@ -82,6 +82,6 @@ pub fn lifting_of(table: &BindingTable, row: &FunctionBinding) -> Lifting {
     }
 }
 
-/// The domains that are named here.
+/// Domains named above.
 #[cfg(test)]
 pub const NAMED: [&[&str]; 3] = [EACH, AT_VALUES, REFUSED];

@@ -1,4 +1,4 @@
-//! A value that depends on parameters of a scene, with what it is in each variant.
+//! Values that depend on parameters of a scene, stored per variant.
 
 use std::rc::Rc;
 
@@ -12,59 +12,58 @@ use crate::script::messages::error::ScriptError;
 use crate::script::messages::nouns::with_article;
 use crate::script::messages::numbers::{as_number, format_number};
 
-/// Digits of a derivative where it is shown.
+/// Digits of a derivative when shown.
 const DIGITS: usize = 5;
 
 /// A value that depends on parameters.
 #[derive(Clone)]
 pub struct VariantValue {
     family: Rc<ParameterSet>,
-    /// In each variant; in those that came later it is what it is in the first.
+    /// Values per variant; later variants equal the first one.
     values: Rc<[Dynamic]>,
-    /// Why derivatives are not known.
+    /// Reason for missing derivatives.
     lost: Option<Rc<str>>,
 }
 
 impl VariantValue {
-    /// A value by what it is in each variant.
+    /// Creates a value from its variants.
     pub fn new(family: &Rc<ParameterSet>, values: Vec<Dynamic>, lost: Option<Rc<str>>) -> Self {
         Self { family: Rc::clone(family), values: values.into(), lost }
     }
 
-    /// What any value is in a variant, arrays, maps and captured values included.
+    /// Value in a variant, including elements of arrays and maps and captured values.
     pub fn project(value: &Dynamic, variant: usize) -> Dynamic {
         project(value, variant)
     }
 
-    /// The number that a value is, in the variant that the present call is made for.
+    /// Number in the current variant.
     pub fn number(value: &Dynamic) -> Option<f64> {
         as_number(value).or_else(|| as_number(&value.read_lock::<Self>()?.at(present_variant())))
     }
 
-    /// The parameters that any value depends on, if it does.
+    /// Parameter set that a value depends on.
     pub fn family_of(value: &Dynamic) -> Option<Rc<ParameterSet>> {
         family_of(value)
     }
 
-    /// The parameters that it depends on.
+    /// Parameter set of this value.
     pub fn family(&self) -> &Rc<ParameterSet> {
         &self.family
     }
 
-    /// Why its derivatives are not known.
+    /// Reason for missing derivatives.
     pub(super) fn lost(&self) -> Option<&Rc<str>> {
         self.lost.as_ref()
     }
 
-    /// What it is in a variant.
+    /// Value in a variant.
     pub fn at(&self, variant: usize) -> Dynamic {
         self.values.get(variant).unwrap_or(&self.values[0]).clone()
     }
 
-    /// The derivative by a parameter, by its number.
+    /// Derivative with respect to the parameter with this index.
     ///
-    /// # Errors
-    /// When it is not known, or the value is none that has derivatives.
+    /// If it is unknown, or the value is not differentiable.
     pub fn derivative(&self, parameter: usize) -> Result<Dynamic, ScriptError> {
         if let Some(reason) = &self.lost {
             return Err(ScriptError::new(reason.to_string()));
@@ -83,12 +82,12 @@ impl VariantValue {
     }
 }
 
-/// The parameters that a value depends on, if it does; arrays, maps and what functions have captured are looked into.
+/// Parameter set that a value depends on; arrays, maps and captured values are searched.
 pub fn family_of(value: &Dynamic) -> Option<Rc<ParameterSet>> {
     find(value, &|varied| Some(Rc::clone(&varied.family)))
 }
 
-/// Why derivatives of something in a value are not known, if so.
+/// Reason for missing derivatives anywhere in a value.
 pub fn lost_in(value: &Dynamic) -> Option<Rc<str>> {
     find(value, &|varied| varied.lost().cloned())
 }

@@ -1,19 +1,19 @@
-//! An entry of the tables of names, and finding it.
+//! Entries of the tables of foreign names, and their lookup.
 
 use super::{languages, mechanics};
 
-/// Some names that mean the same in other programs and languages, and what is written here.
+/// Names of other programs and languages with the same meaning, and their replacement.
 #[derive(Debug, PartialEq)]
 pub struct ForeignName {
-    /// The names of other programs.
+    /// Names used elsewhere.
     pub words: &'static [&'static str],
-    /// What is written here in the place of these names.
+    /// Replacement in this language.
     pub cure: &'static str,
-    /// The names of this language that have help on it.
+    /// Names with help on it.
     pub see: &'static [&'static str],
 }
 
-/// What is written here for a name of other programs; capital letters count only where the two differ in nothing else.
+/// Entry of a foreign name; case matters only if names differ in nothing else.
 pub fn find(name: &str) -> Option<&'static ForeignName> {
     find_exactly(name).or_else(|| {
         let lower = name.to_lowercase();
@@ -22,13 +22,13 @@ pub fn find(name: &str) -> Option<&'static ForeignName> {
     })
 }
 
-/// What is written here for a name of other programs, where capital letters count.
+/// Entry of a foreign name, case-sensitive.
 pub fn find_exactly(name: &str) -> Option<&'static ForeignName> {
     all().find(|entry| entry.words.contains(&name))
 }
 
 impl ForeignName {
-    /// What is written here in the place of the names, and which names have help on it.
+    /// Replacement, and the names with help on it.
     pub fn told(&self) -> String {
         match self.see {
             [] => self.cure.to_owned(),
@@ -37,7 +37,7 @@ impl ForeignName {
     }
 }
 
-/// What to write where a function of the language is called with so many values as its namesake elsewhere takes.
+/// Hint for a function called with the number of arguments of its namesake in other languages.
 pub fn called_with(name: &str, count: usize) -> Option<&'static str> {
     Some(match (name, count) {
         ("print" | "debug", 2..) => "print shows one value: print(`a = ${a}, b = ${b}`)",
@@ -54,7 +54,6 @@ pub fn called_with(name: &str, count: usize) -> Option<&'static str> {
     })
 }
 
-/// All entries.
 fn all() -> impl Iterator<Item = &'static ForeignName> {
     languages::WORDS.iter().chain(mechanics::WORDS)
 }

@@ -2,7 +2,7 @@
 
 use super::entry::{ForeignName, entry};
 
-/// The words of other languages for values, functions and methods.
+/// Names in other languages for values, functions and methods.
 pub const WORDS: &[ForeignName] = &[
     entry(&["True", "TRUE"], "write true", &["conditions"]),
     entry(&["False", "FALSE"], "write false", &["conditions"]),

@@ -1,8 +1,8 @@
-//! Words of mechanics and of other programs for it.
+//! Terms of mechanics and of other simulation programs.
 
 use super::entry::{ForeignName, entry};
 
-/// The words of other programs for mechanics.
+/// Terms of other programs for mechanics.
 pub const WORDS: &[ForeignName] = &[
     entry(
         &[

@@ -1,4 +1,4 @@
-//! Names that other languages and other programs have: what is written here instead. They are asked only where a name is unknown.
+//! Names of other languages and programs, with their replacements. They are looked up only if a name is unknown.
 
 mod entry;
 mod languages;

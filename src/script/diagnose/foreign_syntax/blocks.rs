@@ -1,11 +1,11 @@
-//! Conditions, loops and their bodies as other languages write them.
+//! Conditions, loops and blocks in the syntax of other languages.
 
 use rhai::ParseErrorType;
 
 use super::fix::{ForeignSyntax, SyntaxFix};
 use super::token_window::TokenWindow;
 
-/// Habits of other languages in conditions and loops.
+/// Patterns of conditions and loops.
 pub const HABITS: &[ForeignSyntax] =
     &[else_if, word_operator, counting_loop, colon, body, handler, case, end];
 

@@ -1,11 +1,11 @@
-//! Maps written as elsewhere, and brackets that are not closed.
+//! Maps in the syntax of other languages, and unclosed brackets.
 
 use rhai::ParseErrorType;
 
 use super::fix::{ForeignSyntax, SyntaxFix};
 use super::token_window::TokenWindow;
 
-/// Habits of other languages with brackets.
+/// Patterns of brackets.
 pub const HABITS: &[ForeignSyntax] = &[map_without_sign, assigned_key, unclosed];
 
 /// `{ EA: 1e4 }`.
@@ -55,7 +55,6 @@ fn unclosed(spot: &TokenWindow) -> Option<SyntaxFix> {
 }
 
 impl TokenWindow<'_> {
-    /// How many words before the place are known.
     fn reach(&self) -> usize {
         (1..=40_isize).take_while(|back| !self.word(-back).is_empty()).count()
     }

@@ -1,4 +1,4 @@
-//! Variables and functions as other languages declare them, and words that are misspelt.
+//! Declarations of variables and functions in the syntax of other languages, and misspelt keywords.
 
 use rhai::ParseErrorType;
 
@@ -6,7 +6,7 @@ use super::fix::{ForeignSyntax, SyntaxFix};
 use super::token_window::TokenWindow;
 use crate::script::messages::suggest::nearest;
 
-/// Habits of other languages in declarations.
+/// Patterns of declarations.
 pub const HABITS: &[ForeignSyntax] = &[
     function,
     function_body,
@@ -22,7 +22,7 @@ pub const HABITS: &[ForeignSyntax] = &[
     misspelt,
 ];
 
-/// Words that begin a function elsewhere.
+/// Keywords of function definitions in other languages.
 const FUNCTION_WORDS: &[&str] = &["def", "func", "function", "fun", "sub", "proc", "define"];
 
 /// `def f(x):`, `function y = f(x)`.

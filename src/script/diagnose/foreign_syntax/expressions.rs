@@ -1,4 +1,4 @@
-//! Values as other languages write them.
+//! Expressions in the syntax of other languages.
 
 use rhai::ParseErrorType;
 
@@ -6,7 +6,7 @@ use super::fix::{ForeignSyntax, SyntaxFix};
 use super::token_window::TokenWindow;
 use crate::script::bindings::table::CallSyntax;
 
-/// Habits of other languages in values.
+/// Patterns of expressions.
 pub const HABITS: &[ForeignSyntax] = &[
     choice,
     whole_division,
@@ -128,7 +128,7 @@ fn juxtaposed(spot: &TokenWindow) -> Option<SyntaxFix> {
     spot.cure(0, "a product is written with *", hint)
 }
 
-/// `x++` where the parser only sees that something is missing.
+/// `x++`, if the parser only reports a missing token.
 fn stepping(spot: &TokenWindow) -> Option<SyntaxFix> {
     let sign = spot.word(0);
     (matches!(sign, "+" | "-") && spot.word(1) == sign && spot.is_joined(1)).then_some(())?;

@@ -1,4 +1,4 @@
-//! All habits, and what is told of the one that is found.
+//! List of all patterns of foreign syntax, and their matching.
 
 use rhai::{ParseErrorType, Position};
 
@@ -7,24 +7,24 @@ use super::{blocks, brackets, declarations, expressions, signs};
 use crate::script::bindings::catalog::Catalog;
 use crate::script::source::program::Program;
 
-/// The cure for a habit of other languages: what is wrong, what to write, and where it stands.
+/// Explanation of foreign syntax: message, replacement and position.
 pub struct SyntaxFix {
-    /// What is wrong with the source.
+    /// Error message.
     pub message: String,
-    /// What to write in the source instead.
+    /// Replacement.
     pub hint: String,
-    /// The place of the word that is to blame.
+    /// Position of the token.
     pub at: Position,
 }
 
-/// A habit of other languages: looks at the words around a place, and knows the cure or none.
+/// Pattern of foreign syntax: inspects the tokens around the error, and returns an explanation if it matches.
 pub(super) type ForeignSyntax = fn(&TokenWindow) -> Option<SyntaxFix>;
 
-/// All habits; those that need more of what stands around come first.
+/// All patterns; those that need more context come first.
 const HABITS: &[&[ForeignSyntax]] =
     &[signs::HABITS, blocks::HABITS, declarations::HABITS, expressions::HABITS, brackets::HABITS];
 
-/// The cure for a source that the parser gave up at `at`, for the reason `error`: what was meant there.
+/// Explanation for a source that the parser rejected at `at` with `error`.
 pub fn cure(
     program: &Program,
     catalog: &Catalog,

@@ -1,7 +1,6 @@
-//! Grammar of other languages, and slips that the parser meets far from where they were made: what is written here instead.
+//! Recognition of the syntax of other languages, and of mistakes that the parser reports far from their cause, with replacements.
 //!
-//! A habit looks at the words around the place where the parser gave up, and says what is wrong and what to write. The first
-//! that knows the words is believed; nothing here is asked unless the source is wrong already.
+//! A pattern inspects the tokens around the parse error. The first match wins; patterns are tried only for invalid sources.
 
 mod blocks;
 mod brackets;

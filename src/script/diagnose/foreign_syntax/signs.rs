@@ -1,11 +1,11 @@
-//! Signs that mean something in other languages, and quotes.
+//! Operators of other languages, comments, and quotes.
 
 use rhai::{LexError, ParseErrorType};
 
 use super::fix::{ForeignSyntax, SyntaxFix};
 use super::token_window::TokenWindow;
 
-/// Habits of other languages with signs and quotes.
+/// Patterns of operators and quotes.
 pub const HABITS: &[ForeignSyntax] = &[comment, sign, dotted_operator, quotes, formatted_text];
 
 /// `# …` and, where a statement begins, `% …`.
@@ -44,7 +44,7 @@ fn sign(spot: &TokenWindow) -> Option<SyntaxFix> {
         ("\\", "a statement goes on in the next line by itself: leave the \\ out"),
         ("$", "names have no $; in a text between backquotes, ${x} is the value of x"),
     ];
-    // The parser may see the first half of a sign only.
+    // The parser may see only the first half of an operator.
     for (sign, hint) in signs {
         let is_here = spot.word(0) == *sign;
         let halves = spot.word(0).len() < sign.len()
@@ -61,7 +61,7 @@ fn sign(spot: &TokenWindow) -> Option<SyntaxFix> {
     spot.cure(0, "'~' is not part of the language", hint)
 }
 
-/// What to write for `x => …`.
+/// Hint for `x => …`.
 const ARROW: &str = "write |x| … for a function without a name; in switch, => stands behind a case";
 
 /// `.*`, `./` and `.^`.
@@ -76,7 +76,7 @@ fn dotted_operator(spot: &TokenWindow) -> Option<SyntaxFix> {
     )
 }
 
-/// Texts in single quotes, and a quote that transposes.
+/// Single-quoted strings, and the transpose operator.
 fn quotes(spot: &TokenWindow) -> Option<SyntaxFix> {
     let is_quote = spot.word(0).starts_with('\'');
     match spot.error {
@@ -102,7 +102,7 @@ fn quotes(spot: &TokenWindow) -> Option<SyntaxFix> {
 }
 
 impl TokenWindow<'_> {
-    /// Whether a quote here would follow a value.
+    /// Returns true if a quote here follows a value.
     fn is_transposable(&self) -> bool {
         self.is_name(-1) || matches!(self.word(-1), "]" | ")")
     }

@@ -1,4 +1,4 @@
-//! The words around the place where the parser gave up.
+//! Tokens around the position of a parse error.
 
 use rhai::{ParseErrorType, Position, Token};
 
@@ -6,34 +6,33 @@ use super::fix::SyntaxFix;
 use crate::script::bindings::catalog::Catalog;
 use crate::script::source::program::Program;
 
-/// So many words are looked at before the place, and as many behind it.
+/// Number of tokens before and after the position.
 const REACH: usize = 40;
 
-/// A token as it is written.
 struct Word {
     text: String,
     token: Token,
     at: Position,
-    /// Whether it follows the word before it without a blank.
+    /// True if no blank precedes the token.
     is_joined: bool,
 }
 
-/// The words around the place where the parser stopped, and which of them it stopped at.
+/// Tokens around the position of a parse error.
 pub struct TokenWindow<'s> {
-    /// The names that the language has.
+    /// Names of the language.
     pub catalog: &'s Catalog,
-    /// The parser's reason to give up.
+    /// Error of the parser.
     pub error: &'s ParseErrorType,
     words: Vec<Word>,
     here: usize,
     first: usize,
     place: Position,
-    /// What stands between the place and the word before it, comments too.
+    /// Text between the position and the token before it, including comments.
     gap: String,
 }
 
 impl<'s> TokenWindow<'s> {
-    /// The words of `program` around `place`.
+    /// Tokens of `program` around `place`.
     pub fn of(
         program: &Program,
         catalog: &'s Catalog,
@@ -62,7 +61,7 @@ impl<'s> TokenWindow<'s> {
         }
         let here = found - start;
         let gap = here.checked_sub(1).and_then(|last| {
-            // Places within texts that are not closed may go back.
+            // Positions inside unclosed strings may not increase.
             program.text.get(ends[last]..ends[last + 1])
         });
         let gap = gap.unwrap_or_default().to_owned();
@@ -70,47 +69,47 @@ impl<'s> TokenWindow<'s> {
         Self { catalog, error, words, here, first, place, gap }
     }
 
-    /// The word that stands `from_here` places behind the one that the parser stopped at, or before it; empty where there is none.
+    /// Token at this offset from the position of the error; empty if there is none.
     pub fn word(&self, from_here: isize) -> &str {
         self.find(from_here).map_or("", |word| word.text.as_str())
     }
 
-    /// The word that stands `index` places behind the one that the statement begins with.
+    /// Token at this offset from the beginning of the statement.
     pub fn in_statement(&self, index: usize) -> &str {
         self.words.get(self.first + index).map_or("", |word| word.text.as_str())
     }
 
-    /// The number of words of the statement that stand before the place.
+    /// Number of tokens of the statement before the error.
     pub fn count(&self) -> usize {
         self.here - self.first
     }
 
-    /// Whether the word that stands `from_here` places behind the parser's follows the one before it without a blank.
+    /// Returns true if no blank precedes the token at this offset.
     pub fn is_joined(&self, from_here: isize) -> bool {
         self.find(from_here).is_some_and(|word| word.is_joined)
     }
 
-    /// Whether the word that stands `from_here` places behind the parser's is a name.
+    /// Returns true if the token at this offset is a name.
     pub fn is_name(&self, from_here: isize) -> bool {
         matches!(self.find(from_here).map(|word| &word.token), Some(Token::Identifier(_)))
     }
 
-    /// Whether the word that stands `from_here` places behind the parser's is a number.
+    /// Returns true if the token at this offset is a number.
     pub fn is_number(&self, from_here: isize) -> bool {
         self.word(from_here).starts_with(|letter: char| letter.is_ascii_digit())
     }
 
-    /// Whether the word that stands `from_here` places behind the parser's is a number, a text, or a name: the beginning of a value.
+    /// Returns true if the token at this offset begins a value: a number, text or name.
     pub fn is_value(&self, from_here: isize) -> bool {
         self.is_name(from_here) || self.is_number(from_here) || self.is_text(from_here)
     }
 
-    /// Whether the word that stands `from_here` places behind the parser's is a text.
+    /// Returns true if the token at this offset is a text.
     pub fn is_text(&self, from_here: isize) -> bool {
         self.word(from_here).starts_with(['"', '`', '\''])
     }
 
-    /// The place and the text of the first word of the statement, up to two words behind the parser's place, that is one of these.
+    /// Offset and text of the first token of the statement, up to two tokens after the error, that is one of these.
     pub fn find_word(&self, sought: &[&str]) -> Option<(isize, &str)> {
         let last = (self.here + 3).min(self.words.len());
         let mut words = self.words.get(self.first..last)?.iter().enumerate();
@@ -118,7 +117,7 @@ impl<'s> TokenWindow<'s> {
         Some(((self.first + index) as isize - self.here as isize, word.text.as_str()))
     }
 
-    /// The words of the statement from one place to before another, as they are written.
+    /// Source text of the tokens from one offset up to another.
     pub fn piece(&self, from: isize, to: isize) -> String {
         let mut piece = String::new();
         for index in from..to {
@@ -129,17 +128,17 @@ impl<'s> TokenWindow<'s> {
         piece
     }
 
-    /// Whether a comment stands behind the word before the place.
+    /// Returns true if a comment precedes the position.
     pub fn has_comment_before(&self) -> bool {
         self.gap.contains("//")
     }
 
-    /// The place of the first word of the statement, from the one that the parser stopped at.
+    /// Offset of the first token of the statement.
     pub fn first(&self) -> isize {
         self.first as isize - self.here as isize
     }
 
-    /// What the parser missed at the place, and what it says about it.
+    /// Missing token reported by the parser, and its explanation.
     pub fn missing(&self) -> (&str, &str) {
         match self.error {
             ParseErrorType::MissingToken(token, why) => (token, why),
@@ -147,12 +146,12 @@ impl<'s> TokenWindow<'s> {
         }
     }
 
-    /// Whether there is no word where the parser stopped.
+    /// Returns true if the source ends at the error.
     pub fn is_at_end(&self) -> bool {
         self.here >= self.words.len()
     }
 
-    /// The cure at the word that stands `from_here` places behind the parser's.
+    /// Explanation at the token at this offset.
     pub fn cure(
         &self,
         from_here: isize,
@@ -168,7 +167,7 @@ impl<'s> TokenWindow<'s> {
     }
 }
 
-/// A token as it is written; `rest` is the source from it to the next one.
+/// Source text of a token; `rest` is the source from it to the next token.
 fn written(token: &Token, rest: &str) -> String {
     match token {
         Token::Identifier(name) => name.to_string(),
@@ -183,7 +182,7 @@ fn written(token: &Token, rest: &str) -> String {
     }
 }
 
-/// The first word of the statement in which `here` stands, as far as it stands in the line of the word before.
+/// First token of the statement at `here`, within the line of the token before.
 fn first_of_statement(words: &[Word], here: usize) -> usize {
     let Some(last) = here.checked_sub(1) else { return here };
     let line = words[last].at.line();

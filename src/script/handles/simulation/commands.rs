@@ -1,23 +1,24 @@
-//! What controllers have told a simulation. They speak to the scene, which other simulations may run too: each recalls its own before it looks or goes on.
+//! Controller outputs of a simulation. The cells of the scene may be shared with other simulations, so each simulation restores its own
+//! values before it is used.
 
 use std::cell::RefCell;
 
-/// What each controller has told to act, and from when on [time]. Changes alone are kept.
+/// Output of each controller over time [time]; only changes are stored.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Commands(RefCell<Vec<Vec<(f64, f64)>>>);
 
 impl Commands {
-    /// Those of so many controllers, which have said nothing.
+    /// Empty record for this many controllers.
     pub(super) fn new(controllers: usize) -> Self {
         Self(RefCell::new(vec![Vec::new(); controllers]))
     }
 
-    /// Takes over those of a simulation that this one is a copy of.
+    /// Copies the record of another simulation.
     pub(super) fn go_on_from(&self, other: &Self) {
         self.0.replace(other.0.borrow().clone());
     }
 
-    /// What a controller told last before a time; nothing acts before it speaks.
+    /// Last output of a controller before a time; zero before the first.
     pub(super) fn before(&self, controller: usize, time: f64) -> f64 {
         let all = self.0.borrow();
         let own = all.get(controller).map_or(&[][..], Vec::as_slice);
@@ -25,7 +26,7 @@ impl Commands {
         spoken.checked_sub(1).map_or(0.0, |last| own[last].1)
     }
 
-    /// Keeps what a controller tells from a time on; what was to act later is no more, where the simulation has gone back.
+    /// Records an output from a time on, and drops later outputs after a rewind.
     pub(super) fn keep(&self, controller: usize, time: f64, command: f64) {
         let mut all = self.0.borrow_mut();
         let Some(own) = all.get_mut(controller) else { return };

@@ -1,4 +1,4 @@
-//! A simulation that stands for a while where it has been: whoever asks it, by whatever name, is answered from there.
+//! Temporary replacement of a simulation by a copy at an earlier state; all handles then refer to the copy.
 
 use std::cell::{Ref, RefCell};
 use std::rc::Rc;
@@ -9,29 +9,27 @@ use crate::script::messages::error::ScriptError;
 use crate::script::state::context::Context;
 use crate::simulation::Simulation;
 
-/// Puts a copy in the place of a simulation, as long as it lives; then all is as it was.
+/// Replaces a simulation by a copy; restored on drop.
 pub struct Revisit {
     handle: SimulationHandle,
-    /// The copy when it is not in the place of the original.
+    /// The original, or the copy when it is not in place.
     original: RefCell<Simulation>,
     events: Events<Rc<StoredFunction>>,
     is_ending_told: bool,
 }
 
 impl Revisit {
-    /// Puts a copy at the present in the place of a simulation.
+    /// Replaces a simulation by a copy at the present time.
     ///
-    /// # Errors
-    /// When the scene cannot be built, which it could before.
+    /// If the scene cannot be built again.
     pub fn at_present(handle: &SimulationHandle) -> Result<Self, ScriptError> {
         let copy = handle.simulation().copy_at_present()?;
         Ok(Self::with(handle, copy))
     }
 
-    /// Puts a copy at the start of the run in the place of a simulation, to make the run again.
+    /// Replaces a simulation by a copy at the start, to repeat the run.
     ///
-    /// # Errors
-    /// When the scene cannot be built, which it could before.
+    /// If the scene cannot be built again.
     pub fn at_start(handle: &SimulationHandle) -> Result<Self, ScriptError> {
         let copy = handle.simulation().copy_at_start()?;
         Ok(Self::with(handle, copy))
@@ -48,28 +46,26 @@ impl Revisit {
         }
     }
 
-    /// The simulation whose place the copy takes.
+    /// The replaced simulation.
     pub fn original(&self) -> Ref<'_, Simulation> {
         self.original.borrow()
     }
 
-    /// The number of steps that led to where the copy stands, and its time.
+    /// Step count and time of the copy.
     pub fn place(&self) -> (usize, f64) {
         (self.handle.simulation().counts().steps, self.handle.time())
     }
 
-    /// Takes the copy back to a state that is kept; gives whether it is.
+    /// Moves the copy to a stored state; returns false if it is not stored.
     ///
-    /// # Errors
-    /// When the scene cannot be built, which it could before.
+    /// If the scene cannot be built again.
     pub fn go_back_to(&self, steps: usize) -> Result<bool, ScriptError> {
         Ok(self.handle.0.simulation.borrow_mut().revisit(&self.original(), steps)?)
     }
 
-    /// Takes the copy on to a row of the original's history; gives whether all is there as it was.
+    /// Advances the copy to a row of the original's history; returns true if everything is equal.
     ///
-    /// # Errors
-    /// When a step fails that did not, or the run is stopped.
+    /// If a step fails that did not fail before, or the run is stopped.
     pub fn run_again(&self, row: usize, context: &Context) -> Result<bool, ScriptError> {
         loop {
             self.handle.command()?;
@@ -87,7 +83,7 @@ impl Revisit {
 impl Drop for Revisit {
     fn drop(&mut self) {
         self.handle.0.simulation.swap(&self.original);
-        // What was looked at may have gone on, and called what waits for the original.
+        // The expression may have advanced the copy and called scheduled functions.
         self.handle.0.events.replace(self.events.clone());
         self.handle.0.is_ending_told.set(self.is_ending_told);
     }

@@ -1,4 +1,4 @@
-//! Columns that functions of a script fill.
+//! Columns filled by script functions.
 
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
@@ -18,18 +18,18 @@ use crate::script::messages::error::ScriptError;
 use crate::script::messages::numbers::{as_number, describe};
 use crate::simulation::{Simulation, StepSize};
 
-/// The functions that fill columns, in the order of the columns.
+/// Script functions of a simulation.
 pub(super) struct ColumnReader {
     functions: Vec<Rc<StoredFunction>>,
-    /// After how many steps they looked last.
+    /// Step count at the last evaluation of the columns.
     looked: Cell<Option<usize>>,
-    /// What loads and drives ask at the start of every step.
+    /// Controllers called at the start of every step.
     controllers: Vec<Rc<Controller>>,
-    /// What controllers with a beat have said, each by the number of the sample. Commands before the present stay as they are when the simulation goes back.
+    /// Outputs of sampled controllers by sample number. Outputs before the present survive a rewind.
     commands: RefCell<Vec<BTreeMap<u64, f64>>>,
-    /// What controllers of any kind had act, and when.
+    /// Outputs of all controllers over time.
     told: Commands,
-    /// What says, before every step, whether something lets go.
+    /// Release conditions, evaluated before every step.
     conditions: Vec<Condition>,
     is_looking: Cell<bool>,
 }
@@ -46,13 +46,13 @@ impl ColumnReader {
         Self { functions, looked, controllers, commands, told, conditions, is_looking }
     }
 
-    /// Takes over what controllers have said in a simulation that this one is a copy of.
+    /// Copies the controller outputs of another simulation.
     pub(super) fn go_on_from(&self, other: &Self) {
         self.commands.replace(other.commands.borrow().clone());
         self.told.go_on_from(&other.told);
     }
 
-    /// The command of a sample, if it was given.
+    /// Output of a controller for a sample, if it was computed.
     fn command_of(&self, controller: usize, sample: u64) -> Option<f64> {
         self.commands.borrow().get(controller)?.get(&sample).copied()
     }
@@ -63,14 +63,14 @@ impl ColumnReader {
         }
     }
 
-    /// Lets act what controllers told this simulation last before a time: another one of the scene may have been told something else since.
+    /// Restores the controller outputs of this simulation before a time, because another simulation may share the cells.
     fn recall(&self, time: f64) {
         for (number, controller) in self.controllers.iter().enumerate() {
             controller.value.set(self.told.before(number, time));
         }
     }
 
-    /// Refuses to move what functions look at.
+    /// Rejects movement of the simulation by a function that may only read it.
     pub(super) fn expect_idle(&self) -> Result<(), ScriptError> {
         match self.is_looking.get() {
             false => Ok(()),
@@ -83,7 +83,7 @@ impl ColumnReader {
 }
 
 impl SimulationHandle {
-    /// Looks at the simulation by way of what may change it for the moment, in the variant that the present call is made for.
+    /// Calls a function that needs temporary write access to the simulation in the current variant.
     pub fn look<T>(&self, look: impl FnOnce(&mut Simulation) -> T) -> T {
         let run = &mut *self.0.simulation.borrow_mut();
         self.0.sensing.recall(run.time());
@@ -95,10 +95,9 @@ impl SimulationHandle {
         look(run)
     }
 
-    /// Lets the functions fill their columns in the last row, unless they have.
+    /// Evaluates the functions of the columns for the last row, unless this was done.
     ///
-    /// # Errors
-    /// Those of the functions; also when one gives no number.
+    /// Errors of the functions; also if one does not return a number.
     pub fn sense(&self) -> Result<(), ScriptError> {
         let ColumnReader { functions, looked, is_looking, .. } = &self.0.sensing;
         let steps = self.simulation().counts().steps;
@@ -122,10 +121,9 @@ impl SimulationHandle {
         Ok(())
     }
 
-    /// Lets go what conditions ask for, before the step that begins.
+    /// Releases elements whose condition is met, before the next step.
     ///
-    /// # Errors
-    /// Those of the functions; also when one gives neither true nor false.
+    /// Errors of the functions; also if one does not return a boolean.
     fn let_go(&self) -> Result<(), ScriptError> {
         let ColumnReader { conditions, is_looking, .. } = &self.0.sensing;
         for Condition { function, release } in conditions {
@@ -149,10 +147,9 @@ impl SimulationHandle {
         Ok(())
     }
 
-    /// Lets go what is to let go, and asks the functions that control loads and drives for their values in the step, or the half step, that begins.
+    /// Evaluates release conditions and controllers for the next step or half step.
     ///
-    /// # Errors
-    /// Those of the functions; also when one gives no finite number.
+    /// Errors of the functions; also if one does not return a finite number.
     pub(super) fn command(&self) -> Result<(), ScriptError> {
         if !self.simulation().is_half_way() {
             self.let_go()?;
@@ -165,12 +162,12 @@ impl SimulationHandle {
             };
             sensing.told.keep(number, time, value);
         }
-        // All together: what one sees of the present is with what the others told before.
+        // All outputs take effect together, so that every controller sees the previous outputs of the others.
         sensing.recall(time.next_up());
         Ok(())
     }
 
-    /// What a controller with a beat has act now: asked if this is the time of a sample, else as it said; zero before its first command acts.
+    /// Output of a sampled controller: computed at the time of a sample, otherwise held; zero before the first output.
     fn command_on_beat(
         &self,
         number: usize,
@@ -189,7 +186,7 @@ impl SimulationHandle {
         }
     }
 
-    /// What a controller says at the present.
+    /// Evaluates a controller at the present time.
     fn ask(&self, controller: &Controller) -> Result<f64, ScriptError> {
         let (function, is_looking) = (&controller.function, &self.0.sensing.is_looking);
         is_looking.set(true);
@@ -208,7 +205,7 @@ impl SimulationHandle {
         })
     }
 
-    /// What a controller is, with the load or the drive that it tells.
+    /// Description of a controller with its load or drive.
     fn role_of(&self, controller: &Controller) -> String {
         let simulation = self.simulation();
         let is_own = |schedule: &Schedule| matches!(schedule, Schedule::Sampled(value) | Schedule::Clocked { value, .. } if Rc::ptr_eq(value, &controller.value));
@@ -224,15 +221,14 @@ impl SimulationHandle {
         matches!(self.simulation().settings().dt, StepSize::Adaptive(_))
     }
 
-    /// Whether functions want to be asked before every step.
+    /// Returns true if functions must be called before every step.
     pub(super) fn is_controlled(&self) -> bool {
         let ColumnReader { controllers, conditions, .. } = &self.0.sensing;
         let waits = |condition: &Condition| self.simulation().waits_for_release(condition.release);
         !controllers.is_empty() || conditions.iter().any(waits)
     }
 
-    /// Runs to a time; where functions fill columns, with a pause after every step that is recorded, and before every step where functions control
-    /// it.
+    /// Runs to a time, pausing for recorded steps if functions fill columns, and before every step if functions control the simulation.
     pub(super) fn run_and_sense(
         &self,
         call: &Call,
@@ -243,13 +239,13 @@ impl SimulationHandle {
         self.go_back_after_error(ran)
     }
 
-    /// Takes a step, with pauses where functions that control it are asked.
+    /// Takes a step, pausing for controllers.
     pub(super) fn step_and_sense(&self, call: &Call) -> Result<(), ScriptError> {
         let stepped = self.step_with_pauses(call);
         self.go_back_after_error(stepped)
     }
 
-    /// After an error or an interrupt the simulation stands at the start of a step and not in its middle.
+    /// Returns the simulation to the start of the step after an error or interruption.
     fn go_back_after_error(&self, ran: Result<(), ScriptError>) -> Result<(), ScriptError> {
         ran.inspect_err(|_| self.0.simulation.borrow_mut().go_back_to_start_of_step())
     }
@@ -258,7 +254,7 @@ impl SimulationHandle {
         let steps = self.simulation().counts().steps;
         loop {
             self.command()?;
-            // How many parts the step needs is not known beforehand: it is always finished.
+            // The number of substeps is not known in advance; the step is always completed.
             let mut watch = ProgressMonitor::new(call.context(), f64::NEG_INFINITY);
             watch.pauses = self.varies_steps() && self.is_controlled();
             let stepped = self.0.simulation.borrow_mut().step(&mut watch);

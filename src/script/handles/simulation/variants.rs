@@ -1,4 +1,4 @@
-//! A simulation in the variant of its parameters that the present call is made for.
+//! Access to a simulation in the current variant of its parameters.
 
 use std::cell::Ref;
 
@@ -7,7 +7,7 @@ use crate::script::bindings::parameter_variants::{ParameterSet, lose, present};
 use crate::script::messages::numbers::format_number;
 use crate::simulation::{DerivativeError, History, PerturbedSide, Simulation};
 
-/// Why there are no derivatives, with where there are some.
+/// Reason for missing derivatives, and a hint if some exist.
 pub(super) fn in_words(reason: &DerivativeError) -> String {
     match reason {
         DerivativeError::Event { time, .. } | DerivativeError::NoStep { time, .. } => {
@@ -19,7 +19,7 @@ pub(super) fn in_words(reason: &DerivativeError) -> String {
 }
 
 impl SimulationHandle {
-    /// The simulation of the handle, to look at it, in the variant that the present call is made for.
+    /// The simulation in the current variant.
     pub fn simulation(&self) -> Ref<'_, Simulation> {
         Ref::map(self.0.simulation.borrow(), |run| {
             let Some((parameter, side)) = Self::present_side(run) else { return run };
@@ -45,12 +45,12 @@ impl SimulationHandle {
         }
     }
 
-    /// The simulation of the handle itself, whichever variant the present call is made for.
+    /// The simulation of variant 0.
     pub fn own(&self) -> Ref<'_, Simulation> {
         self.0.simulation.borrow()
     }
 
-    /// Which run beside a simulation the present call is made for, if for one.
+    /// Side variant of the current call, if it is one.
     pub(super) fn present_side(run: &Simulation) -> Option<(usize, PerturbedSide)> {
         let (parameter, is_plus) = ParameterSet::beside(present()?.variant)?;
         run.parameters().next()?;

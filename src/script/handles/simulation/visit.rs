@@ -1,29 +1,28 @@
-//! States in which a simulation was, one after another: those that are kept, or those of the run made again in a copy.
+//! Iteration over earlier states of a simulation, from snapshots or by repeating the run in a copy.
 
 use super::{Revisit, SimulationHandle};
 use crate::script::messages::error::ScriptError;
 use crate::script::state::context::Context;
 use crate::simulation::Simulation;
 
-/// Takes a state: the number of its time among those asked for, and the simulation as it was.
+/// Callback for a state: index of its time, and the simulation.
 pub type Look<'l> = &'l mut dyn FnMut(usize, &Simulation) -> Result<(), ScriptError>;
 
-/// Whether the states could be had again.
+/// Result of the iteration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Visited {
-    /// All of them.
+    /// All states were reproduced.
     All,
-    /// The run made again was another one, seen first at this time: a function of the script had changed it on its way, or it
-    /// did not begin as its scene does.
+    /// The repeated run differs, first at this time, because a script function changed the simulation during the run or its initial state
+    /// differs from the scene.
     Another(f64),
 }
 
 impl SimulationHandle {
-    /// Shows the states that belong to rows of the history, by their times in rising order. Where one of them is not kept, the run is made
-    /// again in a copy, and energies and momenta are compared bit for bit; then time passes, and steps count.
+    /// Calls `look` with the states of history rows, by increasing times. If a state is not stored, the run is repeated in a copy, and
+    /// energies and momenta are compared bit by bit; this takes time and counts steps.
     ///
-    /// # Errors
-    /// When a step fails that did not, the run is stopped, or looking fails.
+    /// If a step fails that did not fail before, the run is stopped, or `look` fails.
     pub fn visit(
         &self,
         times: &[f64],
@@ -41,7 +40,7 @@ impl SimulationHandle {
         }
     }
 
-    /// From the last to the first, as a copy goes back.
+    /// From last to first, because the copy can only go back.
     fn visit_kept(&self, steps: &[usize], look: Look) -> Result<Visited, ScriptError> {
         let revisit = Revisit::at_present(self)?;
         for (index, steps) in steps.iter().enumerate().rev() {

@@ -1,4 +1,4 @@
-//! Definition files say everything that the tables say, in lines that the language server can read.
+//! Tests: definition files contain everything that the tables contain, in valid syntax.
 
 use super::types::{for_value, identifier};
 use super::{DefinitionFile, definitions};
@@ -45,7 +45,7 @@ fn every_line_is_a_comment_or_a_whole_declaration() {
             assert!(is_declaration(line) && line.ends_with(';'), "{name}: {line}");
             let count = |letter| line.matches(letter).count();
             assert_eq!(count('('), count(')'), "{name}: {line}");
-            // An arrow and a type ? are not known to scripts.
+            // Arrows and the type ? are not part of scripts.
             let line_of_script = Source::from(line.replace("->", "").replace('?', "unknown"));
             for (token, _) in line_of_script.tokens() {
                 assert!(!matches!(token, rhai::Token::LexError(_)), "{name}: {line}: {token}");

@@ -1,4 +1,4 @@
-//! The types of definition files: our words where they can be written as one name.
+//! Type names of definition files.
 
 use std::fmt::Write;
 
@@ -6,7 +6,7 @@ use crate::script::bindings::catalog::Catalog;
 use crate::script::bindings::kind::Kind;
 use crate::script::bindings::returns::ValueKind;
 
-/// Types of every script, by the words that messages use, with what the language server calls them.
+/// Common types: name in messages, name for the language server, description.
 const COMMON: &[(&str, &str, &str)] = &[
     ("whole number", "int", "A number without a fraction, of 64 bits."),
     ("number", "int | float", "A number; whole numbers are welcome."),
@@ -21,7 +21,7 @@ const COMMON: &[(&str, &str, &str)] = &[
     ("point", "vector | Array", "A vector or an array [x, y]."),
 ];
 
-/// The definition file that declares all types of a language.
+/// Definition file of all types.
 pub fn file(catalog: &Catalog) -> String {
     let mut text = String::from("module static;\n");
     for (words, meaning, doc) in COMMON {
@@ -33,12 +33,12 @@ pub fn file(catalog: &Catalog) -> String {
     text
 }
 
-/// The name of a type of ours as one word.
+/// Name of a native type as one word.
 pub fn identifier(words: &str) -> String {
     words.replace(' ', "_")
 }
 
-/// The type, in definition files, for what a parameter may be.
+/// Type of a parameter.
 pub fn for_kind(kind: &Kind) -> String {
     match kind {
         Kind::Number(_) | Kind::Numeric => "number".into(),
@@ -59,12 +59,12 @@ pub fn for_kind(kind: &Kind) -> String {
     }
 }
 
-/// The type, in definition files, for the word before the dot of a function of Rhai.
+/// Type of the receiver of a function of Rhai.
 pub fn for_receiver(word: &str) -> String {
     if word == "value" { "?".into() } else { identifier(word) }
 }
 
-/// The type, in definition files, for what a row gives back.
+/// Type of a return value.
 pub fn for_value(kind: &ValueKind) -> String {
     match (kind, kind.type_name()) {
         (ValueKind::Nothing, _) => "()".into(),

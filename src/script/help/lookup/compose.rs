@@ -1,4 +1,4 @@
-//! Pages of whole subjects, and the overview.
+//! Composition of help pages, and the overview.
 
 use super::find::{HelpSubject, find};
 use super::page::{HelpPage, StyledText};
@@ -14,10 +14,9 @@ use crate::script::diagnose::foreign_names;
 use crate::script::library::{DocBlock, pages};
 use crate::script::messages::numbers::format_number;
 
-/// The page of help on `name`; without a name, an overview.
+/// Help page on `name`, or the overview for an empty name.
 ///
-/// # Errors
-/// Nothing has this name; the error says what may have been meant.
+/// If there is no help on this name; the error contains suggestions.
 pub fn page(catalog: &Catalog, name: &str) -> Result<HelpPage, UnknownTopic> {
     if name.trim().is_empty() {
         return Ok(overview(catalog));
@@ -51,7 +50,7 @@ pub fn page(catalog: &Catalog, name: &str) -> Result<HelpPage, UnknownTopic> {
         separate(&mut page);
         describe_option(&mut page, &options);
     }
-    // The word may have been meant as other programs have it.
+    // The word may also be a name from other programs.
     if let Some(found) = foreign_names::find_exactly(name.trim()) {
         separate(&mut page);
         page.paragraph(&found.told());
@@ -59,7 +58,7 @@ pub fn page(catalog: &Catalog, name: &str) -> Result<HelpPage, UnknownTopic> {
     Ok(page)
 }
 
-/// Room between two things of the same name.
+/// Separator between subjects of the same name.
 fn separate(page: &mut HelpPage) {
     if !page.parts.is_empty() {
         page.gap();
@@ -99,7 +98,6 @@ fn first_sentence(text: &str) -> &str {
     text.split_inclusive(". ").next().unwrap_or(text).trim_end()
 }
 
-/// A name and a line on it.
 fn entry(page: &mut HelpPage, name: &str, summary: &str) {
     page.words(
         2,
@@ -170,7 +168,7 @@ fn describe_built_ins(page: &mut HelpPage, table: &BuiltInTable) {
     }
 }
 
-/// One option, and which functions take it; said once where they say the same.
+/// Describes an option and the functions that accept it; equal descriptions are merged.
 fn describe_option(page: &mut HelpPage, options: &[(&FunctionBinding, &Parameter)]) {
     let mut told: Vec<(&Parameter, Vec<String>)> = Vec::new();
     for (row, key) in options {

@@ -1,4 +1,4 @@
-//! What a name stands for: often several things.
+//! Lookup of help subjects; a name may refer to several.
 
 use std::collections::BTreeSet;
 
@@ -10,35 +10,35 @@ use crate::script::bindings::table::{BindingTable, CallSyntax, Constant, Functio
 use crate::script::bindings::topics::{TOPICS, Topic};
 use crate::script::library::{ModuleFunction, ModulePage, page_of, pages};
 
-/// A subject of help: one thing that a name stands for.
+/// A help subject.
 #[derive(Clone, Copy)]
 pub enum HelpSubject {
-    /// The name stands for a part of the language.
+    /// A topic of the language.
     Topic(&'static Topic),
-    /// The name stands for a function, method, property or operator, of this domain.
+    /// A function, method, property or operator of a domain.
     Row(&'static BindingTable, &'static FunctionBinding),
-    /// The name stands for a function of Rhai.
+    /// A function of Rhai.
     BuiltIn(&'static BuiltIn),
-    /// The name stands for a type of ours.
+    /// A native type.
     Type(Type),
-    /// The name stands for a fixed value.
+    /// A constant.
     Constant(&'static Constant),
-    /// The name stands for a key of the options of this row.
+    /// An option of a function.
     Option(&'static FunctionBinding, &'static Parameter),
-    /// The name stands for a domain.
+    /// A domain.
     Table(&'static BindingTable),
-    /// The name stands for functions of Rhai about one kind of value.
+    /// Functions of Rhai for one kind of value.
     BuiltIns(&'static BuiltInTable),
-    /// The name stands for a module of the standard library.
+    /// A module of the standard library.
     Module(&'static ModulePage),
-    /// The name stands for a function of a module of the standard library.
+    /// A function of the standard library.
     ModuleFunction(&'static ModuleFunction),
 }
 
-/// Everything that `name` stands for, the most likely first; nothing if it is unknown.
+/// All subjects of `name`, the most likely first.
 ///
-/// `simulation.run_to` is the method of that type; when what stands before the dot is no type, such as the variable in
-/// `sim.run_to`, the methods of all types are meant.
+/// `simulation.run_to` is the method of that type. If the prefix is not a type, such as the variable in `sim.run_to`, the methods of all
+/// types are returned.
 pub fn find(catalog: &Catalog, name: &str) -> Vec<HelpSubject> {
     let name = name.trim();
     let name = name.strip_suffix("()").filter(|name| !name.is_empty()).unwrap_or(name);
@@ -46,11 +46,11 @@ pub fn find(catalog: &Catalog, name: &str) -> Vec<HelpSubject> {
     if !found.is_empty() {
         return found;
     }
-    // A module of the standard library by its last name alone.
+    // A library module by its last name only.
     if let Some(page) = page_of(&format!("std/{name}")) {
         return vec![HelpSubject::Module(page)];
     }
-    // One viewer is no function, and viewers are a heading.
+    // `viewer` finds the domain `viewers`.
     let singular = |table: &&'static BindingTable| table.name.strip_suffix('s') == Some(name);
     if let Some(table) = catalog.tables().find(singular) {
         return vec![HelpSubject::Table(table)];
@@ -63,7 +63,7 @@ pub fn find(catalog: &Catalog, name: &str) -> Vec<HelpSubject> {
     if of_owner.is_empty() { members } else { of_owner }
 }
 
-/// All names that have help, for completion and suggestions, in order.
+/// All names with help, sorted, for completion and suggestions.
 pub fn names(catalog: &Catalog) -> BTreeSet<&'static str> {
     let mut names = BTreeSet::new();
     for table in catalog.tables() {
@@ -122,7 +122,7 @@ fn named(catalog: &Catalog, name: &str) -> Vec<HelpSubject> {
         .collect()
 }
 
-/// All option keys that a row knows, those of nested maps included.
+/// All option keys of a function, including those of nested maps.
 fn keys(row: &'static FunctionBinding) -> Vec<&'static Parameter> {
     let mut found = Vec::new();
     row.parameters.iter().for_each(|parameter| collect_keys(&parameter.kind, &mut found));
@@ -146,7 +146,7 @@ fn is_member(subject: HelpSubject) -> bool {
     matches!(subject, HelpSubject::Row(..) | HelpSubject::BuiltIn(_))
 }
 
-/// Whether it can be written after a dot behind a value of the type; functions of ours can, behind any.
+/// Returns true for methods and properties of the type; functions can follow any value.
 fn belongs_to(subject: HelpSubject, owner: &str) -> bool {
     match subject {
         HelpSubject::Row(_, row) => match row.form {

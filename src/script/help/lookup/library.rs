@@ -1,9 +1,9 @@
-//! Pages on modules of the standard library and their functions.
+//! Help pages of the standard library.
 
 use super::page::{HelpPage, StyledText};
 use crate::script::library::{DocBlock, ModuleFunction, ModulePage};
 
-/// Adds the description of a module of the standard library to a page.
+/// Appends the description of a module.
 pub fn module(page: &mut HelpPage, of: &ModulePage) {
     page.heading(format!("The library: {}", of.module.name));
     blocks(page, &of.about);
@@ -16,7 +16,7 @@ pub fn module(page: &mut HelpPage, of: &ModulePage) {
     }
 }
 
-/// Adds the description of a function of a module to a page.
+/// Appends the description of a library function.
 pub fn function(page: &mut HelpPage, of: &ModuleFunction) {
     page.words(0, vec![StyledText::name(of.signature())]);
     blocks(page, &of.text);

@@ -1,4 +1,4 @@
-//! Help: what a name means, as a page that a terminal can show.
+//! Help pages on names, for display in a terminal.
 
 mod compose;
 mod find;

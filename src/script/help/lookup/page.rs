@@ -1,109 +1,109 @@
-//! A page of help as data, and its two drawings: plain, and with the colours of a terminal.
+//! Help pages as data, and their rendering as plain or coloured text.
 
 use crate::output::{columns, columns_of};
 
-/// The number of columns of a page when nothing is known of the terminal.
+/// Default page width in columns.
 pub const WIDTH: usize = 80;
 
-/// No page is drawn narrower, so that there is always room for a word.
+/// Minimum page width.
 const NARROWEST: usize = 24;
 
-/// A page of help.
+/// A help page.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct HelpPage {
-    /// The parts of the page, from top to bottom.
+    /// Parts of the page, from top to bottom.
     pub parts: Vec<HelpSection>,
 }
 
-/// A part of a page of help.
+/// A part of a help page.
 #[derive(Clone, Debug, PartialEq)]
 pub enum HelpSection {
-    /// The part is an empty line.
+    /// An empty line.
     Gap,
-    /// The part is words that are wrapped: the first line begins at `indent`, the others at `hang`.
+    /// Wrapped text: the first line starts at `indent`, the others at `hang`.
     Words {
-        /// The number of blanks before the first line.
+        /// Indentation of the first line.
         indent: usize,
-        /// The number of blanks before further lines.
+        /// Indentation of further lines.
         hang: usize,
-        /// The words of the part, in their styles.
+        /// Text with styles.
         spans: Vec<StyledText>,
     },
-    /// The part is a script; lines that are too long are broken where it does no harm.
+    /// A script; long lines are broken where this is harmless.
     Code(String),
 }
 
-/// Words of one style on a page of help.
+/// Text with one style.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StyledText {
-    /// The style of the words.
+    /// Style.
     pub style: HelpStyle,
-    /// The text of the words.
+    /// Text.
     pub text: String,
 }
 
-/// How words on a page of help are drawn.
+/// Style of text on a help page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HelpStyle {
-    /// Words are drawn as any other.
+    /// Normal.
     Plain,
-    /// Words are drawn as a heading, or a name: bold.
+    /// Heading or name: bold.
     Name,
-    /// Words are drawn as a dimension or a remark: dim.
+    /// Dimension or remark: dim.
     Aside,
 }
 
 impl StyledText {
-    /// Words that are drawn as any other.
+    /// Text in normal style.
     pub fn plain(text: impl Into<String>) -> Self {
         Self { style: HelpStyle::Plain, text: text.into() }
     }
 
-    /// Words that are drawn as a heading or a name.
+    /// Heading or name.
     pub fn name(text: impl Into<String>) -> Self {
         Self { style: HelpStyle::Name, text: text.into() }
     }
 
-    /// Words that are drawn as a dimension or a remark.
+    /// Dimension or remark.
     pub fn aside(text: impl Into<String>) -> Self {
         Self { style: HelpStyle::Aside, text: text.into() }
     }
 }
 
 impl HelpPage {
-    /// Adds an empty line to the page.
+    /// Appends an empty line.
     pub fn gap(&mut self) {
         self.parts.push(HelpSection::Gap);
     }
 
-    /// Adds a line that stands out to the page.
+    /// Appends a heading.
     pub fn heading(&mut self, text: impl Into<String>) {
         self.words(0, vec![StyledText::name(text)]);
     }
 
-    /// Adds words that begin at a column to the page; further lines begin a little to the right.
+    /// Appends wrapped text with a hanging indent.
     pub fn words(&mut self, indent: usize, spans: Vec<StyledText>) {
         self.parts.push(HelpSection::Words { indent, hang: indent + 4, spans });
     }
 
-    /// Adds a paragraph to the page.
+    /// Appends a paragraph.
     pub fn paragraph(&mut self, text: &str) {
-        // Backquotes mark code in Markdown; on a terminal the words stand for themselves.
+        // Backquotes mark code in Markdown; they are dropped for terminals.
         let spans = vec![StyledText::plain(text.replace('`', ""))];
         self.parts.push(HelpSection::Words { indent: 0, hang: 0, spans });
     }
 
-    /// Adds a script to the page.
+    /// Appends a script.
     pub fn code(&mut self, script: impl Into<String>) {
         self.parts.push(HelpSection::Code(script.into()));
     }
 
-    /// The page as text without any colours, no line of which is wider than `width`, but for what cannot be broken.
+    /// Page as plain text, with lines of at most `width` columns where they can be broken.
     pub fn plain(&self, width: usize) -> String {
         self.draw(width, |_, word| word.to_owned())
     }
 
-    /// The page as text with bold names and dim dimensions, for a terminal that understands ANSI codes, no line of which is wider than `width`.
+    /// Page as text with ANSI sequences, with lines of at most `width` columns.
     pub fn ansi(&self, width: usize) -> String {
         self.draw(width, |style, word| match style {
             HelpStyle::Plain => word.to_owned(),
@@ -158,7 +158,7 @@ fn wrap(
     text.push('\n');
 }
 
-/// The words of `spans`, each in its pieces: spans follow each other without a blank unless they hold one.
+/// Splits spans into words; spans join without a blank unless they contain one.
 fn words(spans: &[StyledText]) -> Vec<Vec<StyledText>> {
     let mut words = vec![Vec::new()];
     for span in spans {
@@ -177,8 +177,8 @@ fn words(spans: &[StyledText]) -> Vec<Vec<StyledText>> {
     words
 }
 
-/// A line of a script in pieces of at most `width`: broken after a comma, semicolon, brace, && or || that is followed by
-/// a blank outside of texts, where a new line means nothing. A line with a comment is left as it is.
+/// Breaks a line of a script at `width`, after a comma, semicolon, brace, && or || that is followed by a blank outside strings. A line with
+/// a comment is not broken.
 pub(super) fn broken(line: &str, width: usize) -> Vec<String> {
     let mut pieces = Vec::new();
     let mut rest = line.to_owned();
@@ -192,7 +192,7 @@ pub(super) fn broken(line: &str, width: usize) -> Vec<String> {
     pieces
 }
 
-/// The byte after which to break, at most `width` characters from the beginning.
+/// Byte index of the last possible break within `width` characters.
 fn last_break(line: &str, width: usize) -> Option<usize> {
     let mut quote = None;
     let mut previous = ' ';

@@ -1,4 +1,4 @@
-//! The parts of a page that describe rows: signature, parameters, example.
+//! Help on bindings: signature, parameters, example.
 
 use super::page::{HelpPage, StyledText};
 use crate::script::bindings::built_in::BuiltIn;
@@ -7,7 +7,7 @@ use crate::script::bindings::parameter::{Parameter, Presence};
 use crate::script::bindings::returns::Returns;
 use crate::script::bindings::table::{BindingTable, FunctionBinding};
 
-/// Adds the description of a row of ours to a page.
+/// Appends the description of a binding.
 pub fn row(page: &mut HelpPage, table: &BindingTable, row: &FunctionBinding) {
     page.words(0, signature(&row.signature(), &row.returns));
     page.paragraph(row.summary);
@@ -30,7 +30,7 @@ pub fn row(page: &mut HelpPage, table: &BindingTable, row: &FunctionBinding) {
     see(page, row.see);
 }
 
-/// Adds the description of a function of Rhai to a page.
+/// Appends the description of a function of Rhai.
 pub fn built_in(page: &mut HelpPage, built_in: &BuiltIn) {
     for form in built_in.forms {
         page.words(0, signature(form, &built_in.returns));
@@ -44,7 +44,7 @@ pub fn built_in(page: &mut HelpPage, built_in: &BuiltIn) {
     see(page, built_in.see);
 }
 
-/// Adds a script to copy to a page, after the lines that it needs before it.
+/// Appends an example, after its setup lines.
 pub fn example(page: &mut HelpPage, setup: &str, script: &str) {
     page.gap();
     page.heading("Example");
@@ -54,7 +54,7 @@ pub fn example(page: &mut HelpPage, setup: &str, script: &str) {
     page.code(script);
 }
 
-/// Adds the names under which to read on to a page.
+/// Appends related names.
 pub fn see(page: &mut HelpPage, names: &[&str]) {
     if !names.is_empty() {
         page.gap();
@@ -62,7 +62,7 @@ pub fn see(page: &mut HelpPage, names: &[&str]) {
     }
 }
 
-/// Adds the description of a parameter or a key to a page, and below it the keys of its map of options.
+/// Appends the description of a parameter or key, and of the keys of its option map.
 pub fn parameter(page: &mut HelpPage, parameter: &Parameter, indent: usize) {
     let mut spans = vec![StyledText::name(parameter.name), StyledText::plain(": ")];
     spans.extend(expectation(parameter));
@@ -78,7 +78,7 @@ pub fn parameter(page: &mut HelpPage, parameter: &Parameter, indent: usize) {
     }
 }
 
-/// What may be given, and its dimension.
+/// Allowed values and dimension.
 fn expectation(parameter: &Parameter) -> Vec<StyledText> {
     let kind = StyledText::plain(parameter.kind.to_string());
     match parameter.unit {
@@ -87,7 +87,7 @@ fn expectation(parameter: &Parameter) -> Vec<StyledText> {
     }
 }
 
-/// What holds when a parameter is left out, to be put behind its description.
+/// Description of the default.
 pub fn presence(presence: Presence) -> String {
     match presence {
         Presence::Required => String::new(),
@@ -99,7 +99,7 @@ pub fn presence(presence: Presence) -> String {
     }
 }
 
-/// The maps of options that a kind allows.
+/// Option maps that a kind allows.
 pub fn maps(kind: &Kind) -> Vec<&'static [Parameter]> {
     match kind {
         Kind::Options(keys) => vec![*keys],

@@ -1,4 +1,4 @@
-//! A few pages as they look, and what all pages keep.
+//! Tests of some pages, and of properties of all pages.
 
 use super::page::broken;
 use super::{WIDTH, find, names, page};
@@ -106,7 +106,7 @@ fn every_name_has_a_page_that_fits() {
         assert!(!find(&catalog, name).is_empty(), "{name}");
         for width in [WIDTH, 60] {
             for line in page(&catalog, name).unwrap().plain(width).lines() {
-                // A text within a script cannot be broken.
+                // A string in a script cannot be broken.
                 let is_code = width < WIDTH && line.starts_with("    ");
                 assert!(line.chars().count() <= width || is_code, "{name}: {line}");
             }

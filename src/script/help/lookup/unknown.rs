@@ -1,4 +1,4 @@
-//! A name that nothing is known of: what may have been meant.
+//! Names without help, and suggestions.
 
 use std::fmt;
 
@@ -8,37 +8,37 @@ use crate::script::bindings::topics::TOPICS;
 use crate::script::diagnose::foreign_names::{self, ForeignName};
 use crate::script::messages::suggest::{nearest, related};
 
-/// How many places that mention a word are told.
+/// Maximum number of mentions listed.
 const MOST_MENTIONS: usize = 8;
 
 /// A name without help.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnknownTopic {
-    /// The name that has no help.
+    /// The name.
     pub name: String,
-    /// The nearest name that has help, if one is near.
+    /// Nearest name with help, if one is near.
     pub meant: Option<&'static str>,
-    /// What is written here for a word of other programs, if it is one.
+    /// Entry for a word of other programs.
     pub elsewhere: Option<&'static ForeignName>,
-    /// The names with help of which the word is a part.
+    /// Names with help that contain the word.
     pub related: Vec<&'static str>,
-    /// The names whose help mentions the word.
+    /// Names whose help mentions the word.
     pub mentions: Vec<&'static str>,
 }
 
 impl UnknownTopic {
-    /// Looks for what may have been meant by `name`.
+    /// Collects suggestions for `name`.
     pub fn new(catalog: &Catalog, name: &str) -> Self {
         let known = names(catalog);
         let elsewhere = foreign_names::find(name);
         let related = related(name, known.iter().copied());
-        // A word that is known is not misspelt.
+        // A known word is not misspelt.
         let is_known = elsewhere.is_some() || !related.is_empty();
         let meant = if is_known { None } else { nearest(name, known) };
         Self { name: name.to_owned(), meant, elsewhere, related, mentions: mentions(catalog, name) }
     }
 
-    /// What to do about a name without help, in words.
+    /// Text of the suggestions.
     pub fn hint(&self) -> String {
         let elsewhere = self.elsewhere.map(ForeignName::told);
         let related = (elsewhere.is_none() && !self.related.is_empty())
@@ -55,7 +55,7 @@ impl UnknownTopic {
         }
     }
 
-    /// Whether nothing is known that could have been meant by the name.
+    /// Returns true if there is no suggestion.
     pub fn is_strange(&self) -> bool {
         self.elsewhere.is_none()
             && self.related.is_empty()
@@ -72,7 +72,7 @@ impl fmt::Display for UnknownTopic {
 
 fn mentions(catalog: &Catalog, word: &str) -> Vec<&'static str> {
     let word = word.trim().to_lowercase();
-    // A letter or two would be found nearly everywhere.
+    // Shorter words would be found nearly everywhere.
     if word.chars().count() < 3 {
         return Vec::new();
     }

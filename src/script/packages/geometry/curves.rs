@@ -1,4 +1,4 @@
-//! Planar curves, as the axes of beams are drawn.
+//! Planar curves, used as beam axes.
 
 use std::rc::Rc;
 
@@ -17,7 +17,7 @@ use crate::script::messages::error::ScriptError;
 use crate::script::messages::nouns::with_article;
 use crate::script::presentation::details;
 
-/// The domain of curves of the plane.
+/// Domain of planar curves.
 pub const TABLE: BindingTable = BindingTable {
     name: "curves",
     doc: "Curves of the plane with a parameter ξ: from 0 to 1, or over the domain of the knots. A beam is drawn along a \
@@ -145,7 +145,7 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// Curves as a type of the language; the native value is `Rc<Curve>`.
+/// Type of curves; the native value is `Rc<Curve>`.
 pub const CURVE: Type = Type::of::<Rc<Curve>>();
 
 const A: Parameter = object("a", CURVE);
@@ -188,7 +188,7 @@ fn ends(curve: &Curve) -> Result<[Vec2; 2], GeometryError> {
     Ok([curve.point(start)?, curve.point(end)?])
 }
 
-/// The spline that `curve` is, or a refusal that says which curves are splines.
+/// Spline of a curve, or an error.
 fn of_spline<'a>(curve: &'a Curve, call: &Call) -> Result<&'a SplineCurve, ScriptError> {
     match curve {
         Curve::Spline(spline) => Ok(spline),
@@ -213,7 +213,6 @@ fn b(call: &Call) -> Result<Rc<Curve>, ScriptError> {
     call.get("b")
 }
 
-/// A curve for the script.
 fn shared(curve: Curve) -> Dynamic {
     Dynamic::from(Rc::new(curve))
 }
@@ -238,7 +237,7 @@ fn control_points(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(points.iter().copied().map(vector).collect::<Array>().into())
 }
 
-/// A quantity of the curve at the parameter of the call.
+/// Evaluates a quantity of the curve at the parameter of the call.
 fn at_xi<T>(
     call: &Call,
     quantity: fn(&Curve, f64) -> Result<T, GeometryError>,

@@ -15,7 +15,7 @@ use crate::script::bindings::table::{BindingTable, function, method, operator, p
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::presentation::details;
 
-/// The domain of knots and basis functions.
+/// Domain of knots and basis functions.
 pub const TABLE: BindingTable = BindingTable {
     name: "knots",
     doc: "Knots say where the polynomial pieces of a spline meet, and how smoothly. They are open: the first and the \
@@ -103,7 +103,7 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// Knots as a type of the language; the native value is `Rc<KnotVector>`.
+/// Type of knots; the native value is `Rc<KnotVector>`.
 pub const KNOTS: Type = Type::of::<Rc<KnotVector>>();
 
 const A: Parameter = object("a", KNOTS);
@@ -124,7 +124,7 @@ const KEYS: &[Parameter] = &[
         .optional(),
 ];
 
-/// More knots than this are not printed all.
+/// Longer knot vectors are abbreviated.
 const PRINTED: usize = 16;
 
 impl Scripted for Rc<KnotVector> {
@@ -146,7 +146,6 @@ impl Scripted for Rc<KnotVector> {
     }
 }
 
-/// All knots, or the first and the last ones if they are many.
 fn listed(knots: &[f64]) -> String {
     let texts = |part: &[f64]| part.iter().copied().map(brief).collect::<Vec<_>>().join(", ");
     match knots.len() {
@@ -171,7 +170,6 @@ fn b(call: &Call) -> Result<Rc<KnotVector>, ScriptError> {
     call.get("b")
 }
 
-/// A knot vector as a value of a script.
 pub(super) fn shared(knots: KnotVector) -> Dynamic {
     Dynamic::from(Rc::new(knots))
 }
@@ -185,7 +183,7 @@ fn uniform(call: &mut Call) -> Result<Dynamic, ScriptError> {
         }
         None => (call.count("spans")?, 3, 2),
     };
-    // Spans and degree are in range, so that only the continuity can be refused.
+    // Spans and degree are in range, so only the continuity can be invalid.
     let knots = KnotVector::uniform(spans, degree, continuity)
         .map_err(|error| ScriptError::from(error).at(CallPart::Key("continuity".into())))?;
     Ok(shared(knots))

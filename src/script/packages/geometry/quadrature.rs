@@ -10,7 +10,7 @@ use crate::script::bindings::returns::Returns;
 use crate::script::bindings::table::{BindingTable, function};
 use crate::script::messages::error::ScriptError;
 
-/// The domain of numerical integration.
+/// Domain of numerical integration.
 pub const TABLE: BindingTable = BindingTable {
     name: "quadrature",
     doc: "Points and weights for numerical integration.",

@@ -1,4 +1,4 @@
-//! Pictures of what is inside of beams.
+//! Pictures of section results along beams.
 
 use rhai::{Array, Dynamic};
 
@@ -22,7 +22,7 @@ use crate::script::presentation::along::SectionForceProfile;
 use crate::script::presentation::motion::Visibility;
 use crate::script::presentation::quantities::{BeamQuantity, NAMES};
 
-/// Pictures of what is inside of beams.
+/// Domain of pictures along beams.
 pub const TABLE: BindingTable = BindingTable {
     name: "pictures along beams",
     doc: "What is inside of beams, of a simulation at the present moment or of an equilibrium. Quantities are N (axial force, positive in \
@@ -95,7 +95,7 @@ fn quantity(call: &Call, name: &str) -> Result<&'static BeamQuantity, ScriptErro
     })
 }
 
-/// The quantities that are named, at least one.
+/// Requested quantities, at least one.
 fn quantities(call: &Call) -> Result<Vec<&'static BeamQuantity>, ScriptError> {
     if let Some(names) = call.get_if::<Array>("quantity") {
         if names.is_empty() || names.len() > NAMES.len() {
@@ -135,7 +135,7 @@ fn inside(call: &Call, options: &Options) -> Result<SectionForceProfile, ScriptE
     })
 }
 
-/// The indices of the beams that are asked for, of so many that were there when the scene was started.
+/// Indices of the requested beams, which must have existed when the scene was started.
 fn beams(
     call: &Call,
     options: &Options,

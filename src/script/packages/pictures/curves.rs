@@ -1,4 +1,4 @@
-//! Pictures of a script's own numbers.
+//! Charts of script arrays.
 
 use rhai::{Dynamic, Map};
 
@@ -14,7 +14,7 @@ use crate::script::bindings::parameter::{Parameter, array, options};
 use crate::script::bindings::table::{BindingTable, function};
 use crate::script::messages::error::{CallPart, ScriptError};
 
-/// Pictures of arrays.
+/// Domain of charts of arrays.
 pub const TABLE: BindingTable = BindingTable {
     name: "pictures of arrays",
     doc: "A chart of any numbers: SVG or PNG by the ending of the file name, into the output folder.",
@@ -41,7 +41,7 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// How examples get a beam at rest.
+/// Setup of examples with a beam at rest.
 const RESTING: &str = "let scene = new_scene(\"example\");\n\
     let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 0.1 });\n\
     let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [2, 0]), basis: bspline(4), section: s });";
@@ -51,7 +51,7 @@ const Y: Parameter = array("y").doc("as many numbers, or an array of numbers for
 const OPTIONS: &[Parameter] =
     &[TITLE, X_LABEL, Y_LABEL, X_LOG, Y_LOG, X_LIMITS, Y_LIMITS, MARKERS, LABELS];
 
-/// Most curves of a chart.
+/// Maximum number of curves in a chart.
 const MOST_CURVES: usize = 1000;
 
 fn plot(call: &mut Call) -> Result<Dynamic, ScriptError> {
@@ -84,7 +84,7 @@ fn plot(call: &mut Call) -> Result<Dynamic, ScriptError> {
     write_picture(call, &chart.map_err(|wrong| wrong.in_call(call))?)
 }
 
-/// A chart of curves by their names, which labels replace where they are given.
+/// Chart of named curves; the option `labels` replaces the names.
 fn chart(
     options: &Options,
     chart: LineChart,
@@ -98,10 +98,9 @@ fn chart(
     dressed(options, named.fold(chart, LineChart::series))
 }
 
-/// The chart of curves that the prompt draws over something, with options that were typed there, those of `plot`.
+/// Chart of curves drawn by the prompt over `over`, with options of `plot`.
 ///
-/// # Errors
-/// When an option is unknown or wrong.
+/// If an option is unknown or invalid.
 pub fn typed_chart(
     engine: &rhai::Engine,
     map: &Map,

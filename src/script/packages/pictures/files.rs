@@ -1,4 +1,4 @@
-//! Pictures and tables as files of the output folder.
+//! Writing of pictures and tables to the output folder.
 
 use std::path::Path;
 
@@ -9,10 +9,10 @@ use crate::script::bindings::call::Call;
 use crate::script::bindings::parameter::{Parameter, text};
 use crate::script::messages::error::ScriptError;
 
-/// The name of a file.
+/// Parameter for a file name.
 pub const FILE: Parameter = text("file").doc("its name in the output folder");
 
-/// Writes a picture into the output folder, in the format that the ending of its name asks for; gives nothing to the script.
+/// Writes a picture to the output folder, in the format of its extension. Returns the unit value.
 pub fn write_picture(call: &Call, picture: &dyn Panel) -> Result<Dynamic, ScriptError> {
     let file = call.text("file")?;
     let kind = PictureKind::of(Path::new(file.as_str()))?;
@@ -25,7 +25,7 @@ pub fn write_picture(call: &Call, picture: &dyn Panel) -> Result<Dynamic, Script
     Ok(Dynamic::UNIT)
 }
 
-/// Writes a table into the output folder, if the name of its file ends as it should; gives nothing to the script.
+/// Writes a CSV table to the output folder, after checking the extension. Returns the unit value.
 pub fn write_csv(call: &Call, table: CsvTable) -> Result<Dynamic, ScriptError> {
     let file = call.text("file")?;
     if !file.ends_with(".csv") {

@@ -1,4 +1,4 @@
-//! Columns of histories over time, and how far invariants drift.
+//! Pictures of history columns over time, and of the drift of invariants.
 
 use rhai::Dynamic;
 
@@ -16,9 +16,9 @@ use crate::script::packages::recording::expect_all_rows;
 use crate::script::presentation::plots::{drift_lines, line_chart};
 use crate::simulation::History;
 
-/// What is drawn.
+/// Parameter for the columns.
 pub const COLUMNS: Parameter = array("columns").doc("names of columns of the history");
-/// How.
+/// Options.
 pub const HISTORY_OPTIONS: &[Parameter] = &[
     text("title").doc("the name of the simulation unless given").optional(),
     choice("axes", &["own", "shared"])
@@ -37,7 +37,7 @@ pub const HISTORY_OPTIONS: &[Parameter] = &[
     MARKERS,
 ];
 
-/// A chart for each history, side by side where there are several.
+/// One chart per history, side by side.
 fn write_charts(call: &Call, charts: Vec<LineChart>) -> Result<Dynamic, ScriptError> {
     let mut charts = charts;
     match charts.len() {
@@ -81,7 +81,7 @@ pub fn plot_history(call: &mut Call) -> Result<Dynamic, ScriptError> {
     write_charts(call, charts.into_iter().map(dress).collect::<Result<_, _>>()?)
 }
 
-/// The names of the columns asked for, which all of the histories have.
+/// Requested columns, which all histories must have.
 fn columns(call: &Call, histories: &[HistoryHandle]) -> Result<Vec<String>, ScriptError> {
     let columns = call.array("columns")?;
     for (history, name) in histories.iter().flat_map(|of| columns.iter().map(move |n| (of, n))) {

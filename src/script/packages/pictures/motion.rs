@@ -1,4 +1,4 @@
-//! Pictures of motion: their options, for files and for the prompt.
+//! Pictures of motion, and their options, for files and the prompt.
 
 use rhai::{Dynamic, Map};
 
@@ -16,7 +16,7 @@ use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::packages::recording::expect_near;
 use crate::script::presentation::motion::{MotionOptions, MotionView, Times};
 
-/// The options of a picture of a motion.
+/// Options of a picture of motion.
 pub const MOTION: &[Parameter] = &[
     number("every")
         .positive()
@@ -39,7 +39,7 @@ pub const MOTION: &[Parameter] = &[
     text("title").doc("the name of the simulation unless given").optional(),
 ];
 
-/// Draws a motion, or several side by side.
+/// Draws one motion or several side by side.
 pub fn plot_motion(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let simulations = simulations(call)?;
     let options = call.options_or_defaults("options")?;
@@ -68,10 +68,9 @@ pub fn plot_motion(call: &mut Call) -> Result<Dynamic, ScriptError> {
     }
 }
 
-/// The same picture as text for a terminal, of options that were typed at the prompt; the present alone where they ask for no other time.
+/// Picture as text for a terminal, with options typed at the prompt; only the present configuration unless other times are requested.
 ///
-/// # Errors
-/// When an option is unknown or wrong, or nothing lies between the times.
+/// If an option is unknown or invalid, or the interval is empty.
 pub fn motion_text(
     engine: &rhai::Engine,
     of: &SimulationHandle,

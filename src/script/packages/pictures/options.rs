@@ -1,4 +1,4 @@
-//! Options that charts have in common.
+//! Common options of charts.
 
 use rhai::{Array, Dynamic};
 
@@ -10,43 +10,43 @@ use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::numbers::{as_number, format_number};
 use crate::script::presentation::motion::Visibility;
 
-/// What stands above a chart.
+/// Option for the title.
 pub const TITLE: Parameter = text("title").doc("what stands above it").optional();
-/// What stands along the horizontal axis of a chart.
+/// Option for the label of the horizontal axis.
 pub const X_LABEL: Parameter = text("x_label").doc("of the horizontal axis").optional();
-/// What stands along the vertical axis of a chart.
+/// Option for the label of the vertical axis.
 pub const Y_LABEL: Parameter = text("y_label").doc("of the vertical axis").optional();
-/// Whether the horizontal axis of a chart is logarithmic.
+/// Option for a logarithmic horizontal axis.
 pub const X_LOG: Parameter =
     boolean("x_log").doc("whether the horizontal axis is logarithmic").optional();
-/// Whether the vertical axis of a chart is logarithmic.
+/// Option for a logarithmic vertical axis.
 pub const Y_LOG: Parameter =
     boolean("y_log").doc("whether the vertical axis is logarithmic").optional();
-/// From where to where the horizontal axis of a chart goes.
+/// Option for the limits of the horizontal axis.
 pub const X_LIMITS: Parameter =
     numbers("x_limits").doc("[low, high]: the ends of the horizontal axis").optional();
-/// From where to where the vertical axis of a chart goes.
+/// Option for the limits of the vertical axis.
 pub const Y_LIMITS: Parameter =
     numbers("y_limits").doc("[low, high]: the ends of the vertical axis").optional();
-/// Whether the points of a chart are marked, on their lines or alone.
+/// Option for markers.
 pub const MARKERS: Parameter = choice("markers", &["on_lines", "alone"])
     .doc("a mark at every point, on the lines or without them; none unless given")
     .optional();
-/// The names of the series of a chart.
+/// Option for the names of the curves.
 pub const LABELS: Parameter =
     array("labels").doc("the name of each curve, a text or a number, for the legend").optional();
 
-/// Whether a picture has symbols.
+/// Option for symbols.
 pub const SYMBOLS: Parameter = boolean("symbols")
     .doc(
         "whether supports, joints, sliders, springs and loads are drawn; they are unless given, but for supports, joints and sliders where there are more than 60",
     )
     .optional();
 
-/// Digits of a number that is a label.
+/// Digits of a number used as a label.
 const DIGITS: usize = 6;
 
-/// What is wrong with an option: a call says where it stands, the prompt of which command it is.
+/// Error of an option, independent of whether it comes from a call or a command.
 pub struct OptionError {
     key: String,
     told: String,
@@ -54,18 +54,18 @@ pub struct OptionError {
 }
 
 impl OptionError {
-    /// As an error of a call.
+    /// Converts to an error of a call.
     pub fn in_call(self, call: &Call) -> ScriptError {
         call.error(self.told).hint(self.hint).at(CallPart::Key(self.key))
     }
 
-    /// As an error of a command.
+    /// Converts to an error of a command.
     pub fn in_command(self, command: &str) -> ScriptError {
         ScriptError::new(format!("{command}: {}", self.told)).hint(self.hint)
     }
 }
 
-/// Whether symbols are shown.
+/// Value of the option for symbols.
 pub fn symbols(options: &Options) -> Visibility {
     match options.boolean("symbols") {
         Ok(false) => Visibility::No,
@@ -74,7 +74,7 @@ pub fn symbols(options: &Options) -> Visibility {
     }
 }
 
-/// The ends of axes.
+/// Axis limits from the options.
 pub fn limits(options: &Options) -> Result<AxisLimits, OptionError> {
     let ends = |name: &str| match options.numbers(name).ok().as_deref() {
         None => Ok(None),
@@ -92,7 +92,7 @@ pub fn limits(options: &Options) -> Result<AxisLimits, OptionError> {
     Ok(AxisLimits { x: ends("x_limits")?, y: ends("y_limits")? })
 }
 
-/// The chart with the labels, scales and limits of its options; what is not given stays as it is.
+/// Applies labels, scales and limits of the options to a chart.
 pub fn dressed(options: &Options, mut chart: LineChart) -> Result<LineChart, OptionError> {
     let limits = limits(options)?;
     let is_asked = |name: &str| options.boolean(name).unwrap_or(false);
@@ -120,7 +120,7 @@ pub fn dressed(options: &Options, mut chart: LineChart) -> Result<LineChart, Opt
     Ok(chart.limits(limits))
 }
 
-/// A curve with the marks of its options.
+/// Applies the marker options to a curve.
 pub fn marked(options: &Options, index: usize, series: Series) -> Series {
     match options.text("markers").as_deref() {
         Ok("alone") => series.stroke(Stroke::Unjoined).marker(Marker::of_index(index)),
@@ -129,7 +129,7 @@ pub fn marked(options: &Options, index: usize, series: Series) -> Series {
     }
 }
 
-/// The names of so many curves, where they are given.
+/// Names of the curves from the options.
 pub fn labels(options: &Options, count: usize) -> Result<Option<Vec<String>>, OptionError> {
     let Ok(given) = options.array("labels") else { return Ok(None) };
     let wrong = |told: String, hint| OptionError { key: "labels".to_owned(), told, hint };
@@ -147,7 +147,7 @@ pub fn labels(options: &Options, count: usize) -> Result<Option<Vec<String>>, Op
     labels.map(Some).ok_or_else(|| wrong(told(), "for example labels: [\"first\", \"second\"]"))
 }
 
-/// The argument of a name as curves: an array of numbers is one, an array of such arrays several; what is not finite is a gap.
+/// Curves from an argument: an array of numbers is one curve, an array of arrays several. Values that are not finite are gaps.
 pub fn curves(call: &Call, name: &str, at: usize) -> Result<Vec<Vec<f64>>, ScriptError> {
     let given = call.array(name)?;
     let is_many = !given.is_empty() && given.iter().all(Dynamic::is_array);

@@ -22,7 +22,7 @@ use crate::script::presentation::motion::snapshot;
 use crate::script::presentation::symbols::SceneAt;
 use crate::simulation::Outline;
 
-/// The domain of pictures of equilibria and modes.
+/// Domain of pictures of equilibria and modes.
 pub const TABLE: BindingTable = BindingTable {
     name: "pictures of equilibria and modes",
     doc: "Like pictures of simulations: SVG or PNG by the ending of the file name, tables as CSV, into the output folder.",
@@ -155,7 +155,7 @@ fn plot_modes(call: &mut Call) -> Result<Dynamic, ScriptError> {
     };
     let at_rest = draw(modes.points());
     let size = modes.size() * options.number("amplitude")?;
-    // One line of all beams and bodies, with gaps between them.
+    // One polyline for all beams and bodies, with gaps in between.
     let gap = (f64::NAN, f64::NAN);
     let lines = at_rest.lines.iter().chain(&at_rest.bodies);
     let at_rest: Vec<(f64, f64)> =

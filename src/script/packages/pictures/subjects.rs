@@ -1,4 +1,4 @@
-//! What pictures and files are of: simulations, histories, stations.
+//! Subjects of pictures and files: simulations, histories, stations.
 
 use rhai::{Array, Dynamic};
 
@@ -14,15 +14,15 @@ use crate::script::packages::histories::HISTORY;
 use crate::script::packages::recording::expect_rows_between;
 use crate::script::packages::simulations::SIMULATION;
 
-/// What moves.
+/// Parameter for simulations.
 pub const MOVING: Parameter =
     either("of", &[Kind::Object(SIMULATION), Kind::Array]).doc("a simulation, or an array of them");
-/// What has rows over time.
+/// Parameter for simulations or histories.
 pub const RECORDED: Parameter =
     either("of", &[Kind::Object(SIMULATION), Kind::Object(HISTORY), Kind::Array])
         .doc("a simulation or history, or an array of them");
 
-/// Most simulations in one picture.
+/// Maximum number of simulations in one picture.
 const MOST_SIDE_BY_SIDE: usize = 100;
 
 fn things<T: Scripted>(
@@ -46,12 +46,12 @@ fn things<T: Scripted>(
     })
 }
 
-/// The simulations given.
+/// Simulations of the argument.
 pub fn simulations(call: &Call) -> Result<Vec<SimulationHandle>, ScriptError> {
     things(call, as_simulation)
 }
 
-/// The histories given, none of them empty.
+/// Non-empty histories of the argument.
 pub fn histories(call: &Call) -> Result<Vec<HistoryHandle>, ScriptError> {
     let histories = things(call, as_history)?;
     match histories.iter().find(|of| of.read(|rows| rows.samples().is_empty())) {
@@ -60,7 +60,7 @@ pub fn histories(call: &Call) -> Result<Vec<HistoryHandle>, ScriptError> {
     }
 }
 
-/// The histories given, with rows between their ends.
+/// Histories of the argument with rows between the ends of runs.
 pub fn histories_over_time(call: &Call) -> Result<Vec<HistoryHandle>, ScriptError> {
     let histories = histories(call)?;
     histories.iter().try_for_each(|history| expect_rows_between(call, &history.of))?;
@@ -76,12 +76,12 @@ fn as_history(value: &Dynamic) -> Option<HistoryHandle> {
     value.clone().try_cast::<HistoryHandle>().or_else(|| as_simulation(value).map(whole))
 }
 
-/// A point in plain numbers, as it is drawn.
+/// Point as a pair.
 pub fn plain(point: &Vec2) -> (f64, f64) {
     (point.x, point.y)
 }
 
-/// The stations in an array that stands at a place of the call.
+/// Stations in an array; `at` is its position in the call.
 pub fn stations(
     call: &Call,
     array: &Array,

@@ -1,4 +1,4 @@
-//! Histories and configurations as tables.
+//! Histories and configurations as CSV tables.
 
 use rhai::Dynamic;
 

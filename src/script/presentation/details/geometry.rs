@@ -1,4 +1,4 @@
-//! Details of curves, knots, meshes and vectors.
+//! Summaries of curves, knots, meshes and vectors.
 
 use super::entries::{line, number, numbers, pair};
 use crate::beams::{Mesh, PointCounts};
@@ -6,14 +6,14 @@ use crate::elementary::atan2;
 use crate::geometry::{Basis, Curve, KnotVector, Vec2};
 use crate::script::bindings::kind::Details;
 
-/// The details of a vector: length and angle.
+/// Summary of a vector: length and angle.
 pub fn of_vector(vector: &Vec2) -> Details {
     let angle = atan2(vector.y, vector.x);
     let angle = format!("{} rad = {}°", number(angle), number(angle.to_degrees()));
     vec![line("norm", number(vector.norm())), line("angle", angle)]
 }
 
-/// The details of a curve: where it begins and ends, and how it bends there.
+/// Summary of a curve: ends and curvature.
 pub fn of_curve(curve: &Curve) -> Details {
     let (start, end) = curve.domain();
     let ends = |of: &dyn Fn(f64) -> Option<String>| Some(format!("{} … {}", of(start)?, of(end)?));
@@ -33,7 +33,7 @@ pub fn of_curve(curve: &Curve) -> Details {
     lines.into_iter().chain([points]).flatten().collect()
 }
 
-/// The details of a knot vector: the functions that it has, and where they meet.
+/// Summary of a knot vector: basis functions and continuity.
 pub fn of_knots(knots: &KnotVector) -> Details {
     let (start, end) = knots.domain();
     let inner = Basis::BSpline(knots.clone()).continuity();
@@ -48,7 +48,7 @@ pub fn of_knots(knots: &KnotVector) -> Details {
     ]
 }
 
-/// The details of a mesh: its functions and its quadrature points.
+/// Summary of a mesh: basis functions and quadrature points.
 pub fn of_mesh(mesh: &Mesh) -> Details {
     let PointCounts { force, moment, inertia } = mesh.point_counts();
     vec![

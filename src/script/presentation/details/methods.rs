@@ -1,4 +1,4 @@
-//! Details of integrators, sliding rules, schedules and errors.
+//! Summaries of integrators, sliding rules, schedules and errors.
 
 use super::entries::{line, number, numbers};
 use crate::integrators::{EnergyClaim, Method};
@@ -8,7 +8,7 @@ use crate::script::bindings::kind::Details;
 use crate::script::messages::error::{CallPart, Failure};
 use crate::simulation::StepControl;
 
-/// The details of an integrator: order, what it keeps, its parameter, and its source.
+/// Summary of an integrator: order, conserved quantities, parameter, and source.
 pub fn of_integrator(method: &Method) -> Details {
     let entry = method.entry();
     let claims = entry.claims;
@@ -28,7 +28,7 @@ pub fn of_integrator(method: &Method) -> Details {
         .collect()
 }
 
-/// The details of steps of varying size: tolerance and bounds, given or not.
+/// Summary of a step control: tolerance and bounds.
 pub fn of_step_control(control: &StepControl) -> Details {
     let bound = |value: Option<f64>, otherwise: &str| value.map_or(otherwise.to_owned(), number);
     vec![
@@ -41,7 +41,7 @@ pub fn of_step_control(control: &StepControl) -> Details {
     ]
 }
 
-/// The details of a law of sliding: what it keeps, and its source.
+/// Summary of a sliding rule: conserved quantities and source.
 pub fn of_rule(rule: &SlidingRule) -> Details {
     let entry = rule.entry();
     let kept = [
@@ -59,7 +59,7 @@ fn kept_of<const N: usize>(claims: [(bool, &str); N]) -> String {
     kept.join(", ")
 }
 
-/// The details of a schedule: values and jumps; functions of scripts are not called for this.
+/// Summary of a schedule: values and jumps. Script functions are not called.
 pub fn of_schedule(schedule: &Schedule) -> Details {
     let mut breaks = schedule.breaks();
     breaks.sort_by(f64::total_cmp);
@@ -76,7 +76,7 @@ pub fn of_schedule(schedule: &Schedule) -> Details {
     lines.into_iter().flatten().collect()
 }
 
-/// The details of an error that a script has caught: what to do about it, and what it is about.
+/// Summary of a caught error: hint and position.
 pub fn of_failure(failure: &Failure) -> Details {
     let place = match &failure.place {
         CallPart::Call => None,

@@ -1,4 +1,4 @@
-//! What a person wants to know about a value at a glance, as labels and values.
+//! Summaries of values for display, as labels and values.
 
 mod entries;
 mod geometry;

@@ -1,4 +1,4 @@
-//! Details of scenes and what stands in them.
+//! Summaries of scenes and their objects.
 
 use super::entries::{line, listed, number, pair};
 use crate::beams::{BodyIndex, Section, Station};
@@ -7,7 +7,7 @@ use crate::joints::{EndAction, Slider, StartVelocities, TrackBeam, TrackDirectio
 use crate::script::bindings::kind::Details;
 use crate::system::{BeamDefinition, Scene};
 
-/// The details of a scene: what stands in it; nothing is said of what is not there.
+/// Summary of a scene: its objects; empty kinds are left out.
 pub fn of_scene(scene: &Scene) -> Details {
     let beam = |beam: &BeamDefinition| format!("{} ({})", beam.name, number(beam.axis.length()));
     let loads: Vec<String> = scene.loads().map(|load| load.name.clone()).collect();
@@ -42,7 +42,7 @@ pub fn of_scene(scene: &Scene) -> Details {
     details
 }
 
-/// The details of a beam: where it lies, what it is made of, and how it is held.
+/// Summary of a beam: geometry, section, and supports.
 pub fn of_beam(scene: &Scene, index: usize) -> Details {
     let beam = &scene.beams[index];
     let BeamDefinition { axis, mesh, section, motion, .. } = beam;
@@ -66,7 +66,7 @@ pub fn of_beam(scene: &Scene, index: usize) -> Details {
     lines.into_iter().flatten().collect()
 }
 
-/// The details of a rigid body: where it is as drawn, its inertia, and its points in its own frame.
+/// Summary of a rigid body: undeformed position, inertia, and points in the body frame.
 pub fn of_rigid_body(scene: &Scene, index: usize) -> Details {
     let body = &scene.rigid_bodies[index];
     let centre = Station::on_rigid_body(index, 0);
@@ -86,7 +86,7 @@ pub fn of_rigid_body(scene: &Scene, index: usize) -> Details {
     lines.into_iter().flatten().collect()
 }
 
-/// The details of a station: where it is as drawn.
+/// Summary of a station: undeformed position.
 pub fn of_station(scene: &Scene, station: &Station) -> Details {
     let along = match station.body {
         BodyIndex::Beam(beam) => {
@@ -101,7 +101,7 @@ pub fn of_station(scene: &Scene, station: &Station) -> Details {
     along.into_iter().chain(at).collect()
 }
 
-/// The details of a section: stiffness and inertia with their dimensions, and the speeds that follow, with the longest time that a step may skip.
+/// Summary of a section: stiffness and inertia with dimensions, wave speeds, and the time scale that limits the step.
 pub fn of_section(section: &Section) -> Details {
     let properties = [
         ("EA [force]", section.axial_stiffness),
@@ -117,7 +117,7 @@ pub fn of_section(section: &Section) -> Details {
     properties.into_iter().map(|(label, value)| line(label, number(value))).chain(speeds).collect()
 }
 
-/// What a slider slides on, in words, and where on that it starts, as a part of the length of it.
+/// Description of the beam or track of a slider, and its start as a fraction of the length.
 pub fn guide_of(scene: &Scene, slider: &Slider) -> (String, f64) {
     let Slider { master, arc_length, track, .. } = *slider;
     match track {
@@ -133,7 +133,7 @@ pub fn guide_of(scene: &Scene, slider: &Slider) -> (String, f64) {
     }
 }
 
-/// The details of a track: along what it leads.
+/// Summary of a track: its beams.
 pub fn of_track(scene: &Scene, index: usize) -> Details {
     let track = &scene.tracks[index];
     let leg = |leg: &TrackBeam| {
@@ -154,7 +154,7 @@ pub fn of_track(scene: &Scene, index: usize) -> Details {
     ]
 }
 
-/// The details of a slider: what slides on what, and how.
+/// Summary of a slider: bodies, rule and end behaviour.
 pub fn of_slider(scene: &Scene, index: usize) -> Details {
     let slider = &scene.sliders[index];
     let guide = guide_of(scene, slider);

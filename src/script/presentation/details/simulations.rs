@@ -1,14 +1,14 @@
-//! Details of simulations and histories.
+//! Summaries of simulations and histories.
 
 use super::entries::{line, listed, number, pair};
 use crate::output::{scientific, significant};
 use crate::script::bindings::kind::Details;
 use crate::simulation::{History, Invariant, Simulation, StepSize};
 
-/// Most sliders that are told of one by one.
+/// Maximum number of sliders listed one by one.
 const SLIDERS: usize = 2;
 
-/// The details of a simulation: where it is, the work so far, what is kept.
+/// Summary of a simulation: state, statistics, and stored data.
 pub fn of_simulation(simulation: &Simulation) -> Details {
     let (counts, settings) = (simulation.counts(), simulation.settings());
     let row = simulation.history().samples().last().map(|row| row.measures).unwrap_or_default();
@@ -72,7 +72,7 @@ fn sliders(simulation: &Simulation) -> Details {
     lines
 }
 
-/// The details of a history: its rows and its columns, by their dimension.
+/// Summary of a history: rows, and columns by dimension.
 pub fn of_history(history: &History) -> Details {
     let samples = history.samples();
     let ends = samples.first().zip(samples.last()).map(|(a, b)| (a.measures, b.measures));

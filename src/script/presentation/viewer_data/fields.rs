@@ -1,4 +1,4 @@
-//! What beams can be coloured by in a viewer: quantities that recorded configurations tell, and those for which the states themselves are needed.
+//! Quantities that colour beams in the viewer: from recorded configurations, or from full states.
 
 use super::FrameSelection;
 use crate::geometry::Vec2;
@@ -9,18 +9,18 @@ use crate::system::{BeamPlaces, SystemError};
 
 /// A quantity along beams.
 struct FieldKind {
-    /// Its name in scripts.
+    /// Name in scripts.
     name: &'static str,
     source: FieldSource,
 }
 
-/// What tells a quantity.
+/// Data that a quantity is computed from.
 enum FieldSource {
-    /// The configurations before and after a frame: how fast the axis moves [length/time].
+    /// Configurations before and after a frame: speed of the axis [length/time].
     Neighbours,
-    /// The configuration of a frame: a quantity of the axis, and its dimension.
+    /// Configuration of a frame: a function of the axis, and its dimension.
     Axis(fn(&AxisStation, &[Vec2]) -> f64, &'static str),
-    /// The state at a frame: the quantity of that name along beams.
+    /// State at a frame: the quantity of this name along beams.
     State,
 }
 
@@ -28,8 +28,7 @@ const fn kind(name: &'static str, source: FieldSource) -> FieldKind {
     FieldKind { name, source }
 }
 
-/// All of them, in the order of [`FIELDS`]. Stretch: how much longer the axis is than as drawn [-]. Curvature: how much more it bends than
-/// as drawn [1/length].
+/// All fields, in the order of [`FIELDS`]. Stretch: relative elongation of the axis [-]. Curvature: change since undeformed [1/length].
 const KINDS: [FieldKind; 7] = [
     kind("speed", FieldSource::Neighbours),
     kind("M", FieldSource::State),
@@ -40,22 +39,21 @@ const KINDS: [FieldKind; 7] = [
     kind("curvature", FieldSource::Axis(AxisStation::curvature, "1/length")),
 ];
 
-/// The names of what beams can be coloured by.
+/// Names of the fields.
 pub const FIELDS: [&str; 7] = ["speed", "M", "strain_energy", "N", "Q", "stretch", "curvature"];
 
-/// What the states of a simulation tell of its beams, taken frame by frame.
+/// Fields computed from the states of a simulation, frame by frame.
 pub struct FieldReader {
-    /// At the stations of the films of the simulation.
+    /// Stations of the beams.
     beams: Vec<BeamPlaces>,
-    /// Each with its values: frame by frame, one beam after another.
+    /// Values by quantity and frame, beam after beam.
     taken: Vec<(&'static BeamQuantity, Vec<Vec<f64>>)>,
 }
 
 impl FieldReader {
-    /// For so many frames of a simulation, of fields by their names; none where the states need not be asked for any of them.
+    /// Creates storage for this many frames of the named fields; `None` if no field needs states.
     ///
-    /// # Errors
-    /// When an axis has a point without a tangent.
+    /// If an axis has a point without a tangent.
     pub fn of(
         simulation: &Simulation,
         frames: usize,
@@ -79,7 +77,7 @@ impl FieldReader {
         Ok(Some(Self { beams: meshes.map(places).collect::<Result<_, SystemError>>()?, taken }))
     }
 
-    /// Takes the values of a frame from the state that belongs to it.
+    /// Stores the values of a frame from its state.
     pub fn take(&mut self, frame: usize, state: &Simulation) {
         for places in &self.beams {
             let samples = state.sample_along(places);
@@ -89,7 +87,7 @@ impl FieldReader {
         }
     }
 
-    /// The fields of a film.
+    /// The fields of the viewer data.
     pub fn fields(self) -> Vec<ColourField> {
         let field = |(quantity, values): (&BeamQuantity, _)| ColourField {
             name: quantity.words.to_owned(),
@@ -100,7 +98,7 @@ impl FieldReader {
     }
 }
 
-/// The fields of these names, in the order of [`FIELDS`]; those of states have been taken.
+/// Fields with these names, in the order of [`FIELDS`]; those computed from states are given as `inside`.
 pub(super) fn fields(
     simulation: &Simulation,
     shown: &FrameSelection,
@@ -123,7 +121,7 @@ pub(super) fn fields(
     Ok(KINDS.iter().filter(|kind| names.contains(&kind.name)).filter_map(field).collect())
 }
 
-/// A quantity of the axes at all stations, frame by frame.
+/// Values of a quantity at all stations, by frame.
 fn along_axes(
     shown: &FrameSelection,
     stations: &[Vec<AxisStation>],
@@ -137,7 +135,7 @@ fn along_axes(
     shown.frames.iter().map(of_frame).collect()
 }
 
-/// How fast stations move in a configuration, from those recorded before and after it.
+/// Speed of the stations in a configuration, from the recorded neighbours.
 fn speeds(simulation: &Simulation, stations: &[Vec<AxisStation>], index: usize) -> Vec<f64> {
     let times = simulation.trajectory().times();
     let (before, after) = (index.saturating_sub(1), (index + 1).min(times.len() - 1));

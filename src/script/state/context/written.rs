@@ -1,4 +1,4 @@
-//! What a run reads and writes: counted against its limits, and told where something else stood there.
+//! Reading and writing of files, counted against the limits of the run.
 
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -9,10 +9,10 @@ use crate::script::state::files::WrittenFile;
 use crate::script::state::limits::Meter;
 use crate::script::state::settings::RunMode;
 
-/// A file that is read takes a few times its length: the bytes, and what is made of them.
+/// Memory per byte of a file: the content and its parsed form.
 const TIMES_ITS_LENGTH: u64 = 4;
 
-/// A file in which what is written is counted, as long as the run may write.
+/// A file whose written bytes are counted while the limit permits.
 struct CountedFile<'c> {
     file: &'c mut dyn Write,
     meter: &'c Meter,
@@ -32,19 +32,21 @@ impl Write for CountedFile<'_> {
 }
 
 impl Context {
-    /// Writes a file of the output folder. What stood there and was not written by this program is kept, and that is told.
+    /// Writes a file in the output folder. An existing file that was not written by this program is kept under another
+    /// name, and the user is told.
     ///
     /// # Errors
-    /// When it cannot be written, or the run may write no more.
+    /// If it cannot be written, or a limit of the run is exceeded.
     pub fn write_file(&self, name: &str, content: &[u8]) -> Result<PathBuf, ScriptError> {
         self.account_for(content)?;
         self.output().write(name, content).map(|written| self.tell_kept(written))
     }
 
-    /// Writes a file of the output folder piece by piece, and counts what was written. What stood there is kept as for other files.
+    /// Writes a file in the output folder piece by piece and counts the bytes. An existing file is kept as in
+    /// [`Self::write_file`].
     ///
     /// # Errors
-    /// When it cannot be written, or the run may write no more.
+    /// If it cannot be written, or a limit of the run is exceeded.
     pub fn write_file_by(
         &self,
         name: &str,
@@ -58,19 +60,20 @@ impl Context {
         Ok(self.tell_kept(written))
     }
 
-    /// Writes a file that the script may [read](Self::read_file) again, which a dry build then can too. What stood there is kept as for other files.
+    /// Writes a file that the script may [read](Self::read_file) again, also in a dry build. An existing file is kept
+    /// as in [`Self::write_file`].
     ///
     /// # Errors
-    /// When it cannot be written, or the run may write no more.
+    /// If it cannot be written, or a limit of the run is exceeded.
     pub fn write_to_read(&self, name: &str, content: Vec<u8>) -> Result<PathBuf, ScriptError> {
         self.account_for(&content)?;
         self.output().write_to_read(name, content).map(|written| self.tell_kept(written))
     }
 
-    /// Reads a file of the output folder or of the script's own folder, as far as there is memory for it.
+    /// Reads a file of the output folder or of the script's folder, up to the memory limit.
     ///
     /// # Errors
-    /// When there is none, or it is no ordinary file of such a length.
+    /// If there is none, or it is too long or no regular file.
     pub fn read_file(&self, name: &str) -> Result<Vec<u8>, ScriptError> {
         let room = self.meter().limits().memory.map(|bytes| bytes / TIMES_ITS_LENGTH);
         self.output().read(name, room)
@@ -97,7 +100,7 @@ impl Context {
         written.path
     }
 
-    /// What would be lost is little, and is written even where the run may write no more.
+    /// Rescue files are small and are written even beyond the limits.
     pub(super) fn write_remains(&self, name: &str, content: &[u8]) -> Result<PathBuf, ScriptError> {
         self.output().write(name, content).map(|written| self.tell_kept(written))
     }

@@ -1,4 +1,4 @@
-//! A function of a study, called in the engine of a worker.
+//! Call of a study function in a worker.
 
 use rhai::{Dynamic, EvalAltResult, FnPtr, Map};
 
@@ -7,28 +7,28 @@ use crate::script::engine::workers::Worker;
 use crate::script::messages::brief::brief;
 use crate::script::messages::error::Failure;
 
-/// The most characters of a reason.
+/// Maximum length of a reason in characters.
 const LONGEST_REASON: usize = 300;
 
-/// What came of a call.
+/// Result of a call.
 pub enum CallOutcome {
-    /// The function gave this.
+    /// Return value.
     Given(Dynamic),
-    /// The function threw something, took too long, or a check of it failed: the reason.
+    /// The function threw, took too long, or a check failed; with the reason.
     Failed(String),
-    /// The script itself is wrong, as it seems: the reason.
+    /// The script seems to be wrong; with the reason.
     Wrong(String),
 }
 
-/// What was made of a call, with the steps that its simulations took.
+/// Processed result of a call, with the steps of its simulations.
 pub struct CallWork<R> {
-    /// What was made of it.
+    /// Processed result.
     pub result: R,
-    /// Steps of simulations and failed tries.
+    /// Simulation steps, including failed ones.
     pub steps: u64,
 }
 
-/// Calls the function with values by their names, in the engine of a worker, and makes something of what it gives. `wall` tells how long it may take, in words.
+/// Calls the function in a worker with named values and processes its result. `wall` is the time limit as text.
 pub fn call<R>(
     worker: &Worker,
     function: &RunFunction,
@@ -51,7 +51,7 @@ pub fn call<R>(
         (_, called) => called,
     };
     let result = read(called);
-    // What a run leaves behind would fill the memory.
+    // Frees the simulations of the call.
     context.forget_simulations();
     CallWork { result, steps: context.meter().steps() - before }
 }
@@ -78,7 +78,7 @@ fn called(
     }
 }
 
-/// What a script has thrown, or a function of ours has refused, in words; none for other errors.
+/// Message of a thrown value or a native error; `None` for other errors.
 pub fn thrown(error: &EvalAltResult) -> Option<String> {
     match error {
         EvalAltResult::ErrorInFunctionCall(_, _, inner, _) => thrown(inner),
@@ -90,7 +90,7 @@ pub fn thrown(error: &EvalAltResult) -> Option<String> {
     }
 }
 
-/// A reason in one line of a length that a table has room for.
+/// A reason in one line that fits into a table.
 pub fn shortened(reason: &str) -> String {
     let line = brief(reason.replace(['\n', '\r'], " "));
     match line.char_indices().nth(LONGEST_REASON) {

@@ -1,4 +1,4 @@
-//! A function of parameters, asked at several points at once: by workers where there is a whole script for them, else on this thread.
+//! Evaluation of a function of parameters at several points, by worker threads if there is a complete script, otherwise on this thread.
 
 use std::time::Duration;
 
@@ -13,52 +13,51 @@ use crate::script::engine::workers::{EngineConfig, WorkerEvent, WorkerPool, with
 use crate::script::messages::error::ScriptError;
 use crate::script::messages::numbers::as_number;
 
-/// Why a function of a study writes no files.
+/// Message for study functions that try to write files.
 const NO_FILES: &str = "a run of a study writes no files: give what is to be kept as its result";
 
-/// What a function gave at a point.
+/// Result of the function at a point.
 pub enum FunctionResult {
-    /// It gave numbers.
+    /// Numbers.
     Numbers(Vec<f64>),
-    /// It failed: the reason.
+    /// Failure, with the reason.
     Failed(String),
-    /// The script itself is wrong, as it seems: the reason.
+    /// The script seems to be wrong; with the reason.
     Wrong(String),
 }
 
-/// How what a function gives is read.
+/// Converts the return value of the function.
 pub type Read = fn(&Dynamic) -> FunctionResult;
 
 /// A function of parameters.
 pub struct FunctionQuery<'q> {
-    /// The key of the option under which the function is given.
+    /// Option key of the function.
     pub key: &'static str,
-    /// The names of its parameters.
+    /// Names of the parameters.
     pub names: &'q [String],
-    /// The function.
+    /// Function.
     pub function: &'q RunFunction,
-    /// How what it gives is read.
+    /// Conversion of the return value.
     pub read: Read,
-    /// The longest that a call may take by the clock.
+    /// Wall-clock limit of a call.
     pub wall: Duration,
 }
 
-/// What is asked of a function.
+/// Request to evaluate the function.
 #[derive(Clone)]
 enum QueryPoint {
-    /// What it gives at a point.
+    /// Values at a point.
     Value(Vec<f64>),
-    /// The derivatives of what it gives at a point; with each parameter the distance that is small for it.
+    /// Derivatives at a point; each parameter with its step.
     Slopes(Vec<(f64, f64)>),
 }
 
-/// Who answers.
 enum Executor<'w> {
     Workers(&'w WorkerPool<'w, QueryPoint, CallWork<FunctionResult>>),
     ThisThread,
 }
 
-/// A function that can be asked.
+/// A function that can be evaluated.
 pub struct Evaluator<'w> {
     call: &'w Call<'w, 'w>,
     question: &'w FunctionQuery<'w>,
@@ -92,10 +91,9 @@ impl FunctionQuery<'_> {
         }
     }
 
-    /// Lets `drive` ask the function.
+    /// Calls `drive` with the evaluator.
     ///
-    /// # Errors
-    /// When there is no worker; also those of `drive`.
+    /// If there is no worker; errors of `drive`.
     pub fn with_evaluator<T>(
         &self,
         calling: &Call,
@@ -132,10 +130,9 @@ impl FunctionQuery<'_> {
         }
     }
 
-    /// The function's value at a point, in the engine of the script itself.
+    /// Value of the function at a point, in the engine of the script.
     ///
-    /// # Errors
-    /// The function's own, at their places.
+    /// Errors of the function with their positions.
     pub fn here(&self, calling: &Call, point: &[f64]) -> Result<Dynamic, ScriptError> {
         self.asked_here(calling, &QueryPoint::Value(point.to_vec()))
     }
@@ -144,7 +141,7 @@ impl FunctionQuery<'_> {
         self.function.call_here(calling, self.key, self.values(point))
     }
 
-    /// The error of a function that fails at a point where it must not: that of the script itself, at its place, where it is found again.
+    /// Error of a function that fails at a required point. The call is repeated in the script's engine to find the position.
     pub fn blame(&self, calling: &Call, point: &[f64], reason: &str) -> ScriptError {
         let found = calling.context().tracelessly(NO_FILES, || self.here(calling, point));
         found.err().unwrap_or_else(|| {
@@ -162,10 +159,9 @@ impl<'w> Evaluator<'w> {
         Self { call, question, whom, has_answered: false }
     }
 
-    /// What the function gives at some points, in their order.
+    /// Values of the function at several points, in order.
     ///
-    /// # Errors
-    /// When the run is stopped, or the script is wrong as long as the function has given nothing.
+    /// If the run is stopped, or the script is wrong before the function has ever succeeded.
     pub fn ask(&mut self, points: &[Vec<f64>]) -> Result<Vec<Evaluation>, ScriptError> {
         let answers = self.answers(points.iter().cloned().map(QueryPoint::Value).collect())?;
         let mut found = Vec::with_capacity(points.len());
@@ -184,10 +180,10 @@ impl<'w> Evaluator<'w> {
         Ok(found)
     }
 
-    /// What the function gives at a point, each number with its derivatives by all parameters, from one call with numbers that know what depends on them. With each parameter stands the distance that is small for it. The inner error tells why there are none.
+    /// Values and derivatives with respect to all parameters at a point, from one call with variant numbers. Each parameter comes with its
+    /// step. The inner error is the reason for missing derivatives.
     ///
-    /// # Errors
-    /// When the run is stopped.
+    /// If the run is stopped.
     pub fn slopes(&mut self, point: &[(f64, f64)]) -> Result<Sloped, ScriptError> {
         let answers = match self.answers(vec![QueryPoint::Slopes(point.to_vec())]) {
             Err(error) if self.call.context().is_stopped() => return Err(error),
@@ -247,7 +243,7 @@ impl<'w> Evaluator<'w> {
     }
 }
 
-/// The numbers of an array or a map, each followed by its derivatives by so many parameters.
+/// Numbers of an array or map, each followed by its derivatives.
 fn slopes_of(given: &Dynamic, parameters: usize) -> FunctionResult {
     let (array, map) = (given.read_lock::<Array>(), given.read_lock::<Map>());
     let values = array.iter().flat_map(|array| array.iter());

@@ -1,4 +1,4 @@
-//! A function that a study calls with named values: what it has captured, and which of the values it reads.
+//! A function called by a study with named values: captured variables and used names.
 
 use std::collections::BTreeSet;
 
@@ -9,37 +9,36 @@ use crate::script::bindings::call::{Call, written_within};
 use crate::script::messages::error::{CallPart, Failure, ScriptError};
 use crate::script::messages::nouns::with_article;
 
-/// A function of the script in a form that can go to other threads.
+/// A script function in a form that can be sent to other threads.
 #[derive(Clone, Debug)]
 pub struct RunFunction {
-    /// The name under which the functions of the script are found.
+    /// Name of the function in the script.
     pub name: String,
-    /// The names and values of the variables that it has captured.
+    /// Names and values of the captured variables.
     pub captured: Vec<(String, Portable)>,
-    /// What it is called with behind the map of values.
+    /// Further arguments after the map of values.
     pub besides: Vec<Portable>,
 }
 
-/// Why a function that changes one of its captured variables is refused.
+/// Error of a function that changes a captured variable.
 pub fn changes(name: &str) -> String {
     format!(
         "it changes the variable '{name}' from outside, which every run has for itself: give what is found in the map"
     )
 }
 
-/// How a function reads the map that it is called with.
+/// Use of the argument map by a function.
 struct ParameterReading {
-    /// The names that it reads.
+    /// Names that it reads.
     names: BTreeSet<String>,
-    /// Whether it does something else with the map, so that it may read any.
+    /// True if the map is used as a whole, so that any name may be read.
     is_whole: bool,
 }
 
 impl RunFunction {
-    /// Reads the function that is given under a key.
+    /// Reads the function given for an option key.
     ///
-    /// # Errors
-    /// When it has captured something that cannot go to other threads, which is told where the function uses it.
+    /// If it has captured a value that cannot be sent to other threads; the error points at its use.
     pub fn read(call: &Call, key: &str, function: &FnPtr) -> Result<Self, ScriptError> {
         let Some(definition) = call.definition(function) else {
             let told = format!(
@@ -82,10 +81,9 @@ impl RunFunction {
         Ok(Self { name: function.fn_name().to_owned(), captured, besides: Vec::new() })
     }
 
-    /// Makes a value one that the function is called with behind the map.
+    /// Adds a further argument after the map.
     ///
-    /// # Errors
-    /// When it cannot go to other threads.
+    /// If the value cannot be sent to other threads.
     pub fn take(&mut self, call: &Call, key: &str, value: &Dynamic) -> Result<(), ScriptError> {
         let parameters_of = |function: &FnPtr| call.definition(function).map(|of| of.params.len());
         let portable = Portable::of(call.engine(), value, &parameters_of).map_err(|immovable| {
@@ -100,9 +98,9 @@ impl RunFunction {
         Ok(())
     }
 
-    /// The values for which the function stands on this thread, and those that it is called with, made anew; `function_of` finds functions.
+    /// Captured values and arguments on this thread; `function_of` finds functions.
     ///
-    /// None where a function is not found.
+    /// `None` if a function is not found.
     pub fn arguments(
         &self,
         values: Map,
@@ -116,16 +114,15 @@ impl RunFunction {
         Some((captured, given))
     }
 
-    /// The first of the variables from outside that is no longer what it was.
+    /// First captured variable that has changed.
     pub fn changed(&self, captured: &[Dynamic]) -> Option<&str> {
         let pairs = self.captured.iter().zip(captured);
         pairs.into_iter().find(|((_, was), is)| !was.is(is)).map(|((name, _), _)| name.as_str())
     }
 
-    /// Calls the function in the engine of the script itself, with captured values of its own.
+    /// Calls the function in the engine of the script, with its own copies of captured values.
     ///
-    /// # Errors
-    /// The function's own, with their places; also when it changes a variable from outside.
+    /// Errors of the function with their positions; also if it changes a captured variable.
     pub fn call_here(&self, call: &Call, key: &str, values: Map) -> Result<Dynamic, ScriptError> {
         let function_of = |name: &str, parameters| call.function_named(name, parameters);
         let lost = || ScriptError::bug("the function of a study is not found again");
@@ -143,10 +140,9 @@ impl RunFunction {
         }
     }
 
-    /// Refuses parameters that a function does not read, as far as can be seen; the function is given under a key.
+    /// Rejects parameters that the function never reads, if this can be determined.
     ///
-    /// # Errors
-    /// When there is one.
+    /// If there is one.
     pub fn expect_read<'n>(
         call: &Call,
         (key, function): (&str, &FnPtr),
@@ -159,8 +155,7 @@ impl RunFunction {
         Err(call.error(told).hint(hint).at(CallPart::Key(unread.to_owned())))
     }
 
-    /// The first of the names that the function does not read from the map that it is called with, as far as can be seen: one that hands the map on may
-    /// read any.
+    /// First name that the function does not read from its map; a function that passes the map on may read any.
     fn unread<'n>(
         call: &Call,
         function: &FnPtr,
@@ -174,7 +169,6 @@ impl RunFunction {
     }
 }
 
-/// The name of a variable that is read.
 fn variable(expression: &Expr) -> Option<&str> {
     match expression {
         Expr::Variable(variable, ..) => Some(&variable.1),
@@ -182,7 +176,7 @@ fn variable(expression: &Expr) -> Option<&str> {
     }
 }
 
-/// Where a function prints something first.
+/// Position of the first print in a function.
 fn first_print(body: &AST) -> Option<Position> {
     let mut found = None;
     body.walk(&mut |path: &[ASTNode]| {
@@ -199,10 +193,9 @@ fn first_print(body: &AST) -> Option<Position> {
     found
 }
 
-/// Functions that print.
 const PRINTING: &[&str] = &["print", "debug"];
 
-/// Where a function uses a variable first.
+/// Position of the first use of a variable in a function.
 fn first_use(body: &AST, name: &str) -> Option<Position> {
     let mut found = None;
     body.walk(&mut |path: &[ASTNode]| {
@@ -223,7 +216,7 @@ impl ParameterReading {
         reading
     }
 
-    /// Reads a function in which the map has this name.
+    /// Analyses a function whose map has this name.
     fn read(&mut self, call: &Call, function: &FnPtr, map: &str) {
         let is_map = |expression: &Expr| variable(expression) == Some(map);
         call.body(function).walk(&mut |path: &[ASTNode]| {
@@ -236,7 +229,7 @@ impl ParameterReading {
                 Some(ASTNode::Expr(Expr::Dot(of, ..) | Expr::Index(of, ..))) if is_map(&of.lhs) => {
                     name_read(&of.rhs)
                 }
-                // A function within has it under the same name.
+                // A closure captures the map under the same name.
                 Some(ASTNode::Expr(Expr::FnCall(made, _))) => match written_within(made) {
                     Some((within, _)) => {
                         self.read(call, &within, map);
@@ -255,7 +248,7 @@ impl ParameterReading {
     }
 }
 
-/// The name of a map that is read by what stands behind it: `.mass`, `["mass"]`, or these at the start of a chain.
+/// Name read from a map by the following access: `.mass`, `["mass"]`, or the start of a chain.
 fn name_read(behind: &Expr) -> Option<String> {
     match behind {
         Expr::Property(property, _) => Some(property.2.to_string()),

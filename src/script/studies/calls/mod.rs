@@ -1,4 +1,4 @@
-//! Functions of the script, called by studies on the engines of all cores.
+//! Calls of script functions by studies on worker threads.
 
 pub mod calling;
 pub mod evaluator;

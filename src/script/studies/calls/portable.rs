@@ -1,4 +1,4 @@
-//! Values that can go from the engine of the run to those of other threads: plain ones, and those of ours that are data.
+//! Values that can be sent to the engines of other threads: plain values, and native types that are data.
 
 use std::rc::Rc;
 
@@ -13,14 +13,14 @@ use crate::loads::Schedule;
 use crate::script::handles::section::SectionHandle;
 use crate::simulation::StepControl;
 
-/// A value that can go to another thread.
+/// A value that can be sent to another thread.
 #[derive(Clone, Debug)]
 pub enum Portable {
-    /// Nothing, `()`.
+    /// Unit, `()`.
     Nothing,
-    /// A truth value.
+    /// A boolean.
     Truth(bool),
-    /// A whole number.
+    /// An integer.
     Whole(INT),
     /// A number.
     Number(f64),
@@ -30,20 +30,20 @@ pub enum Portable {
     Text(String),
     /// A vector of the plane.
     Vector(Vec2),
-    /// An array of such values.
+    /// An array.
     Array(Vec<Self>),
-    /// A map of such values.
+    /// A map.
     Map(Vec<(String, Self)>),
-    /// A function of the script: its name, the number of its parameters, and the values that it has captured.
+    /// A script function: name, number of parameters, and captured values.
     Function(String, usize, Vec<Self>),
-    /// A value of ours that is data: its kind, and its bytes.
+    /// Serialised native data: type and bytes.
     Data(DataKind, Vec<u8>),
 }
 
-/// The kinds of values of ours that are data.
+/// Native types that are data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DataKind {
-    /// A section or a taper.
+    /// A constant or tapered section.
     Section,
     /// A mesh.
     Mesh,
@@ -53,27 +53,25 @@ pub enum DataKind {
     Knots,
     /// An integrator.
     Method,
-    /// A step size as a tolerance allows.
+    /// An adaptive step size.
     Control,
-    /// A schedule that is a formula or a table.
+    /// A schedule given by a formula or a table.
     Schedule,
 }
 
-/// A value that cannot go to another thread.
+/// A value that cannot be sent to another thread.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NotPortable {
-    /// The name of its type.
+    /// Name of its type.
     pub kind: String,
 }
 
 type Stored = (SectionVariation, Option<Solid>, Option<Relaxation>);
 
 impl Portable {
-    /// The value in a form that can go to another thread; `parameters_of` tells the number of parameters of a function of the script, captured ones
-    /// included.
+    /// Converts a value; `parameters_of` returns the number of parameters of a script function, including captured ones.
     ///
-    /// # Errors
-    /// When it cannot, or something in it.
+    /// If it or a part of it cannot be converted.
     pub fn of(
         engine: &Engine,
         value: &Dynamic,
@@ -122,7 +120,7 @@ impl Portable {
             .ok_or_else(|| NotPortable { kind: engine.map_type_name(value.type_name()).to_owned() })
     }
 
-    /// The value on this thread, where `function_of` finds functions by their names and numbers of parameters; none where it does not.
+    /// Restores the value on this thread; `function_of` finds functions by name and number of parameters. `None` if one is not found.
     pub fn value(&self, function_of: &dyn Fn(&str, usize) -> Option<FnPtr>) -> Option<Dynamic> {
         let all = |values: &[Self]| -> Option<Vec<Dynamic>> {
             values.iter().map(|value| value.value(function_of)).collect()
@@ -151,7 +149,7 @@ impl Portable {
         })
     }
 
-    /// Whether a value on this thread is still what this one was made from: what a script can change of a value is compared, bit by bit.
+    /// Returns true if a value still equals this one, bit by bit.
     pub fn is(&self, value: &Dynamic) -> bool {
         let value = value.flatten_clone();
         match self {
@@ -180,7 +178,7 @@ impl Portable {
         }
     }
 
-    /// The value as a number, if it is one or a truth value: 1 is true.
+    /// Number of the value; booleans count as 0 and 1.
     pub fn number(&self) -> Option<f64> {
         match self {
             Self::Truth(truth) => Some(f64::from(u8::from(*truth))),
@@ -195,7 +193,7 @@ fn stored<T: Serialize>(value: &T) -> Option<Vec<u8>> {
     postcard::to_stdvec(value).ok()
 }
 
-/// A value of ours that is data, as bytes.
+/// Serialises native data.
 fn data(value: &Dynamic) -> Option<(DataKind, Vec<u8>)> {
     if let Some(SectionHandle { variation, solid, relaxation }) = value.read_lock().as_deref() {
         return Some((DataKind::Section, stored(&(variation, solid, relaxation))?));

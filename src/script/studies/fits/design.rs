@@ -1,4 +1,4 @@
-//! Designs: parameters for which a result is least or largest, within constraints on others.
+//! Design optimisation: parameters that minimise or maximise a result under constraints.
 
 use std::cell::RefCell;
 use std::time::Duration;
@@ -21,62 +21,62 @@ use crate::script::studies::plan::at_key;
 /// Digits of a number in the table.
 const DIGITS: usize = 6;
 
-/// What is wanted of a result.
+/// Objective.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Objective {
-    /// The result of this name is to be least.
+    /// Minimise the result of this name.
     Least(String),
-    /// The result of this name is to be largest.
+    /// Maximise the result of this name.
     Largest(String),
 }
 
-/// Between which numbers a result must be.
+/// Bounds of a result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limit {
-    /// The name of the result.
+    /// Name of the result.
     pub name: String,
-    /// The least allowed, if there is one.
+    /// Lower bound.
     pub low: Option<f64>,
-    /// The largest allowed, if there is one.
+    /// Upper bound.
     pub high: Option<f64>,
 }
 
-/// What is asked of a design.
+/// Specification of a design optimisation.
 pub struct DesignRequest<'o> {
-    /// The parameters.
+    /// Parameters.
     pub ranges: Ranges,
-    /// The function, which gives a map of numbers.
+    /// Function that returns a map of numbers.
     pub function: &'o FnPtr,
-    /// What is wanted.
+    /// Objective.
     pub goal: Objective,
-    /// What must hold.
+    /// Constraints.
     pub limits: Vec<Limit>,
-    /// How well parameters are to be known, as a part of their ranges.
+    /// Tolerance of the parameters, as a fraction of their ranges.
     pub tolerance: f64,
-    /// The most runs.
+    /// Maximum number of runs.
     pub most_runs: usize,
-    /// Whether derivatives are used.
+    /// Use of derivatives.
     pub derivatives: Derivatives,
-    /// The longest that a run may take by the clock.
+    /// Wall-clock limit of a run.
     pub wall: Duration,
 }
 
-/// The best design that was found.
+/// Best design found.
 #[derive(Clone)]
 pub struct BestDesign {
-    /// The names of the parameters with their values.
+    /// Parameters with their values.
     pub parameters: Vec<(String, f64)>,
-    /// The results of the run with them.
+    /// Results with these parameters.
     pub results: Vec<(String, f64)>,
-    /// Whether the search came to its end before the most runs were made.
+    /// True if the search converged within the number of runs.
     pub is_settled: bool,
-    /// How often the function was called.
+    /// Number of calls of the function.
     pub runs: usize,
-    /// How it was searched, in words.
+    /// Description of the derivatives used.
     pub derivatives: String,
 }
 
-/// What to do where something is to be true.
+/// Hint for boolean constraints.
 const TRUTH: &str = "let run give a number that is not negative where it holds, such as #{ room: limit - sag }, and write constraints: #{ room: [0, ()] }";
 
 impl Objective {
@@ -99,7 +99,7 @@ impl Limit {
             let wrong = |what: String| {
                 let told = format!("the constraint on '{name}' {what}");
                 let hint = if value.is_bool() { TRUTH } else { shape };
-                // The name itself stands in the function too.
+                // The name also occurs in the function; the error must point at the option.
                 at_key(call, "constraints", told, hint)
             };
             let Some(array) = value.clone().try_cast::<Array>() else {
@@ -130,26 +130,25 @@ impl Limit {
         map.iter().map(limit).collect()
     }
 
-    /// How far a result is from its ends, in parts of them: negative where it is beyond.
+    /// Scaled distances of a result from its bounds; negative if violated.
     pub(super) fn distances(&self, value: f64) -> impl Iterator<Item = f64> {
         let low = self.low.map(|low| (value - low) / self.size());
         low.into_iter().chain(self.high.map(|high| (high - value) / self.size()))
     }
 
-    /// The derivatives of these distances, by those of the result.
+    /// Derivatives of these distances from those of the result.
     pub(super) fn slopes(&self, slopes: &[f64]) -> impl Iterator<Item = Vec<f64>> {
         let along = |sign: f64| slopes.iter().map(|slope| sign * slope / self.size()).collect();
         let low: Option<Vec<f64>> = self.low.map(|_| along(1.0));
         low.into_iter().chain(self.high.map(|_| along(-1.0)))
     }
 
-    /// How large the numbers are that it is about.
+    /// Scale of the bounds.
     fn size(&self) -> f64 {
         let size = [self.low, self.high].into_iter().flatten().map(f64::abs).fold(0.0, f64::max);
         if size > 0.0 { size } else { 1.0 }
     }
 
-    /// The limit in words.
     fn describe(&self) -> String {
         let name = &self.name;
         match (self.low.map(format_number), self.high.map(format_number)) {
@@ -161,7 +160,7 @@ impl Limit {
     }
 }
 
-/// A map of numbers, in the order of its names; names are found by [`names`].
+/// Values of a map of numbers in the order of [`names`].
 fn values(given: &Dynamic) -> FunctionResult {
     let Some(map) = given.read_lock::<Map>() else {
         return FunctionResult::Wrong(
@@ -199,8 +198,7 @@ fn names(given: &Dynamic) -> Vec<String> {
 impl DesignRequest<'_> {
     /// Finds the best design.
     ///
-    /// # Errors
-    /// When the function is wrong or fails at the start, a result is missing, or no run meets the constraints.
+    /// If the function is wrong or fails at the start, a result is missing, or no run meets the constraints.
     pub fn make(self, call: &Call) -> Result<BestDesign, ScriptError> {
         let function = RunFunction::read(call, "run", self.function)?;
         let question = FunctionQuery {
@@ -211,7 +209,7 @@ impl DesignRequest<'_> {
             wall: self.wall,
         };
         let start: Vec<f64> = self.ranges.ranges.iter().map(|range| range.first()).collect();
-        // The names of the results, and what is wrong with the first run, where it is wrong.
+        // Evaluates the names of the results and reports errors of the first run.
         let results = names(&call.context().silently(|| question.here(call, &start))?);
         let place = |name: &str| {
             results.iter().position(|known| known == name).ok_or_else(|| {
@@ -232,7 +230,7 @@ impl DesignRequest<'_> {
             most_runs: self.most_runs,
         };
         let scales = ResultScales::of(&self.goal, goal, &limits);
-        // Why the first of the runs that failed did.
+        // Reason of the first failed run.
         let failure: RefCell<Option<String>> = RefCell::default();
         let found = question.with_evaluator(call, |evaluator| {
             let evaluator = RefCell::new(evaluator);
@@ -292,10 +290,9 @@ impl DesignRequest<'_> {
 }
 
 impl DesignRequest<'_> {
-    /// What a dry build pretends to have found: the design is where it begins; the function is called there.
+    /// Result of a dry build: the start values, at which the function is called.
     ///
-    /// # Errors
-    /// Those of the function.
+    /// Errors of the function.
     pub fn pretend(self, call: &Call) -> Result<BestDesign, ScriptError> {
         let function = RunFunction::read(call, "run", self.function)?;
         let start: Vec<f64> = self.ranges.ranges.iter().map(|range| range.first()).collect();
@@ -317,7 +314,7 @@ impl DesignRequest<'_> {
 }
 
 impl BestDesign {
-    /// The design as a table for people.
+    /// Design as a text table.
     pub fn text(&self) -> String {
         let outcome = if self.is_settled { "settled" } else { "the most runs were made" };
         let mut table = TextTable::new(&["", "value"]);

@@ -1,4 +1,4 @@
-//! Fits: parameters for which what a function gives is nearest to data.
+//! Parameter fits: least squares between a script function and data.
 
 use std::cell::{OnceCell, RefCell};
 use std::time::Duration;
@@ -18,77 +18,77 @@ use crate::script::studies::plan::at_key;
 
 /// Digits of a parameter in the table.
 const DIGITS: usize = 7;
-/// Digits of an error of one.
+/// Digits of its error.
 const ERROR_DIGITS: usize = 2;
 
-/// What the function of a fit gives.
+/// Meaning of the function's return value.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Compared {
-    /// Residuals themselves.
+    /// Residuals.
     Residuals,
-    /// A model, of which these are the measured values, over these places where they are given.
+    /// Values of a model, to be compared with measurements.
     Model {
-        /// What was measured.
+        /// Measured values.
         measured: Vec<f64>,
-        /// Where or when.
+        /// Abscissas of the measurements.
         over: Option<Vec<f64>>,
     },
 }
 
-/// What is asked of a fit.
+/// Specification of a fit.
 pub struct FitRequest<'o> {
-    /// The name of the fit and of its files.
+    /// Name of the fit and its files.
     pub name: String,
-    /// The parameters.
+    /// Parameters.
     pub ranges: Ranges,
-    /// The key under which the function stands.
+    /// Option key of the function.
     pub key: &'static str,
-    /// The function.
+    /// Function.
     pub function: &'o FnPtr,
-    /// What it is called with behind the map of parameters.
+    /// Further argument after the map of parameters.
     pub data: Option<Dynamic>,
-    /// What it gives.
+    /// Meaning of the return value.
     pub compared: Compared,
-    /// The weights of the squares; none where all are one.
+    /// Weights of the squares; `None` if all are one.
     pub weights: Option<Vec<f64>>,
-    /// The probability with which a parameter lies in its interval.
+    /// Confidence level of the intervals.
     pub confidence: f64,
-    /// The distance of differences as a part of the size of a parameter.
+    /// Step of finite differences, relative to the size of a parameter.
     pub step: f64,
-    /// What derivatives are made of.
+    /// Source of the derivatives.
     pub derivatives: Derivatives,
-    /// The longest that a run may take by the clock.
+    /// Wall-clock limit of a run.
     pub wall: Duration,
 }
 
-/// What the derivatives of a fit are made of.
+/// Source of the derivatives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Derivatives {
-    /// Of what a run knows of them, and where it does not of differences.
+    /// Derivatives from the runs, or finite differences if they are missing.
     Known,
-    /// Of differences of runs, or none where a search does without.
+    /// Finite differences of runs, or a derivative-free search.
     Unknown,
 }
 
 /// A finished fit.
 #[derive(Clone)]
 pub struct Fit {
-    /// The name of the fit and of its files.
+    /// Name of the fit and its files.
     pub name: String,
-    /// The names of the parameters, in the order of the numbers.
+    /// Names of the parameters, in order.
     pub names: Vec<String>,
-    /// What was found; residuals are weighted.
+    /// Result, with weighted residuals.
     pub fitted: Fitted,
-    /// The residuals as the function gave them.
+    /// Unweighted residuals.
     pub residuals: Vec<f64>,
-    /// What they are of.
+    /// Meaning of the function's return value.
     pub compared: Compared,
-    /// The probability with which a parameter lies in its interval.
+    /// Confidence level of the intervals.
     pub confidence: f64,
 }
 
 impl Derivatives {
-    /// What is meant by a word of the option.
+    /// Parses the option.
     pub fn of(word: &str) -> Self {
         if word == "differences" { Self::Unknown } else { Self::Known }
     }
@@ -97,8 +97,7 @@ impl Derivatives {
 impl FitRequest<'_> {
     /// Finds the parameters.
     ///
-    /// # Errors
-    /// When the function is wrong, fails at the start, or gives other numbers than there is data.
+    /// If the function is wrong, fails at the start, or its number of values does not match the data.
     pub fn make(self, call: &Call) -> Result<Fit, ScriptError> {
         let mut function = RunFunction::read(call, self.key, self.function)?;
         if let Some(data) = &self.data {
@@ -159,7 +158,7 @@ impl FitRequest<'_> {
         Ok(Fit { name, names, fitted, residuals, compared, confidence })
     }
 
-    /// Refuses a function that gives other numbers of residuals with other parameters.
+    /// Rejects a function whose number of residuals depends on the parameters.
     fn expect_as_many(
         &self,
         call: &Call,
@@ -182,10 +181,9 @@ impl FitRequest<'_> {
         Err(at_key(call, self.key, told, hint))
     }
 
-    /// What a dry build pretends to have found: the parameters are where they begin; the function is called there.
+    /// Result of a dry build: the start values, at which the function is called.
     ///
-    /// # Errors
-    /// Those of the function.
+    /// Errors of the function.
     pub fn pretend(self, call: &Call) -> Result<Fit, ScriptError> {
         let mut function = RunFunction::read(call, self.key, self.function)?;
         if let Some(data) = &self.data {
@@ -213,7 +211,7 @@ impl FitRequest<'_> {
         Ok(Fit { name, names, fitted, residuals, compared, confidence })
     }
 
-    /// The weighted residuals of what the function gave, with their derivatives.
+    /// Weighted residuals with their derivatives.
     fn differences_with(&self, rows: Vec<(f64, Vec<f64>)>, roots: Option<&[f64]>) -> Sloped {
         let (values, mut slopes): (Vec<f64>, Vec<Vec<f64>>) = rows.into_iter().unzip();
         let residuals = weighted(roots, self.differences(values)?);
@@ -223,7 +221,7 @@ impl FitRequest<'_> {
         Ok(residuals.into_iter().zip(slopes).collect())
     }
 
-    /// The residuals of what the function gave.
+    /// Residuals of the function's return value.
     fn differences(&self, found: Vec<f64>) -> Result<Vec<f64>, String> {
         let expected = match &self.compared {
             Compared::Model { measured, .. } => Some(measured.len()),
@@ -249,7 +247,7 @@ fn weighted(roots: Option<&[f64]>, residuals: Vec<f64>) -> Vec<f64> {
     }
 }
 
-/// The numbers of an array, all finite.
+/// Elements of an array, all finite.
 fn numbers(given: &Dynamic) -> FunctionResult {
     let Some(array) = given.read_lock::<Array>() else {
         return FunctionResult::Wrong("it gives no array of numbers".into());
@@ -275,13 +273,13 @@ fn numbers(given: &Dynamic) -> FunctionResult {
 }
 
 impl Fit {
-    /// Half the width of the interval of confidence of a parameter; none where nothing tells.
+    /// Half width of the confidence interval of a parameter, if it is known.
     pub fn half_width(&self, parameter: usize) -> Option<f64> {
         let estimate = self.fitted.estimate.as_ref()?;
         estimate.half_width(parameter, self.confidence)
     }
 
-    /// How the search ended, in words.
+    /// Description of the end of the search.
     pub fn outcome(&self) -> &'static str {
         match self.fitted.settling {
             TerminationReason::Settled => "settled",
@@ -290,7 +288,7 @@ impl Fit {
         }
     }
 
-    /// What derivatives were made of, in words.
+    /// Description of the derivatives used.
     pub fn derivatives(&self) -> String {
         match (&self.fitted.differences, self.fitted.gradient_runs) {
             (None, _) => "those of the runs".into(),
@@ -299,7 +297,7 @@ impl Fit {
         }
     }
 
-    /// The fit as a table for people.
+    /// Fit as a text table.
     pub fn text(&self) -> String {
         let Fitted { parameters, estimate, runs, .. } = &self.fitted;
         let share = format!("± at {} %", significant(100.0 * self.confidence, 3));
@@ -334,7 +332,7 @@ impl Fit {
         )
     }
 
-    /// The data with the model, where there is one, and the residuals below.
+    /// Data and model, if there is one, with the residuals below.
     pub fn page(&self) -> Page {
         let count = self.residuals.len();
         let places: Vec<f64> = match &self.compared {
@@ -365,10 +363,9 @@ impl Fit {
         }
     }
 
-    /// The page as a picture.
+    /// Page as an SVG picture.
     ///
-    /// # Errors
-    /// When it cannot be drawn.
+    /// If it cannot be drawn.
     pub fn picture(&self) -> Result<String, ScriptError> {
         Ok(self.page().figure()?.to_svg()?)
     }

@@ -1,4 +1,4 @@
-//! Parameters found by runs, as scripts ask for them: fits to data, designs within constraints.
+//! Parameter searches: fits to data, and designs under constraints.
 
 pub mod design;
 pub mod fit;

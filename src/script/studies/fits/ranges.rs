@@ -1,4 +1,4 @@
-//! Parameters that are searched for: where each begins, and between which bounds it stays.
+//! Search parameters: start values and bounds.
 
 use rhai::{Array, Dynamic, Map};
 
@@ -9,11 +9,11 @@ use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::numbers::{as_number, format_number};
 use crate::script::studies::plan::at_key;
 
-/// Parameters that are searched for, in the order of their names.
+/// Search parameters, in the order of their names.
 pub struct Ranges {
-    /// Their names.
+    /// Names.
     pub names: Vec<String>,
-    /// Where each begins and stays.
+    /// Start values and bounds.
     pub ranges: Vec<SearchRange>,
 }
 
@@ -36,7 +36,7 @@ impl Ranges {
         Ok(Self { names, ranges })
     }
 
-    /// Values of the parameters by their names.
+    /// Map from names to values.
     pub fn named(&self, values: &[f64]) -> Map {
         let pairs = self.names.iter().zip(values);
         pairs.map(|(name, value)| (name.as_str().into(), Dynamic::from(*value))).collect()

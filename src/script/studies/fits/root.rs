@@ -1,4 +1,4 @@
-//! Where a function of a script is zero.
+//! Roots of a script function.
 
 use rhai::Dynamic;
 
@@ -9,10 +9,9 @@ use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::numbers::format_number;
 use crate::script::state::settings::RunMode;
 
-/// The place between `from` and `to` at which a call's `function` is zero, as well as its `tolerance` says.
+/// Finds a root of `function` between `from` and `to` within `tolerance`.
 ///
-/// # Errors
-/// Those of the function; also when it is not finite, or its signs do not differ.
+/// Errors of the function; also if it is not finite, or has the same sign at both ends.
 pub fn find_root(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (function, from, to) =
         (call.callback("function")?, call.number("from")?, call.number("to")?);
@@ -31,7 +30,7 @@ pub fn find_root(call: &mut Call) -> Result<Dynamic, ScriptError> {
         })
     };
     if call.context().mode() == RunMode::DryBuild {
-        // What a dry build finds has no signs.
+        // Results of a dry build have no meaningful signs.
         value(from)?;
         return Ok(from.into());
     }

@@ -1,29 +1,29 @@
-//! Results of a design as a search for the best sees them: in numbers of about one, the goal to be least and limits not to be negative.
+//! Scaling of the results of a design for the optimiser: numbers of order one, an objective to be minimised, and non-negative constraints.
 
 use std::cell::Cell;
 
 use super::design::{Limit, Objective};
 use crate::fitting::{Rating, SlopedRating, SlopesOfRating};
 
-/// How results become what a search sees: numbers of about one.
+/// Scaling of results.
 pub(super) struct ResultScales<'s> {
     goal: &'s Objective,
-    /// The place of the goal among the results.
+    /// Index of the objective among the results.
     at: usize,
     limits: &'s [(usize, &'s Limit)],
-    /// The size of the goal in the first run.
+    /// Magnitude of the objective in the first run.
     size: Cell<Option<f64>>,
 }
 
 impl<'s> ResultScales<'s> {
-    /// Those of a goal, at its place among the results, and of limits at theirs.
+    /// Scaling for an objective and limits, given with their indices among the results.
     pub(super) fn of(goal: &'s Objective, at: usize, limits: &'s [(usize, &'s Limit)]) -> Self {
         Self { goal, at, limits, size: Cell::new(None) }
     }
 
-    /// What the goal is divided by, so that the least is wanted.
+    /// Divisor of the objective; negative for maximisation.
     fn divisor(&self, goal: f64) -> f64 {
-        // A goal that begins at zero has no size of its own.
+        // An objective that starts at zero has no magnitude of its own.
         let own = Some(goal.abs()).filter(|size| *size > 0.0).unwrap_or(1.0);
         let size = self.size.get().unwrap_or(own);
         self.size.set(Some(size));
@@ -33,17 +33,16 @@ impl<'s> ResultScales<'s> {
         }
     }
 
-    /// What a search sees of results.
+    /// Scaled objective and constraints.
     pub(super) fn rating(&self, numbers: &[f64]) -> Rating {
         let distances = self.limits.iter().flat_map(|(at, limit)| limit.distances(numbers[*at]));
         let objective = numbers[self.at] / self.divisor(numbers[self.at]);
         Rating { objective, constraints: distances.collect() }
     }
 
-    /// What a search sees of results with their derivatives.
+    /// Scaled objective and constraints with derivatives.
     ///
-    /// # Errors
-    /// When these do not do for a search: the reason.
+    /// If the derivatives are not usable, with the reason.
     pub(super) fn with_slopes(&self, rows: Vec<(f64, Vec<f64>)>, results: usize) -> SlopesOfRating {
         if rows.len() != results {
             return Err("it gives other results".into());
@@ -51,7 +50,7 @@ impl<'s> ResultScales<'s> {
         let (numbers, slopes): (Vec<f64>, Vec<Vec<f64>>) = rows.into_iter().unzip();
         let wanted = || self.limits.iter().map(|(at, _)| *at).chain([self.at]);
         let parameters = slopes.first().map_or(0, Vec::len);
-        // Later it may be the design that is looked for, at which nothing changes.
+        // Zero derivatives are accepted later, because they may indicate the optimum.
         let begins = self.size.get().is_none();
         if begins && (0..parameters).any(|by| wanted().all(|at| slopes[at][by] == 0.0)) {
             return Err("all derivatives by a parameter are zero".into());

@@ -1,4 +1,4 @@
-//! What a sweep goes through, from its options.
+//! Design of a sweep, read from its options.
 
 use rhai::{Array, Dynamic, FnPtr, Map};
 
@@ -13,33 +13,33 @@ use crate::script::studies::calls::portable::Portable;
 use crate::script::studies::parameters::label;
 use crate::script::studies::plan::at_key;
 
-/// The most rows of a sweep.
+/// Maximum number of rows.
 const MOST_ROWS: usize = 100_000_000;
 
-/// Points at which the parameters of a sweep are taken together.
+/// Joint sampling of the parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Samples {
-    /// How the points are chosen.
+    /// Sampling method.
     pub kind: SampleKind,
-    /// How many points there are; of a Saltelli design how many blocks.
+    /// Number of points; for a Saltelli design the number of blocks.
     pub count: usize,
-    /// The seed of the random numbers.
+    /// Seed of the random numbers.
     pub seed: u64,
 }
 
-/// How points are chosen.
+/// Sampling method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SampleKind {
-    /// A Latin hypercube.
+    /// Latin hypercube.
     LatinHypercube,
-    /// A Sobol' sequence.
+    /// Sobol' sequence.
     Sobol,
-    /// Blocks for Sobol' indices.
+    /// Saltelli blocks for Sobol' indices.
     Saltelli,
 }
 
 impl Samples {
-    /// How many rows there are with so many parameters.
+    /// Number of rows for this many parameters.
     fn rows(self, parameters: usize) -> usize {
         match self.kind {
             SampleKind::Saltelli => self.count.saturating_mul(parameters + 2),
@@ -48,7 +48,7 @@ impl Samples {
     }
 }
 
-/// A parameter as the script gives it.
+/// A parameter as given by the script.
 struct ParameterInput {
     name: String,
     spread: Spread,
@@ -59,13 +59,13 @@ enum Spread {
     Distribution(Distribution),
 }
 
-/// The plan of a sweep: its design, and the values of levels as the function gets them.
+/// Design of a sweep, and the level values passed to the function.
 pub struct SweepPlan {
-    /// What the sweep goes through.
+    /// Design.
     pub design: SweepDesign,
-    /// For each parameter the values of its levels; none where each row has its own number.
+    /// Level values of each parameter; empty if each row has its own number.
     levels: Vec<Vec<Portable>>,
-    /// The names of parameters whose logarithms are distributed.
+    /// Parameters with log-scaled distributions.
     spread_by_ratios: Vec<String>,
 }
 
@@ -139,7 +139,7 @@ impl SweepPlan {
         Ok(Self { design, levels, spread_by_ratios })
     }
 
-    /// What the parameters and all of their values are known again by.
+    /// Checksum data of the parameters and all their values.
     pub fn imprint(&self) -> Vec<u8> {
         let of = |(of, levels): (&SweptParameter, &Vec<Portable>)| {
             let mut hasher = crc32fast::Hasher::new();
@@ -155,12 +155,12 @@ impl SweepPlan {
         rows.into_iter().chain(all).collect()
     }
 
-    /// Whether the distribution of a parameter is one of its logarithm.
+    /// Returns true if the distribution of a parameter is one of its logarithm.
     pub fn is_spread_by_ratios(&self, name: &str) -> bool {
         self.spread_by_ratios.iter().any(|of| of == name)
     }
 
-    /// The values of a row, as the function gets them.
+    /// Values of a row, as passed to the function.
     pub fn values(&self, row: usize, function_of: &dyn Fn(&str, usize) -> Option<FnPtr>) -> Map {
         let value = |(of, levels): (&SweptParameter, &Vec<Portable>)| {
             let level =
@@ -225,7 +225,7 @@ impl ParameterInput {
 }
 
 impl Spread {
-    /// The values at the points of a coordinate, or those of a grid, in which the parameters so far repeat after so many rows.
+    /// Values of a parameter: at sample points, or of a grid, in which the previous parameters repeat after `repeats` rows.
     fn values(self, points: Option<Vec<f64>>, repeats: &mut usize) -> (SweptValues, Vec<Portable>) {
         match self {
             Self::Distribution(distribution) => {
@@ -241,7 +241,7 @@ impl Spread {
                         *repeats /= count;
                         Choice::Grid(*repeats)
                     }
-                    // Each is equally likely.
+                    // All levels are equally likely.
                     Some(points) => {
                         let level = |point: f64| ((point * count as f64) as usize).min(count - 1);
                         Choice::Drawn(points.into_iter().map(|point| level(point) as u32).collect())

@@ -1,4 +1,4 @@
-//! What is kept of a sweep on disk: its journal, the part of it that is made here, or the parts from which it is joined.
+//! Persistence of a sweep: its journal, the part computed here, or the parts that are merged.
 
 use std::path::PathBuf;
 
@@ -13,10 +13,10 @@ use crate::script::state::parts::{StudyPart, find_parts};
 use crate::script::studies::calls::function::RunFunction;
 
 impl SweepRequest<'_> {
-    /// The journal of the sweep, where the run wants one; what it knows is in the ledger then. Where parts are joined, all rows are, and nothing is kept.
+    /// Opens the journal of the sweep, if the run uses journals, and reads its entries into the ledger. When parts are merged, all rows are
+    /// read and no journal is opened.
     ///
-    /// # Errors
-    /// When a file cannot be read or written, or the parts are not those of the whole sweep.
+    /// If a file cannot be read or written, or the parts do not form the whole sweep.
     pub fn keeper(
         &self,
         call: &Call,
@@ -84,8 +84,7 @@ impl SweepRequest<'_> {
         Ok(())
     }
 
-    /// A number made of all that the rows depend on: the program, the texts of the script and of what it imports, what the function has captured, and
-    /// the parameters with their values.
+    /// Fingerprint of everything that the rows depend on: program, script and imports, captured values, and parameters.
     fn fingerprint(&self, call: &Call, function: &RunFunction) -> u64 {
         let told = format!("{:?} {:?}", function.captured, self.wall);
         let script = call.context().program().map(|program| program.text.to_string());

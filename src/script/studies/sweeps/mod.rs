@@ -1,4 +1,4 @@
-//! Sweeps: a function of the script, called with the values of each row.
+//! Sweeps: calls of a script function for each row of a design.
 
 pub mod design;
 pub mod keeping;

@@ -1,4 +1,4 @@
-//! Pictures of sweeps: lines, points and maps of a result over parameters, all columns over all, histograms.
+//! Pictures of sweeps: lines, points and maps of a result over parameters, scatter matrices, and histograms.
 
 use std::collections::BTreeMap;
 
@@ -10,30 +10,30 @@ use crate::output::{
 };
 use crate::sampling::Random;
 
-/// Curves of a chart; more are told as their mean, least and largest.
+/// Maximum number of curves; more are drawn as mean, least and largest.
 const MOST_CURVES: usize = 8;
-/// Points of a scatter; of more rows some are shown, which are drawn by lot.
+/// Maximum number of points in a scatter plot; more are thinned at random.
 const MOST_POINTS: usize = 2000;
-/// Points of each panel among many.
+/// Maximum number of points in a panel of a matrix.
 const MOST_POINTS_AMONG: usize = 500;
-/// Cells along an axis over which points are gathered.
+/// Cells per axis for binning points.
 const CELLS: usize = 20;
-/// Columns of which all are drawn over all.
+/// Maximum number of columns in a scatter matrix.
 pub const MOST_COLUMNS: usize = 6;
-/// Values of a column that have classes of their own in a histogram, when they come back twice on the average.
+/// Maximum number of distinct values with their own bins in a histogram; each must occur twice on average.
 const MOST_VALUES: usize = 64;
-/// A ratio of the ends of an axis from which it may be logarithmic.
+/// Minimum ratio of the ends of a logarithmic axis.
 const DECADE: f64 = 10.0;
 
-/// The rows that pictures show, and their title.
+/// Source of pictures of a sweep.
 pub struct Picture<'t> {
-    /// The rows that are drawn.
+    /// Rows that are drawn.
     pub table: &'t SweepTable,
-    /// What stands above it.
+    /// Title.
     pub title: String,
 }
 
-/// The numbers that a parameter takes, ascending, where it has levels that are all numbers; none of other columns.
+/// Ascending levels of a parameter with numeric levels; `None` for other columns.
 fn levels(column: SweepColumn) -> Option<Vec<f64>> {
     match column {
         SweepColumn::Parameter(SweptValues::Levels { numbers: Some(numbers), .. }) => {
@@ -45,7 +45,6 @@ fn levels(column: SweepColumn) -> Option<Vec<f64>> {
     }
 }
 
-/// The least and the largest of some numbers.
 fn ends(numbers: impl Iterator<Item = f64> + Clone) -> (f64, f64) {
     (numbers.clone().fold(f64::INFINITY, f64::min), numbers.fold(f64::NEG_INFINITY, f64::max))
 }
@@ -54,14 +53,14 @@ fn mean(numbers: &[f64]) -> f64 {
     numbers.iter().sum::<f64>() / numbers.len() as f64
 }
 
-/// The numbers of two columns in the rows where both are finite, and the numbers of these rows.
+/// Row indices and values of two columns, where both are finite.
 fn pairs(table: &SweepTable, x: SweepColumn, y: SweepColumn) -> Vec<(usize, f64, f64)> {
     let all = table.rows().map(|row| (row, x.number(row), y.number(row)));
     all.filter(|(_, x, y)| x.is_finite() && y.is_finite()).collect()
 }
 
-/// So many of some things at most, in their order: each choice is equally likely, and the same in every run (C. T. Fan, M. E. Muller, I. Rezucha, 1962). Every
-/// tenth of the points of a grid or of a Sobol' sequence would be a sequence of its own, and lie in a part of them only.
+/// Random subset of at most `most` items, in order, with equal probability and the same in every run (C. T. Fan, M. E. Muller, I. Rezucha,
+/// 1962). A regular subset of a grid or a Sobol' sequence would be a sequence of its own and cover only a part of the range.
 fn thinned<T: Copy>(all: &[T], most: usize) -> Vec<T> {
     let mut random = Random::seeded(0);
     let mut wanted = most.min(all.len());
@@ -79,7 +78,7 @@ impl Picture<'_> {
         self.table.sweep().column(name)
     }
 
-    /// How a column is laid out along an axis: by ratios if its values follow one another, or are distributed, by ratios, over a decade at least.
+    /// Scale of a column: logarithmic if its values have equal ratios, or a log distribution, over at least a decade.
     fn scale(&self, name: &str, column: SweepColumn) -> AxisScale {
         let by_ratios = match levels(column) {
             Some(middles) => {
@@ -94,13 +93,13 @@ impl Picture<'_> {
         }
     }
 
-    /// Whether there is a row in which all of these columns have numbers.
+    /// Returns true if all of these columns have numbers in some row.
     pub fn has_rows(&self, names: &[&str]) -> bool {
         let columns: Vec<_> = names.iter().filter_map(|name| self.column(name)).collect();
         self.table.rows().any(|row| columns.iter().all(|column| column.number(row).is_finite()))
     }
 
-    /// One column over another: curves over the values of a grid, else points. None where a column is missing.
+    /// One column over another: curves over grid values, otherwise points. `None` if a column is missing.
     pub fn over(&self, x_name: &str, y_name: &str) -> Option<LineChart> {
         let (x, y) = (self.column(x_name)?, self.column(y_name)?);
         let found = pairs(self.table, x, y);
@@ -121,7 +120,7 @@ impl Picture<'_> {
         })
     }
 
-    /// A curve for each combination of the other parameters, or what all of them say together.
+    /// One curve per combination of the other parameters, or a summary of all.
     fn curves(&self, chart: LineChart, x_name: &str, found: &[(usize, f64, f64)]) -> LineChart {
         let others: Vec<_> =
             self.table.sweep().design.parameters.iter().filter(|of| of.name != x_name).collect();
@@ -151,7 +150,7 @@ impl Picture<'_> {
         names.into_iter().map(curve).fold(chart, LineChart::series)
     }
 
-    /// Mean, least and largest of all rows with one value.
+    /// Mean, least and largest over all rows with the same value.
     fn band(chart: LineChart, found: &[(usize, f64, f64)], count: usize) -> LineChart {
         let mut of_value: BTreeMap<u64, (f64, Vec<f64>)> = BTreeMap::new();
         for (_, x, y) in found {
@@ -172,8 +171,7 @@ impl Picture<'_> {
             .caption(format!("over {count} combinations of the other parameters"))
     }
 
-    /// A column as colours over two others: over the values of a grid, else over cells in which points are gathered; of several rows in a cell the mean.
-    /// None where a column is missing.
+    /// A column as colours over two others: over grid values, or over binned points with the mean per cell. `None` if a column is missing.
     pub fn map(&self, x_name: &str, y_name: &str, z_name: &str) -> Option<LevelMap> {
         let [x, y, z] = [self.column(x_name)?, self.column(y_name)?, self.column(z_name)?];
         let rows: Vec<[f64; 3]> =
@@ -216,7 +214,7 @@ impl Picture<'_> {
         })
     }
 
-    /// All columns of numbers over all others, with histograms on the diagonal.
+    /// Scatter matrix of numeric columns, with histograms on the diagonal.
     pub fn matrix(&self, names: &[&str]) -> Page {
         let columns: Vec<_> = names.iter().filter_map(|name| self.column(name)).collect();
         let is_whole = |row: &usize| columns.iter().all(|column| column.number(*row).is_finite());
@@ -247,7 +245,7 @@ impl Picture<'_> {
         LineChart::new("").x_label(x_name).y_label(y_name).series(series)
     }
 
-    /// How often a column has which numbers.
+    /// Histogram of a column.
     pub fn histogram(&self, name: &str) -> LineChart {
         let column = self.column(name);
         let numbers = self.table.rows().filter_map(|row| column.map(|column| column.number(row)));
@@ -266,7 +264,7 @@ impl Picture<'_> {
     }
 }
 
-/// How many numbers of a histogram lie between two.
+/// Bin of a histogram.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Class {
     from: f64,
@@ -274,7 +272,7 @@ struct Class {
     count: usize,
 }
 
-/// The classes of a histogram: one for each value where few come back again and again, which ends halfway to its neighbours; else equal ones.
+/// Bins of a histogram: one per value if few values repeat often, bounded halfway between neighbours; otherwise equal ones.
 fn classes(mut numbers: Vec<f64>) -> Vec<Class> {
     numbers.sort_by(f64::total_cmp);
     let (Some(low), Some(high)) = (numbers.first().copied(), numbers.last().copied()) else {
@@ -290,7 +288,7 @@ fn classes(mut numbers: Vec<f64>) -> Vec<Class> {
             |(of, ends): (&&[f64], &[f64])| Class { from: ends[0], to: ends[1], count: of.len() };
         return values.iter().zip(ends.windows(2)).map(of).collect();
     }
-    // Sturges' rule (1926), with twice as many classes.
+    // Sturges' rule (1926), with twice as many bins.
     let count = (2.0 * (1.0 + ln(numbers.len() as f64) / std::f64::consts::LN_2)).ceil().max(4.0);
     let width = if high > low { (high - low) / count } else { 1.0 };
     let at = |class: usize| low + class as f64 * width;
@@ -303,7 +301,7 @@ fn classes(mut numbers: Vec<f64>) -> Vec<Class> {
     classes
 }
 
-/// The number of the middle, of ascending ones, that is nearest to `x`.
+/// Index of the ascending midpoint nearest to `x`.
 fn nearest(middles: &[f64], x: f64) -> Option<usize> {
     let above = middles.partition_point(|middle| *middle < x);
     let distance = |at: &usize| (middles[*at] - x).abs();

@@ -1,4 +1,4 @@
-//! What the function of a sweep gives for a row.
+//! Result of a sweep function for a row.
 
 use std::sync::Arc;
 
@@ -7,19 +7,19 @@ use rhai::{Dynamic, Map};
 use crate::script::bindings::parameter_variants::VariantValue;
 use crate::script::studies::calls::calling::CallOutcome;
 
-/// What became of a row.
+/// Result of a row.
 #[derive(Clone, Debug)]
 pub enum RowOutcome {
-    /// The function gave a map of numbers: their names, and the numbers.
+    /// Names and numbers of the returned map.
     Found(Arc<[String]>, Vec<f64>),
-    /// The function threw something, or gave a result that is not a number: the reason.
+    /// The function threw, or returned something that is not a number; with the reason.
     Failed(String),
-    /// The script itself is wrong, as it seems: the reason.
+    /// The script seems to be wrong; with the reason.
     Wrong(String),
 }
 
 impl RowOutcome {
-    /// The row that came of a call.
+    /// Converts the result of a call.
     pub fn of(called: CallOutcome) -> Self {
         match called {
             CallOutcome::Given(given) => found(&given),
@@ -29,7 +29,7 @@ impl RowOutcome {
     }
 }
 
-/// What the function gave, as numbers.
+/// Converts the returned map to numbers.
 pub fn found(given: &Dynamic) -> RowOutcome {
     let Some(map) = given.read_lock::<Map>() else {
         return RowOutcome::Wrong("it gives no map of numbers, such as #{ peak: peak }".into());

@@ -1,4 +1,4 @@
-//! A sweep at work: its rows on all engines, with a journal, progress and limits.
+//! Execution of a sweep on worker threads, with a journal, progress and limits.
 
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -19,29 +19,28 @@ use crate::script::studies::calls::calling::{CallWork, call, thrown};
 use crate::script::studies::calls::function::RunFunction;
 use crate::script::studies::plan::at_key;
 
-/// Why a run of a sweep writes no files.
+/// Message for sweep functions that try to write files.
 const NO_FILES: &str = "a run of a sweep writes no files: give what is to be kept in its map";
 
-/// Rows that are given to workers ahead, for each of them: more than the shortest that end while results gather.
+/// Rows queued ahead per worker, enough to keep it busy while results are collected.
 const AHEAD: usize = 4096;
 
-/// What a sweep is asked for.
+/// Specification of a sweep.
 pub struct SweepRequest<'o> {
-    /// The name of the sweep and of its files.
+    /// Name of the sweep and its files.
     pub name: String,
-    /// What it goes through.
+    /// Plan.
     pub plan: SweepPlan,
-    /// The function that makes a run.
+    /// Function of a run.
     pub function: &'o FnPtr,
-    /// The longest that a run may take by the clock.
+    /// Wall-clock limit of a run.
     pub wall: Duration,
 }
 
 impl SweepRequest<'_> {
-    /// Makes all runs.
+    /// Runs all rows.
     ///
-    /// # Errors
-    /// When the function cannot go to other engines, is wrong, or fails in all rows; or when the run is stopped: what was finished by then is in the
+    /// If the function cannot be sent to workers, is wrong, or fails in all rows; or if the run is stopped, with finished rows in the
     /// journal.
     pub fn make(self, call: &Call) -> Result<FinishedSweep, ScriptError> {
         let context = call.context();
@@ -114,7 +113,7 @@ impl SweepRequest<'_> {
         driven.map_err(SweepError::Other)?
     }
 
-    /// Makes the runs in the engine of the script, one by one, where there is no whole script that others could read.
+    /// Runs the rows one by one in the engine of the script, if there is no complete script for workers.
     fn on_this_thread(
         &self,
         call: &Call,
@@ -145,16 +144,15 @@ impl SweepRequest<'_> {
         Ok(())
     }
 
-    /// Makes a run in the engine of the script itself.
+    /// Runs a row in the engine of the script.
     ///
-    /// # Errors
-    /// The function's own, at their places.
+    /// Errors of the function with their positions.
     pub fn invoked(&self, call: &Call, row: usize) -> Result<Dynamic, ScriptError> {
         let values = self.plan.values(row, &|name, count| call.function_named(name, count));
         RunFunction::read(call, "run", self.function)?.call_here(call, "run", values)
     }
 
-    /// The error about a row for which the function seems wrong: that of the script itself, at its place, where it is found again.
+    /// Error of a row for which the function seems wrong. The call is repeated in the script's engine to find the position.
     fn blame(&self, call: &Call, ledger: &SweepProgress, row: usize, told: &str) -> ScriptError {
         let found = call.context().tracelessly(NO_FILES, || self.invoked(call, row));
         match found {
@@ -185,8 +183,8 @@ impl SweepRequest<'_> {
     }
 }
 
-/// Gives the rows that are not known to the workers, a few ahead, and hears of them until all are known or the run is to stop. Until one has come to its end,
-/// which tells what the others are to give, they are taken in their order, whoever is first.
+/// Sends the unknown rows to the workers, a few ahead, and receives results until all are known or the run is stopped. Until the first row
+/// has completed, which defines the names of the results, results are processed in row order, so that the outcome is deterministic.
 fn drive(
     crew: &WorkerPool<usize, CallWork<RowOutcome>>,
     context: &Context,

@@ -1,47 +1,47 @@
-//! What is known of the rows of a sweep while it is made.
+//! State of the rows while a sweep is running.
 
 use super::rows::RowOutcome;
 use crate::analysis::{RowEntry, SweepResults};
 use crate::script::messages::error::ScriptError;
 use crate::script::state::parts::StudyPart;
 
-/// What is known of the rows so far.
+/// State of the rows.
 pub struct SweepProgress {
-    /// What was found.
+    /// Results.
     pub results: SweepResults,
-    /// Whether a row has been heard of.
+    /// True for rows with a result, or outside of the part.
     is_known: Vec<bool>,
-    /// How many rows have been heard of, or are left out.
+    /// Number of rows with a result, or outside of the part.
     pub done: usize,
-    /// How many rows there are.
+    /// Number of rows.
     pub rows: usize,
-    /// The first row that came to its end, from which the names are.
+    /// First completed row, which defines the names of the results.
     pub model: Option<usize>,
 }
 
-/// Why a sweep breaks off.
+/// Reason for aborting a sweep.
 pub enum SweepError {
-    /// The function seems wrong, or gives something that is: what it was, and in which row.
+    /// The function seems wrong: row and message.
     Row(usize, String),
     /// Another error.
     Other(ScriptError),
 }
 
 impl SweepProgress {
-    /// Nothing is known of so many rows.
+    /// A ledger without results.
     pub fn new(rows: usize) -> Self {
         let results = SweepResults::default();
         Self { results, is_known: vec![false; rows], done: 0, rows, model: None }
     }
 
-    /// Counts the rows that belong to other parts as known, though nothing is known of them.
+    /// Marks the rows of other parts as done.
     pub fn leave_out(&mut self, part: StudyPart) {
         for row in (0..self.rows).filter(|row| !part.has(*row)) {
             self.know(row);
         }
     }
 
-    /// Gives rows that belong to other parts what the first row here has found: the script goes on with something.
+    /// Fills the rows of other parts with the first result of this part, so that the script can continue.
     pub fn pretend_the_rest(&mut self) {
         let Some(model) = self.model else { return };
         let found: Vec<f64> = self.results.row(model).collect();
@@ -53,7 +53,7 @@ impl SweepProgress {
         }
     }
 
-    /// Whether a row has been heard of, or is left out.
+    /// Returns true if the row is done or belongs to another part.
     pub fn knows(&self, row: usize) -> bool {
         self.is_known[row]
     }
@@ -67,7 +67,7 @@ impl SweepProgress {
         is_new
     }
 
-    /// Takes an entry of a journal; what fits nothing is left out.
+    /// Reads a journal entry; entries that do not match are ignored.
     pub fn recall(&mut self, entry: RowEntry) {
         match entry {
             RowEntry::Sweep { .. } => (),
@@ -95,7 +95,7 @@ impl SweepProgress {
         }
     }
 
-    /// Takes what became of a row; gives the entries for the journal.
+    /// Records the result of a row; returns the entries for the journal.
     pub fn hear(&mut self, at: usize, row: RowOutcome) -> Result<Vec<RowEntry>, SweepError> {
         let number = at as u64;
         match row {
@@ -114,7 +114,7 @@ impl SweepProgress {
                 entries.push(RowEntry::Found(number, values));
                 Ok(entries)
             }
-            // As long as no run has come to its end, the function may be wrong for all.
+            // Before the first completed row, the function may be wrong for all rows.
             RowOutcome::Wrong(told) if self.model.is_none() => Err(SweepError::Row(at, told)),
             RowOutcome::Failed(reason) | RowOutcome::Wrong(reason) => {
                 self.know(at);

@@ -1,4 +1,4 @@
-//! The table of a sweep as scripts hold it, for programs and for people.
+//! Table of a sweep for scripts, programs and people.
 
 use std::io;
 use std::rc::Rc;
@@ -12,61 +12,61 @@ use crate::output::{
     significant,
 };
 
-/// The column that says why a row failed.
+/// Name of the column with the reasons of failures.
 pub const FAILURE: &str = "failure";
-/// Rows that are shown at the start of a table; with those at its end.
+/// Number of rows shown at the start and end of a table.
 const SHOWN: (usize, usize) = (12, 4);
-/// Digits of a number in a table for people.
+/// Digits of a number in a text table.
 const DIGITS: usize = 6;
 
-/// A finished sweep, with the values that its function got.
+/// A finished sweep with the values passed to its function.
 pub struct FinishedSweep {
-    /// The sweep.
+    /// Sweep.
     pub sweep: Sweep,
-    /// Where the values of its rows are from.
+    /// Plan with the values of the rows.
     pub plan: SweepPlan,
 }
 
-/// The table of a sweep: all of its rows, or some.
+/// Table of all or some rows of a sweep.
 #[derive(Clone)]
 pub struct SweepTable {
     swept: Rc<FinishedSweep>,
-    /// The numbers of the rows; none for all.
+    /// Indices of the rows; `None` for all.
     chosen: Option<Rc<Vec<u32>>>,
 }
 
 impl SweepTable {
-    /// The table of all rows.
+    /// Table of all rows.
     pub fn new(swept: Rc<FinishedSweep>) -> Self {
         Self { swept, chosen: None }
     }
 
-    /// What the table is of.
+    /// The underlying sweep.
     pub fn into_swept(self) -> Rc<FinishedSweep> {
         self.swept
     }
 
-    /// The sweep that the table is of.
+    /// Results of the sweep.
     pub fn sweep(&self) -> &Sweep {
         &self.swept.sweep
     }
 
-    /// Whether it has some rows of its sweep, and not all as they are.
+    /// Returns true if rows were selected.
     pub fn is_of_some_rows(&self) -> bool {
         self.chosen.is_some()
     }
 
-    /// Whether equal ratios of a parameter are equally likely, or nearly so: its distribution is one of its logarithm.
+    /// Returns true if the distribution of a parameter is one of its logarithm.
     pub fn is_spread_by_ratios(&self, name: &str) -> bool {
         self.swept.plan.is_spread_by_ratios(name)
     }
 
-    /// The table of some rows of this one.
+    /// Table of some rows of this one.
     pub fn of_rows(&self, rows: Vec<u32>) -> Self {
         Self { swept: Rc::clone(&self.swept), chosen: Some(Rc::new(rows)) }
     }
 
-    /// The table of the rows that failed.
+    /// Table of the failed rows.
     pub fn failures(&self) -> Self {
         let results = &self.sweep().results;
         self.of_rows(
@@ -77,18 +77,18 @@ impl SweepTable {
         )
     }
 
-    /// How many rows it has.
+    /// Number of rows.
     pub fn length(&self) -> usize {
         self.chosen.as_ref().map_or(self.sweep().design.rows, |chosen| chosen.len())
     }
 
-    /// The numbers of its rows in the sweep.
+    /// Row indices in the sweep.
     pub fn rows(&self) -> impl Iterator<Item = usize> + Clone + use<'_> {
         let chosen = self.chosen.as_deref();
         (0..self.length()).map(move |at| chosen.map_or(at, |chosen| chosen[at] as usize))
     }
 
-    /// The row with this number in the sweep, as a map of a script: parameters, results, and `failure` where it failed.
+    /// Row as a script map: parameters, results, and `failure` if it failed.
     pub fn row(&self, row: usize) -> Map {
         let FinishedSweep { sweep, plan } = &*self.swept;
         let mut map = plan.values(row, &|_, _| None);
@@ -102,7 +102,7 @@ impl SweepTable {
         map
     }
 
-    /// A column as numbers, not-a-number where there is none; nothing if there is no such column.
+    /// Column as numbers, NaN if missing; `None` for an unknown column.
     pub fn numbers(&self, name: &str) -> Option<Vec<f64>> {
         let column = self.sweep().column(name)?;
         Some(self.rows().map(|row| column.number(row)).collect())
@@ -117,7 +117,7 @@ impl SweepTable {
         }
     }
 
-    /// The table for other programs.
+    /// Table as data for other programs.
     pub fn data(&self) -> DataTable {
         let sweep = self.sweep();
         let column = |name: &str| {
@@ -136,7 +136,7 @@ impl SweepTable {
         DataTable { columns: sweep.names().filter_map(column).chain([failures]).collect() }
     }
 
-    /// The columns of numbers as arrays.
+    /// Numeric columns as arrays.
     pub fn archive(&self) -> NpzArchive {
         let is_number = |values: &&[f64]| values.iter().any(|x| x.is_finite());
         let column = |name: &str| {
@@ -146,10 +146,9 @@ impl SweepTable {
         NpzArchive { arrays: self.sweep().names().filter_map(column).collect() }
     }
 
-    /// The table as CSV, row by row: however long it is, it takes no memory.
+    /// Writes the table as CSV, row by row, with constant memory.
     ///
-    /// # Errors
-    /// When it cannot be written.
+    /// If it cannot be written.
     pub fn write_csv(&self, file: &mut dyn io::Write) -> io::Result<()> {
         let sweep = self.sweep();
         let columns: Vec<_> = sweep.names().filter_map(|name| sweep.column(name)).collect();
@@ -166,7 +165,7 @@ impl SweepTable {
         writer.flush()
     }
 
-    /// The table for people: its first rows and its last ones.
+    /// Table as text: first and last rows.
     pub fn text(&self) -> String {
         let sweep = self.sweep();
         let columns: Vec<_> = sweep.names().filter_map(|name| sweep.column(name)).collect();
@@ -191,7 +190,7 @@ impl SweepTable {
 }
 
 impl FinishedSweep {
-    /// What a sweep found in few lines: how many runs came to their end, and from where to where each result goes, and at which parameters.
+    /// Short summary: number of completed runs, and the range of each result with its parameters.
     pub fn summary(&self) -> String {
         let Sweep { name, design, results } = &self.sweep;
         let failed = results.failures().len();
@@ -205,7 +204,7 @@ impl FinishedSweep {
             let Some(column) = results.column(name) else { continue };
             let found = || column.iter().copied().enumerate().filter(|(_, x)| x.is_finite());
             let least = found().min_by(|a, b| a.1.total_cmp(&b.1));
-            // The first of equal ones.
+            // The first of equal values.
             let largest = found().rev().max_by(|a, b| a.1.total_cmp(&b.1));
             let count = found().count().max(1);
             let mean = found().map(|(_, x)| x / count as f64).sum::<f64>();
@@ -231,7 +230,7 @@ impl FinishedSweep {
         text
     }
 
-    /// The values of a row in words.
+    /// Parameter values of a row as text.
     fn place(&self, row: usize) -> String {
         let parameters = &self.sweep.design.parameters;
         let words = parameters.iter().map(|of| {
@@ -241,7 +240,7 @@ impl FinishedSweep {
     }
 }
 
-/// A value as text for programs: of a number all digits, empty where there is none.
+/// Value as text for programs: all digits, or empty if missing.
 fn exact(column: SweepColumn, row: usize) -> String {
     match column {
         SweepColumn::Parameter(values @ SweptValues::Levels { numbers: None, .. }) => {
@@ -253,7 +252,6 @@ fn exact(column: SweepColumn, row: usize) -> String {
     }
 }
 
-/// A value as text for people.
 fn short(column: SweepColumn, row: usize) -> Cell {
     match column {
         SweepColumn::Parameter(values @ SweptValues::Levels { numbers: None, .. }) => {
