@@ -3,7 +3,7 @@
 use crate::beams::Station;
 use crate::elementary::square;
 use crate::geometry::Vec2;
-use crate::joints::{EndAction, JointKind, Partner, Slider, SlidingRule, StartVelocities};
+use crate::joints::{EndAction, JointKind, Partner, Slider, StartVelocities};
 use crate::loads::{LoadFrame, LoadKind, Schedule};
 use crate::system::{ParticleDefinition, PointMass, Scene, SystemError};
 
@@ -89,18 +89,9 @@ fn bead(scene: &mut Scene) -> Result<(), SystemError> {
     let name = scene.free_name("bead");
     let slave =
         scene.add_particle(ParticleDefinition { name, position }, SMALL * beam_mass(scene))?;
-    let slider = Slider {
-        name: scene.free_name("slider"),
-        slave,
-        master: 0,
-        track: None,
-        arc_length,
-        rule: SlidingRule::default(),
-        ends: EndAction::Release,
-        restitution: 1.0,
-        velocities: StartVelocities::Project,
-    };
-    scene.add_slider(slider).map(|_| ())
+    let slider = Slider::new(scene.free_name("slider"), slave, 0, arc_length);
+    let (ends, velocities) = (EndAction::Release, StartVelocities::Project);
+    scene.add_slider(Slider { ends, velocities, ..slider }).map(|_| ())
 }
 
 #[cfg(test)]

@@ -22,7 +22,6 @@ pub mod wild_scenes;
 use withy::beams::{Mesh, Quadrature};
 use withy::geometry::Vec2;
 use withy::integrators::Method;
-use withy::newton::Tolerance;
 use withy::simulation::{
     History, Monitor, NoMonitor, Simulation, SimulationError, SimulationSettings, StepSize,
 };
@@ -33,7 +32,7 @@ pub fn at(x: f64, y: f64) -> Vec2 {
 }
 
 pub fn settings(method: Method, dt: impl Into<StepSize>) -> SimulationSettings {
-    SimulationSettings { method, dt: dt.into(), tolerance: Tolerance::default() }
+    SimulationSettings::new(method, dt)
 }
 
 pub fn simulate(scene: Scene, method: Method, dt: impl Into<StepSize>, end: f64) -> Simulation {

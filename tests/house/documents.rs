@@ -168,7 +168,18 @@ fn said_by_a_session(folder: &Path, piped: &str) -> String {
 
 #[test]
 fn the_language_reference_is_up_to_date() {
-    expect_written("docs/language.md", &withy::script::help::reference::reference(&language()));
+    let pages = withy::script::help::reference::pages(&language());
+    for page in &pages {
+        expect_written(&format!("docs/{}", page.file), &page.text);
+    }
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/language");
+    for file in std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name()) {
+        let file = format!("language/{}", file.to_string_lossy());
+        assert!(
+            pages.iter().any(|page| page.file == file),
+            "docs/{file} is not generated any more"
+        );
+    }
 }
 
 #[test]

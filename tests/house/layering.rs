@@ -1,11 +1,10 @@
-//! The walls: which layer may use which, and that a file stays one idea.
+//! Layers: the modules that each module may use.
 #![allow(clippy::unwrap_used)]
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// From left to right (docs/architecture.md: main → cli → repl, exercises → script → output, analysis → simulation → … → model): a layer may use
-/// those of the groups after its own, and everything below the model.
+/// Layers in the order of docs/architecture.md. A layer may use those of later groups and all of [`BRANCHES`].
 const CHAIN: &[&[&str]] = &[
     &["cli"],
     &["repl", "exercises"],
@@ -14,7 +13,7 @@ const CHAIN: &[&[&str]] = &[
     &["simulation"],
     &["statics"],
     &["vibration"],
-    &["model"],
+    &["system"],
 ];
 
 /// Below the model, and beside the chain: each layer with those it may use.
@@ -30,7 +29,7 @@ const BRANCHES: &[(&str, &[&str])] = &[
     ("fitting", &["elementary"]),
     ("elementary", &[]),
     ("threads", &[]),
-    ("folders", &[]),
+    ("sandbox_fs", &[]),
     ("panics", &[]),
 ];
 
@@ -41,7 +40,7 @@ fn allowed(layer: &str) -> Option<Vec<&'static str>> {
         // That of the language hands the layers of the mechanics on.
         "lib.rs" => return allowed("analysis"),
         // It draws plain data.
-        "output" => return Some(vec!["elementary", "folders"]),
+        "output" => return Some(vec!["elementary", "sandbox_fs"]),
         _ => {}
     }
     if let Some((_, uses)) = BRANCHES.iter().find(|(name, _)| *name == layer) {
@@ -51,9 +50,6 @@ fn allowed(layer: &str) -> Option<Vec<&'static str>> {
     let right = CHAIN[own + 1..].iter().copied().flatten().copied();
     Some(right.chain(BRANCHES.iter().map(|(name, _)| *name)).collect())
 }
-
-/// Most lines of a file.
-const LONGEST: usize = 400;
 
 pub fn sources() -> Vec<(PathBuf, String)> {
     fn collect(folder: &Path, files: &mut Vec<(PathBuf, String)>) {
@@ -205,26 +201,26 @@ fn layers_use_only_those_to_their_right() {
 /// The rooms of the model: each with those it may use.
 const ROOMS: &[(&str, &[&str])] = &[
     (
-        "looking",
-        &["mechanism", "motion", "links", "sliders", "scene", "elements", "bodies", "words"],
+        "queries",
+        &["mechanism", "state", "links", "sliders", "scene", "elements", "bodies", "errors"],
     ),
     (
         "assembly",
-        &["mechanism", "motion", "links", "sliders", "scene", "elements", "bodies", "words"],
+        &["mechanism", "state", "links", "sliders", "scene", "elements", "bodies", "errors"],
     ),
-    ("mechanism", &["motion", "links", "sliders", "elements", "bodies", "words"]),
-    ("motion", &[]),
+    ("mechanism", &["state", "links", "sliders", "elements", "bodies", "errors"]),
+    ("state", &[]),
     ("links", &["bodies"]),
-    ("sliders", &["bodies", "words"]),
-    ("scene", &["elements", "words"]),
-    ("elements", &["bodies", "words"]),
+    ("sliders", &["bodies", "errors"]),
+    ("scene", &["elements", "errors"]),
+    ("elements", &["bodies", "errors"]),
     ("bodies", &[]),
-    ("words", &[]),
+    ("errors", &[]),
 ];
 
 /// The room of a file of the model, by its folder or, for the file beside a folder, its name.
 fn room(path: &Path) -> Option<String> {
-    let first = in_crate(path).strip_prefix("model").ok()?.components().next()?;
+    let first = in_crate(path).strip_prefix("system").ok()?.components().next()?;
     let name = first.as_os_str().to_str()?.trim_end_matches(".rs").to_owned();
     (name != "mod").then_some(name)
 }
@@ -240,8 +236,8 @@ fn strangers(files: &[(PathBuf, String)], exports: &[(String, String)]) -> Vec<S
         Some(allowed.contains(&other))
     };
     let (of_name, may_use) = (&of_name, &may_use);
-    let paths = &["crate::model::"];
-    Walls { part: "room", root: "model", of_file: &room, paths, of_name, may_use }.breaches(files)
+    let paths = &["crate::system::"];
+    Walls { part: "room", root: "system", of_file: &room, paths, of_name, may_use }.breaches(files)
 }
 
 /// What `model/mod.rs` hands on: names with their rooms.
@@ -258,7 +254,7 @@ fn rooms_of_the_model_use_one_another_one_way() {
     let files = sources();
     let (_, handed_on) = files.iter().find(|(path, _)| path.ends_with("system/mod.rs")).unwrap();
     let exports = exports(handed_on);
-    assert!(exports.contains(&("Blow".to_owned(), "sliders".to_owned())), "{exports:?}");
+    assert!(exports.contains(&("AxialImpact".to_owned(), "sliders".to_owned())), "{exports:?}");
     let found = strangers(&files, &exports);
     assert!(found.is_empty(), "{}", found.join("\n"));
     for (at, (room, allowed)) in ROOMS.iter().enumerate() {
@@ -267,20 +263,20 @@ fn rooms_of_the_model_use_one_another_one_way() {
     }
     let bodies = crates()[0].join("system/bodies/body.rs");
     let text =
-        "// crate::model::scene\nuse crate::model::{\n    Model, words::finite};\n".to_owned();
+        "// crate::system::scene\nuse crate::system::{\n    System, errors::finite};\n".to_owned();
     assert_eq!(strangers(&[(bodies.clone(), text)], &exports).len(), 2);
     let text =
-        "use super::body::Body;\nuse super::super::{\n    Model, words::finite};\n".to_owned();
+        "use super::body::Body;\nuse super::super::{\n    System, errors::finite};\n".to_owned();
     assert_eq!(strangers(&[(bodies, text)], &exports).len(), 2);
     let beside = crates()[0].join("system/mechanism.rs");
-    let text = "use super::motion::Motion;\nuse super::scene::Scene;\n".to_owned();
+    let text = "use super::state::MotionState;\nuse super::scene::Scene;\n".to_owned();
     let found = strangers(&[(beside, text)], &exports);
     assert!(found.len() == 1 && found[0].ends_with("rs:2: mechanism uses scene"), "{found:?}");
 }
 
 #[test]
 fn a_model_and_a_simulation_are_at_most_ten_private_parts() {
-    for (file, name) in [("system/mechanism.rs", "Model"), ("simulation/run.rs", "Simulation")] {
+    for (file, name) in [("system/mechanism.rs", "System"), ("simulation/run.rs", "Simulation")] {
         let path = crates()[0].join(file);
         let text = fs::read_to_string(path).unwrap();
         let (_, fields) = text.split_once(&format!("pub struct {name} {{\n")).unwrap();
@@ -295,7 +291,7 @@ fn a_model_and_a_simulation_are_at_most_ten_private_parts() {
 #[test]
 fn a_trespass_is_found() {
     let beams = crates()[0].join("beams/mesh.rs");
-    let text = "use crate::geometry::Vec2;\n// crate::model is fine here\nuse crate::integrators::Stage;\n";
+    let text = "use crate::geometry::Vec2;\n// crate::system is fine here\nuse crate::integrators::Stage;\n";
     let found = trespasses(&[(beams, text.to_owned())]);
     assert!(
         found.len() == 1 && found[0].ends_with("mesh.rs:3: beams uses integrators"),
@@ -321,16 +317,8 @@ fn files_of_folders_hold_a_sentence_and_names() {
 
 #[test]
 fn names_in_lists_of_lists_are_found() {
-    let text = "use crate::{\n    model::{Model, words::finite},\n    beams::Mesh,\n};\nlet a = mycrate::x;\n";
-    assert_eq!(named_after(text, "crate::"), [(1, "model".to_owned()), (1, "beams".to_owned())]);
-}
-
-#[test]
-fn no_file_is_longer_than_four_hundred_lines() {
-    for (path, text) in sources() {
-        let lines = text.lines().count();
-        assert!(lines <= LONGEST, "{} has {lines} lines", path.display());
-    }
+    let text = "use crate::{\n    system::{System, errors::finite},\n    beams::Mesh,\n};\nlet a = mycrate::x;\n";
+    assert_eq!(named_after(text, "crate::"), [(1, "system".to_owned()), (1, "beams".to_owned())]);
 }
 
 /// What joints and loads name of beams besides their stations.

@@ -5,7 +5,6 @@ mod common;
 
 mod documents;
 mod figures;
-mod folder_map;
 mod layering;
 mod messages;
 mod theory;

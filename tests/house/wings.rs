@@ -8,8 +8,19 @@ use crate::layering::{Walls, sources, without_tests};
 
 /// From left to right: a wing may use those to its left.
 const WINGS: &[&str] = &[
-    "words", "source", "state", "rows", "dialect", "library", "diagnose", "engine", "pages",
-    "looks", "handles", "studies", "packages",
+    "messages",
+    "source",
+    "state",
+    "bindings",
+    "dialect",
+    "library",
+    "diagnose",
+    "engine",
+    "help",
+    "presentation",
+    "handles",
+    "studies",
+    "packages",
 ];
 
 fn script() -> PathBuf {
@@ -50,12 +61,19 @@ fn wings_of_the_script_use_those_to_their_left() {
     assert!(files.iter().filter(|(path, _)| wing(path).is_some()).count() > 100);
     let found = trespasses(&files);
     assert!(found.is_empty(), "{}", found.join("\n"));
-    let text = "use crate::script::rows::table::Row;\nuse crate::script::words::stop::Stop;\n";
+    let text =
+        "use crate::script::bindings::table::Row;\nuse crate::script::messages::stop::Stop;\n";
     let found = trespasses(&[(script().join("source/program.rs"), text.to_owned())]);
-    assert!(found.len() == 1 && found[0].ends_with("program.rs:1: source uses rows"), "{found:?}");
-    let text = "use super::lexing::Lexed;\nuse super::super::rows::table::Row;\n";
+    assert!(
+        found.len() == 1 && found[0].ends_with("program.rs:1: source uses bindings"),
+        "{found:?}"
+    );
+    let text = "use super::lexing::Lexed;\nuse super::super::bindings::table::Row;\n";
     let found = trespasses(&[(script().join("source/program.rs"), text.to_owned())]);
-    assert!(found.len() == 1 && found[0].ends_with("program.rs:2: source uses rows"), "{found:?}");
+    assert!(
+        found.len() == 1 && found[0].ends_with("program.rs:2: source uses bindings"),
+        "{found:?}"
+    );
 }
 
 #[test]

@@ -28,6 +28,24 @@ pub struct Slider {
     pub velocities: StartVelocities,
 }
 
+impl Slider {
+    /// Returns a slider on a beam, at an arc length of the undeformed beam [length], with the default rule and the
+    /// default action at the ends.
+    pub fn new(name: impl Into<String>, slave: Station, master: usize, arc_length: f64) -> Self {
+        Self {
+            name: name.into(),
+            slave,
+            master,
+            track: None,
+            arc_length,
+            rule: SlidingRule::default(),
+            ends: EndAction::default(),
+            restitution: 1.0,
+            velocities: StartVelocities::default(),
+        }
+    }
+}
+
 /// What happens when a slider reaches an end of its master.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum EndAction {

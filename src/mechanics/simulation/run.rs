@@ -53,6 +53,13 @@ pub struct SimulationSettings {
     pub tolerance: Tolerance,
 }
 
+impl SimulationSettings {
+    /// Returns settings with the default tolerance of Newton's method.
+    pub fn new(method: Method, dt: impl Into<StepSize>) -> Self {
+        Self { method, dt: dt.into(), tolerance: Tolerance::default() }
+    }
+}
+
 /// A simulation: a scene in motion, with its history.
 pub struct Simulation {
     scene: Scene,

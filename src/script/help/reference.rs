@@ -10,54 +10,69 @@ use crate::script::bindings::returns::Returns;
 use crate::script::bindings::table::{BindingTable, FunctionBinding};
 use crate::script::bindings::topics::{TOPICS, Topic};
 
-const HEAD: &str = "# The language
+const HEAD: &str = "# Language reference
 
-*Made from the tables in `src/script`; `WITHY_UPDATE=1 cargo test --test house documents` makes it again.*
+*Generated from the bindings in `src/script`: `WITHY_UPDATE=1 cargo test --test house documents`.*
 
-withy speaks [Rhai](https://rhai.rs/book) with numbers as in science. The same pages are shown by `withy docs NAME`, and by \
-`help(\"NAME\")` in a script. Every example runs, after the lines that its section begins with. Ready-made sections, shapes, schedules, mechanisms, \
-checks and comparisons are in the [standard library](standard_library.md).
+withy uses [Rhai](https://rhai.rs/book) with scientific numbers. `withy docs NAME` and `help(\"NAME\")` show the same pages. Modules with \
+sections, shapes, schedules, mechanisms, checks and comparisons are in the [standard library](standard_library.md).
+
+In an entry, `→` precedes the returned value and optional arguments are in brackets. `simulation.step()` is a method of that type. Units are \
+dimensions, such as `[force]`. The keys of an option map are listed below it. Every example runs after the lines that its page begins with.
 ";
 
-const ABOUT_ROWS: &str = "How to read an entry: after `→` stands what it gives back. Optional arguments stand in brackets. \
-`simulation.step()` is a method: it is called on a value of that type. Units are dimensions, such as `[force]`. The keys of a map \
-of options are listed below it.
+const ABOUT_RHAI: &str = "A function that has an argument before a dot here can be called either way: `text.len()` is `len(text)`.
 ";
 
-const ABOUT_RHAI: &str = "What the language takes over from Rhai. A function whose first argument stands before a dot here can be \
-written either way: `text.len()` is `len(text)`.
-";
+/// A page of the reference.
+pub struct ReferencePage {
+    /// Path of the page below `docs`.
+    pub file: String,
+    /// Text of the page in Markdown.
+    pub text: String,
+}
 
-/// Reference of a language in Markdown.
+/// Returns the pages of the reference: the index, the syntax, one page for each table of bindings, and the functions of Rhai.
+pub fn pages(catalog: &Catalog) -> Vec<ReferencePage> {
+    let mut syntax = String::from("# Syntax\n");
+    TOPICS.iter().for_each(|topic| describe_topic(&mut syntax, topic));
+    let mut rhai = format!("# Functions of Rhai\n\n{ABOUT_RHAI}");
+    catalog.built_in_tables().for_each(|table| describe_built_ins(&mut rhai, table));
+    let page = |file: &str, text| ReferencePage { file: file.to_owned(), text };
+    let tables = catalog.tables().map(|table| page(&file(table), describe_table(table)));
+    let mut pages = vec![page("language.md", index(catalog)), page("language/syntax.md", syntax)];
+    pages.extend(tables);
+    pages.push(page("language/rhai.md", rhai));
+    pages
+}
+
+/// Returns the whole reference as one text.
 pub fn reference(catalog: &Catalog) -> String {
-    let mut text = format!("{HEAD}\n{}", contents(catalog));
-    text += "\n## The language itself\n";
-    TOPICS.iter().for_each(|topic| describe_topic(&mut text, topic));
-    let _ = write!(text, "\n## Functions of withy\n\n{ABOUT_ROWS}");
-    catalog.tables().for_each(|table| describe_table(&mut text, table));
-    let _ = write!(text, "\n## From Rhai\n\n{ABOUT_RHAI}");
-    catalog.built_in_tables().for_each(|table| describe_built_ins(&mut text, table));
+    pages(catalog).into_iter().map(|page| page.text).collect::<Vec<_>>().join("\n")
+}
+
+fn file(table: &BindingTable) -> String {
+    format!("language/{}.md", table.name.replace(' ', "_"))
+}
+
+fn index(catalog: &Catalog) -> String {
+    let topics = TOPICS.iter().map(|topic| section_link("syntax", topic.name));
+    let rhai = catalog.built_in_tables().map(|table| section_link("rhai", table.name));
+    let mut text = format!("{HEAD}\n- [Syntax](language/syntax.md): ");
+    text += &topics.collect::<Vec<_>>().join(", ");
+    text += "\n";
+    for table in catalog.tables() {
+        let _ = writeln!(text, "- [{}]({}): {}", title(table.name), file(table), names(table));
+    }
+    text += "- [Functions of Rhai](language/rhai.md): ";
+    text += &rhai.collect::<Vec<_>>().join(", ");
+    text += "\n";
     text
 }
 
-fn contents(catalog: &Catalog) -> String {
-    let topics =
-        TOPICS.iter().map(|topic| link(&title(topic.name), &anchor("language", topic.name)));
-    let rhai = catalog
-        .built_in_tables()
-        .map(|table| link(&title(table.name), &anchor("rhai", table.name)));
-    let mut text = format!("- The language itself: {}\n", topics.collect::<Vec<_>>().join(", "));
-    text += "- Functions of withy\n";
-    for table in catalog.tables() {
-        let _ = writeln!(
-            text,
-            "  - {}: {}",
-            link(&title(table.name), &anchor("withy", table.name)),
-            names(table)
-        );
-    }
-    text += &format!("- From Rhai: {}\n", rhai.collect::<Vec<_>>().join(", "));
-    text
+/// Link to a section of a page of the reference.
+fn section_link(page: &str, name: &str) -> String {
+    format!("[{}](language/{page}.md#{})", title(name), name.replace(' ', "-"))
 }
 
 /// Names in a table, without duplicates.
@@ -71,35 +86,20 @@ fn names(table: &BindingTable) -> String {
     names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(" ")
 }
 
-fn link(title: &str, anchor: &str) -> String {
-    format!("[{title}](#{anchor})")
-}
-
-/// Anchors, because headings of different parts may be equal.
-fn anchor(part: &str, name: &str) -> String {
-    format!("{part}-{}", name.replace(' ', "-"))
-}
-
-fn heading(text: &mut String, part: &str, name: &str) {
-    let _ = write!(text, "\n<a id=\"{}\"></a>\n\n### {}\n", anchor(part, name), title(name));
-}
-
 fn title(name: &str) -> String {
     let mut letters = name.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 fn describe_topic(text: &mut String, topic: &Topic) {
-    heading(text, "language", topic.name);
-    let _ = writeln!(text, "\n{}\n\n{}", topic.summary, topic.doc);
+    let _ = writeln!(text, "\n## {}\n\n{}\n\n{}", title(topic.name), topic.summary, topic.doc);
     example(text, topic.example);
     see(text, topic.see);
 }
 
-fn describe_table(text: &mut String, table: &BindingTable) {
-    heading(text, "withy", table.name);
+fn describe_table(table: &BindingTable) -> String {
+    let mut text = format!("# {}\n\n{}\n", title(table.name), table.doc);
     // Writing to a string cannot fail.
-    let _ = writeln!(text, "\n{}", table.doc);
     for of in table.types {
         let _ = writeln!(text, "\n*{}*: {}", of.name(), of.doc());
     }
@@ -107,14 +107,14 @@ fn describe_table(text: &mut String, table: &BindingTable) {
         let _ = writeln!(text, "\nThe examples begin with\n\n```rhai\n{}\n```", table.setup);
     }
     for constant in table.constants {
-        let _ = writeln!(text, "\n#### `{}`\n\n{}", constant.name, constant.summary);
+        let _ = writeln!(text, "\n## `{}`\n\n{}", constant.name, constant.summary);
     }
-    table.rows.iter().for_each(|row| describe_row(text, row));
+    table.rows.iter().for_each(|row| describe_row(&mut text, row));
+    text
 }
 
 fn describe_row(text: &mut String, row: &FunctionBinding) {
-    let _ =
-        writeln!(text, "\n#### `{}`{}\n\n{}", row.signature(), gives(&row.returns), row.summary);
+    let _ = writeln!(text, "\n## `{}`{}\n\n{}", row.signature(), gives(&row.returns), row.summary);
     if let Some(setter) = row.setter {
         let [value] = setter.value;
         let _ = writeln!(text, "\nIt can be assigned: {}.", value.expectation());
@@ -131,8 +131,7 @@ fn describe_row(text: &mut String, row: &FunctionBinding) {
 }
 
 fn describe_built_ins(text: &mut String, table: &BuiltInTable) {
-    heading(text, "rhai", table.name);
-    let _ = writeln!(text, "\n{}\n", table.doc);
+    let _ = writeln!(text, "\n## {}\n\n{}\n", title(table.name), table.doc);
     for built_in in table.rows {
         let forms: Vec<_> = built_in.forms.iter().map(|form| format!("`{form}`")).collect();
         let doc =

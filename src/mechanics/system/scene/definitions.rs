@@ -38,6 +38,17 @@ pub struct BeamDefinition {
 }
 
 impl BeamDefinition {
+    /// Returns a beam that is at rest at the start of the scene.
+    pub fn new(
+        name: impl Into<String>,
+        axis: Curve,
+        mesh: Mesh,
+        section: impl Into<SectionVariation>,
+    ) -> Self {
+        let motion = StartMotion::default();
+        Self { name: name.into(), axis, mesh, section: section.into(), motion }
+    }
+
     /// The mass of the beam, without what stands on it [mass].
     pub fn mass(&self) -> f64 {
         self.section.mean().mass_per_length * self.axis.length()
