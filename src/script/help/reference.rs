@@ -60,7 +60,6 @@ fn contents(catalog: &Catalog) -> String {
     text
 }
 
-/// Names in a table, without duplicates.
 fn names(table: &BindingTable) -> String {
     let mut names: Vec<&str> = table.constants.iter().map(|constant| constant.name).collect();
     for row in table.rows {
