@@ -30,7 +30,6 @@ const MOST_ROWS: f64 = 1e5;
 /// Relative tolerance for equal step sizes.
 const SAME_STEP: f64 = 1e-9;
 
-/// Step observer that stops a run when it is no longer needed or exceeds its limits.
 struct CaseMonitor<'a> {
     wait: CaseTimer,
     steps: usize,

@@ -43,7 +43,6 @@ impl Ladder {
         deviation.is_some_and(|of| of.distance.is_finite() && of.distance > WELL_ABOVE * of.trusted)
     }
 
-    /// Size and error of a usable rung.
     fn point(&self, rung: usize) -> Option<(f64, f64)> {
         let deviation = (*self.deviations.get(rung)?)?;
         self.tells_an_order(rung).then(|| (self.sizes[rung], deviation.distance))

@@ -82,7 +82,6 @@ pub fn step_costs(
 ) -> Option<Vec<StepCost>> {
     let mut times: Vec<Vec<Duration>> = vec![Vec::new(); cases.len()];
     let mut costs: Vec<Option<StepCost>> = vec![None; cases.len()];
-    // The first round warms up.
     for round in 0..=repeats.max(1) {
         for (number, case) in cases.iter().enumerate() {
             let (cost, time) = measure(case, patience, is_wanted);
@@ -102,7 +101,6 @@ pub fn step_costs(
     Some(costs.into_iter().flatten().zip(times).map(cost).collect())
 }
 
-/// Runs a case once; returns its cost and the time of a step.
 fn measure(
     case: &CostCase,
     patience: RunLimits,

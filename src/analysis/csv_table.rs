@@ -60,6 +60,7 @@ pub struct ParsedCsv {
 impl ParsedCsv {
     /// Parses comma-separated values.
     ///
+    /// # Errors
     /// If two columns have the same name, or a row has another number of cells than there are columns.
     pub fn parse(text: &str) -> Result<Self, ParsedCsvError> {
         let mut reader = csv::ReaderBuilder::new()
@@ -110,6 +111,7 @@ impl ParsedCsv {
 
     /// Texts of a row by column.
     ///
+    /// # Panics
     /// If there is no such row.
     pub fn texts(&self, row: usize) -> &[String] {
         &self.rows[row].1
@@ -117,6 +119,7 @@ impl ParsedCsv {
 
     /// Line of a row in the file, from 1.
     ///
+    /// # Panics
     /// If there is no such row.
     pub fn line(&self, row: usize) -> u64 {
         self.rows[row].0
@@ -124,8 +127,10 @@ impl ParsedCsv {
 
     /// Text of a cell.
     ///
+    /// # Errors
     /// If there is no such column.
     ///
+    /// # Panics
     /// If there is no such row.
     pub fn text(&self, row: usize, column: &str) -> Result<&str, ParsedCsvError> {
         let found = self.columns.iter().position(|name| name == column);
@@ -136,6 +141,7 @@ impl ParsedCsv {
 
     /// Number in a cell.
     ///
+    /// # Errors
     /// If there is no such column, or the cell is not a finite number.
     pub fn number(&self, row: usize, column: &str) -> Result<f64, ParsedCsvError> {
         let text = self.text(row, column)?;
@@ -149,6 +155,7 @@ impl ParsedCsv {
 
     /// Non-negative size of an error in a cell.
     ///
+    /// # Errors
     /// If there is no such column, or the cell is not a finite non-negative number.
     pub fn size(&self, row: usize, column: &str) -> Result<f64, ParsedCsvError> {
         let number = self.number(row, column)?;

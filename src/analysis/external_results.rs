@@ -53,6 +53,7 @@ impl ExternalResult {
     /// Reads runs from a table with the columns peer, series, run_time_s, t, energy_drift and machine, and station positions named as in a
     /// reference; integrator, elements, dof and dt are optional.
     ///
+    /// # Errors
     /// If a column is missing, a number is invalid, or the positions belong to another time than that of the study.
     pub fn of_sheet(
         sheet: &ParsedCsv,
@@ -94,7 +95,6 @@ impl ExternalResult {
     }
 }
 
-/// Position of a station in a run.
 fn position(sheet: &ParsedCsv, row: usize, of: &Observable) -> Result<Vec2, ParsedCsvError> {
     let [x, y] = ["x", "y"].map(|axis| sheet.number(row, &format!("{axis}{}", of.name)));
     Ok(Vec2::new(x?, y?))

@@ -21,7 +21,6 @@ const LONGEST: usize = 1 << 30;
 /// Maximum length of a journal [bytes].
 const LARGEST: u64 = 1 << 32;
 
-/// Version of the storage format.
 const FORMAT: u32 = 1;
 
 /// Identifies the build of the program, independent of the machine.
@@ -61,6 +60,7 @@ pub struct Journal {
 impl Journal {
     /// Opens a journal; a missing file is created with the first record.
     ///
+    /// # Errors
     /// If an existing file cannot be read.
     pub fn open(path: impl Into<PathBuf>) -> Result<Self, JournalError> {
         let path = path.into();
@@ -81,6 +81,7 @@ impl Journal {
 
     /// Combines several files for reading only.
     ///
+    /// # Errors
     /// If one of them cannot be read.
     pub fn of_files(paths: impl IntoIterator<Item = PathBuf>) -> Result<Self, JournalError> {
         let mut known = BTreeMap::new();
@@ -92,6 +93,7 @@ impl Journal {
 
     /// Removes the results of earlier runs.
     ///
+    /// # Errors
     /// If the file cannot be removed.
     pub fn clear(&mut self) -> Result<(), JournalError> {
         self.known.clear();
@@ -116,6 +118,7 @@ impl Journal {
 
     /// Writes the result of a case at once; returns the number of bytes.
     ///
+    /// # Errors
     /// If writing fails.
     pub fn write<T: Serialize>(
         &mut self,
@@ -134,6 +137,7 @@ impl Journal {
 
     /// Creates the file of the journal, even without records, to mark the study as started.
     ///
+    /// # Errors
     /// If writing fails.
     pub fn begin(&mut self) -> Result<(), JournalError> {
         let path = self.path.clone();
@@ -141,7 +145,6 @@ impl Journal {
         begun.map_err(|source| JournalError { path, action: "written", source })
     }
 
-    /// Creates the file with the known results, if it is not open; returns the number of bytes.
     fn begin_file(&mut self) -> io::Result<u64> {
         let mut bytes = 0;
         if self.file.is_none() {
@@ -183,6 +186,7 @@ impl Journal {
 
     /// Removes the journal of a completed study.
     ///
+    /// # Errors
     /// If the file cannot be removed.
     pub fn finish(self) -> Result<(), JournalError> {
         drop(self.file);
@@ -223,7 +227,6 @@ fn record(fingerprint: u64, result: &[u8]) -> io::Result<Vec<u8>> {
     Ok([&length.to_le_bytes(), &checksum.to_le_bytes(), payload.as_slice()].concat())
 }
 
-/// First record, if it is complete, and the rest.
 fn next_record(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
     let (length, rest) = bytes.split_first_chunk()?;
     let (checksum, rest) = rest.split_first_chunk()?;

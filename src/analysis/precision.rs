@@ -49,7 +49,6 @@ impl PrecisionRow {
         (price, self.error.map_or(f64::INFINITY, |error| error.error()))
     }
 
-    /// Returns true if only the step size differs, and is smaller.
     fn is_with_a_smaller_step_than(&self, other: &Self) -> bool {
         let (StepSize::Fixed(own), StepSize::Fixed(others)) = (self.settings.dt, other.settings.dt)
         else {
@@ -140,7 +139,6 @@ mod tests {
     use super::*;
     use crate::beams::Station;
 
-    /// A short spinning rod with three step sizes, the first of which fails; a finer run is the reference.
     fn study() -> Precision {
         let observables: Vec<_> = Observable::of_station("tip", Station::on_beam(0, 2.0)).collect();
         let trial = |dt| {
@@ -194,7 +192,6 @@ mod tests {
         let mut study = study();
         let error = study.rows[1].price_and_error().1;
         assert_eq!(study.cheapest_confirmed(error).unwrap(), &study.rows[1]);
-        // The smallest step cannot be confirmed.
         assert!(study.cheapest_confirmed(0.5 * error).is_none());
         study.rows[2].error = study.rows[1].error.map(|error| error.divided_by(0.5));
         assert!(study.cheapest_confirmed(error).is_none());

@@ -91,7 +91,6 @@ pub enum ReferenceError {
 /// Relative errors below this are not resolved by a reference of rounded numbers.
 const ROUNDING: f64 = 1e-13;
 
-/// A reference value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct KnownValue {
     value: Vec2,
@@ -112,7 +111,6 @@ pub struct ReferenceSolution {
 /// Tolerance for equal times, relative to the larger of the time and one.
 const SAME_TIME: f64 = 1e-9;
 
-/// Row of a table at a time.
 fn row_at(sheet: &ParsedCsv, time: f64) -> Result<usize, ReferenceError> {
     let times: Vec<f64> =
         (0..sheet.len()).map(|row| sheet.number(row, "t")).collect::<Result<_, _>>()?;
@@ -144,7 +142,6 @@ fn estimate(sheet: &ParsedCsv, row: usize, columns: &[String]) -> Result<f64, Pa
     found.map_or(Ok(0.0), |column| sheet.size(row, column))
 }
 
-/// Reference value of an observable in a table.
 fn known_of(
     sheet: &ParsedCsv,
     row: usize,
@@ -194,6 +191,7 @@ impl ReferenceSolution {
     /// Reference from a table of an independent solution: a column t and, for a station A, xA, yA and thA; other columns have the names of
     /// observables. Estimated errors are in columns d_xA, d_A or d_pos, d_thA or d_th, d_E, ….
     ///
+    /// # Errors
     /// If a time or all stations are missing, or a cell is not a number.
     pub fn of_sheet(
         source: impl Into<String>,

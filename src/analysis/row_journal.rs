@@ -44,6 +44,7 @@ pub struct RowJournal {
 /// Reads the entries of a journal up to the first damaged or incomplete one; returns the length of the valid part [bytes], zero if there is
 /// no file.
 ///
+/// # Errors
 /// If an existing file cannot be read, or `heed` returns an error.
 pub fn read_rows<E: From<io::Error>>(
     path: &Path,
@@ -66,6 +67,7 @@ pub fn read_rows<E: From<io::Error>>(
 impl RowJournal {
     /// Opens a journal for appending after the first `whole` bytes; a missing file is created.
     ///
+    /// # Errors
     /// If writing fails.
     pub fn append(path: &Path, whole: u64) -> io::Result<Self> {
         let (folder, name) = place(path, Folder::make)?;
@@ -76,6 +78,7 @@ impl RowJournal {
 
     /// Appends an entry; returns its length [bytes].
     ///
+    /// # Errors
     /// If writing fails.
     pub fn write(&mut self, entry: &RowEntry) -> io::Result<u64> {
         let payload = postcard::to_stdvec(entry).map_err(io::Error::other)?;
@@ -89,6 +92,7 @@ impl RowJournal {
 
     /// Flushes the buffer periodically.
     ///
+    /// # Errors
     /// If writing fails.
     pub fn beat(&mut self) -> io::Result<()> {
         if self.flushed.elapsed() > DELAY {
@@ -99,6 +103,7 @@ impl RowJournal {
 
     /// Flushes the buffer.
     ///
+    /// # Errors
     /// If writing fails.
     pub fn flush(&mut self) -> io::Result<()> {
         self.flushed = Instant::now();
@@ -108,6 +113,7 @@ impl RowJournal {
 
 /// Removes a journal, if it exists.
 ///
+/// # Errors
 /// If removing fails.
 pub fn remove_rows(path: &Path) -> io::Result<()> {
     match place(path, Folder::find).and_then(|(folder, name)| folder.remove(&name)) {
@@ -121,7 +127,6 @@ fn place(path: &Path, open: fn(&Path) -> io::Result<Folder>) -> io::Result<(Fold
     Ok((open(path.parent().unwrap_or(Path::new(".")))?, name.into()))
 }
 
-/// Next entry, if it is complete, and its length [bytes].
 fn next_entry(file: &mut impl Read) -> Option<(RowEntry, u64)> {
     let mut head = [0; 8];
     file.read_exact(&mut head).ok()?;

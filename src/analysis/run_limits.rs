@@ -29,7 +29,6 @@ pub fn is_out_of_patience() -> bool {
     DEADLINE.get().is_some_and(|deadline| Instant::now() > deadline)
 }
 
-/// Guard: the deadline applies while it lives.
 pub(super) struct CaseTimer {
     begun: Instant,
     patience: RunLimits,
@@ -37,7 +36,6 @@ pub(super) struct CaseTimer {
 }
 
 impl RunLimits {
-    /// Starts the deadline for a case on this thread.
     pub(super) fn begin(self) -> CaseTimer {
         let begun = Instant::now();
         CaseTimer { begun, patience: self, before: DEADLINE.replace(begun.checked_add(self.wall)) }
@@ -45,7 +43,6 @@ impl RunLimits {
 }
 
 impl CaseTimer {
-    /// Description of the exceeded limit after this many steps, if any.
     pub(super) fn exceeded(&self, steps: usize) -> Option<String> {
         let RunLimits { steps: most, wall } = self.patience;
         if steps > most {

@@ -76,7 +76,6 @@ impl RunResult {
     }
 }
 
-/// Energy drift since the last change of the work of the loads.
 fn free_energy_drift(history: &History) -> f64 {
     let works = || history.samples().iter().map(|row| row.measures.work);
     let Some(last) = works().next_back() else { return f64::NAN };

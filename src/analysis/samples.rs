@@ -12,12 +12,10 @@ use crate::newton::Tolerance;
 use crate::simulation::SimulationSettings;
 use crate::system::{BeamDefinition, Scene, StartMotion};
 
-/// A stop flag that is never set.
 pub fn never() -> AtomicBool {
     AtomicBool::new(false)
 }
 
-/// A short free spinning beam.
 pub fn spinning(dt: f64, stops: &[f64]) -> Case {
     let mut scene = Scene::new("spinning");
     let section = Section {

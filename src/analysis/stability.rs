@@ -63,7 +63,6 @@ impl StabilityVerdict {
     }
 }
 
-/// Time of the last break of all schedules [time].
 fn rest(scene: &Scene) -> f64 {
     scene.schedules().flat_map(|(_, schedule)| schedule.breaks()).fold(0.0, f64::max)
 }

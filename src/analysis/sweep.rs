@@ -105,7 +105,6 @@ pub struct SweepResults {
     reasons: FailureReasons,
 }
 
-/// Reasons of failures, without duplicates.
 #[derive(Clone, Debug, Default)]
 struct FailureReasons {
     texts: Vec<String>,

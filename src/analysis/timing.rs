@@ -69,7 +69,6 @@ impl Timing {
     }
 }
 
-/// Median; the mean of the two middle values for an even number.
 pub(super) fn median(mut durations: Vec<Duration>) -> Option<Duration> {
     durations.sort_unstable();
     let upper = durations.len() / 2;

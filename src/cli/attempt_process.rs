@@ -26,7 +26,6 @@ use crate::script::messages::stop::Stop;
 use crate::script::state::limits::Limits;
 use crate::script::state::settings::{RunMode, RunSettings};
 
-/// Polling interval.
 const INTERVAL: Duration = Duration::from_millis(5);
 /// Time allowed for the process besides the attempt and its judge.
 const START: Duration = Duration::from_secs(2);
@@ -35,18 +34,15 @@ const LONGEST_MESSAGE: usize = 4000;
 /// Maximum size of a verdict [bytes].
 const LONGEST_VERDICT: u64 = 1 << 20;
 
-/// Common settings of the grading processes of a class.
 pub(super) struct JudgeLimits<'a> {
-    /// Parent of the folders of the processes.
     pub scratch: &'a Scratch,
-    /// Limits of each process.
     pub limits: &'a LimitOptions,
-    /// Flag that ends all processes.
     pub stop: &'a AtomicBool,
 }
 
 /// Mark of an attempt from a separate process; `None` if grading was stopped before.
 ///
+/// # Errors
 /// If no process can be started, which is not the student's fault.
 pub(super) fn mark_apart(
     submission: &Submission,
@@ -65,15 +61,10 @@ pub(super) fn mark_apart(
     })
 }
 
-/// Result of a process.
 enum ProcessReport {
-    /// The verdict as a line.
     Line(String),
-    /// No output.
     Nothing(ExitStatus),
-    /// Killed after a timeout.
     TooLate,
-    /// Killed because grading was stopped.
     Interrupted,
 }
 
@@ -146,7 +137,6 @@ fn too_late(limits: &Limits) -> String {
     limits.time.map_or_else(|| "it takes too long".into(), |time| Stop::Time(time).words().0)
 }
 
-/// Mark and message for the way in which a process died.
 fn mark_of_death(status: ExitStatus, limits: &Limits) -> (Mark, String) {
     let passed = match cause_of_death(status) {
         KillReason::Time => return (Mark::Stopped, too_late(limits)),
@@ -160,7 +150,6 @@ fn mark_of_death(status: ExitStatus, limits: &Limits) -> (Mark, String) {
     }
 }
 
-/// System limit that killed a process.
 enum KillReason {
     Time,
     Memory,
@@ -199,7 +188,6 @@ fn stopped_hard(stop: Stop) {
     process::exit(0)
 }
 
-/// Judges one attempt in this dedicated process, and prints the verdict.
 pub(super) fn judge_one(
     folder: &Path,
     file: &Path,
@@ -254,7 +242,6 @@ fn confine(limits: &Limits) -> nix::Result<()> {
     Ok(())
 }
 
-/// Maximum number of open files.
 #[cfg(unix)]
 const FILES_OPEN: u64 = 64;
 /// Address space for the program itself [bytes].

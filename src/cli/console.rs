@@ -12,7 +12,6 @@ pub(super) fn say(text: &str) {
     notice(out.write_all(format!("{text}\n").as_bytes()).and_then(|()| out.flush()));
 }
 
-/// Prints a message to stderr.
 pub(super) fn tell(text: &str) {
     notice(stderr().write_all(text.as_bytes()));
 }

@@ -15,7 +15,6 @@ use crate::script::engine::runner;
 use crate::script::packages::language;
 use crate::script::state::settings::{RunMode, RunSettings};
 
-/// Exports a saved simulation.
 pub fn convert(options: &ConvertOptions) -> Exit {
     let wish = if options.quiet { ProgressPreference::Hide } else { ProgressPreference::Show };
     let settings = RunSettings {
@@ -38,7 +37,6 @@ pub fn convert(options: &ConvertOptions) -> Exit {
     exit_for(&outcome)
 }
 
-/// Script line that writes the output.
 fn line(to: ConvertTarget, stem: &str) -> String {
     let file = |ending: &str| literal(&format!("{stem}.{ending}"));
     match to {

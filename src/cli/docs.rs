@@ -19,7 +19,6 @@ use crate::script::packages::language;
 /// Maximum size of a definition file that is checked before it is replaced [bytes].
 const LARGEST_DEFINITION: u64 = 1 << 24;
 
-/// Runs `withy docs`: shows help, or writes the reference or definitions.
 pub fn docs(options: &DocsOptions) -> Exit {
     let catalog = language();
     let text = match &options.definitions {
@@ -46,13 +45,11 @@ fn page(catalog: &Catalog, name: &str) -> Result<String, Diagnostic> {
     Ok(if wants_colours { page.ansi(width()) } else { page.plain(width()) })
 }
 
-/// Width of the terminal, from the environment.
 fn width() -> usize {
     let columns = std::env::var("COLUMNS").ok().and_then(|text| text.parse().ok());
     columns.filter(|columns| *columns > 0).unwrap_or(WIDTH)
 }
 
-/// Writes each file atomically, and lists them.
 fn write_definitions(catalog: &Catalog, folder: &Path) -> Result<String, Diagnostic> {
     let refused = |path: &Path, why: &dyn std::fmt::Display| {
         Diagnostic::general(format!("cannot write '{}': {why}", path.display()))

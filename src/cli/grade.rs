@@ -21,26 +21,17 @@ use crate::exercises::submissions::Submission;
 use crate::output::{Cell, TextTable, columns, padded};
 use crate::sandbox_fs::Scratch;
 
-/// Output format of marks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GradeFormat {
-    /// Table for people.
     Table,
-    /// JSON for programs.
     Json,
 }
 
-/// Options of grading.
 pub struct GradeOptions<'a> {
-    /// Folder of the class.
     pub folder: &'a Path,
-    /// Output format.
     pub form: GradeFormat,
-    /// File for the marks.
     pub marks: Option<&'a Path>,
-    /// Number of parallel processes.
     pub jobs: Option<u16>,
-    /// Limits of an attempt.
     pub limits: &'a LimitOptions,
 }
 
@@ -103,7 +94,6 @@ pub fn grade(wishes: &GradeOptions) -> Result<Exit, ExerciseError> {
     }
 }
 
-/// A mark and its origin.
 struct GradedMark {
     mark: Mark,
     message: String,
@@ -119,7 +109,6 @@ enum MarkOrigin {
 }
 
 impl GradedMark {
-    /// Mark of an attempt from an earlier run, or by judging; `None` if interrupted.
     fn find(
         submission: &Submission,
         exercise: &'static Exercise,
@@ -147,7 +136,6 @@ impl GradedMark {
     }
 }
 
-/// Output of marks: by line for people, by student for programs.
 struct GradeSheet {
     form: GradeFormat,
     student_width: usize,
@@ -155,7 +143,6 @@ struct GradeSheet {
     reports: Vec<StudentReport>,
 }
 
-/// Maximum column width for student names.
 const WIDEST: usize = 40;
 
 impl GradeSheet {
@@ -202,7 +189,6 @@ impl GradeSheet {
         }
     }
 
-    /// Prints the last student, whose marks are complete.
     fn tell_student(&self) {
         let Some(report) = self.reports.last() else { return };
         let comma = if self.reports.len() > 1 { "    ,\n" } else { "" };
@@ -211,7 +197,6 @@ impl GradeSheet {
         say(&format!("{comma}{}", lines.join("\n")));
     }
 
-    /// Prints the end of the output, even if marks are missing.
     fn end(&self) {
         match self.form {
             GradeFormat::Json => say("  ]\n}"),
@@ -229,7 +214,6 @@ impl GradeSheet {
     }
 }
 
-/// Text without control characters.
 fn shown(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { '\u{b7}' } else { c }).collect()
 }

@@ -26,7 +26,6 @@ pub enum InterruptLoss {
     Session,
 }
 
-/// Creates a flag that Ctrl-C sets.
 pub fn flag(at_stake: InterruptLoss) -> Arc<AtomicBool> {
     let patience = match at_stake {
         InterruptLoss::Run => Duration::ZERO,

@@ -26,7 +26,6 @@ use crate::panics;
 use crate::script::diagnose::{Colours, Diagnostic};
 use crate::script::state::settings::{RunMode, RunSettings};
 
-/// Runs `withy learn`.
 pub fn learn(options: &LearnOptions) -> Exit {
     panics::silence();
     let workbook = Workbook::near(Path::new("."));
@@ -65,7 +64,6 @@ pub fn learn(options: &LearnOptions) -> Exit {
 
 type Done = Result<Exit, ExerciseError>;
 
-/// Creates missing exercise files.
 fn begin(workbook: &Workbook) -> Result<(), ExerciseError> {
     if workbook.fill()? == EXERCISES.len() {
         say(&format!(
@@ -102,7 +100,6 @@ fn list(workbook: &Workbook) -> Done {
     Ok(Exit::Good)
 }
 
-/// Prints the next exercise.
 fn show_next(workbook: &Workbook) -> Done {
     match workbook.next()? {
         Some(exercise) => {
@@ -117,7 +114,6 @@ fn show_next(workbook: &Workbook) -> Done {
     Ok(Exit::Good)
 }
 
-/// Judges an attempt and prints the result.
 fn check(
     workbook: &Workbook,
     exercise: &Exercise,
@@ -174,12 +170,9 @@ fn judge_file(workbook: &Workbook, exercise: &Exercise, settings: RunSettings) -
     }
 }
 
-/// Detail of the output after judging all attempts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Detail {
-    /// Number of passed exercises, and the next one.
     Summary,
-    /// One line per exercise, and the summary.
     Each,
 }
 
@@ -228,7 +221,6 @@ fn check_all(workbook: &Workbook, detail: Detail, limits: &LimitOptions) -> Done
     Ok(if passed == EXERCISES.len() { Exit::Good } else { Exit::CheckFailed })
 }
 
-/// Shows the model solution of a passed exercise.
 fn solution(workbook: &Workbook, name: &str) -> Done {
     begin(workbook)?;
     let exercise = find(name)?;
@@ -326,7 +318,6 @@ fn watch_in_lines(workbook: &Workbook, limits: &LimitOptions, flag: &Arc<AtomicB
     show_next(workbook)
 }
 
-/// Path as typed from the current folder.
 pub(super) fn shown(path: &Path) -> String {
     let path: PathBuf = path.strip_prefix(".").unwrap_or(path).into();
     if path.as_os_str().is_empty() { "this folder".into() } else { path.display().to_string() }

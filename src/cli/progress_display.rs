@@ -9,16 +9,12 @@ use indicatif::{ProgressBar, ProgressStyle};
 use crate::script::messages::numbers::format_number;
 use crate::script::messages::progress::{NoProgress, Progress};
 
-/// Preference for a progress bar.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ProgressPreference {
-    /// Shown, if there is a terminal.
     Show,
-    /// Hidden.
     Hide,
 }
 
-/// Progress display: a bar on a terminal, otherwise none.
 pub fn progress(wish: ProgressPreference) -> Box<dyn Progress + Send> {
     match wish == ProgressPreference::Show && stderr().is_terminal() {
         true => Box::new(ProgressDisplay::default()),
@@ -36,7 +32,6 @@ struct ProgressDisplay {
     shown: RefCell<Option<ProgressBar>>,
 }
 
-/// Resolution of the bar, finer than any terminal.
 const PARTS: u64 = 1000;
 /// No bar for runs shorter than this.
 const SOON: Duration = Duration::from_millis(300);

@@ -25,7 +25,6 @@ use crate::script::state::settings::{JournalPreference, RunMode, RunSettings, St
 /// Maximum size of a report that is checked before it is replaced [bytes].
 const LARGEST_REPORT: u64 = 1 << 28;
 
-/// Runs `withy run`.
 pub fn run(options: &RunOptions) -> Exit {
     let wish = if options.quiet { ProgressPreference::Hide } else { ProgressPreference::Show };
     if let Some(Err(diagnostic)) = options.report.as_deref().map(expect_report) {
@@ -56,7 +55,6 @@ pub fn run(options: &RunOptions) -> Exit {
     exit_for(&outcome)
 }
 
-/// Runs `withy study`: a script whose studies keep a journal.
 pub fn study(options: &StudyOptions) -> Exit {
     let wish = if options.quiet { ProgressPreference::Hide } else { ProgressPreference::Show };
     let studies = StudyPreferences {
@@ -88,7 +86,6 @@ pub fn study(options: &StudyOptions) -> Exit {
     }
 }
 
-/// Runs `withy check`: parses a script and builds its scenes.
 pub fn check(options: &CheckOptions) -> Exit {
     let settings = RunSettings {
         interrupt: interrupt::flag(InterruptLoss::Run),
@@ -132,7 +129,6 @@ pub(super) fn exit_for(outcome: &RunOutcome) -> Exit {
     }
 }
 
-/// Exit code of a run with studies; kept cases are reported.
 fn exit_for_study(outcome: &RunOutcome, out: &Path) -> Exit {
     let (cases, are) = match outcome.kept_cases {
         0 => return exit_for(outcome),
@@ -189,7 +185,6 @@ fn exit_for_part(outcome: &RunOutcome, options: &StudyOptions) -> Exit {
     }
 }
 
-/// Prints an error; returns the exit code.
 pub(super) fn refuse(diagnostic: &Diagnostic) -> Exit {
     let wants_colours =
         stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
@@ -206,7 +201,6 @@ pub(super) fn show_summary(outcome: &RunOutcome) {
     }
 }
 
-/// Creates the handler that ends the program when a limit is exceeded and the run does not react.
 pub(super) fn last_resort() -> HardAbort {
     Arc::new(end_at)
 }

@@ -4,13 +4,11 @@ use std::path::{Path, PathBuf};
 
 use crate::script::source::program::Program;
 
-/// Folder of a file.
 pub(super) fn folder_of(file: &Path) -> PathBuf {
     let parent = file.parent().filter(|parent| !parent.as_os_str().is_empty());
     parent.unwrap_or(Path::new(".")).to_owned()
 }
 
-/// File name without folder and extension.
 pub(super) fn stem_of(file: &Path) -> String {
     file.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
 }
@@ -22,7 +20,6 @@ pub(super) fn program(command: &str, file: &Path, line: &str) -> Program {
     Program { folder: folder_of(file), ..Program::named(command, &text) }
 }
 
-/// String literal of the language.
 pub(super) fn literal(text: &str) -> String {
     let escape = |letter: char| match letter {
         '\\' | '"' => format!("\\{letter}"),

@@ -35,17 +35,14 @@ pub fn open(options: &ReplOptions) -> Exit {
     }
 }
 
-/// Opens a session without a file.
 pub fn start(options: SessionOptions) -> Exit {
     open(&ReplOptions { file: None, session: options })
 }
 
-/// Returns true if the session is interactive.
 fn is_conversation(options: &SessionOptions) -> bool {
     options.inputs.is_empty() && stdin().is_terminal() && stdout().is_terminal()
 }
 
-/// Runs a session.
 fn hold(options: &ReplOptions) -> Result<Exit, Diagnostic> {
     let ReplOptions { file, session: options } = options;
     let is_conversation = is_conversation(options);
@@ -72,7 +69,6 @@ fn hold(options: &ReplOptions) -> Result<Exit, Diagnostic> {
     Ok(exit_for(&shell, outcome))
 }
 
-/// Runs an interactive session.
 fn converse(shell: &mut Shell, options: &SessionOptions) -> Result<(), Diagnostic> {
     let no_terminal = |error: io::Error| {
         Diagnostic::general(format!("cannot read from the terminal: {error}"))
@@ -138,7 +134,6 @@ fn folder_of(file: &Option<PathBuf>) -> PathBuf {
     parent.filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new(".")).into()
 }
 
-/// Terminal style.
 fn style(options: &SessionOptions) -> TerminalStyle {
     let style = TerminalStyle::of_environment(|name| std::env::var(name).ok());
     match options.ascii {

@@ -31,7 +31,6 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// Prints help or errors of the command line parser.
 fn answered(answer: &clap::Error) -> Exit {
     let printed = answer.print().and_then(|()| stdout().flush());
     let is_lost = printed.is_err_and(|error| error.kind() != ErrorKind::BrokenPipe);

@@ -25,17 +25,14 @@ use crate::script::source::program::Program;
 use crate::script::source::text::Source;
 use crate::script::state::settings::{RunMode, RunSettings};
 
-/// Program, and its output folder.
 struct ViewRun {
     program: Program,
     out: PathBuf,
-    /// Name of the page in that folder.
     page: String,
     /// Temporary folder of the page, if the user chose another location.
     _scratch: Option<Scratch>,
 }
 
-/// Writes a page and opens it.
 pub fn view(options: &ViewOptions) -> Exit {
     match prepare(options) {
         Ok(run) => perform(run, options),
@@ -111,7 +108,6 @@ fn perform(run: ViewRun, options: &ViewOptions) -> Exit {
     exit_for(&outcome)
 }
 
-/// Moves the page to the location chosen by the user.
 fn put(page: &Path, place: &Path) -> Result<(), Diagnostic> {
     let failed = |error: String| {
         Diagnostic::general(format!("cannot write the page '{}': {error}", place.display()))

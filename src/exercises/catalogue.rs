@@ -22,7 +22,6 @@ pub const TRACKS: &[ExerciseTrack] = &[
     ExerciseTrack { name: "studies", title: "Sweeps and fits" },
 ];
 
-/// Embeds the files of an exercise.
 macro_rules! exercise {
     ($track:literal, $name:literal) => {
         Exercise {
@@ -76,6 +75,7 @@ pub const EXERCISES: &[Exercise] = &[
 
 /// Exercise identified by `name`, `track/name`, or the path of its file.
 ///
+/// # Errors
 /// If there is none; the error contains a suggestion.
 pub fn find(name: &str) -> Result<&'static Exercise, ExerciseError> {
     let wanted = name.strip_suffix(".rhai").unwrap_or(name);

@@ -26,7 +26,6 @@ pub fn fingerprint(submission: &Submission, exercise: &Exercise, limits: &[Strin
     format!("{:016x}", Journal::fingerprint(&[&parts[..], &[&beside]].concat()))
 }
 
-/// Returns true if an attempt may read other files.
 fn reads_files(attempt: &Source) -> bool {
     let reads = |name: &str| matches!(name, "load_simulation" | "Fn") || name.starts_with("study_");
     attempt.imports().next().is_some() || attempt.names().any(reads)

@@ -132,7 +132,6 @@ pub fn mark(verdict: AttemptVerdict) -> Option<(Mark, String)> {
     Some((mark, message))
 }
 
-/// Compares texts without trailing blanks.
 fn is_same(a: &str, b: &str) -> bool {
     a.lines().map(str::trim_end).eq(b.lines().map(str::trim_end))
 }

@@ -47,7 +47,6 @@ impl Judge {
     }
 }
 
-/// Parses `name (type)`.
 fn need(text: &str) -> Option<Need> {
     let (name, of) = text.trim().strip_suffix(')')?.split_once(" (")?;
     Some(Need { name: name.into(), of: of.into() })

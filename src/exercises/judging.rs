@@ -51,7 +51,6 @@ pub fn judge(exercise: &Exercise, attempt: &Program, settings: RunSettings) -> A
     on_large_stack(&limits, hold).unwrap_or_else(AttemptVerdict::Broken)
 }
 
-/// Engine shared by attempt and judge, and a switch for their output.
 struct JudgingContext {
     host: ScriptEngine,
     silence: SilenceSwitch,
@@ -111,7 +110,6 @@ impl JudgingContext {
         }
     }
 
-    /// Variables required by a judge, or the reason why one is missing.
     fn show(
         &self,
         needs: &[Need],
@@ -155,7 +153,6 @@ impl JudgingContext {
         if wrong.is_empty() { Ok(seen) } else { Err(wrong) }
     }
 
-    /// Runs a script; its variables stay in the scope.
     fn run(&self, program: &Program, scope: &mut Scope<'static>) -> Result<AST, AttemptVerdict> {
         let ran = self.host.watch().and_then(|guard| {
             self.host.run(

@@ -15,7 +15,6 @@ use crate::sandbox_fs::Folder;
 /// Maximum size of the file [bytes].
 const LARGEST: u64 = 1 << 30;
 
-/// Beginning of every line.
 const HEAD: &str = "{\"student\":";
 
 /// Marks of earlier runs, by student and exercise.
@@ -37,6 +36,7 @@ pub struct MarksFile(File);
 
 /// Opens or creates a file of marks.
 ///
+/// # Errors
 /// If it cannot be read or written, another run uses it, or it exists and contains no marks.
 pub fn open(path: &Path) -> io::Result<(KnownMarks, MarksFile)> {
     let folder = path.parent().unwrap_or(Path::new("."));
@@ -92,6 +92,7 @@ impl KnownMarks {
 impl MarksFile {
     /// Appends a mark and syncs the file. Without a fingerprint the attempt will be judged again.
     ///
+    /// # Errors
     /// If writing fails.
     pub fn note(
         &mut self,

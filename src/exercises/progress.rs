@@ -21,15 +21,14 @@ pub const FILE: &str = "withy-progress.json";
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StudentProgress {
-    /// Exercises whose last check passed.
     passed: BTreeSet<String>,
-    /// Numbers of given hints.
     hints: BTreeMap<String, usize>,
 }
 
 impl StudentProgress {
     /// Reads the progress from a student's folder; empty if there is no file.
     ///
+    /// # Errors
     /// If the file cannot be read or is damaged.
     pub fn read(folder: &Path) -> Result<Self, ExerciseError> {
         let path = folder.join(FILE);
@@ -43,6 +42,7 @@ impl StudentProgress {
 
     /// Writes the progress to a student's folder.
     ///
+    /// # Errors
     /// If writing fails; the old file is kept.
     pub fn write(&self, folder: &Path) -> Result<(), ExerciseError> {
         let text = format!("{:#}\n", serde_json::json!(self));

@@ -9,7 +9,6 @@ use std::sync::atomic::{AtomicBool, Ordering};
 pub struct SilenceSwitch(Arc<AtomicBool>);
 
 impl SilenceSwitch {
-    /// Silences the writers.
     pub fn begin(&self) {
         self.0.store(true, Ordering::Relaxed);
     }

@@ -20,7 +20,6 @@ pub struct Watcher<'a> {
     seen: Vec<Seen>,
 }
 
-/// Content of a file.
 struct Seen {
     content: Option<Vec<u8>>,
     /// True if the file was empty or missing at the last check; some editors empty or move a file before writing it.

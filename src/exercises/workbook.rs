@@ -51,6 +51,7 @@ impl Workbook {
 
     /// Creates the folder and missing start files. Returns the number of files written.
     ///
+    /// # Errors
     /// If writing fails.
     pub fn fill(&self) -> Result<usize, ExerciseError> {
         let missing: Vec<_> =
@@ -81,6 +82,7 @@ impl Workbook {
 
     /// Progress of the student.
     ///
+    /// # Errors
     /// If the progress file cannot be used.
     pub fn progress(&self) -> Result<StudentProgress, ExerciseError> {
         StudentProgress::read(&self.folder)
@@ -88,6 +90,7 @@ impl Workbook {
 
     /// First exercise that has not passed; `None` if all have.
     ///
+    /// # Errors
     /// If the progress file cannot be used.
     pub fn next(&self) -> Result<Option<&'static Exercise>, ExerciseError> {
         let progress = self.progress()?;
@@ -96,6 +99,7 @@ impl Workbook {
 
     /// Records the result of a check.
     ///
+    /// # Errors
     /// If the progress file cannot be used.
     pub fn note(&self, exercise: &Exercise, passed: bool) -> Result<(), ExerciseError> {
         self.change(|progress| progress.note(exercise, passed))
@@ -103,6 +107,7 @@ impl Workbook {
 
     /// Next hint of an exercise, which is recorded as given.
     ///
+    /// # Errors
     /// If the progress file cannot be used.
     pub fn hint(&self, exercise: &Exercise) -> Result<Advice, ExerciseError> {
         let given = self.progress()?.hints(exercise);
@@ -116,6 +121,7 @@ impl Workbook {
 
     /// Restores the start file of an exercise. Returns the file that keeps the old attempt.
     ///
+    /// # Errors
     /// If writing fails; the attempt is kept.
     pub fn reset(&self, exercise: &Exercise) -> Result<PathBuf, ExerciseError> {
         let file = self.file(exercise);

@@ -33,7 +33,6 @@ pub type Rate<'r, E> = dyn FnMut(&[f64]) -> Result<Option<Rating>, E> + 'r;
 /// Evaluates a design with derivatives.
 pub type RateWithSlopes<'r, E> = dyn FnMut(&[f64]) -> Result<SlopesOfRating, E> + 'r;
 
-/// State of a descent.
 struct Descent<'d, 'f, E> {
     design: &'d Design,
     sloped: &'d mut RateWithSlopes<'f, E>,
@@ -47,7 +46,6 @@ struct Descent<'d, 'f, E> {
     ended: Option<Ended<E>>,
 }
 
-/// Reason for an early end of a descent.
 enum Ended<E> {
     /// Derivatives are missing, with the reason.
     Unknown(String),
@@ -55,7 +53,6 @@ enum Ended<E> {
 }
 
 impl<E> Descent<'_, '_, E> {
-    /// Values at a design in scaled parameters.
     fn at(&mut self, scaled: &[f64]) -> SlopedRating {
         if let Some((at, found)) = &self.last
             && at == scaled
@@ -74,7 +71,6 @@ impl<E> Descent<'_, '_, E> {
         found
     }
 
-    /// Runs a design; `None` if it fails.
     fn asked(&mut self, scaled: &[f64]) -> Result<Option<SlopedRating>, Ended<E>> {
         let x = self.design.unscaled(scaled);
         // Counted once, although a missing derivative needs a second call.
@@ -132,7 +128,6 @@ impl<E> Descent<'_, '_, E> {
         }
     }
 
-    /// Penalty values of a failed run.
     fn failed(&self) -> SlopedRating {
         let Design { ranges, constraints, .. } = self.design;
         SlopedRating {
@@ -151,6 +146,7 @@ impl Design {
     /// with BFGS updates of second derivatives, under linearised constraints. If derivatives are missing or the method fails, `solve`
     /// continues from the best design.
     ///
+    /// # Errors
     /// First error of `sloped` and `rate`.
     pub fn solve_with<'f, E>(
         &self,

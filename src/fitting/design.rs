@@ -54,13 +54,11 @@ pub struct Designed {
     pub without: Option<String>,
 }
 
-/// Start and bounds in scaled parameters.
 pub(super) struct Scaled {
     pub(super) start: Vec<f64>,
     pub(super) bounds: Vec<(f64, f64)>,
 }
 
-/// State of a search.
 struct DesignSearch<E> {
     best: Option<(Vec<f64>, Rating)>,
     last: Option<(Vec<f64>, Rating)>,
@@ -95,6 +93,7 @@ impl Design {
     /// constraints on a simplex. The best of all evaluated designs is returned. `rate` returns `None` for a failed run, which the search
     /// then avoids. `None` if all runs fail.
     ///
+    /// # Errors
     /// First error of `rate`.
     pub fn solve<E>(
         &self,
@@ -172,7 +171,6 @@ impl Design {
         }))
     }
 
-    /// Start and bounds, scaled by the sizes of the parameters.
     pub(super) fn scaled(&self) -> Scaled {
         let of = |range: &SearchRange| {
             let size = range.width();
@@ -182,7 +180,6 @@ impl Design {
         Scaled { start, bounds }
     }
 
-    /// Unscaled parameters, within their bounds.
     pub(super) fn unscaled(&self, scaled: &[f64]) -> Vec<f64> {
         let pairs = scaled.iter().zip(&self.ranges);
         pairs.map(|(u, range)| range.clip(u * range.width())).collect()

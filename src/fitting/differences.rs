@@ -9,9 +9,7 @@ use super::{Evaluate, Evaluation, SearchRange};
 /// 1e-8.
 pub const RELATIVE_STEP: f64 = 1e-4;
 
-/// Finite-difference stencil of a parameter.
 enum Stencil {
-    /// Central difference.
     Central(f64),
     /// Second-order one-sided difference with two points, at a bound.
     OneSided(f64),
@@ -28,7 +26,6 @@ impl Stencil {
         }
     }
 
-    /// Offsets of the evaluated points.
     fn places(&self) -> [f64; 2] {
         match self {
             Self::Central(step) => [*step, -step],
@@ -47,6 +44,7 @@ impl Stencil {
 /// Derivatives of all values by all parameters, one column per parameter: second order, two runs per parameter, all requested at once.
 /// `here` are the values at the point.
 ///
+/// # Errors
 /// The inner error names the run that failed.
 pub fn derivatives<E>(
     ranges: &[SearchRange],
@@ -75,7 +73,6 @@ pub fn derivatives<E>(
     })))
 }
 
-/// Single element of a list of evaluations.
 pub fn only(found: Vec<Evaluation>) -> Evaluation {
     found.into_iter().next().unwrap_or_else(|| Err("nothing was found".into()))
 }

@@ -6,12 +6,10 @@ use super::differences::{derivatives, only};
 use super::gradient_check::{DISTRUST, agree, beside};
 use super::{Evaluate, Evaluation, SearchRange, Slopes};
 
-/// A function with the count of its calls.
 pub struct CountedEvaluator<'a, 'e, E> {
     evaluate: &'a mut Evaluate<'e, E>,
     slopes: &'a mut Slopes<'e, E>,
     ranges: &'a [SearchRange],
-    /// Number of calls.
     pub runs: usize,
     /// Number of calls with derivatives.
     pub gradient_runs: usize,
@@ -28,7 +26,6 @@ pub struct EvaluatedPoint {
 }
 
 impl<'a, 'e, E> CountedEvaluator<'a, 'e, E> {
-    /// Wraps a function.
     pub fn new(
         evaluate: &'a mut Evaluate<'e, E>,
         slopes: &'a mut Slopes<'e, E>,
@@ -39,6 +36,7 @@ impl<'a, 'e, E> CountedEvaluator<'a, 'e, E> {
 
     /// Values at a point, with derivatives if the function provides them. The first derivatives are checked against finite differences.
     ///
+    /// # Errors
     /// Errors of the function.
     pub fn at(&mut self, x: &[f64]) -> Result<EvaluatedPoint, E> {
         let mut unknown = None;
@@ -67,7 +65,6 @@ impl<'a, 'e, E> CountedEvaluator<'a, 'e, E> {
         Ok(EvaluatedPoint { values, derivatives: None })
     }
 
-    /// Checks derivatives against values for plain numbers.
     fn are_true(&mut self, x: &[f64], here: &[f64], slopes: &DMatrix<f64>) -> Result<bool, E> {
         let [low, high] = beside(self.ranges, x);
         let way = DVector::from_fn(x.len(), |at, _| high[at] - low[at]);
@@ -80,6 +77,7 @@ impl<'a, 'e, E> CountedEvaluator<'a, 'e, E> {
 
     /// Derivatives at a point by finite differences; `here` are the values there.
     ///
+    /// # Errors
     /// Errors of the function; the inner one names the call that failed.
     pub fn differences(
         &mut self,
@@ -97,7 +95,6 @@ impl<'a, 'e, E> CountedEvaluator<'a, 'e, E> {
     }
 }
 
-/// Splits values with derivatives into a vector and a matrix with one row per value.
 fn matrix(
     found: Vec<(f64, Vec<f64>)>,
     parameters: usize,

@@ -5,7 +5,6 @@ use nalgebra::{DMatrix, DVector};
 use super::evaluator::{CountedEvaluator, EvaluatedPoint};
 use super::{Estimate, Evaluate, RELATIVE_STEP, SearchRange, Slopes};
 
-/// Maximum number of rounds with fresh derivatives.
 const MOST_ROUNDS: usize = 30;
 /// Maximum number of steps per round with updated derivatives, besides one per parameter.
 const MORE_STEPS: usize = 6;
@@ -64,7 +63,6 @@ pub struct Fitted {
     pub steps: usize,
 }
 
-/// State of a search.
 struct LeastSquaresState {
     x: Vec<f64>,
     residuals: DVector<f64>,
@@ -132,7 +130,6 @@ impl LeastSquaresState {
         }
     }
 
-    /// Step of some parameters for given residuals.
     fn step_of(&self, columns: &[usize], residuals: &DVector<f64>) -> DVector<f64> {
         let (rows, count) = (residuals.len(), columns.len());
         let root = self.damping.sqrt();
@@ -172,7 +169,6 @@ impl LeastSquaresState {
     }
 }
 
-/// State of a round.
 enum Round {
     /// Converged, or no further reduction is predicted.
     Rests,
@@ -191,6 +187,7 @@ impl LeastSquares {
     /// Minimises the sum of squares. Derivatives are central differences at the start, are then updated after each step, and are recomputed
     /// when that no longer helps and at the end. Steps that fail are shortened.
     ///
+    /// # Errors
     /// Errors of the function; the inner one is the reason of a failure at a required point.
     pub fn solve<E>(&self, evaluate: &mut Evaluate<'_, E>) -> Result<Result<Fitted, String>, E> {
         self.solve_with(evaluate, &mut |_| Ok(Err("differences are wanted".into())))
@@ -198,6 +195,7 @@ impl LeastSquares {
 
     /// Minimises like [`solve`](Self::solve), with derivatives provided by the function, or finite differences if they are missing.
     ///
+    /// # Errors
     /// See [`solve`](Self::solve); also errors of the derivatives.
     pub fn solve_with<E>(
         &self,
@@ -260,7 +258,6 @@ impl LeastSquares {
         }))
     }
 
-    /// Steps from fresh derivatives.
     fn round<E>(
         &self,
         state: &mut LeastSquaresState,

@@ -1,6 +1,5 @@
 //! Root finding in one dimension.
 
-/// Maximum number of calls.
 const MOST_CALLS: usize = 200;
 
 /// A root.
@@ -28,6 +27,7 @@ pub enum RootError<E> {
 /// Root of `function` in an interval with a change of sign, within `tolerance`: R. P. Brent's method (Algorithms for Minimization without
 /// Derivatives, 1973, chapter 4), which brackets the root and uses inverse quadratic interpolation and secants.
 ///
+/// # Errors
 /// If the signs do not differ, a value is not finite, or the function fails.
 pub fn root<E>(
     (from, to): (f64, f64),

@@ -2,9 +2,7 @@
 
 use crate::elementary::{exp, ln, power};
 
-/// Maximum number of terms of the continued fraction.
 const TERMS: usize = 500;
-/// Number of bisections for the quantile.
 const HALVINGS: usize = 200;
 
 /// Logarithm of the gamma function for positive numbers: C. Lanczos (1964), with nine terms and g = 7, to about 1e-15.

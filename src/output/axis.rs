@@ -22,16 +22,13 @@ const LARGEST: f64 = 1e300;
 /// A range narrower than this fraction of its numbers is rounding and is shown as a constant.
 const ROUNDING: f64 = 1e-10;
 
-/// A tick: a place on an axis that carries a label.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tick {
     /// Position of the tick, from 0 at the low end of its axis to 1 at the high end.
     pub place: f64,
-    /// Label of the tick.
     pub label: String,
 }
 
-/// An axis of a chart: a range of numbers and how it is laid out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axis {
     scale: AxisScale,
@@ -73,7 +70,6 @@ impl Axis {
         }
     }
 
-    /// A linear axis with the given ends, in the numbers of the data.
     pub fn between(low: f64, high: f64) -> Self {
         Self::linear([low, high], 0.0)
     }
@@ -98,7 +94,6 @@ impl Axis {
         Self { scale: AxisScale::Logarithmic, low, high: high.max(low + 1.0), cut }
     }
 
-    /// A logarithmic axis with the given ends, both positive.
     pub fn powers_between(low: f64, high: f64) -> Self {
         let (low, high) = (log10(low), log10(high));
         Self { scale: AxisScale::Logarithmic, low, high, cut: AxisCut::Nothing }

@@ -11,6 +11,7 @@ pub type Point = (f64, f64);
 /// Coordinates are clamped to this many pixels, far outside every picture, to keep the arithmetic safe.
 const FAR: f64 = 20_000.0;
 
+/// A box with sides along the axes; `top` is less than `bottom`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Area {
     /// The least x of the box, its left side.

@@ -268,7 +268,6 @@ impl LineChart {
         }
     }
 
-    /// No legend is needed for a single series whose name is the title or the axis label.
     fn legend(&self) -> Vec<LegendEntry> {
         let entry = |(index, series): (usize, &Series)| {
             let (colour, stroke) = look(index, series);

@@ -4,15 +4,10 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Colour(pub u8, pub u8, pub u8);
 
-/// The colour of the paper of pictures.
 pub const WHITE: Colour = Colour(255, 255, 255);
-/// The colour of titles and numbers in pictures.
 pub const INK: Colour = Colour(38, 42, 48);
-/// The colour of labels of axes, and of marks of lesser weight.
 pub const GREY: Colour = Colour(110, 116, 124);
-/// The colour of the two axis lines of a chart.
 pub const AXIS: Colour = Colour(150, 156, 163);
-/// The colour of the grid behind the data of a chart.
 pub const GRID: Colour = Colour(229, 232, 236);
 
 /// Palette of Okabe and Ito (2008) without its yellow, which is invisible on white paper.

@@ -16,11 +16,9 @@ const NUMBERS: f64 = 8.0;
 const EDGE: f64 = 14.0;
 const PIECES: usize = 100;
 
-/// Width of the bar from its low end to its high end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum BarWidth {
     Even,
-    /// The widths of the lines that it explains.
     Wedge(f64, f64),
 }
 
@@ -65,7 +63,6 @@ impl ColourBar {
         GAP + BREADTH + NUMBERS + numbers.max(label) + EDGE
     }
 
-    /// Draws the bar to the right of `plot`.
     pub fn draw(&self, canvas: &mut Canvas, plot: &Area) {
         let Some(axis) = self.axis else { return };
         let (left, top) = (plot.right + GAP, plot.top + LABEL + 10.0);

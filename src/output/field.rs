@@ -14,7 +14,6 @@ use super::{
 };
 use crate::elementary::hypot;
 
-/// Widths of the line for the least and for the largest value.
 const WIDTHS: (f64, f64) = (2.0, 10.0);
 /// Length of a piece of one colour [pixels], unless there are too many pieces.
 const PIECE: f64 = 3.0;
@@ -67,7 +66,6 @@ impl FieldPicture {
         self.beams.iter().flatten().filter(|(_, value)| value.is_finite())
     }
 
-    /// Point with the largest value.
     fn largest(&self) -> Option<(Point, f64)> {
         // The first of equal values.
         self.places().copied().reduce(|a, b| if b.1 > a.1 { b } else { a })
@@ -159,7 +157,6 @@ const AROUND: [(f64, f64); 8] = [
     (0.0, 1.0),
 ];
 
-/// Returns true if a drawn beam, including its width, overlaps a box.
 fn crosses(beam: &[(Point, f64)], area: &Area) -> bool {
     beam.windows(2).any(|pair| {
         let (a, b) = (pair[0].0, pair[1].0);

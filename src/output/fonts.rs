@@ -91,7 +91,6 @@ pub fn outlines(text: &str, size: f64) -> Vec<Vec<Vec<Point>>> {
     set(text, size).0.into_iter().filter_map(outline).collect()
 }
 
-/// Glyphs of `text` with their positions, and the total width.
 fn set(text: &str, size: f64) -> (Vec<(GlyphId, f64)>, f64) {
     let Some(face) = FACE.as_ref() else { return (Vec::new(), 0.0) };
     let per_unit = per_unit(face, size);

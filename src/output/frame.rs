@@ -57,24 +57,17 @@ impl Margins {
 /// The frame of a panel: everything around the data.
 #[derive(Clone, Debug, Default)]
 pub struct Frame {
-    /// The title above the panel.
     pub title: String,
-    /// Captions below the title of the panel, line by line.
     pub captions: Vec<String>,
-    /// Label of the horizontal axis.
     pub x_label: String,
-    /// Label of the vertical axis.
     pub y_label: String,
-    /// The horizontal axis of the panel.
     pub x: Axis,
-    /// The vertical axis of the panel.
     pub y: Axis,
     /// Entries of the legend; empty if no legend is needed.
     pub legend: Vec<LegendEntry>,
 }
 
 impl Frame {
-    /// The margins that the frame needs in a panel of the given size [pixels].
     pub fn margins(&self, width: f64, height: f64) -> Margins {
         let (x_ticks, _) = self.x.ticks(count(width - 120.0, TICK_EVERY.0));
         let (y_ticks, _) = self.y.ticks(count(height - 110.0, TICK_EVERY.1));
@@ -104,7 +97,6 @@ impl Frame {
         Margins { right, ..self.margins(width - (right - alone), height) }
     }
 
-    /// Writes "no data" into the middle of a plot.
     pub fn say_no_data(&self, canvas: &mut Canvas, plot: &Area) {
         let middle = ((plot.left + plot.right) / 2.0, (plot.top + plot.bottom) / 2.0);
         canvas.text("no data", middle, 14.0, Align::Middle, GREY);

@@ -7,7 +7,6 @@ use super::{
 
 const HATCH: f64 = 6.0;
 
-/// Fills an area with diagonal lines.
 pub fn hatch(canvas: &mut Canvas, area: &Area) {
     let (width, height) = (area.width(), area.height());
     let count = ((width + height) / HATCH) as usize;
@@ -27,7 +26,6 @@ pub fn hatch(canvas: &mut Canvas, area: &Area) {
     }
 }
 
-/// Draws the outline of an area.
 pub fn outline(canvas: &mut Canvas, area: &Area) {
     let Area { left, top, right, bottom } = *area;
     let corners = [(left, top), (right, top), (right, bottom), (left, bottom), (left, top)];

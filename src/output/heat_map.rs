@@ -28,6 +28,7 @@ const AROUND_TEXT: f64 = 8.0;
 const AROUND_NAME: f64 = 5.0;
 const LINE: f64 = 14.0;
 
+/// A cell of a heat map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeatCell {
     /// Number that sets the colour; a cell without a number is hatched.
@@ -42,11 +43,9 @@ pub struct HeatMap {
     title: String,
     /// Label and names of the columns.
     pub(super) columns: (String, Vec<String>),
-    /// Label and names of the rows, from the top.
     pub(super) rows: (String, Vec<String>),
     /// Quantity that the colours show, and the powers of ten at the ends of the colour scale.
     pub(super) scale: (String, i32, i32),
-    /// Meaning of a hatched cell.
     pub(super) hatched: String,
     pub(super) cells: Vec<Vec<HeatCell>>,
 }
@@ -119,7 +118,6 @@ impl HeatMap {
         (left + right + width, top + bottom + cell.1 * rows as f64)
     }
 
-    /// Width of the key when nothing is cut off.
     fn key_width(&self) -> f64 {
         let (low, high) = self.ends();
         let written = |text: &str| fonts::width(text, TEXT) + GAP.0;

@@ -22,24 +22,18 @@ const MOST_LINES: usize = 3;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct LegendEntry {
-    /// The name of the entry.
     pub name: String,
-    /// The colour of the line of the entry.
     pub colour: Colour,
-    /// Line style of the entry.
     pub stroke: Stroke,
-    /// Marker shape of the entry.
     pub marker: Marker,
 }
 
-/// An entry with its name broken into lines.
 struct Item<'a> {
     entry: &'a LegendEntry,
     lines: Vec<String>,
 }
 
 impl<'a> Item<'a> {
-    /// Breaks the name into lines if it is longer than a row.
     fn of(entry: &'a LegendEntry, width: f64) -> Self {
         let room = (width - SAMPLE - GAP).max(ROW);
         let mut lines = fonts::lines(&entry.name, TEXT, room);
@@ -78,7 +72,6 @@ fn height_of(row: &[Item]) -> f64 {
     ROW + lines.saturating_sub(1) as f64 * LINE
 }
 
-/// Draws a legend from the top of `area` downwards.
 pub fn draw(canvas: &mut Canvas, entries: &[LegendEntry], area: &Area) {
     let rows = rows(entries, area.width());
     let shown: usize = rows.iter().map(Vec::len).sum();

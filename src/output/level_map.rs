@@ -104,7 +104,6 @@ impl LevelAxis {
         ends
     }
 
-    /// Number of neighbours that are drawn as one cell.
     fn merged(&self) -> usize {
         self.middles.len().div_ceil(MOST_CELLS).max(1)
     }
@@ -148,6 +147,7 @@ impl LevelMap {
         Self { title: title.into(), captions, label: label.into(), x, y, values }
     }
 
+    /// Adds a caption line below the title.
     pub fn caption(mut self, words: impl Into<String>) -> Self {
         self.captions.push(words.into());
         self

@@ -3,7 +3,6 @@
 use super::canvas::Point;
 use crate::elementary::hypot;
 
-/// Line width of the symbols.
 pub const LINK: f64 = 1.2;
 /// Length of the straight lead at either end of a spring: maximum, and fraction of its length.
 const LEAD: (f64, f64) = (8.0, 0.15);
@@ -23,7 +22,6 @@ pub struct Link {
 }
 
 impl Link {
-    /// A link from one point to another.
     pub fn between(from: Point, to: Point) -> Self {
         let (x, y) = (to.0 - from.0, to.1 - from.1);
         let length = hypot(x, y);

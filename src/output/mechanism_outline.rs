@@ -20,7 +20,6 @@ pub struct MechanismOutline {
 }
 
 impl MechanismOutline {
-    /// Visible part of the plane for the points and the symbols near them.
     pub(super) fn view(
         &self,
         points: impl Iterator<Item = Point> + Clone,

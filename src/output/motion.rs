@@ -146,7 +146,6 @@ impl MotionPicture {
         PlacedSymbol::view(&self.symbols, self.points(), &self.limits)
     }
 
-    /// Frame for a plot of the given size [pixels].
     fn frame(&self, width: f64, height: f64) -> Frame {
         let (x, y) = self.view().axes(width, height);
         Frame {

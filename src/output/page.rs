@@ -60,7 +60,6 @@ pub trait Panel {
 const HEIGHT_IN_ROWS: f64 = 0.6;
 /// Scale of width and height of panels in one row of several columns.
 const SIZE_IN_COLUMNS: (f64, f64) = (0.72, 0.85);
-/// Pixels per em of the title of a page.
 const TITLE: f64 = 18.0;
 
 /// Panels in a grid. The plots of a column have equal widths, those of a row equal heights.

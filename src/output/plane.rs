@@ -83,13 +83,11 @@ impl View {
         Self { centre: (x, y), needs: (width, height) }
     }
 
-    /// Returns true if a point is in the box.
     pub fn shows(&self, (x, y): Point) -> bool {
         let is_within = |at: f64, centre: f64, size: f64| (at - centre).abs() <= size / 2.0;
         is_within(x, self.centre.0, self.needs.0) && is_within(y, self.centre.1, self.needs.1)
     }
 
-    /// Axis limits of the box.
     pub fn limits(&self) -> AxisLimits {
         let ends = |centre: f64, size: f64| Some((centre - size / 2.0, centre + size / 2.0));
         AxisLimits { x: ends(self.centre.0, self.needs.0), y: ends(self.centre.1, self.needs.1) }

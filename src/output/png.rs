@@ -15,7 +15,6 @@ use super::{
 };
 use crate::elementary::hypot;
 
-/// Bytes of the PNG file of `canvas`.
 pub fn paint(canvas: &Canvas, width: u32, height: u32) -> Result<Vec<u8>, OutputError> {
     encode(&pixels(canvas, width, height)?, width, height).map_err(refused)
 }

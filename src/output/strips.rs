@@ -54,7 +54,6 @@ pub struct StripPicture {
     limits: AxisLimits,
 }
 
-/// A value at its point, and the tip of its ordinate, in data units.
 #[derive(Clone, Copy)]
 struct Ordinate {
     foot: Point,
@@ -103,7 +102,6 @@ impl StripPicture {
         values.map(|(_, value)| value.abs()).filter(|value| value.is_finite()).fold(0.0, f64::max)
     }
 
-    /// Ordinates of a strip, split where the value jumps.
     fn runs(&self, strip: &BeamStrip) -> Vec<Vec<Ordinate>> {
         let largest = self.largest();
         let scale = if largest > 0.0 { LARGEST * self.beam_size() / largest } else { 0.0 };
@@ -203,7 +201,6 @@ impl StripPicture {
         lines.flat_map(dense).collect()
     }
 
-    /// Labels the extremes of a beam, clear of beams and other labels.
     fn draw_extremes(
         &self,
         canvas: &mut Canvas,

@@ -14,7 +14,6 @@ use super::{
 
 const GRID: f64 = 20.0;
 
-/// SVG document of `canvas`.
 pub fn paint(canvas: &Canvas, width: u32, height: u32) -> Result<String, OutputError> {
     let mut body = String::new();
     let size = (width * GRID as u32, height * GRID as u32);

@@ -112,7 +112,6 @@ impl PlacedSymbol {
             .then_some((self.at.0 + self.direction.0, self.at.1 + self.direction.1))
     }
 
-    /// Visible part of the plane for the points and the symbols near them.
     pub(super) fn view(
         symbols: &[Self],
         points: impl Iterator<Item = Point> + Clone,

@@ -123,7 +123,6 @@ impl fmt::Display for TextTable {
     }
 }
 
-/// Writes one line of (text, flush right) cells, without trailing blanks.
 fn write_line<'a>(
     f: &mut fmt::Formatter<'_>,
     cells: impl Iterator<Item = (&'a str, bool)>,
@@ -143,7 +142,6 @@ fn width_of(text: &str) -> usize {
     columns(&one_line(text))
 }
 
-/// Keeps a cell on one line.
 fn one_line(text: &str) -> String {
     text.replace(char::is_control, " ")
 }

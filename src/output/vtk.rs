@@ -50,7 +50,6 @@ pub enum VtkValues {
     Vectors(Vec<Point>),
 }
 
-/// A piece of a body: index of the body and range of its points.
 struct VtkPiece {
     body: usize,
     points: std::ops::Range<usize>,
@@ -123,7 +122,6 @@ impl VtkGrid {
         self.cells.iter().enumerate().flat_map(of_body).collect()
     }
 
-    /// Comment that lists the indices and names of the bodies.
     fn names(&self) -> String {
         let bodies = self.cells.iter().enumerate();
         let told: Vec<String> = bodies.map(|(at, cell)| format!("{at} {}", cell.name)).collect();

@@ -5,7 +5,6 @@ use std::cell::RefCell;
 use std::panic::{self, AssertUnwindSafe};
 
 thread_local! {
-    /// Location of the last panic of this thread.
     static PLACE: RefCell<String> = const { RefCell::new(String::new()) };
 }
 
@@ -21,6 +20,7 @@ pub fn silence() {
 ///
 /// Data modified by `work` is left as the panic left it; the caller must discard it or know that it is valid.
 ///
+/// # Errors
 /// Panic message, with the location if panics are [silenced](silence).
 pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     panic::catch_unwind(AssertUnwindSafe(work)).map_err(|panic| message(&*panic))

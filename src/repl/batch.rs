@@ -20,7 +20,6 @@ fn continues(line: &str) -> bool {
         || is_word("catch")
 }
 
-/// Lines of a reader without line ends. A line that exceeds the limit is an error.
 fn lines_of(mut reader: impl BufRead) -> impl Iterator<Item = io::Result<String>> {
     std::iter::from_fn(move || {
         let mut line = String::new();

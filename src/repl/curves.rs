@@ -9,19 +9,15 @@ use crate::script::source::scanner::{TokenKind, scan};
 
 const DIGITS: usize = 6;
 
-/// Horizontal axis of a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CurveAbscissa {
-    /// Time.
     Time,
-    /// Index in an array, from 0.
     Index,
     /// Numbers given by the user.
     Numbers,
 }
 
 impl CurveAbscissa {
-    /// Label of the horizontal axis.
     pub fn label(self) -> &'static str {
         match self {
             Self::Time => "t",
@@ -40,19 +36,14 @@ impl CurveAbscissa {
     }
 }
 
-/// A named curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlotCurve {
-    /// Name of the curve in the legend.
     pub name: String,
-    /// Horizontal axis of the curve.
     pub over: CurveAbscissa,
-    /// Points of the curve.
     pub points: Vec<Point>,
 }
 
 impl PlotCurve {
-    /// Returns true if any point is finite.
     pub fn has_points(&self) -> bool {
         self.points.iter().any(|(x, y)| x.is_finite() && y.is_finite())
     }

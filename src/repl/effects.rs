@@ -22,7 +22,6 @@ pub struct Footprint {
 type SimulationPosition = (usize, u64, usize, usize);
 
 impl Footprint {
-    /// Footprint of the current session.
     pub fn of(session: &Session) -> Self {
         let files = session.context().output().written().len();
         let mut print =

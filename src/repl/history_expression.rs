@@ -16,11 +16,8 @@ const MOST_STATES: usize = 1000;
 
 const DIGITS: usize = 6;
 
-/// Values of an expression over time.
 pub struct Followed {
-    /// Times and values, in order of time.
     pub points: Vec<(f64, PlotShape)>,
-    /// Description of the states used.
     pub words: String,
 }
 
@@ -108,15 +105,12 @@ enum PlaybackStep {
     Again { next: usize, rows: usize, every: usize },
 }
 
-/// Reason for stopping.
 enum PlaybackError {
-    /// The expression moved the simulation.
     Moves,
     /// Evaluation was interrupted, or the copy failed to repeat the run.
     Refused(ScriptError),
     /// The repeated run differs.
     Another(String),
-    /// The value cannot be drawn.
     NoPoint(String),
 }
 
@@ -135,7 +129,6 @@ impl Visits {
         Self { revisit, way, context, place, points: Vec::new(), trouble: None }
     }
 
-    /// Moves to the next state; returns `false` at the end.
     fn go_on(&mut self) -> Result<bool, PlaybackError> {
         self.context.proceed().map_err(PlaybackError::Refused)?;
         match &mut self.way {
@@ -203,7 +196,6 @@ impl Rounds for Visits {
     }
 }
 
-/// Values at all states, and the reason if the repeated run differed.
 type Values = (Vec<(f64, PlotShape)>, Option<String>);
 
 fn visit(shell: &mut Shell, text: &str, mut visits: Visits) -> Result<Values, CommandOutcome> {
@@ -229,7 +221,6 @@ fn visit(shell: &mut Shell, text: &str, mut visits: Visits) -> Result<Values, Co
     }
 }
 
-/// Error of an expression that moves the simulation.
 pub fn moves(text: &str) -> Diagnostic {
     Diagnostic::general(format!("'{text}' moves a simulation"))
         .with_hint("draw what only looks; the simulation that it names stayed where it was")

@@ -12,13 +12,10 @@ use crate::script::messages::numbers::format_number;
 use crate::script::source::definitions::{Definition, definitions};
 use crate::script::source::text::Source;
 
-/// First line of a saved session.
 const HEADER: &str = "//! A session of withy: what worked of it.";
 
-/// An action of the session that the script must repeat.
 #[derive(Clone, Debug, PartialEq)]
 enum RecordedInput {
-    /// Statements without a value.
     Statements(Source),
     /// Statements that end in an expression, whose value was stored as `ans`.
     Expression(Source),
@@ -176,7 +173,6 @@ fn mentions_answer(source: &Source) -> bool {
     source.names().any(|name| name == ANSWER)
 }
 
-/// Statements with a final semicolon, which comments may follow.
 fn terminated(statements: &Source) -> String {
     let is_closed = statements.tokens().is_empty() || statements.ends_in_semicolon();
     match (is_closed, statements.lines().last().is_some_and(|last| last.contains("//"))) {
@@ -186,7 +182,6 @@ fn terminated(statements: &Source) -> String {
     }
 }
 
-/// Statements whose last expression is assigned to a variable.
 fn answering(engine: &Engine, text: &str) -> String {
     let last = statements::count(engine, text).and_then(|all| all.checked_sub(1));
     let cut = last.and_then(|first| statements::boundary(engine, text, first)).unwrap_or(0);
@@ -200,7 +195,6 @@ pub fn functions_of(source: &Source) -> impl Iterator<Item = &str> {
     written(source).into_iter().map(|definition| &source[definition.bytes])
 }
 
-/// Position of a function definition in a text.
 struct FunctionText {
     /// Name, with the type before a method's name, and number of parameters.
     name: (String, usize),
@@ -230,7 +224,6 @@ fn documented_from(text: &str, end: usize) -> usize {
     from
 }
 
-/// Text without the functions that match.
 fn without(source: &Source, is_replaced: impl Fn(&FunctionText) -> bool) -> String {
     let mut text = source.to_string();
     for definition in written(source).into_iter().rev().filter(is_replaced) {

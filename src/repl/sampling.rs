@@ -19,7 +19,6 @@ const MOST_RUNS: usize = 10_000;
 /// Target for the relative error of the median.
 const KNOWN: f64 = 0.01;
 
-/// Individually timed runs of an input.
 pub struct Sampling {
     clock: Rc<dyn Clock>,
     begun: Option<Duration>,
@@ -29,21 +28,17 @@ pub struct Sampling {
     next_look: usize,
 }
 
-/// Statistics of the run times.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Figures {
-    /// Number of timed runs.
     pub runs: usize,
     /// Shortest run, with the least disturbance by other processes.
     pub least: Duration,
-    /// Median.
     pub median: Duration,
     /// Lower and upper quartile.
     pub quartiles: (Duration, Duration),
 }
 
 impl Sampling {
-    /// Empty timing.
     pub fn new(clock: Rc<dyn Clock>) -> Self {
         Self {
             clock,
@@ -113,7 +108,6 @@ mod tests {
 
     use super::*;
 
-    /// A clock with predefined run times.
     struct ReplayClock {
         now: Cell<Duration>,
         runs: RefCell<VecDeque<u64>>,
@@ -125,7 +119,6 @@ mod tests {
         }
     }
 
-    /// Statistics of runs with these times in microseconds, repeated cyclically.
     fn figures(micros: &[u64]) -> Figures {
         let runs = RefCell::new(micros.iter().copied().collect());
         let clock = Rc::new(ReplayClock { now: Cell::default(), runs });

@@ -43,7 +43,6 @@ pub enum Reply {
     PipeClosed,
 }
 
-/// State restored after a failed statement.
 #[derive(Clone)]
 struct StatementCheckpoint {
     scope: Scope<'static>,
@@ -58,7 +57,6 @@ pub struct Session {
     folder: PathBuf,
     scope: Scope<'static>,
     global: GlobalRuntimeState,
-    /// Functions and closures of all inputs.
     library: AST,
     transcript: Transcript,
     record: SessionRecord,
@@ -143,7 +141,6 @@ impl Session {
         reply
     }
 
-    /// Keeps the successful statements of a failed input, and its functions.
     fn keep_part(&mut self, text: &str, worked: usize, library: AST) {
         let cut = statements::boundary(self.engine(), text, worked).filter(|_| worked > 0);
         let Some((before, after)) = cut.map(|cut| text.split_at(cut)) else {
@@ -220,7 +217,6 @@ impl Session {
         outcome.map_err(|halt| reply_to(halt, transcript))
     }
 
-    /// Stores the value of a successful input, if it is to be shown.
     fn answer(&mut self, value: Dynamic, text: &Source) -> Reply {
         // A final semicolon suppresses the value.
         if value.is_unit() || text.ends_in_semicolon() {
@@ -250,7 +246,6 @@ impl Session {
     }
 }
 
-/// Read access.
 impl Session {
     /// Catalog of the language.
     pub fn catalog(&self) -> &Catalog {

@@ -45,7 +45,6 @@ pub enum ReplyTarget {
     Pipe,
 }
 
-/// Line width without a terminal.
 const WIDTH: usize = 100;
 
 /// A session with commands and watched expressions.
@@ -57,9 +56,7 @@ pub struct Shell {
     told_files: usize,
     /// Scripts saved by this shell, by path.
     saved: HashMap<PathBuf, String>,
-    /// Clock for timing.
     clock: Rc<dyn Clock>,
-    /// Pager for long replies.
     pager: Option<Box<dyn Pager>>,
 }
 
@@ -294,7 +291,6 @@ fn without_place_in(input: &str, reply: Reply) -> Reply {
 /// Expression for the last simulation if no variable holds it.
 const LATEST: &str = "latest_simulation()";
 
-/// Commands on the last simulation.
 impl Shell {
     /// The simulation that was started, loaded, forked or stepped last.
     pub fn latest(&self) -> Option<SimulationHandle> {

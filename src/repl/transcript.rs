@@ -13,10 +13,8 @@ pub const PROMPT: &str = "prompt";
 /// Maximum number of lines that the engine can count; longer sessions restart from one.
 const MOST_LINES: usize = 60_000;
 
-/// One input: typed text or a loaded file.
 struct TranscriptInput {
     program: Program,
-    /// Number of lines before it.
     before: usize,
     is_valid: bool,
 }

@@ -5,7 +5,6 @@ use crate::elementary::ln;
 /// Limit of the central fit.
 const CENTRE: f64 = 0.425;
 
-/// Polynomial with coefficients in ascending order.
 fn polynomial(coefficients: [f64; 8], x: f64) -> f64 {
     coefficients.into_iter().rev().fold(0.0, |sum, coefficient| sum * x + coefficient)
 }

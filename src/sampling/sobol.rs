@@ -2,7 +2,6 @@
 
 use super::Random;
 
-/// Bits of a coordinate.
 const BITS: usize = 32;
 
 /// Primitive polynomials (their inner coefficients as bits) and initial direction numbers from the second coordinate on, from S. Joe, F. Y.
@@ -98,7 +97,6 @@ pub fn sobol(count: usize, dimensions: usize, seed: u64) -> Vec<Vec<f64>> {
 mod tests {
     use super::*;
 
-    /// Points without a shift.
     fn plain(count: usize, dimension: usize) -> Vec<f64> {
         let numbers = directions(dimension);
         let mut bits = 0_u32;

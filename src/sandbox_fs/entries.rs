@@ -23,6 +23,7 @@ pub struct FolderEntry {
 impl Folder {
     /// Entries of this folder, sorted by name. Links are not followed. Entries that cannot be inspected are left out.
     ///
+    /// # Errors
     /// If the folder cannot be read.
     pub fn entries(&self) -> io::Result<Vec<FolderEntry>> {
         let entry = |entry: cap_std::fs::DirEntry| {
@@ -38,6 +39,7 @@ impl Folder {
 
     /// Opens a subfolder by its name; links are not followed.
     ///
+    /// # Errors
     /// If there is no folder of this name, or it is a link.
     pub fn below(&self, name: &OsStr) -> io::Result<Self> {
         match is_plain(Path::new(name)) {

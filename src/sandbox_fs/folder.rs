@@ -12,7 +12,6 @@ use cap_std::fs::{Dir, OpenOptions};
 
 use super::reading;
 
-/// Number of names tried for a temporary file.
 const TRIES: usize = 100;
 
 /// An open folder. Renaming it or replacing it by a link does not affect holders of this value.
@@ -28,6 +27,7 @@ pub fn is_plain(name: &Path) -> bool {
 impl Folder {
     /// Opens a folder given by the user; links are followed.
     ///
+    /// # Errors
     /// If there is no folder at `path`.
     pub fn open(path: &Path) -> io::Result<Self> {
         let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
@@ -37,6 +37,7 @@ impl Folder {
     /// Opens a folder for writing, and creates it and its parents if necessary. The folder itself may not be a link, which could lead
     /// elsewhere.
     ///
+    /// # Errors
     /// If the folder cannot be created, or is a link.
     pub fn make(path: &Path) -> io::Result<Self> {
         let above = path.parent().filter(|above| !above.as_os_str().is_empty());
@@ -52,6 +53,7 @@ impl Folder {
 
     /// Opens a folder like [`make`](Self::make), without creating it.
     ///
+    /// # Errors
     /// If there is no folder at `path`, or it is a link.
     pub fn find(path: &Path) -> io::Result<Self> {
         match path.components().next_back() {
@@ -87,7 +89,6 @@ impl Folder {
         }
     }
 
-    /// Parent folder and name of a file below this folder.
     fn parent_of<'n>(
         &self,
         name: &'n Path,
@@ -106,6 +107,7 @@ impl Folder {
 
     /// Reads a regular file below this folder of at most `most` bytes. Links are not followed.
     ///
+    /// # Errors
     /// If there is none, it is too long, or a link, a pipe, a device or a folder.
     pub fn read(&self, name: &Path, most: u64) -> io::Result<Vec<u8>> {
         reading::read(self.open_file(name)?, most)
@@ -113,6 +115,7 @@ impl Folder {
 
     /// Opens a regular file below this folder for reading. Links are not followed.
     ///
+    /// # Errors
     /// If there is none, or it is a link, a pipe, a device or a folder.
     pub fn open_file(&self, name: &Path) -> io::Result<fs::File> {
         let (folder, name) = self.parent_of(name, Self::enter)?;
@@ -134,6 +137,7 @@ impl Folder {
 
     /// Returns true if a regular file below this folder is not locked.
     ///
+    /// # Errors
     /// If there is none, or it cannot be opened.
     pub fn is_let_go(&self, name: &Path) -> io::Result<bool> {
         Ok(self.open_file(name)?.try_lock().is_ok())
@@ -141,6 +145,7 @@ impl Folder {
 
     /// Creates a new file for writing; missing parent folders are created.
     ///
+    /// # Errors
     /// If the name exists.
     pub fn create(&self, name: &Path) -> io::Result<fs::File> {
         let (folder, name) = self.parent_of(name, Self::enter_or_make)?;
@@ -155,6 +160,7 @@ impl Folder {
 
     /// Opens a regular file for appending, and creates it if necessary.
     ///
+    /// # Errors
     /// If it is a link, a pipe, a device or a folder.
     pub fn append(&self, name: &Path) -> io::Result<fs::File> {
         let (folder, name) = self.parent_of(name, Self::enter_or_make)?;
@@ -168,6 +174,7 @@ impl Folder {
     /// Writes a file below this folder atomically and durably. An existing file or link is replaced, not followed; missing parent folders
     /// are created.
     ///
+    /// # Errors
     /// If writing fails, or the name is that of a folder, a pipe or a device; nothing has changed then.
     pub fn write_whole(&self, name: &Path, bytes: &[u8]) -> io::Result<()> {
         self.write_whole_by(name, |file| file.write_all(bytes))
@@ -175,6 +182,7 @@ impl Folder {
 
     /// Writes a file like [`write_whole`](Self::write_whole), with content written by `write`.
     ///
+    /// # Errors
     /// See there; also errors of `write`.
     pub fn write_whole_by(
         &self,
@@ -198,7 +206,6 @@ impl Folder {
         written.and_then(|()| folder.sync())
     }
 
-    /// Creates a hidden temporary file next to `name`.
     fn create_partial(&self, name: &OsStr) -> io::Result<(fs::File, OsString)> {
         static COUNTER: AtomicU64 = AtomicU64::new(0);
         let mut tries = TRIES;
@@ -218,6 +225,7 @@ impl Folder {
 
     /// Renames a file below this folder to the first unused name of `free`.
     ///
+    /// # Errors
     /// If renaming fails.
     pub fn keep_as(&self, name: &Path, free: impl Fn(usize) -> PathBuf) -> io::Result<PathBuf> {
         let (folder, own) = self.parent_of(name, Self::enter)?;
@@ -240,6 +248,7 @@ impl Folder {
 
     /// Renames a file in this folder, replacing the target.
     ///
+    /// # Errors
     /// If renaming fails.
     pub fn replace(&self, name: &Path, new: &Path) -> io::Result<()> {
         self.0.rename(name, &self.0, new)?;
@@ -248,6 +257,7 @@ impl Folder {
 
     /// Removes a file or link in this folder.
     ///
+    /// # Errors
     /// If removing fails.
     pub fn remove(&self, name: &Path) -> io::Result<()> {
         self.0.remove_file_or_symlink(name)
@@ -274,7 +284,6 @@ mod tests {
     use std::os::unix::fs::symlink;
     use std::sync::atomic::AtomicBool;
 
-    /// A folder `own`, and a file next to it that must not be reached.
     fn home() -> (tempfile::TempDir, PathBuf, PathBuf) {
         let home = tempfile::tempdir().unwrap();
         let (own, other) = (home.path().join("own"), home.path().join("other"));

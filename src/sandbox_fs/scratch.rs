@@ -9,7 +9,6 @@ use tempfile::TempDir;
 
 use super::Folder;
 
-/// Prefix of the folder names.
 const PREFIX: &str = "withy-scratch-";
 /// File in each folder that is locked while its process lives.
 const HELD: &str = ".held";
@@ -27,6 +26,7 @@ pub struct Scratch {
 impl Scratch {
     /// Creates a scratch folder, and removes those of killed processes.
     ///
+    /// # Errors
     /// If it cannot be created.
     pub fn new() -> io::Result<Self> {
         Self::within(&std::env::temp_dir())
@@ -52,6 +52,7 @@ impl Scratch {
 
     /// Creates a subfolder.
     ///
+    /// # Errors
     /// If it cannot be created.
     pub fn part(&self) -> io::Result<TempDir> {
         tempfile::Builder::new().prefix("part-").tempdir_in(self.path())

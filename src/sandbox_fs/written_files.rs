@@ -30,6 +30,7 @@ impl FileChecksum {
 
     /// Checksum of a stream.
     ///
+    /// # Errors
     /// If reading fails.
     pub fn of(mut content: impl Read) -> io::Result<Self> {
         let (mut hasher, mut length, mut piece) = (crc32fast::Hasher::new(), 0, vec![0; PIECE]);
@@ -104,6 +105,7 @@ impl WrittenFiles {
 
     /// Records a file written to the folder, and appends it to the record at once.
     ///
+    /// # Errors
     /// If the record cannot be written.
     pub fn note(&mut self, folder: &Folder, name: &str, written: FileChecksum) -> io::Result<()> {
         if name.contains(['\n', '\r']) || self.files.insert(name.into(), written) == Some(written) {

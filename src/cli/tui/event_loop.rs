@@ -26,6 +26,7 @@ const PATIENCE: Duration = Duration::from_millis(50);
 
 /// Watches the attempts of a student and judges each saved one, until the user leaves or `stop` is set.
 ///
+/// # Errors
 /// If the folder or the terminal cannot be used; the terminal is restored.
 pub(in crate::cli) fn watch(
     workbook: &Workbook,
@@ -44,7 +45,6 @@ pub(in crate::cli) fn watch(
     done.map_err(ExerciseError::Terminal)
 }
 
-/// State of the event loop.
 struct EventLoop<'a> {
     workbook: &'a Workbook,
     limits: &'a LimitOptions,
@@ -109,7 +109,6 @@ impl<'a> EventLoop<'a> {
         wish
     }
 
-    /// Checks for saved files and finished runs.
     fn look(&mut self) {
         if self.looked.elapsed() >= INTERVAL {
             self.looked = Instant::now();
@@ -150,7 +149,6 @@ impl<'a> EventLoop<'a> {
         self.run();
     }
 
-    /// Starts a run, and ends a running one.
     fn run(&mut self) {
         self.trial = None;
         match JudgeProcess::begin(self.state.exercise, self.limits) {
@@ -162,7 +160,6 @@ impl<'a> EventLoop<'a> {
         }
     }
 
-    /// Shows the hints given before, or one more.
     fn hint(&mut self) {
         let exercise = self.state.exercise;
         let given = self.state.progress.hints(exercise);

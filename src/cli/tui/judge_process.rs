@@ -36,6 +36,7 @@ pub struct JudgeProcess {
 impl JudgeProcess {
     /// Starts judging the attempt in the student's folder.
     ///
+    /// # Errors
     /// If no process can be started.
     pub fn begin(exercise: &Exercise, options: &LimitOptions) -> io::Result<Self> {
         let mut command = Command::new(env::current_exe()?);
@@ -60,7 +61,6 @@ impl JudgeProcess {
         Ok(Self { process, said, begun: Instant::now(), limits })
     }
 
-    /// Whole seconds since the start.
     pub fn seconds(&self) -> u64 {
         self.begun.elapsed().as_secs()
     }
@@ -104,7 +104,6 @@ pub fn cannot(error: &io::Error) -> AttemptReport {
     AttemptReport { outcome: AttemptOutcome::Broken(why), printed: CapturedOutput::default() }
 }
 
-/// Report of a process that died without output.
 fn death(status: ExitStatus, limits: &Limits) -> AttemptReport {
     match limits.memory.filter(|_| is_out_of_memory(status)) {
         Some(memory) => stopped(Stop::Memory(memory), CapturedOutput::default()),

@@ -2,29 +2,21 @@
 
 use crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 
-/// A key of `withy learn watch`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Key {
     /// A letter (lower case), digit or other character.
     Letter(char),
-    /// Arrow up.
     Up,
-    /// Arrow down.
     Down,
-    /// Page up.
     PageUp,
-    /// Page down.
     PageDown,
     Home,
     End,
-    /// Return.
     Enter,
-    /// Escape.
     Escape,
     Interrupt,
     /// Ctrl-Z, which suspends the program.
     Suspend,
-    /// Any other key.
     Other,
 }
 

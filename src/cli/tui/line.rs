@@ -23,36 +23,30 @@ pub const WARM: LineStyle = Cow::Borrowed("33");
 pub struct ScreenLine(Vec<(String, LineStyle)>);
 
 impl ScreenLine {
-    /// A line with one piece of text.
     pub fn of(text: &str, style: LineStyle) -> Self {
         Self::default().and(text, style)
     }
 
-    /// Appends a piece of text.
     #[must_use]
     pub fn and(mut self, text: &str, style: LineStyle) -> Self {
         self.0.push((clean(text), style));
         self
     }
 
-    /// Appends the pieces of another line.
     #[must_use]
     pub fn before(mut self, other: &Self) -> Self {
         self.0.extend(other.0.iter().cloned());
         self
     }
 
-    /// Text without styles.
     pub fn text(&self) -> String {
         self.0.iter().map(|(text, _)| text.as_str()).collect()
     }
 
-    /// Width in columns.
     pub fn width(&self) -> usize {
         self.0.iter().map(|(text, _)| crate::output::columns(text)).sum()
     }
 
-    /// Text with ANSI sequences for a terminal.
     pub fn drawn(&self, colours: Colours) -> String {
         let mut drawn = String::new();
         for (text, style) in &self.0 {
@@ -67,7 +61,6 @@ impl ScreenLine {
         drawn
     }
 
-    /// Line cut to a width, with an ellipsis.
     pub fn cut(self, columns: usize) -> Self {
         if self.width() <= columns {
             return self;
@@ -108,7 +101,6 @@ impl ScreenLine {
     }
 }
 
-/// Number of characters that fit into the columns.
 fn fitting(characters: &[(char, &LineStyle)], columns: usize) -> usize {
     let mut taken = 0;
     let is_beyond = |(character, _): &(char, &LineStyle)| {
@@ -146,12 +138,10 @@ pub fn wrapped(text: &str, indent: &str, columns: usize) -> Vec<String> {
     text.lines().flat_map(wrap).collect()
 }
 
-/// Wrapped text as lines in one style; further lines begin with `indent`.
 pub fn paragraph(text: &str, indent: &str, columns: usize, style: &LineStyle) -> Vec<ScreenLine> {
     wrapped(text, indent, columns).iter().map(|line| ScreenLine::of(line, style.clone())).collect()
 }
 
-/// Wrapped text as lines after a styled label.
 pub fn labelled(
     label: (&str, LineStyle),
     text: &str,
@@ -196,7 +186,6 @@ pub fn coloured(text: &str) -> Vec<ScreenLine> {
     lines
 }
 
-/// Replaces control characters.
 fn clean(text: &str) -> String {
     let text = text.replace('\t', "    ");
     text.chars().map(|c| if c.is_control() { '\u{b7}' } else { c }).collect()

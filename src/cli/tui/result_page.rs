@@ -7,12 +7,10 @@ use crate::exercises::catalogue::EXERCISES;
 use crate::exercises::report::{AttemptError, AttemptOutcome, AttemptReport, ScriptPosition};
 use crate::output::columns_of;
 
-/// Maximum number of printed lines shown.
 const PRINTED: usize = 12;
 /// Shorter runs are not shown as running [s].
 const SOON: u64 = 1;
 
-/// Lines on the last run of an attempt, or on a running one.
 pub fn outcome(state: &TuiState, columns: usize) -> Vec<ScreenLine> {
     match (state.running, &state.last) {
         (Some(seconds), last) if seconds >= SOON || last.is_none() => {
@@ -81,7 +79,6 @@ fn trouble(state: &TuiState, why: &AttemptError, columns: usize) -> Vec<ScreenLi
     lines
 }
 
-/// Number of blanks per tab.
 const TAB: usize = 4;
 
 /// Source line with a mark below the location, cut to the visible part around it.

@@ -19,16 +19,12 @@ use super::state::{ScreenPage, ScrollPosition, ScrollWindow, TaskSection, TuiSta
 use crate::exercises::catalogue::{EXERCISES, TRACKS};
 use crate::exercises::task::{Paragraph, TO_DO};
 
-/// Rendered screen.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Screen {
-    /// Lines from the top.
     pub lines: Vec<ScreenLine>,
-    /// Visible part of the page.
     pub window: ScrollWindow,
 }
 
-/// A page, and the starts of its parts.
 struct PageLayout {
     lines: Vec<ScreenLine>,
     result: usize,
@@ -91,7 +87,6 @@ pub fn screen(
     Screen { lines: lines.into_iter().map(|line| line.cut(columns)).collect(), window }
 }
 
-/// Visible part of a page, with notes on the lines above and below.
 fn seen(lines: &mut Vec<ScreenLine>, window: ScrollWindow) -> Vec<ScreenLine> {
     let ScrollWindow { top, last, rows } = window;
     let mut shown: Vec<ScreenLine> = lines.drain(..).skip(top).take(rows).collect();
@@ -154,7 +149,6 @@ fn head(state: &TuiState, columns: usize) -> Vec<ScreenLine> {
     lines
 }
 
-/// Width of the progress bar.
 const BAR: usize = 32;
 
 fn progress(state: &TuiState, columns: usize) -> ScreenLine {

@@ -8,21 +8,17 @@ use crate::repl::editor::highlight::{SessionNames, highlight};
 use crate::repl::editor::surroundings::CompletionContext;
 use crate::script::packages::language;
 
-/// Syntax highlighter for scripts.
 pub struct ScriptPainter(SessionNames);
 
 impl ScriptPainter {
-    /// A highlighter with the vocabulary of the language.
     pub fn new() -> Self {
         Self(SessionNames::of(CompletionContext::of_language(language())))
     }
 
-    /// Script with ANSI colours.
     pub fn paint(&self, text: &str) -> String {
         highlight(text, None, &self.0)
     }
 
-    /// Lines of the solution below the text of the task.
     pub fn solution(&self, exercise: &Exercise) -> Vec<ScreenLine> {
         let is_head = |line: &&str| line.starts_with("//") || line.is_empty();
         let code: Vec<&str> = exercise.solution.lines().skip_while(is_head).collect();

@@ -8,28 +8,19 @@ use crate::exercises::exercise::Exercise;
 use crate::exercises::progress::StudentProgress;
 use crate::exercises::report::{AttemptOutcome, AttemptReport};
 
-/// State of `withy learn watch`.
 #[derive(Clone, Debug)]
 pub struct TuiState {
-    /// Current exercise.
     pub exercise: &'static Exercise,
     /// File of the exercise, as typed by the user.
     pub file: String,
-    /// Progress of the student.
     pub progress: StudentProgress,
-    /// Result of the last run.
     pub last: Option<AttemptReport>,
     /// Seconds since the start of the current run.
     pub running: Option<u64>,
-    /// Number of runs since the exercise was opened.
     pub runs: usize,
-    /// Number of hints shown.
     pub hints: usize,
-    /// Current page.
     pub page: ScreenPage,
-    /// First visible line of the page.
     pub top: ScrollPosition,
-    /// Message after a key.
     pub notice: Option<String>,
     /// Pending question: pressing the same key again confirms.
     pub asked: Option<Confirmation>,
@@ -37,18 +28,13 @@ pub struct TuiState {
     pub typed: usize,
 }
 
-/// A page of the screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ScreenPage {
-    /// Task, result, and hints.
     Task,
-    /// List of all exercises, with the selected index.
     List(usize),
-    /// A solution.
     Solution,
 }
 
-/// First visible line of a page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ScrollPosition {
     /// Scrolled so that this part is visible.
@@ -57,18 +43,13 @@ pub enum ScrollPosition {
     Line(usize),
 }
 
-/// A part of the page with the task.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TaskSection {
-    /// Beginning of the page.
     Beginning,
-    /// Result of the attempt.
     Result,
-    /// Last hint.
     Hint,
 }
 
-/// A question before an action.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Confirmation {
     /// Confirms leaving an exercise that has not passed.
@@ -77,36 +58,25 @@ pub enum Confirmation {
     Solution,
 }
 
-/// Action of a key beyond redrawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum KeyAction {
-    /// No action.
     Nothing,
-    /// Leave.
     Leave,
-    /// Suspend the program, as Ctrl-Z does.
     Suspend,
-    /// Run the attempt again.
     Run,
-    /// Open another exercise.
     Open(&'static Exercise),
-    /// Show another hint.
     Hint,
 }
 
-/// Visible lines of the page, for scrolling.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ScrollWindow {
-    /// First visible line, from 0.
     pub top: usize,
     /// Last possible first line.
     pub last: usize,
-    /// Number of visible lines.
     pub rows: usize,
 }
 
 impl TuiState {
-    /// Initial state of an exercise.
     pub fn open(exercise: &'static Exercise, file: String, progress: StudentProgress) -> Self {
         Self {
             exercise,
@@ -124,17 +94,14 @@ impl TuiState {
         }
     }
 
-    /// Number of the exercise, from 1.
     pub fn number(&self) -> usize {
         index(self.exercise) + 1
     }
 
-    /// Number of passed exercises.
     pub fn passed(&self) -> usize {
         EXERCISES.iter().filter(|exercise| self.progress.has_passed(exercise)).count()
     }
 
-    /// Returns true if the current exercise has passed.
     pub fn has_passed(&self) -> bool {
         match &self.last {
             Some(report) => report.outcome == AttemptOutcome::Passed,
@@ -149,7 +116,6 @@ impl TuiState {
         others.into_iter().find(|exercise| !self.progress.has_passed(exercise))
     }
 
-    /// Records the result of a run.
     pub fn tell(&mut self, report: AttemptReport) {
         self.progress.note(self.exercise, report.outcome == AttemptOutcome::Passed);
         self.running = None;
@@ -157,7 +123,6 @@ impl TuiState {
         self.last = Some(report);
     }
 
-    /// Handles a key; returns the remaining action.
     pub fn press(&mut self, key: Key, window: ScrollWindow) -> KeyAction {
         self.notice = None;
         let asked = self.asked.take();
@@ -281,7 +246,6 @@ impl TuiState {
     }
 }
 
-/// Index of the exercise in the catalogue.
 pub fn index(exercise: &Exercise) -> usize {
     EXERCISES.iter().position(|other| other == exercise).unwrap_or_default()
 }

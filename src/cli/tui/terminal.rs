@@ -23,7 +23,6 @@ const USUAL: (u16, u16) = (80, 24);
 /// True while the terminal is in raw mode.
 static HELD: AtomicBool = AtomicBool::new(false);
 
-/// Returns true if stdin and stdout are a terminal that can draw.
 pub fn is_there() -> bool {
     let can_draw = std::env::var_os("TERM").is_none_or(|name| name != "dumb");
     stdin().is_terminal() && stdout().is_terminal() && can_draw
@@ -39,6 +38,7 @@ pub struct RawTerminal {
 impl RawTerminal {
     /// Switches to the alternate screen and raw mode.
     ///
+    /// # Errors
     /// If the terminal does not support this.
     pub fn take() -> io::Result<Self> {
         hold()?;
@@ -46,7 +46,6 @@ impl RawTerminal {
         Ok(Self { colours: style.colours, drawn: Vec::new(), size: (0, 0) })
     }
 
-    /// Current columns and rows.
     pub fn size(&self) -> (usize, usize) {
         let told = terminal::size().ok().filter(|(columns, rows)| *columns > 0 && *rows > 0);
         let (columns, rows) = told.unwrap_or(USUAL);
@@ -55,6 +54,7 @@ impl RawTerminal {
 
     /// Draws lines, in one write; unchanged screens are not redrawn.
     ///
+    /// # Errors
     /// If writing fails.
     pub fn show(&mut self, lines: &[ScreenLine], size: (usize, usize)) -> io::Result<()> {
         let mut drawing = Vec::new();
@@ -84,6 +84,7 @@ impl RawTerminal {
 
     /// Next key; `None` after the timeout or if the size has changed.
     ///
+    /// # Errors
     /// If reading fails.
     pub fn key(&self, patience: Duration) -> io::Result<Option<Key>> {
         if !event::poll(patience)? {
@@ -97,6 +98,7 @@ impl RawTerminal {
 
     /// Restores the terminal, suspends the process, and sets the terminal up again.
     ///
+    /// # Errors
     /// See [`take`](Self::take).
     pub fn rest(&mut self) -> io::Result<()> {
         give_back();

@@ -9,7 +9,6 @@ use crate::output::colour::{INK, WHITE};
 use crate::output::curve;
 use crate::output::marker::Marker;
 
-/// Line widths.
 const LINE: f64 = 1.5;
 const THIN: f64 = 1.0;
 /// Half width of a support, height of its triangle, and length of its hatching.
@@ -89,13 +88,11 @@ impl SymbolFrame<'_> {
         }
     }
 
-    /// A triangle with its tip at the point.
     fn triangle(&mut self) {
         let foot = [self.at(-TRIANGLE, 0.6 * SUPPORT), self.at(-TRIANGLE, -0.6 * SUPPORT)];
         self.line(&[self.at, foot[0], foot[1], self.at], LINE);
     }
 
-    /// The ground at the given distance behind the point.
     fn ground_behind(&mut self, far: f64) {
         let ends = [self.at(-far, SUPPORT), self.at(-far, -SUPPORT)];
         self.ground(ends[0], ends[1], (-self.ahead.0, -self.ahead.1));
@@ -136,7 +133,6 @@ impl SymbolFrame<'_> {
         self.line(&corners, LINE);
     }
 
-    /// A circle with two arrow heads around it.
     fn motor(&mut self) {
         let around = |angle: f64| (self.at.0 + MOTOR * cos(angle), self.at.1 - MOTOR * sin(angle));
         let circle: Vec<Point> =
@@ -146,7 +142,6 @@ impl SymbolFrame<'_> {
         heads.into_iter().for_each(|(tip, ahead)| self.head(tip, ahead, SMALL_HEAD, LINE));
     }
 
-    /// A square with an arrow on either side.
     fn carriage(&mut self) {
         self.square(CARRIAGE);
         for side in [-1.0, 1.0] {
@@ -194,7 +189,6 @@ impl SymbolFrame<'_> {
         self.line(&spiral, THIN);
     }
 
-    /// An open circle with an arrow head.
     fn turn(&mut self) {
         let side = if self.ahead.0 < 0.0 { -1.0 } else { 1.0 };
         // From below the point to its upper side; mirrored if clockwise.

@@ -3,7 +3,6 @@
 use super::{Colours, TerminalStyle};
 use crate::output::width::columns_of;
 
-/// Colour of a character in a terminal.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum TerminalColour {
     /// The default colour of the terminal.
@@ -29,7 +28,6 @@ pub struct CharacterGrid {
 }
 
 impl CharacterGrid {
-    /// A blank sheet of the size of a style.
     pub fn new(style: &TerminalStyle) -> Self {
         Self {
             style: *style,
@@ -37,7 +35,6 @@ impl CharacterGrid {
         }
     }
 
-    /// Sets the character at a position.
     pub fn put(&mut self, column: usize, row: usize, letter: char, ink: TerminalColour) {
         if column < self.style.width && row < self.style.height {
             self.cells[row * self.style.width + column] = (letter, ink);

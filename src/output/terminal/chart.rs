@@ -33,7 +33,6 @@ impl LineChart {
         sheet.render()
     }
 
-    /// Returns true if curves are labelled with letters.
     fn has_letters(&self, style: &TerminalStyle) -> bool {
         self.series.len() > 1 && style.colours == Colours::None
     }
@@ -43,7 +42,6 @@ fn letter(index: usize) -> char {
     char::from(b'a' + (index % 26) as u8)
 }
 
-/// Arrangement of the parts of a chart on a sheet.
 struct Layout {
     style: TerminalStyle,
     frame: Frame,
@@ -54,9 +52,7 @@ struct Layout {
     has_axes: bool,
     y_ticks: Vec<Tick>,
     x_label: String,
-    /// Column of the vertical axis line.
     gutter: usize,
-    /// First line of the plot.
     top: usize,
     columns: usize,
     rows: usize,
@@ -95,7 +91,6 @@ impl Layout {
         if has_axes { layout } else { layout.bare() }
     }
 
-    /// A chart that shows only its curves, for lack of space.
     fn bare(self) -> Self {
         let (columns, rows) = (self.style.width, self.style.height);
         Self { heading: String::new(), legend: vec![], top: 0, columns, rows, ..self }
@@ -204,7 +199,6 @@ impl Layout {
         dots
     }
 
-    /// Positions of the letters of a series.
     fn lettered(&self, index: usize, count: usize, raster: &Dots) -> Vec<(usize, usize)> {
         let mut places: Vec<(usize, usize)> =
             raster.drawn().map(|(column, row, ..)| (column, row)).collect();
@@ -220,7 +214,6 @@ impl Layout {
     }
 }
 
-/// Title and label of the vertical axis.
 fn heading(frame: &Frame, factor: &Factor, style: &TerminalStyle) -> String {
     let parts = [frame.title.clone(), factor.after(&frame.y_label)];
     let parts: Vec<String> = parts.into_iter().filter(|part| !part.trim().is_empty()).collect();

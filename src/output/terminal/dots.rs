@@ -6,15 +6,12 @@ use super::character_grid::TerminalColour;
 use crate::output::canvas::{Area, Point};
 use crate::output::curve::pieces;
 
-/// Number of dots across a character.
 pub const ACROSS: usize = 2;
-/// Number of dots down a character.
 pub const DOWN: usize = 4;
 
 /// Bit of each dot in the code of its Braille character: first column from the top, then the second.
 const BITS: [[u8; DOWN]; ACROSS] = [[0x01, 0x02, 0x04, 0x40], [0x08, 0x10, 0x20, 0x80]];
 
-/// Dot density of a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Trace {
     /// Every dot.
@@ -32,7 +29,6 @@ pub struct Dots {
 }
 
 impl Dots {
-    /// A blank raster of the given number of columns and rows of characters.
     pub fn new(columns: usize, rows: usize) -> Self {
         Self { columns, rows, cells: vec![(0, TerminalColour::Plain); columns * rows] }
     }
@@ -99,7 +95,6 @@ fn way(from: (i64, i64), to: (i64, i64)) -> impl Iterator<Item = (i64, i64)> {
 }
 
 impl Glyphs {
-    /// Character that shows these dots, one bit per dot.
     pub(super) fn of_dots(self, mask: u8) -> char {
         match self {
             Self::Braille => char::from_u32(0x2800 + u32::from(mask)).unwrap_or(' '),

@@ -48,7 +48,6 @@ impl HeatMap {
         sheet.render()
     }
 
-    /// Block, ink and text of a cell.
     fn set(&self, cell: &HeatCell, glyphs: Glyphs) -> (char, TerminalColour, String) {
         let text = glyphs.typeset(&cell.text.lines().collect::<Vec<_>>().join(" "));
         match cell.value.and_then(|value| self.part(value)) {
@@ -77,7 +76,6 @@ impl HeatMap {
     }
 }
 
-/// Blocks from empty to dark.
 fn blocks(glyphs: Glyphs) -> [char; 5] {
     glyphs.choose(['·', '░', '▒', '▓', '█'], ['.', ':', '+', '%', '#'])
 }

@@ -27,7 +27,6 @@ pub enum PictureMark {
 impl PictureMark {
     const ALL: [Self; 5] = [Self::Particle, Self::Slider, Self::Joint, Self::Hinge, Self::Clamp];
 
-    /// Character in Braille pictures and in ASCII, and name.
     fn look(self) -> (char, char, &'static str) {
         match self {
             Self::Particle => ('●', 'O', "particle"),
@@ -61,7 +60,6 @@ struct PlaneWindow {
     middle: Point,
     /// Length of a dot in data units.
     dot: f64,
-    /// Coordinates of the last dot.
     last: Point,
 }
 
@@ -144,7 +142,6 @@ impl ConfigurationPicture {
         sheet.render()
     }
 
-    /// Window and its number of lines in the given space; `None` if there is nothing to show.
     fn window(&self, columns: usize, rows: usize) -> Option<(usize, PlaneWindow)> {
         let points = || {
             let lines = self.lines.iter().chain(&self.ghost).flatten().copied();
@@ -177,7 +174,6 @@ impl ConfigurationPicture {
         Some((rows, PlaneWindow { middle, dot, last }))
     }
 
-    /// Title and time above, the coordinates of the window edges, and the meaning of the marks below.
     fn draw_frame(&self, sheet: &mut CharacterGrid, style: &TerminalStyle, window: &PlaneWindow) {
         let glyphs = style.glyphs;
         let (level, upright) = glyphs.choose(('─', '│'), ('-', '|'));
@@ -242,7 +238,6 @@ impl ConfigurationPicture {
 }
 
 impl PlaneWindow {
-    /// Position of a point, in dots from the upper left one.
     fn place(&self, (x, y): Point) -> Point {
         let far = |value: f64, middle: f64| (value - middle) / self.dot;
         (0.5 * self.last.0 + far(x, self.middle.0), 0.5 * self.last.1 - far(y, self.middle.1))

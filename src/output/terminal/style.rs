@@ -42,7 +42,6 @@ impl TerminalStyle {
 }
 
 impl Glyphs {
-    /// Selects the variant for these glyphs.
     pub(super) fn choose<T>(self, braille: T, ascii: T) -> T {
         match self {
             Self::Braille => braille,
@@ -94,7 +93,6 @@ fn in_ascii(text: &str) -> String {
     plain
 }
 
-/// Digit or sign of a superscript character.
 fn lowered(raised: char) -> Option<char> {
     let digits = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let digit = digits.iter().position(|&other| other == raised);

@@ -88,7 +88,6 @@ fn filled(template: &str, texts: &[(&str, &str)]) -> String {
     page + rest
 }
 
-/// Escapes a text for an element or attribute of HTML.
 fn escaped(text: &str) -> String {
     let escape = |letter| match letter {
         '&' => "&amp;".to_owned(),

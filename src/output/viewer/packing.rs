@@ -41,7 +41,6 @@ impl Quantisation {
         }
     }
 
-    /// Code of a number.
     fn code(&self, number: f64) -> u16 {
         match number.is_finite() {
             false => MISSING,

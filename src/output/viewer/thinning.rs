@@ -1,6 +1,5 @@
 //! Selection of the rows of a long history that a chart needs; extremes are kept.
 
-/// Maximum number of rows, apart from one piece.
 const MOST_ROWS: usize = 3000;
 
 /// Indices of the rows to keep, in order: all, or in each piece the first row and the rows with the extremes of every

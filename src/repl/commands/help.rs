@@ -7,7 +7,6 @@ use crate::repl::shell::{CommandOutcome, Shell};
 use crate::script::diagnose::Diagnostic;
 use crate::script::help::lookup::{self, HelpPage, StyledText};
 
-/// Command `:help [name]`: shows help on a name, or on the prompt.
 pub fn help(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let name = operand.trim_matches('"').trim_end_matches('?').trim_end_matches("()").trim();
     match name {
@@ -87,7 +86,6 @@ fn commands(shell: &mut Shell) -> CommandOutcome {
     show(shell, &[drawn(shell, &page)])
 }
 
-/// Lists all topics with a page.
 fn topics(shell: &mut Shell) -> CommandOutcome {
     match lookup::page(shell.session().catalog(), "") {
         Ok(page) => show(shell, &[drawn(shell, &page)]),

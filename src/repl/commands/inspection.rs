@@ -21,7 +21,6 @@ use crate::simulation::Simulation;
 const VALUE_WIDTH: usize = 70;
 const LEAST_VALUE_WIDTH: usize = 12;
 
-/// Command `:vars`: lists the variables, functions and modules of the session.
 pub fn variables(shell: &mut Shell, _: &str) -> CommandOutcome {
     let session = shell.session();
     let variables: Vec<_> = session.variables().iter_raw().collect();
@@ -74,18 +73,15 @@ pub fn variables(shell: &mut Shell, _: &str) -> CommandOutcome {
     CommandOutcome::Good
 }
 
-/// Second column of the list of variables.
 enum ShownVariable<'a> {
     Value(&'a Dynamic),
     Words(String),
 }
 
-/// Command `:invariants`: shows the drift of energy and momenta of the last simulation.
 pub fn invariants(shell: &mut Shell, _: &str) -> CommandOutcome {
     shell.show_of_latest("invariants()")
 }
 
-/// Command `:view [FILE]`: writes a page with an animation of the last simulation.
 pub fn view(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let file = if operand.is_empty() { "view.html" } else { operand.trim_matches('"') };
     // Quotes and backslashes would end the string literal below; no file name needs them.
@@ -98,12 +94,10 @@ pub fn view(shell: &mut Shell, operand: &str) -> CommandOutcome {
     outcome
 }
 
-/// Command `:explain`: lists the models and simplifications of the last simulation.
 pub fn explain(shell: &mut Shell, _: &str) -> CommandOutcome {
     shell.show_of_latest("explain()")
 }
 
-/// Command `:show [time]`: draws the configuration of the last simulation.
 pub fn show(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let (time, options) = operand.find("#{").map_or((operand, ""), |at| operand.split_at(at));
     let time = match (time.trim().trim_end_matches(',').trim_end(), options) {
@@ -162,7 +156,6 @@ pub fn show(shell: &mut Shell, operand: &str) -> CommandOutcome {
     })
 }
 
-/// Evaluates a map of options typed by the user; `example` is shown in error messages.
 pub(super) fn options_of(
     shell: &mut Shell,
     text: &str,
@@ -177,7 +170,6 @@ pub(super) fn options_of(
     }
 }
 
-/// Command `:along [quantity]`: draws a quantity along the beams.
 pub fn along(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let name = if operand.is_empty() { "M" } else { operand.trim_matches('"') };
     let Some(quantity) = BeamQuantity::named(name) else {
@@ -195,7 +187,6 @@ pub fn along(shell: &mut Shell, operand: &str) -> CommandOutcome {
     })
 }
 
-/// Shows a picture or text made from the last simulation.
 pub(super) fn draw(
     shell: &mut Shell,
     picture: impl FnOnce(&Simulation, ReplyTarget) -> Result<String, ScriptError>,

@@ -15,13 +15,10 @@ const DIGITS: usize = 6;
 
 /// Help on a name of the session: text shown unchanged, and a help page.
 pub struct NameInfo {
-    /// Text of the value.
     pub shown: Option<String>,
-    /// Help page with everything else.
     pub page: HelpPage,
 }
 
-/// Help on a name of the session, if it is defined there.
 pub fn known(shell: &mut Shell, name: &str) -> Option<NameInfo> {
     if name.contains('.') {
         return member(shell, name);
@@ -100,7 +97,6 @@ fn variable(shell: &Shell, name: &str, value: &Dynamic) -> NameInfo {
     NameInfo { shown: Some(present(session.catalog(), value, shell.width())), page }
 }
 
-/// Size of an array or a map.
 fn extent(value: &Dynamic) -> String {
     let count = |count: usize, what: &str| match count {
         1 => format!(" of 1 {what}"),

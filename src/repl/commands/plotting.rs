@@ -18,18 +18,15 @@ use crate::script::presentation::plots;
 use crate::script::source::scanner::{TokenKind, scan};
 use crate::simulation::History;
 
-/// Default columns.
 const ENERGIES: [&str; 3] = ["kinetic", "strain", "energy"];
 
 const PLOT_EXAMPLE: &str = ":plot energy, #{ y_log: true }";
 
-/// Classification of one operand of `:plot`.
 enum PlotPart {
     Columns(Vec<String>),
     Expression(String),
 }
 
-/// Command `:plot [curves] [options]`: draws columns of the history, or curves of expressions.
 pub fn plot(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let (operand, options) = with_options(operand);
     let options = match options.map(|text| options_of(shell, text, PLOT_EXAMPLE)).transpose() {
@@ -184,7 +181,6 @@ fn plot_curves(shell: &mut Shell, found: Vec<PlotPart>, options: Option<Map>) ->
     CommandOutcome::Good
 }
 
-/// Curves, and a note for the user.
 type PlotData = Result<(Vec<PlotCurve>, Option<String>), CommandOutcome>;
 
 fn columns(shell: &mut Shell, names: &[String]) -> PlotData {

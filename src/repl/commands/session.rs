@@ -7,7 +7,6 @@ use crate::repl::shell::{CommandOutcome, Shell};
 use crate::script::diagnose::Diagnostic;
 use crate::script::source::program::Program;
 
-/// Command `:save file`: writes the session as a script.
 pub fn save(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let operand = operand.trim_matches('"');
     if operand.is_empty() {
@@ -43,7 +42,6 @@ pub fn save(shell: &mut Shell, operand: &str) -> CommandOutcome {
     CommandOutcome::Good
 }
 
-/// Command `:load file`: evaluates a script as if it had been typed.
 pub fn load(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let operand = operand.trim_matches('"');
     if operand.is_empty() {
@@ -56,13 +54,11 @@ pub fn load(shell: &mut Shell, operand: &str) -> CommandOutcome {
     }
 }
 
-/// Command `:reset`: clears everything except the screen settings.
 pub fn reset(shell: &mut Shell, _: &str) -> CommandOutcome {
     shell.reset();
     CommandOutcome::Good
 }
 
-/// Command `:quit`: leaves the prompt.
 pub fn quit(_: &mut Shell, _: &str) -> CommandOutcome {
     CommandOutcome::Quit
 }

@@ -7,7 +7,6 @@ use crate::script::messages::numbers::format_number;
 /// Integers below this are exact as floating-point numbers.
 const MOST_STEPS: f64 = 9e15;
 
-/// Command `:step [count]`: advances the last simulation by steps.
 pub fn step(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let count = match whole(operand, "step") {
         Ok(count) => count,
@@ -26,7 +25,6 @@ pub fn step(shell: &mut Shell, operand: &str) -> CommandOutcome {
     outcome
 }
 
-/// Command `:run time`: runs the last simulation to a time.
 pub fn run(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let Ok(end) = operand.parse::<f64>() else {
         let hint = "write :run T, with the time to run to";
@@ -43,7 +41,6 @@ pub fn run(shell: &mut Shell, operand: &str) -> CommandOutcome {
     outcome
 }
 
-/// Command `:back [count]`: rewinds the last simulation by steps.
 pub fn back(shell: &mut Shell, operand: &str) -> CommandOutcome {
     match whole(operand, "back") {
         Ok(count) => move_latest(shell, &format!("back({count})")),
@@ -51,7 +48,6 @@ pub fn back(shell: &mut Shell, operand: &str) -> CommandOutcome {
     }
 }
 
-/// Command `:watch [expression]`: shows an expression after each step.
 pub fn watch(shell: &mut Shell, operand: &str) -> CommandOutcome {
     if operand.is_empty() {
         shell.watch_nothing();
@@ -60,7 +56,6 @@ pub fn watch(shell: &mut Shell, operand: &str) -> CommandOutcome {
     shell.watch(operand)
 }
 
-/// Calls a method that moves the last simulation, and shows the new time.
 fn move_latest(shell: &mut Shell, call: &str) -> CommandOutcome {
     let outcome = shell.call_latest(call);
     if outcome == CommandOutcome::Good {

@@ -8,7 +8,6 @@ use crate::repl::session::Reply;
 use crate::repl::shell::{CommandOutcome, Shell};
 use crate::script::diagnose::Diagnostic;
 
-/// Command `:time input`: measures the duration of an input.
 pub fn time(shell: &mut Shell, operand: &str) -> CommandOutcome {
     if operand.is_empty() {
         let told = Diagnostic::general("there is nothing to time");
@@ -42,7 +41,6 @@ pub fn time(shell: &mut Shell, operand: &str) -> CommandOutcome {
     CommandOutcome::Good
 }
 
-/// Repeats the input with its output discarded until the duration is known precisely enough.
 fn repeat(shell: &mut Shell, operand: &str, first: Duration) -> CommandOutcome {
     let first = in_words(first);
     let (before, places) = (Footprint::of(shell.session()), shell.session().whereabouts());
@@ -87,7 +85,6 @@ fn told(first: &str, figures: &Figures) -> String {
     )
 }
 
-/// Formats a duration with three digits and a suitable unit.
 fn in_words(time: Duration) -> String {
     let seconds = time.as_secs_f64();
     let (value, unit) = match seconds {

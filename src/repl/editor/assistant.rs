@@ -19,7 +19,6 @@ use crate::output::{Colours, columns, cut, padded};
 /// Maximum length of a list with one line per candidate and its summary.
 const SHORT_LIST: usize = 12;
 
-/// Helper of the line editor for one prompt.
 pub struct Assistant {
     vocabulary: SessionNames,
     columns: usize,
@@ -49,7 +48,6 @@ impl Assistant {
         }
     }
 
-    /// Cuts a hint to the space after the line.
     fn fit(&self, line: &str, hint: Hint) -> Option<Hint> {
         if hint.insertable.is_some() {
             return Some(hint);
@@ -93,7 +91,6 @@ impl Completer for Assistant {
     }
 }
 
-/// Formats candidates for a terminal with `room` columns.
 fn list(candidates: Vec<Candidate>, room: usize) -> Vec<Listed> {
     let widest = candidates.iter().map(|candidate| columns(&candidate.display)).max().unwrap_or(0);
     let is_described = candidates.len() <= SHORT_LIST

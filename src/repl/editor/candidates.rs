@@ -71,7 +71,6 @@ impl Candidate {
         }
     }
 
-    /// Name of a candidate, which must match what is typed.
     fn name(&self) -> &str {
         self.replacement.trim_end_matches(['(', ')', ':', ' '])
     }

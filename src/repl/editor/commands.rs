@@ -91,7 +91,6 @@ pub fn command_named<'s>(
     exact.or_else(|| beginning.next().filter(|_| beginning.next().is_none()))
 }
 
-/// Help topics: names of the language, of the session, and of commands.
 fn topics(surroundings: &CompletionContext) -> Vec<Candidate> {
     let catalog = &surroundings.catalog;
     let is_name = |name: &str| name.starts_with(|letter: char| letter.is_alphabetic());

@@ -71,7 +71,6 @@ enum ParseOutcome {
     Final(Completeness),
 }
 
-/// Nesting level of brackets.
 #[derive(Default)]
 struct BracketLevel<'t> {
     bracket: Option<Bracket>,
@@ -345,7 +344,6 @@ mod tests {
         }
     }
 
-    /// Splits a script into the inputs that the prompt would evaluate line by line.
     fn chunks(script: &str) -> Vec<String> {
         let mut chunks = vec![String::new()];
         for line in script.lines() {

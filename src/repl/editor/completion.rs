@@ -37,7 +37,6 @@ pub fn complete(
     (start, candidates)
 }
 
-/// Keywords that are followed by a new name.
 const DECLARING: &[&str] = &["let", "const", "fn", "for", "as"];
 
 fn complete_language(
@@ -123,7 +122,6 @@ fn module_members(alias: &str, surroundings: &CompletionContext) -> Vec<Candidat
     modules.flat_map(|module| &module.functions).map(script_function).collect()
 }
 
-/// Keys that are still missing in the map at the cursor, if a key is expected there.
 fn keys(input: &Input, line: &str, surroundings: &CompletionContext) -> Option<Vec<Candidate>> {
     let expected = Expected::new(input, surroundings);
     let level = expected
@@ -157,7 +155,6 @@ fn keys_after(rest: &str) -> Vec<&str> {
     found
 }
 
-/// Completes string literals: file names, columns, choices and keys, depending on the call.
 fn complete_text(input: &Input, surroundings: &CompletionContext) -> (usize, Vec<Candidate>) {
     let nothing = (input.text.len(), Vec::new());
     let Some(text) = input.tokens.last().filter(|text| text.of(input.text).starts_with('"')) else {

@@ -18,14 +18,12 @@ pub struct Expected<'a, 't> {
 /// A called function, and the number of its parameters before the dot.
 #[derive(Clone, Copy)]
 pub struct ActiveCall {
-    /// Called function.
     pub row: &'static FunctionBinding,
     /// Number of parameters before the dot: one for a function in method notation.
     pub before_dot: usize,
 }
 
 impl<'a, 't> Expected<'a, 't> {
-    /// Analyses the input before the cursor.
     pub fn new(input: &'a Input<'t>, surroundings: &'a CompletionContext) -> Self {
         Self { types: Types { input, surroundings }, levels: input.levels() }
     }

@@ -97,7 +97,6 @@ mod tests {
         SessionNames::of(surroundings())
     }
 
-    /// Coloured pieces with their colour codes.
     fn pieces(text: &str, cursor: Option<usize>) -> Vec<(String, String)> {
         let drawn = highlight(text, cursor, &vocabulary());
         let coloured = drawn.split("\x1b[").filter_map(|piece| piece.split_once('m'));

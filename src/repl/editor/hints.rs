@@ -22,7 +22,6 @@ pub struct Hint {
 }
 
 impl Hint {
-    /// A hint for information only.
     fn note(text: String) -> Option<Self> {
         (!text.is_empty()).then(|| Self { shown: format!("  {text}"), insertable: None })
     }
@@ -71,7 +70,6 @@ pub fn hint(line: &str, position: usize, surroundings: &CompletionContext) -> Op
     only.or_else(|| call_hint(&expected, is_key, line, surroundings))
 }
 
-/// Rest of the only matching name.
 fn only_candidate(line: &str, surroundings: &CompletionContext) -> Option<Hint> {
     let (start, candidates) = complete(line, line.len(), surroundings);
     match candidates.as_slice() {

@@ -5,9 +5,7 @@ use crate::script::source::scanner::{Bracket, Token, TokenKind, pair, scan};
 /// Maximum number of open brackets considered; outer ones do not matter at the cursor.
 const MOST_LEVELS: usize = 64;
 
-/// Tokens before the cursor of an input.
 pub struct Input<'t> {
-    /// Text before the cursor.
     pub text: &'t str,
     /// Tokens of the text, without spaces and comments.
     pub tokens: Vec<Token>,
@@ -22,7 +20,6 @@ pub struct Input<'t> {
 /// A bracket that is open at the cursor.
 #[derive(Clone, Copy, Debug)]
 pub struct OpenBracket<'t> {
-    /// Kind of the bracket.
     pub bracket: Bracket,
     /// Token index of the bracket.
     pub opener: usize,
@@ -32,14 +29,11 @@ pub struct OpenBracket<'t> {
     pub key: Option<&'t str>,
 }
 
-/// Function called by a bracket.
 #[derive(Clone, Copy, Debug)]
 pub struct CalleeName<'t> {
-    /// Name of the function.
     pub name: &'t str,
     /// Index of the last token of the value before the dot.
     pub receiver: Option<usize>,
-    /// Module of the function.
     pub module: Option<&'t str>,
 }
 
@@ -54,12 +48,10 @@ impl<'t> Input<'t> {
         Self { text, tokens, last, partners, open }
     }
 
-    /// Text of the token with this index.
     pub fn written(&self, index: usize) -> &'t str {
         self.tokens.get(index).map_or("", |token| token.of(self.text))
     }
 
-    /// Kind of the token with this index.
     pub fn kind(&self, index: usize) -> Option<TokenKind> {
         self.tokens.get(index).map(|token| token.kind)
     }
@@ -69,7 +61,6 @@ impl<'t> Input<'t> {
         self.partners.get(index).copied().flatten()
     }
 
-    /// Returns true if the token with this index is a dot.
     pub fn is_dot(&self, index: usize) -> bool {
         matches!(self.written(index), "." | "?.")
     }

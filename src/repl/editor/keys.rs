@@ -15,7 +15,6 @@ use super::completion::INDENTATION;
 /// Entries of the history, shared with the bindings that search it.
 pub type Entries = Arc<Mutex<HashSet<String>>>;
 
-/// Installs the key bindings.
 pub fn bind<H: Helper, I: History>(editor: &mut Editor<H, I>, entries: &Entries) {
     let conditional = |rule: KeyRule| EventHandler::Conditional(Box::new(rule));
     editor.bind_sequence(KeyEvent(KeyCode::Enter, Modifiers::NONE), conditional(KeyRule::Enter));
@@ -67,7 +66,6 @@ impl ConditionalEventHandler for KeyRule {
     }
 }
 
-/// Text that Enter inserts at the end of an open input.
 fn next_line(line: &str, at: usize) -> Option<String> {
     match completeness(line) {
         Completeness::Open(levels) if at == line.len() => {
@@ -77,7 +75,6 @@ fn next_line(line: &str, at: usize) -> Option<String> {
     }
 }
 
-/// Returns true if the line before the cursor consists of indentation only, at the end of the input.
 fn is_indentation(line: &str, at: usize) -> bool {
     let here = line.rfind('\n').map(|end| &line[end + 1..]);
     let is_blank = |here: &str| !here.is_empty() && here.bytes().all(|byte| byte == b' ');

@@ -70,7 +70,6 @@ pub enum EditorInput {
     End,
 }
 
-/// Width of a terminal that does not report its size.
 const USUAL_COLUMNS: usize = 80;
 
 /// A line editor with a persistent history.

@@ -40,7 +40,6 @@ fn all_members(surroundings: &CompletionContext) -> Vec<Candidate> {
     own.map(|row| Candidate::row(row, 0)).chain(built_ins.map(Candidate::built_in)).collect()
 }
 
-/// Returns true if the first parameter of a function has this type, so that it can be called as a method.
 fn takes_first(row: &FunctionBinding, of: &str) -> bool {
     let first = row.parameters.first().filter(|_| matches!(row.form, CallSyntax::Function));
     first.is_some_and(|parameter| match parameter.kind {
@@ -51,7 +50,6 @@ fn takes_first(row: &FunctionBinding, of: &str) -> bool {
     })
 }
 
-/// Returns true if a key can be written after a dot.
 fn is_plain(key: &str) -> bool {
     key.chars().all(is_name) && !key.starts_with(|letter: char| letter.is_numeric())
 }
@@ -63,7 +61,6 @@ mod tests {
     use super::super::samples::surroundings;
     use super::*;
 
-    /// Names that completion offers for values of a type, and names that the catalog defines for it.
     fn offered_and_known(of: &str) -> (BTreeSet<String>, BTreeSet<String>) {
         let surroundings = surroundings();
         let catalog = &surroundings.catalog;

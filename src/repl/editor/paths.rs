@@ -7,10 +7,8 @@ use super::candidates::{Candidate, fitting};
 use crate::script::bindings::sources::FOLDER;
 use crate::script::library::MODULES;
 
-/// Files that a completion offers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileFilter {
-    /// All files.
     Any,
     /// Scripts, without their extension.
     Modules,

@@ -5,7 +5,6 @@ use super::surroundings::{
 };
 use crate::script::packages::language;
 
-/// Names of a session for tests: a beam, a simulation, functions, modules.
 pub fn surroundings() -> CompletionContext {
     let variable = |name: &str, of: &str, keys: &[&str]| Variable {
         name: name.into(),

@@ -16,13 +16,10 @@ const DEEPEST: usize = 16;
 /// Type inference from tokens, session variables, and return types of functions.
 #[derive(Clone, Copy)]
 pub struct Types<'a, 't> {
-    /// Input before the cursor.
     pub input: &'a Input<'t>,
-    /// Names of the session.
     pub surroundings: &'a CompletionContext,
 }
 
-/// Type of a value, and its first token.
 struct TypedValue {
     of: Option<ValueKind>,
     start: usize,
@@ -193,7 +190,6 @@ impl<'t> Types<'_, 't> {
     }
 }
 
-/// Kind of a return value, if it is known.
 fn known(returns: Returns) -> Option<ValueKind> {
     Some(returns.kind.likely()).filter(|kind| kind.type_name().is_some())
 }

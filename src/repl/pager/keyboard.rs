@@ -50,7 +50,6 @@ mod of_system {
     pub struct KeyboardTerminal(());
 
     impl KeyboardTerminal {
-        /// Opens the terminal, if there is one.
         pub fn open() -> Option<Self> {
             Some(Self(()))
         }

@@ -9,7 +9,6 @@ use super::{Keyboard, PagerOutcome, Pressed};
 const CLEAR: &str = "\r\x1b[K";
 const KEYS: &str = "space: more, b: back, /: search, q: leave";
 
-/// Action of a key.
 enum PagerAction {
     Page,
     Line,
@@ -23,7 +22,6 @@ enum PagerAction {
     Nothing,
 }
 
-/// Number of lines that a text takes on a terminal with `columns` columns.
 pub fn rows(text: &str, columns: usize) -> usize {
     let width = |line: &str| crate::output::columns(&letters(line));
     text.lines().map(|line| width(line).div_ceil(columns).max(1)).sum()
@@ -39,13 +37,11 @@ fn letters(line: &str) -> String {
 struct Pages<'t> {
     lines: Vec<&'t str>,
     height: usize,
-    /// Lines on the screen.
     shown: Range<usize>,
     word: String,
 }
 
 impl Pages<'_> {
-    /// Lines to write for an action that scrolls.
     fn go(&mut self, wish: &PagerAction) -> Range<usize> {
         let Range { start, end } = self.shown;
         match wish {
@@ -62,20 +58,17 @@ impl Pages<'_> {
         }
     }
 
-    /// Scrolls forward to a line.
     fn forward(&mut self, to: usize) -> Range<usize> {
         let new = self.shown.end..to.min(self.lines.len());
         self.shown = new.end.saturating_sub(self.height)..new.end;
         new
     }
 
-    /// Redraws the page that begins with a line.
     fn from(&mut self, start: usize) -> Range<usize> {
         self.shown = start..(start + self.height).min(self.lines.len());
         self.shown.clone()
     }
 
-    /// Page that begins with the next line containing the search word.
     fn search(&mut self) -> Option<Range<usize>> {
         let word = self.word.to_lowercase();
         let mut later = (self.shown.start + 1)..self.lines.len();
@@ -137,7 +130,6 @@ pub fn walk(
     }
 }
 
-/// Reads a search word on the status line; cancelled by Ctrl-C.
 fn ask(
     word: &mut String,
     keys: &mut dyn Keyboard,
@@ -172,7 +164,6 @@ fn ask(
     Ok(Some(()))
 }
 
-/// Action of the next key, or the reason for leaving.
 fn wish(
     keys: &mut dyn Keyboard,
     was_interrupted: &dyn Fn() -> bool,
@@ -195,7 +186,6 @@ fn wish(
     Ok(Ok(wish))
 }
 
-/// Action of a key that sends an escape sequence.
 fn of_sequence(rest: &[u8]) -> PagerAction {
     match rest {
         [] => PagerAction::Leave,
@@ -232,7 +222,6 @@ mod tests {
         }
     }
 
-    /// Output for a text of ten lines on a terminal of four lines, and the result.
     fn walked(keys: &str) -> (String, PagerOutcome) {
         let text: Vec<String> = (0..10).map(|line| format!("\x1b[1mline\x1b[0m {line}")).collect();
         let mut out = Vec::new();

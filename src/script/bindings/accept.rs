@@ -138,7 +138,6 @@ fn refusal(
     }
 }
 
-/// First invalid element of an array.
 fn first_wrong_element(kind: &Kind, value: &Dynamic) -> Option<(usize, Dynamic)> {
     let array = value.read_lock::<Array>()?;
     let wrong = |element: &Dynamic| match kind {

@@ -29,6 +29,7 @@ pub struct KeySet<T> {
 impl<T: Copy> KeySets<T> {
     /// Returns the meaning of the set that `options` selects.
     ///
+    /// # Errors
     /// If a key of the set is missing, or a key of another set is given.
     pub fn choose(&self, owner: &str, options: &Options) -> Result<T, ScriptError> {
         let Some(meant) = self.meant(options) else {

@@ -187,7 +187,6 @@ impl NumberRange {
         x.is_finite() && bounded
     }
 
-    /// Description of a number in this range, with the given `noun`.
     fn phrase(self, noun: &str) -> String {
         match self {
             Self::Finite | Self::Unlimited => format!("a {noun}"),

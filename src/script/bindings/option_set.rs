@@ -11,6 +11,7 @@ use crate::script::messages::error::ScriptError;
 pub trait FromOption: Sized {
     /// Reads the value of a key, given or by default.
     ///
+    /// # Errors
     /// If the kind does not match, which is an internal error.
     fn read(options: &Arguments, key: &str) -> Result<Self, ScriptError>;
 }
@@ -80,6 +81,7 @@ macro_rules! option_set {
 
             /// Reads checked options.
             ///
+            /// # Errors
             /// If a key is not of the kind of its field, which is an internal error.
             pub fn of(
                 options: &$crate::script::bindings::options::Options,

@@ -105,13 +105,11 @@ fn alone(owner: &str, keys: &[Parameter], key: &Parameter) -> ScriptError {
         .at(CallPart::Key((*name).to_owned()))
 }
 
-/// Key, allowed values and meaning.
 fn asked_for(key: &Parameter) -> String {
     let meaning = if key.doc.is_empty() { String::new() } else { format!(" ({})", key.doc) };
     format!("{}: {}{meaning}", key.name, key.expectation())
 }
 
-/// List of the keys, with required ones marked.
 fn list(keys: &[Parameter]) -> String {
     let names = keys.iter().map(|key| match key.is_required() {
         true => format!("{} (required)", key.name),

@@ -134,12 +134,10 @@ impl RegisteredFunction {
         Self { row, parameters, body, lifting, context: context.clone() }
     }
 
-    /// Setter of the property.
     pub(super) fn setting(&self, setter: Setter) -> Self {
         Self { parameters: setter.value, body: setter.body, ..self.clone() }
     }
 
-    /// Type of the method or property.
     pub(super) fn receiver(&self) -> Option<Type> {
         self.row.receiver()
     }
@@ -154,6 +152,7 @@ fn add(engine: &mut Engine, name: String, types: Vec<TypeId>, binding: Registere
 
 /// Calls a binding with its receiver, if it has one, and its arguments.
 ///
+/// # Errors
 /// Errors of the binding, and of invalid arguments.
 pub(super) fn perform(
     binding: &RegisteredFunction,
@@ -200,7 +199,6 @@ fn called(
     lift((row, binding.lifting), receiver, (parameters, given), again)
 }
 
-/// Evaluates a call with the given values.
 fn make(
     binding: &RegisteredFunction,
     native: &NativeCallContext,

@@ -39,7 +39,6 @@ impl Drop for LibraryCallGuard {
     }
 }
 
-/// Returns true if a file belongs to the library.
 fn is_library(source: Option<&str>) -> bool {
     source.is_some_and(|source| source.starts_with(FOLDER))
 }

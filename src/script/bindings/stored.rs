@@ -31,6 +31,7 @@ impl StoredFunction {
 
     /// Calls the function. Call depth and error position are those of the running native call.
     ///
+    /// # Errors
     /// Errors of the script, or if the run was stopped.
     pub fn call(&self, arguments: impl AsMut<[Dynamic]>) -> Result<Dynamic, Box<EvalAltResult>> {
         self.context.proceed().map_err(|error| error.into_engine(Position::NONE))?;
@@ -55,6 +56,7 @@ impl StoredFunction {
 
     /// Calls the function with a number and returns a number.
     ///
+    /// # Errors
     /// If the function fails or returns another type.
     pub fn number_of(&self, argument: f64) -> Result<f64, NoNumber> {
         let value = self.call([Dynamic::from(argument)]).map_err(NoNumber::Failed)?;

@@ -14,7 +14,6 @@ use crate::script::messages::suggest::{nearest, related};
 use crate::script::source::outline::ScriptOutline;
 use crate::script::source::program::Program;
 
-/// An unknown name, with the data for suggestions.
 pub struct UnknownName<'a> {
     pub catalog: &'a Catalog,
     pub program: &'a Program,
@@ -103,7 +102,6 @@ impl UnknownName<'_> {
         (message, Some(hint))
     }
 
-    /// Message for a name before `::` that was not imported.
     pub fn module(&self, name: &str) -> ErrorText {
         let message = format!("nothing was imported as '{name}'");
         let imports = || self.outline.imports.iter().map(|(known, _)| known.as_str());
@@ -117,7 +115,6 @@ impl UnknownName<'_> {
         (message, Some(hint))
     }
 
-    /// Message for a function of Rhai called with wrong values.
     fn wrong_built_in(&self, name: &str, types: &[&str]) -> Option<ErrorText> {
         let meant: Vec<_> = self
             .catalog
@@ -208,7 +205,6 @@ impl UnknownName<'_> {
         (message, hint.or_else(|| receiver.and_then(|of| list(&members, of))))
     }
 
-    /// Suggestion of names that share a word with the unknown name.
     fn one_of(&self, names: &[&str], receiver: Option<&&str>) -> Option<String> {
         match names {
             [] => None,
@@ -280,7 +276,6 @@ impl UnknownName<'_> {
         (message, hint.or_else(|| list(&members, of)))
     }
 
-    /// Names of Rhai's methods and properties of a type.
     fn built_in_members(&self, of: &str) -> impl Iterator<Item = &'static str> {
         self.catalog.built_ins().filter(move |known| known.is_of(of)).map(BuiltIn::name)
     }
@@ -300,14 +295,12 @@ impl UnknownName<'_> {
         if found.is_empty() { "…" } else { found }
     }
 
-    /// Returns true if the name at this position follows a dot.
     fn is_dotted(&self, at: Position) -> bool {
         let (Some(line), Some(column)) = (at.line(), at.position()) else { return false };
         self.program.text[..self.program.offset(line, column)].trim_end().ends_with('.')
     }
 }
 
-/// All notations of functions of Rhai.
 fn forms(built_ins: &[&BuiltIn]) -> String {
     let forms: Vec<&str> = built_ins.iter().flat_map(|known| known.forms).copied().collect();
     forms.join(" or ")
@@ -353,7 +346,6 @@ fn arguments(count: usize) -> String {
     }
 }
 
-/// Member names of a type, or a reference to the help if there are many.
 fn list(members: &[&'static FunctionBinding], of: &str) -> Option<String> {
     const MOST: usize = 12;
     let names: Vec<_> = members.iter().map(|row| row.name).collect();

@@ -2,7 +2,6 @@
 
 use crate::script::messages::nouns::{type_word, with_article};
 
-/// Message and hint for a value of a wrong type.
 pub fn mismatch(wanted: &str, got: &str) -> (String, Option<String>) {
     let (wanted, got) = (type_word(wanted), type_word(got));
     let hint = match (wanted, got) {
@@ -21,7 +20,6 @@ pub fn mismatch(wanted: &str, got: &str) -> (String, Option<String>) {
     (format!("expected {}, got {}", with_article(wanted), with_article(got)), hint)
 }
 
-/// Message for an index out of bounds.
 pub fn bounds(what: &str, length: usize, index: i64) -> String {
     match length {
         0 => format!("there is nothing at index {index}: the {what} is empty"),
@@ -32,7 +30,6 @@ pub fn bounds(what: &str, length: usize, index: i64) -> String {
     }
 }
 
-/// Message for data that exceeds a size limit.
 pub fn too_large(what: &str) -> String {
     match what.to_lowercase() {
         what if what.contains("string") => "the text is too long".into(),
@@ -41,7 +38,6 @@ pub fn too_large(what: &str) -> String {
     }
 }
 
-/// Message and hint for numbers that cannot be parsed or represented.
 pub fn arithmetic(what: &str) -> (String, Option<String>) {
     let quoted = what.split('\'').nth(1).unwrap_or_default();
     let told = what.to_lowercase();

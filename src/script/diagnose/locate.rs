@@ -19,7 +19,6 @@ pub fn word_at(program: &Program, position: Position) -> Option<Location> {
     Some(location(program, line, column, word_length(program, line, column)))
 }
 
-/// Script text before `position`.
 pub fn text_before(program: &Program, position: Position) -> &str {
     let end = program.offset(position.line().unwrap_or(1), position.position().unwrap_or(1));
     &program.text[..end]
@@ -70,7 +69,6 @@ fn word_length(program: &Program, line: usize, column: usize) -> usize {
     length.min(rest.chars().count()).max(1)
 }
 
-/// Tokens of the call at `position` from the opening to the closing parenthesis.
 fn inside_call(program: &Program, position: Position) -> Option<(&[Lexeme], bool)> {
     let tokens = program.text.tokens();
     let called = tokens.iter().position(|(_, at)| *at == position)?;
@@ -84,7 +82,6 @@ fn inside_call(program: &Program, position: Position) -> Option<(&[Lexeme], bool
     is_closed.then_some((call, dotted))
 }
 
-/// Argument of a call in function or method notation.
 fn argument_of(
     program: &Program,
     catalog: &Catalog,

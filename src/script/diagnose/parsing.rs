@@ -64,7 +64,6 @@ pub fn explain(error: &ParseErrorType, word: &str) -> (String, Option<String>) {
     }
 }
 
-/// Hint on iterable values.
 pub const GONE_OVER: &str = "for goes over an array, a text or a range: for i in 0..10 { … }; over a map with for key in map.keys() { … }";
 
 fn reserved(word: &str) -> (String, Option<String>) {

@@ -62,7 +62,6 @@ const TOLD: usize = 60;
 /// Columns before the hint: `  = help: `.
 const BESIDE_HINT: usize = 10;
 
-/// Minimum width of wrapped hints.
 const NARROWEST: usize = 30;
 
 /// Wraps a line at blanks to `width` columns; longer words stay whole.
@@ -82,7 +81,6 @@ fn wrapped(line: &str, width: usize) -> Vec<String> {
     lines
 }
 
-/// Trace with the middle of a long recursion left out.
 fn shown_steps(trace: &[CallFrame]) -> Vec<String> {
     const SHOWN: usize = 8;
     let mut lines: Vec<_> = trace.iter().take(SHOWN).map(CallFrame::to_string).collect();
@@ -130,14 +128,12 @@ impl Location {
         self.program.text.lines().nth(self.line - 1).map_or(0, |line| line.chars().count())
     }
 
-    /// Description of a location in a line that is too long to draw.
     fn in_words(&self) -> String {
         let line = self.program.text.lines().nth(self.line - 1).unwrap_or_default();
         let there: String = line.chars().skip(self.column - 1).take(TOLD).collect();
         format!("at {}:{}:{}, in a long line: {there} …", self.program.name, self.line, self.column)
     }
 
-    /// Byte range of the location.
     fn bytes(&self) -> Range<usize> {
         let start = self.program.offset(self.line, self.column);
         start..self.program.offset(self.line, self.column + self.length).max(start)

@@ -33,12 +33,9 @@ pub struct Explainer<'a> {
     pub engine: &'a Engine,
 }
 
-/// An error without its surrounding calls.
 struct Unwrapped<'e> {
     inner: &'e EvalAltResult,
-    /// File of the error.
     program: Program,
-    /// Calls that led to the error, innermost first.
     trace: Vec<CallFrame>,
     /// Position of the innermost call.
     called_at: Option<(Program, Position)>,
@@ -46,7 +43,6 @@ struct Unwrapped<'e> {
     library_called_at: Option<(Program, Position)>,
 }
 
-/// Message and hint.
 type Diagnosis = (String, Option<String>);
 
 /// Returns true if the run was stopped from outside, not by a limit, at any call depth.
@@ -124,7 +120,6 @@ impl Explainer<'_> {
         Diagnostic { hint, location, trace, ..Diagnostic::general(message) }
     }
 
-    /// Unwraps an error from its surrounding calls.
     fn unwrap<'e>(&self, error: &'e EvalAltResult) -> Unwrapped<'e> {
         let sources = Sources::of(self.engine);
         let mut trace = Vec::new();
@@ -307,7 +302,6 @@ impl Explainer<'_> {
     }
 }
 
-/// Text underlined at this position.
 fn word_of(program: &Program, at: Position) -> String {
     locate::word_at(program, at).map(|place| place.text().to_owned()).unwrap_or_default()
 }
@@ -348,7 +342,6 @@ fn source(program: &Program, named: &str) -> Program {
     })
 }
 
-/// Message of the engine without the position at its end.
 fn plain(error: &EvalAltResult) -> String {
     let text = error.to_string();
     let end = text.rfind(" (line ").unwrap_or(text.len());

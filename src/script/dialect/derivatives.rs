@@ -14,7 +14,6 @@ use crate::script::messages::error::{EngineResult, ScriptError};
 use crate::script::messages::numbers::as_number;
 use crate::script::source::syntax::{LONGEST_CHAIN, OWN, power_name};
 
-/// An operator on numbers.
 #[derive(Clone, Copy)]
 struct OnNumbers {
     of: fn(f64, f64) -> f64,

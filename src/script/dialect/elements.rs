@@ -28,7 +28,6 @@ pub fn install(engine: &mut Engine) {
     });
 }
 
-/// Methods that search for elements and leave the array unchanged.
 fn install_searches(engine: &mut Engine) {
     search(engine, "some", |_, found| found.is_some().into());
     search(engine, "index_of", |_, found| {
@@ -82,7 +81,6 @@ fn search(engine: &mut Engine, name: &str, give: fn(&Array, Option<usize>) -> Dy
 /// Splits an array or map into elements that pass the test and the rest.
 type Partition = fn(&NativeCallContext, &[&mut Dynamic]) -> EngineResult<(Dynamic, Dynamic)>;
 
-/// Methods that split arrays or maps by a test.
 fn install_sieves(engine: &mut Engine) {
     let kinds = [
         (TypeId::of::<Array>(), part_array as Partition),
@@ -149,7 +147,6 @@ fn part_map(
     Ok((passed.into(), others.into()))
 }
 
-/// Copy of the receiver array.
 pub(super) fn array_of(values: &[&mut Dynamic]) -> Array {
     let array = values.first().and_then(|array| array.read_lock::<Array>());
     array.map(|array| array.clone()).unwrap_or_default()
@@ -165,7 +162,6 @@ fn function_of(values: &[&mut Dynamic]) -> EngineResult<FnPtr> {
     function.ok_or_else(|| ScriptError::bug("a test is no function").into_engine(Position::NONE))
 }
 
-/// Arguments passed to the function for each element.
 #[derive(Clone, Copy)]
 enum CallbackArguments {
     Element,
@@ -234,7 +230,6 @@ impl<'a> ElementCallback<'a> {
         )
     }
 
-    /// Evaluates the test for an element.
     fn whether(&self, index: usize, element: &mut Dynamic) -> EngineResult<bool> {
         truth(self.native, &self.about(index, element)?)
     }

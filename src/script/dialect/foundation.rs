@@ -16,7 +16,6 @@ use rhai::{Dynamic, Engine, EvalAltResult, ImmutableString};
 use crate::script::messages::error::ScriptError;
 
 rhai::def_package! {
-    /// Packages taken from Rhai.
     FromRhai(_module): ArithmeticPackage, BasicArrayPackage, BasicFnPackage, BasicIteratorPackage, BasicMapPackage,
         BasicMathPackage, BasicStringPackage, BasicTimePackage, LogicPackage, MoreStringPackage {}
 }
@@ -26,7 +25,6 @@ rhai::def_package! {
 const SEED: [u64; 4] =
     [0x7769_7468_7920_0001, 0x7769_7468_7920_0002, 0x7769_7468_7920_0003, 0x7769_7468_7920_0004];
 
-/// Size of the cache of interned strings.
 const TEXTS_SHARED: usize = 256;
 
 /// A function of Rhai that is not available.

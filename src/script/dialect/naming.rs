@@ -53,7 +53,6 @@ pub fn not_visible(name: &str, line: usize) -> String {
     )
 }
 
-/// A function, and the number of lines of its file before its text.
 struct NamedFunction<'t> {
     definition: Definition<'t>,
     lines_before: usize,
@@ -91,12 +90,10 @@ impl NamedFunction<'_> {
         Err(ScriptError::new(told).hint(not_visible(name, line)).into_engine(self.place(at)))
     }
 
-    /// Converts a position in the text to one in the file.
     fn place(&self, at: Position) -> Position {
         behind(at, self.lines_before)
     }
 
-    /// Names of variables, constants and parameters.
     fn names(&self) -> impl Iterator<Item = (&str, Position)> {
         self.definition.inside().iter().enumerate().filter_map(|(index, (token, at))| {
             let name = name_of(token)?;
@@ -110,7 +107,6 @@ impl NamedFunction<'_> {
         })
     }
 
-    /// Returns true if the function declares the name as a parameter, variable or closure parameter.
     fn declares(&self, name: &str) -> bool {
         let body = self
             .definition

@@ -2,7 +2,6 @@
 
 use rhai::{Engine, EvalAltResult, ImmutableString, NativeCallContext};
 
-/// A string or character.
 trait TextPiece {
     fn as_text(&self) -> String;
 }

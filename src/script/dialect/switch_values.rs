@@ -37,7 +37,6 @@ fn judge(engine: &Engine, value: &Dynamic) -> Result<(), ScriptError> {
     }
 }
 
-/// First value that cannot be compared.
 fn odd_one_in(value: &Dynamic) -> Option<Dynamic> {
     if let Some(array) = value.read_lock::<Array>() {
         return array.iter().find_map(odd_one_in);

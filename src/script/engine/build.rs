@@ -67,7 +67,6 @@ fn limit(engine: &mut Engine, context: &Context) {
         .set_fail_on_invalid_map_property(true);
 }
 
-/// Names of the built-in types in messages and in `type_of`.
 fn name_types(engine: &mut Engine) {
     engine
         .register_type_with_name::<INT>("whole number")

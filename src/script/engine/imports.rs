@@ -16,7 +16,6 @@ use crate::script::messages::error::ScriptError;
 use crate::script::source::program::{LARGEST_SCRIPT, Program};
 use crate::script::state::files::{InputFolder, InputFolders};
 
-/// Maximum depth of nested imports.
 const LONGEST_CHAIN: usize = 50;
 
 /// Module resolver for the library and a folder, with a cache and detection of cycles.
@@ -35,7 +34,6 @@ struct ReadModule {
 }
 
 impl FolderResolver {
-    /// A resolver for files in a folder and its subfolders.
     pub fn new(folder: &Path) -> Self {
         Self {
             folder: folder.to_owned(),
@@ -45,7 +43,6 @@ impl FolderResolver {
         }
     }
 
-    /// File of a module: displayed name, path relative to the folder, and content.
     fn find(&self, name: &str) -> Result<(PathBuf, PathBuf, Vec<u8>), ScriptError> {
         let file = if name.ends_with(".rhai") { name.to_owned() } else { format!("{name}.rhai") };
         let content = self.inputs.read(&file, LARGEST_SCRIPT).map_err(|error| {
@@ -58,7 +55,6 @@ impl FolderResolver {
         Ok((shown, path, content))
     }
 
-    /// Loads a module of the library, with wrapped functions.
     fn load_library(
         &self,
         engine: &Engine,

@@ -24,6 +24,7 @@ pub struct SourcePiece<'a> {
 
 /// Parses a whole program.
 ///
+/// # Errors
 /// If the program has an error.
 pub fn parse(engine: &Engine, program: &Program) -> EngineResult<AST> {
     let (name, text) = (program.name.as_str(), &program.text);
@@ -36,6 +37,7 @@ pub fn parse(engine: &Engine, program: &Program) -> EngineResult<AST> {
 /// Parses a piece of a program, with positions relative to the whole. `variables` are the top-level variables of the whole, with their
 /// lines.
 ///
+/// # Errors
 /// If the piece has an error.
 pub fn parse_piece(
     engine: &Engine,

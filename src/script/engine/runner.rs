@@ -61,7 +61,6 @@ pub struct RunOutcome {
 }
 
 impl RunOutcome {
-    /// Outcome of a run that could not start.
     fn refused(diagnostic: Diagnostic) -> Self {
         Self {
             ending: Ending::Failed(diagnostic),

@@ -44,6 +44,7 @@ pub enum Halt {
 impl ScriptEngine {
     /// An engine for the language of `catalog` within the limits of the settings; imports are found in their folder.
     ///
+    /// # Errors
     /// Only on internal errors.
     pub fn open(catalog: Catalog, settings: RunSettings) -> Result<Self, Diagnostic> {
         let resolver = FolderResolver::new(&settings.folder);
@@ -58,6 +59,7 @@ impl ScriptEngine {
 
     /// Resets the counters and enforces the limits while the guard lives.
     ///
+    /// # Errors
     /// If no thread can be started.
     pub fn watch(&self) -> Result<Watchdog, Halt> {
         self.context.meter().watch().map_err(|error| {
@@ -68,6 +70,7 @@ impl ScriptEngine {
 
     /// Runs `work` with the engine, then ends its progress and flushes its output; `program` returns the text for error messages.
     ///
+    /// # Errors
     /// If the work does not complete. A panic in native code is an internal error; earlier results remain valid.
     pub fn run<T>(
         &self,

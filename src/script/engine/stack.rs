@@ -10,6 +10,7 @@ use crate::script::state::limits::{LEAST_STACK, Limits};
 /// Runs `work` on a thread with a stack that a script within these limits cannot exhaust, or a smaller one if the address space is not
 /// available.
 ///
+/// # Errors
 /// If no thread can be started, or the work panics.
 pub fn on_large_stack<T: Send>(
     limits: &Limits,

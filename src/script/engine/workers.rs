@@ -81,6 +81,7 @@ impl Worker {
 
     /// Calls a function of the script by its name.
     ///
+    /// # Errors
     /// Errors of the function.
     pub fn call(&self, name: &str, arguments: Vec<Dynamic>) -> EngineResult<Dynamic> {
         let options = CallFnOptions::new().eval_ast(true);
@@ -114,11 +115,9 @@ impl Worker {
     }
 }
 
-/// A worker as seen by the waiting thread.
 #[derive(Default)]
 struct Post {
     interrupt: Arc<AtomicBool>,
-    /// Start time of the current job.
     since: Mutex<Option<Instant>>,
 }
 
@@ -129,7 +128,6 @@ impl Post {
         }
     }
 
-    /// Stops a job that has taken longer than `wall`.
     fn stop_after(&self, wall: Duration) {
         let began = self.since.lock().ok().and_then(|since| *since);
         if began.is_some_and(|began| began.elapsed() > wall) {
@@ -196,6 +194,7 @@ impl<J, R> WorkerPool<'_, J, R> {
 /// Calls `drive` with a pool of worker threads, each with its own engine. A job that takes longer than `wall` is stopped; a panic is
 /// converted by `panicked`. Unfinished jobs are stopped when `drive` returns.
 ///
+/// # Errors
 /// If no worker can be created.
 pub fn with_crew<J: Send, R: Send, T>(
     blueprint: &EngineConfig,

@@ -32,10 +32,8 @@ pub struct SceneHandle {
     conditions: Rc<RefCell<Vec<Condition>>>,
 }
 
-/// A scene and its side variants.
 struct Variants {
     scene: Rc<RefCell<Scene>>,
-    /// Parameters declared for the scene.
     declared: RefCell<Option<Rc<ParameterSet>>>,
     /// Created by the first call with an argument that depends on a parameter.
     beside: OnceCell<Beside>,
@@ -111,6 +109,7 @@ impl SceneHandle {
 
     /// Declares a parameter, and returns its value as a variant number with side values at a step.
     ///
+    /// # Errors
     /// If the name is in use, or other parameters are in use already.
     pub fn declare(
         &self,
@@ -128,6 +127,7 @@ impl SceneHandle {
 
     /// Dependence of the scene on its parameters.
     ///
+    /// # Errors
     /// If the scene has script functions, which cannot be evaluated per variant.
     pub fn variations(&self) -> Result<Vec<Variation>, ScriptError> {
         let Some(Beside { family, scenes }) = self.variants.beside.get() else {
@@ -160,6 +160,7 @@ impl SceneHandle {
 
     /// Rejects a beam, by its index, whose length depends on a parameter.
     ///
+    /// # Errors
     /// If the length differs between the variants.
     pub fn expect_length_beside(&self, beam: usize) -> Result<(), ScriptError> {
         let Some(Beside { scenes, .. }) = self.variants.beside.get() else { return Ok(()) };
@@ -232,6 +233,7 @@ impl SceneHandle {
 
     /// Rejects a scene with functions that are called between steps, because a study runs it without its script.
     ///
+    /// # Errors
     /// If a load or drive has a controller, or a release a condition.
     pub fn expect_unasked(&self) -> Result<(), ScriptError> {
         if self.controllers.borrow().is_empty() && self.conditions.borrow().is_empty() {

@@ -216,7 +216,6 @@ impl SimulationHandle {
         Ok(())
     }
 
-    /// Tolerance for reaching a time.
     fn slack(&self) -> f64 {
         self.simulation().slack()
     }
@@ -267,7 +266,6 @@ impl SimulationHandle {
         self.simulation().has_ended()
     }
 
-    /// Reports an early end of the run, once.
     fn tell_ending(&self, context: &Context, when: &str) {
         let ending = self.simulation().ending().filter(|_| !self.0.is_ending_told.replace(true));
         if let Some(ending) = ending {
@@ -333,7 +331,6 @@ fn explain(error: SimulationError, context: &Context) -> ScriptError {
     }
 }
 
-/// Description of a step size.
 fn step_size(size: &StepSize) -> String {
     match size {
         StepSize::Fixed(dt) => format!("dt = {}", format_number(*dt)),

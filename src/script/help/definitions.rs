@@ -136,7 +136,6 @@ fn example(script: &str) -> String {
     format!("\n# Example\n\n```rhai\n{script}\n```\n")
 }
 
-/// Formats a doc comment.
 fn comment(text: &str) -> String {
     text.lines().map(|line| format!("{}\n", format!("/// {line}").trim_end())).collect()
 }

@@ -10,9 +10,7 @@ use serde_json::{Value, json};
 use crate::script::bindings::catalog::Catalog;
 use crate::script::source::keywords::KEYWORDS;
 
-/// Keywords that are values.
 const VALUES: [&str; 2] = ["true", "false"];
-/// Keywords that refer to an object.
 const THINGS: [&str; 2] = ["this", "global"];
 
 /// Text of `withy.tmLanguage.json`.
@@ -92,7 +90,6 @@ mod tests {
     use crate::script::packages::language;
     use crate::script::presentation::highlight::{FUNCTION, KEYWORD, Vocabulary, highlight};
 
-    /// Words of the rules whose scope has this prefix.
     fn listed(grammar: &Value, scope: &str) -> Vec<String> {
         let rules = grammar["repository"]["words"]["patterns"].as_array().unwrap().iter();
         let rules = rules.filter(|rule| rule["name"].as_str().unwrap().starts_with(scope));

@@ -75,7 +75,6 @@ fn section_link(page: &str, name: &str) -> String {
     format!("[{}](language/{page}.md#{})", title(name), name.replace(' ', "-"))
 }
 
-/// Names in a table, without duplicates.
 fn names(table: &BindingTable) -> String {
     let mut names: Vec<&str> = table.constants.iter().map(|constant| constant.name).collect();
     for row in table.rows {

@@ -11,7 +11,6 @@ use rhai::{
 use crate::script::bindings::sources::Sources;
 use crate::script::messages::error::BUG;
 
-/// Environment of the functions of a module.
 #[derive(Clone)]
 struct ModuleScope {
     file: String,
@@ -62,7 +61,6 @@ fn add(module: &mut Module, function: Shared<ScriptFuncDef>, surroundings: Modul
 }
 
 impl ModuleScope {
-    /// Calls a function of the module from outside.
     fn call(
         &self,
         native: &NativeCallContext,

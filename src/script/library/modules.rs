@@ -16,7 +16,6 @@ pub struct Module {
     pub text: &'static str,
 }
 
-/// Embeds a file of `stdlib/`.
 macro_rules! module {
     ($name:literal) => {
         Module {

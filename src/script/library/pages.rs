@@ -80,7 +80,6 @@ impl ModulePage {
 }
 
 impl ModuleFunction {
-    /// Parses the text after `fn`.
     fn of(module: &Module, head: &str, said: &[&str]) -> Option<Self> {
         let (name, rest) = head.split_once('(')?;
         let (parameters, _) = rest.split_once(')')?;
@@ -139,7 +138,6 @@ impl ModuleFunction {
     }
 }
 
-/// Blocks of a comment without its leaders.
 fn blocks(lines: &[&str]) -> Vec<DocBlock> {
     let mut blocks = Vec::new();
     let mut example: Option<Vec<&str>> = None;

@@ -218,7 +218,6 @@ fn on_archive(error: &ArchiveError) -> Option<String> {
 const SMOOTH: &str = "let it get there in a time: import \"std/schedules\" as schedules; #{ y: 0.1 * schedules::smooth_step(0, 0.05) }; \
                       what is to move with a speed from the start begins with it: |t| 3 * t";
 
-/// Load error behind a failed step.
 fn cause_of(error: &StepError) -> Option<&LoadError> {
     let StepError::Load { source, .. } = error else { return None };
     source.downcast_ref()

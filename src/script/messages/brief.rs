@@ -1,6 +1,5 @@
 //! Limits the length of messages: long quoted values are cut in the middle.
 
-/// Maximum number of characters of a message.
 const MOST: usize = 1600;
 /// Characters kept at the end, where messages state what is allowed.
 const END: usize = 600;

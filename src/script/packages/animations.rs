@@ -25,7 +25,6 @@ use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::presentation::motion::{Visibility, has_room_for_dots, placed, snapshot};
 use crate::script::presentation::symbols::uncrowded;
 
-/// Domain of animations.
 pub const TABLE: BindingTable = BindingTable {
     name: "animations",
     doc: "An animation is a PNG file with many frames, which browsers play and Markdown shows, as in a README; other programs show its first frame.",
@@ -67,17 +66,12 @@ const WIDTHS: (f64, f64) = (640.0, 960.0);
 /// Minimum height of a plot; less leaves no space for ticks and arrows [pixels].
 const LEAST_HEIGHT: f64 = 100.0;
 
-/// Points of a path with their times.
 type TimedPath = Vec<(f64, Point)>;
 
-/// Frames of a simulation.
 struct FrameSource {
-    /// Picture without moving parts.
     base: MotionPicture,
     snapshots: Vec<MotionFrame>,
-    /// Symbols of each snapshot.
     symbols: Vec<Vec<PlacedSymbol>>,
-    /// Named paths.
     traces: Vec<(String, TimedPath)>,
 }
 
@@ -206,7 +200,6 @@ fn reel(
     })
 }
 
-/// Reels with the same axis limits.
 fn framed(reels: Vec<FrameSource>) -> Vec<FrameSource> {
     let all: Vec<MotionPicture> = reels.iter().map(FrameSource::whole).collect();
     let limits = MotionPicture::shared_limits(&all);

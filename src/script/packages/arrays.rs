@@ -10,7 +10,6 @@ use crate::script::bindings::returns::Returns;
 use crate::script::bindings::table::{BindingTable, function};
 use crate::script::messages::error::{CallPart, ScriptError};
 
-/// Domain of numeric arrays.
 pub const TABLE: BindingTable = BindingTable {
     name: "arrays",
     doc: "Arrays of numbers. Indices count from 0, and -1 is the last.",

@@ -18,7 +18,6 @@ use crate::script::handles::scene::SceneHandle;
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::system::{RigidBodyDefinition, SystemError};
 
-/// Domain of rigid bodies.
 pub const TABLE: BindingTable = BindingTable {
     name: "rigid bodies",
     doc: "A rigid body is a centre of mass with mass and inertia, and points that keep their places around it. Its centre and its points are stations: \
@@ -67,7 +66,6 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// Type of rigid bodies, for other domains.
 pub const BODY: Type = Type::of::<RigidBodyHandle>();
 
 const BODY_KEYS: &[Parameter] = &[
@@ -119,7 +117,6 @@ fn body(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(Dynamic::from(RigidBodyHandle { scene, index }))
 }
 
-/// Points of the option map, in the order of their names.
 fn points_of(options: &Options) -> Result<Vec<(String, Vec2)>, ScriptError> {
     if !options.has("points") {
         return Ok(Vec::new());

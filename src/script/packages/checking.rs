@@ -14,7 +14,6 @@ use crate::script::messages::numbers::format_number;
 use crate::script::presentation::details;
 use crate::script::state::settings::RunMode;
 
-/// Domain of checks, and of caught errors.
 pub const TABLE: BindingTable = BindingTable {
     name: "checks",
     doc: "Checks are recorded and the script goes on. If one fails, `withy run` ends with exit code 1.",

@@ -18,7 +18,6 @@ use crate::script::studies::convergence_chart::chart;
 use crate::script::studies::convergence_table::table;
 use crate::script::studies::options::ErrorOptions;
 
-/// Domain of convergence studies.
 pub const TABLE: BindingTable = BindingTable {
     name: "convergence",
     doc: "How errors fall when the step size or the mesh is refined, for every quantity, and at which order.",
@@ -78,7 +77,6 @@ const CONVERGENCE: Type = Type::of::<ConvergenceStudy>();
 const QUANTITY: Parameter =
     text("quantity").doc("\"positions\", all of them together, or one that the table shows");
 
-/// A finished study.
 #[derive(Clone)]
 struct ConvergenceStudy(Rc<Convergence>);
 

@@ -16,7 +16,6 @@ use crate::script::studies::cost::{CostStepping, CostTable, cases};
 use crate::script::studies::options::CostOptions;
 use crate::script::studies::plan::{patience, study_name};
 
-/// Domain of cost studies.
 pub const TABLE: BindingTable = BindingTable {
     name: "costs",
     doc: "What a step costs, and what each feature of a scene adds.",

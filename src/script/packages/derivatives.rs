@@ -15,7 +15,6 @@ use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::numbers::format_number;
 use crate::script::messages::suggest::nearest;
 
-/// Domain of parameters and derivatives.
 pub const TABLE: BindingTable = BindingTable {
     name: "derivatives",
     doc: "How a run changes with numbers of its scene: parameters are given names and used as numbers; what depends on them knows its derivatives.",

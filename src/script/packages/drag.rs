@@ -15,7 +15,6 @@ use crate::script::handles::station::StationHandle;
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::system::{Drag, Dragged, SpeedLaw, SystemError};
 
-/// Domain of drag.
 pub const TABLE: BindingTable = BindingTable {
     name: "drag",
     doc: "What air or water takes from all that moves through it. It is kept in the ledger: E - W + D stays constant to rounding with \
@@ -125,7 +124,6 @@ fn call_number(options: &Options, name: &str) -> Option<f64> {
     options.get_if::<f64>(name)
 }
 
-/// Requires at least one of several options.
 fn expect_one(
     call: &Call,
     options: &Options,
@@ -139,7 +137,6 @@ fn expect_one(
     Err(call.error(told).hint(hint).at(CallPart::Argument(1)))
 }
 
-/// Rejects options that do not apply to the dragged object.
 fn refuse(call: &Call, options: &Options, odd: &[&str], advice: &str) -> Result<(), ScriptError> {
     match odd.iter().find(|key| options.has(key)) {
         Some(key) => {

@@ -20,7 +20,6 @@ use crate::script::handles::station::here;
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::system::{Drive, DriveKind, SystemError};
 
-/// Domain of supports and drives.
 pub const TABLE: BindingTable = BindingTable {
     name: "supports and drives",
     doc: "A support holds movements of a station, a drive gives them as functions of time. What is given is no unknown: place and angle are \
@@ -254,7 +253,6 @@ fn add(
     Ok(Dynamic::UNIT)
 }
 
-/// Moves an error to the option that caused it.
 pub(super) fn blame(error: SystemError) -> ScriptError {
     let place = match &error {
         SystemError::Unnamed { .. } | SystemError::DuplicateName { .. } => {

@@ -27,7 +27,6 @@ use crate::simulation::Simulation;
 use crate::statics::{ArcLength, Control, Equilibrium, Loading, Stability, StaticsError};
 use crate::system::System;
 
-/// Domain of equilibria.
 pub const TABLE: BindingTable = BindingTable {
     name: "equilibrium",
     doc: "Where a scene rests under its loads. Loads are put on together, in steps from nothing to the whole; what happens over \
@@ -222,7 +221,6 @@ const SLID: &str = "let scene = new_scene(\"sag\");\n\
     check_close(rest.contact_force(ring).y, -2 * 9.81, 1e-9);\n\
     check(rest.leans_on(ring) == \"\" && rest.is_stable);";
 
-/// Type of equilibria, for other domains.
 pub const EQUILIBRIUM: Type = Type::of::<EquilibriumHandle>();
 const CONTROL: Type = Type::of::<Control>();
 
@@ -333,7 +331,6 @@ fn is_stable(call: &mut Call) -> Result<Dynamic, ScriptError> {
     }
 }
 
-/// Queries the slider of a call in the equilibrium.
 fn asked(call: &Call, ask: impl FnOnce(&System, usize) -> Dynamic) -> Result<Dynamic, ScriptError> {
     let handle = call.receiver::<EquilibriumHandle>()?;
     let rest = handle.rest();
@@ -341,7 +338,6 @@ fn asked(call: &Call, ask: impl FnOnce(&System, usize) -> Dynamic) -> Result<Dyn
     Ok(ask(rest.model(), slider))
 }
 
-/// Receiver equilibrium, and a station of it.
 fn place(call: &Call) -> Result<(EquilibriumHandle, BodyPoint), ScriptError> {
     let handle = call.receiver::<EquilibriumHandle>()?;
     let place = handle.place(&call.get::<StationHandle>("station")?)?;

@@ -14,10 +14,8 @@ use crate::script::handles::simulation::SimulationHandle;
 use crate::script::presentation::present::present;
 use crate::system::{SystemFeature, Usage};
 
-/// Line width of descriptions.
 const WIDTH: usize = 100;
 
-/// Domain of explanations.
 pub const TABLE: BindingTable = BindingTable {
     name: "looking closely",
     doc: "What a scene makes its simulation do, and what a value is.",

@@ -22,7 +22,6 @@ use crate::script::presentation::grids::Grids;
 use crate::script::state::settings::RunMode;
 use crate::script::studies::sweeps::table::SweepTable;
 
-/// Domain of exports.
 pub const TABLE: BindingTable = BindingTable {
     name: "exports",
     doc: "What a simulation was, for other programs: ParaView, NumPy, tables. Each file is whole or not there. `withy convert` makes the same of a saved \
@@ -101,10 +100,8 @@ const HEADER: &[Parameter] =
 const MISSING: Missing =
     Missing { what: "velocities, angles and section forces", instead: "fields: \"shape\"" };
 const MOST_FRAMES: f64 = 100_000.0;
-/// Default number of frames.
 const FRAMES_UNLESS_GIVEN: usize = 101;
 
-/// File name, which must have a certain extension.
 fn named(call: &Call, ending: &str) -> Result<String, ScriptError> {
     let file = call.text("file")?;
     if file.strip_suffix(ending).is_none_or(|stem| stem.is_empty() || stem.ends_with('/')) {
@@ -116,13 +113,11 @@ fn named(call: &Call, ending: &str) -> Result<String, ScriptError> {
     Ok(file.to_string())
 }
 
-/// File names of a VTK export.
 struct VtkFiles {
     /// Name of the collection without extension.
     stem: String,
     /// The same without its folder.
     base: String,
-    /// Digits of frame numbers.
     digits: usize,
 }
 
@@ -137,7 +132,6 @@ impl VtkFiles {
         format!("{}/{}_{:0digits$}.vtu", self.stem, self.base, index + 1, digits = self.digits)
     }
 
-    /// File name of a frame relative to the folder of the collection.
     fn beside(&self, index: usize) -> String {
         format!("{}/{}_{:0digits$}.vtu", self.base, self.base, index + 1, digits = self.digits)
     }
@@ -196,7 +190,6 @@ fn write_states(
     })
 }
 
-/// Recorded configurations to export, in order of time.
 fn frames(
     call: &Call,
     of: &SimulationHandle,

@@ -28,7 +28,6 @@ use crate::script::studies::fits::ranges::Ranges;
 use crate::script::studies::fits::root::find_root;
 use crate::script::studies::plan::{at_key, study_name};
 
-/// Domain of fits.
 pub const TABLE: BindingTable = BindingTable {
     name: "fits",
     doc: "Parameters that are found by runs. The functions of fit and minimise are called on all cores, as those of sweeps are: they may use from outside what \

@@ -18,15 +18,12 @@ use crate::script::messages::numbers::format_number;
 pub use curves::CURVE;
 pub use knots::KNOTS;
 
-/// Parameter ξ of knots or a curve.
 const XI: Parameter = number("xi").doc("the parameter ξ, inside the domain");
 
-/// Order of the derivative.
 const ORDER: Parameter = whole("order")
     .between(0.0, MAX_DEGREE as f64)
     .doc("how often to differentiate by ξ; 0 for the value itself");
 
-/// Number of insertions of a knot.
 const TIMES: Parameter =
     whole("times").non_negative().doc("how often to insert it").or(Presence::Whole(1));
 
@@ -58,12 +55,10 @@ fn count(n: usize) -> Dynamic {
     Dynamic::from(n as i64)
 }
 
-/// Moves a geometry error to the argument that caused it.
 fn blame<T>(argument: usize, result: Result<T, GeometryError>) -> Result<T, ScriptError> {
     result.map_err(|error| ScriptError::from(error).at(CallPart::Argument(argument)))
 }
 
-/// Number with six digits, for descriptions.
 fn brief(x: f64) -> String {
     format_number(format!("{x:.5e}").parse().unwrap_or(x))
 }

@@ -9,7 +9,6 @@ use crate::script::bindings::table::{BindingTable, function};
 use crate::script::help::lookup::{WIDTH, page};
 use crate::script::messages::error::{CallPart, ScriptError};
 
-/// Domain of `help`.
 pub const TABLE: BindingTable = BindingTable {
     name: "help",
     doc: "What there is, and how it is written. The same is in docs/language.md, and shown by withy docs NAME.",

@@ -15,7 +15,6 @@ use crate::script::messages::error::ScriptError;
 use crate::script::messages::numbers::format_number;
 use crate::simulation::{History, Invariant};
 
-/// Domain of histories.
 pub const TABLE: BindingTable = BindingTable {
     name: "histories",
     doc: "A row for each step, or as the option record says. Columns: t, kinetic, strain, potential, energy, work, momentum_x, momentum_y, impulse_x, \
@@ -89,7 +88,6 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// Type of histories, for other domains.
 pub const HISTORY: Type = Type::of::<HistoryHandle>();
 const T: Parameter = number("t").unit("time");
 const COLUMN: Parameter = text("column").doc("the name of a column of this history");
@@ -126,7 +124,6 @@ fn drift(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(drift.ok_or_else(|| history.no_rows(call))?.into())
 }
 
-/// Values of a column of the receiver history.
 pub(super) fn column(
     call: &Call,
     read: fn(&History, &str) -> Option<Vec<f64>>,

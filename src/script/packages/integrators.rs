@@ -9,7 +9,6 @@ use crate::script::bindings::returns::Returns;
 use crate::script::bindings::table::{BindingTable, function};
 use crate::script::presentation::details;
 
-/// Domain of integrators.
 pub const TABLE: BindingTable = BindingTable {
     name: "integrators",
     doc: "Ways to take a step. A scene is started with one: scene.start(#{ integrator: energy_momentum(), dt: 0.1 }).",
@@ -77,7 +76,6 @@ const RHO_INFINITY: &[Parameter] = &[number("rho_infinity")
     .or(Presence::Number(0.8))
     .doc("ρ∞, by what the fastest vibration is multiplied in a step; 1 is the trapezoidal rule")];
 
-/// Type of integrators, for other domains.
 pub const INTEGRATOR: Type = Type::of::<Method>();
 
 impl Scripted for Method {

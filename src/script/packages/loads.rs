@@ -21,7 +21,6 @@ use crate::script::handles::station::here;
 use crate::script::messages::error::ScriptError;
 use crate::system::Scene;
 
-/// Domain of loads.
 pub const TABLE: BindingTable = BindingTable {
     name: "loads",
     doc: "A load is where, what and when. Without a schedule it acts always; a number or a function of time will do too.",
@@ -82,7 +81,6 @@ const FRAME_KEY: Parameter = choice("frame", &["dead", "follower"])
     .doc("dead keeps its direction, follower turns with the section")
     .or(Presence::Text("dead"));
 
-/// Schedule of a load.
 fn when(call: &Call) -> Result<Schedule, ScriptError> {
     let beat = beat_of(&*call.options_or_defaults("options")?)?;
     let scene = call.receiver::<SceneHandle>()?;
@@ -91,7 +89,6 @@ fn when(call: &Call) -> Result<Schedule, ScriptError> {
     Ok(schedule)
 }
 
-/// Adds a load to a scene, with the name in the options if there is one.
 fn add(
     scene: &RefCell<Scene>,
     call: &Call,

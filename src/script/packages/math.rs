@@ -16,7 +16,6 @@ use crate::script::bindings::table::{
 use crate::script::messages::error::ScriptError;
 use crate::script::messages::numbers::as_number;
 
-/// Domain of numeric functions and constants.
 pub const TABLE: BindingTable = BindingTable {
     name: "numbers",
     doc: "Elementary functions. Whole numbers are welcome everywhere, angles are in radians, and infinite or undefined \
@@ -259,7 +258,6 @@ const WHOLE: Returns = Returns::WHOLE.note(", or x itself if it is too large for
 const ANY_X: Parameter = number("x").any_number();
 const ANY_Y: Parameter = number("y").any_number();
 
-/// A function of one number `x`.
 const fn of_x(
     name: &'static str,
     body: NativeFunction,

@@ -9,7 +9,6 @@ use crate::script::bindings::returns::Returns;
 use crate::script::bindings::table::{BindingTable, function};
 use crate::script::messages::error::{CallPart, ScriptError};
 
-/// Domain of measurement tables.
 pub const TABLE: BindingTable = BindingTable {
     name: "measurements",
     doc: "Tables from other programs, as arrays of numbers.",

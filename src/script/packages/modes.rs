@@ -23,7 +23,6 @@ use crate::script::messages::error::{CallPart, ScriptError};
 use crate::system::{Scene, System};
 use crate::vibration::{DampedMode, Mode, Modes, VibrationError};
 
-/// Domain of natural modes.
 pub const TABLE: BindingTable = BindingTable {
     name: "modes",
     doc: "How a scene vibrates by little about a configuration: natural frequencies and their shapes, the lowest first. A \
@@ -145,10 +144,8 @@ const VIBRATING: &str = "let scene = new_scene(\"example\");\n\
     let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [4, 0]), basis: bspline(8), section: s });\n\
     scene.clamp(rod.start);";
 
-/// Number of modes to compute.
 pub(super) const COUNT: Parameter = whole("count").positive().or(Presence::Whole(6));
 
-/// Type of modes, for other domains.
 pub const MODES: Type = Type::of::<ModesHandle>();
 
 /// Handle of modes with their scene.
@@ -162,7 +159,6 @@ struct ModesData {
     about: ModesReference,
 }
 
-/// Configuration of the vibration.
 #[derive(Clone, Copy, PartialEq)]
 enum ModesReference {
     /// Undeformed, before any load acts.
@@ -177,7 +173,6 @@ impl ModesHandle {
         Self(Rc::new(ModesData { of, scene: scene.clone(), modes, about: ModesReference::Loaded }))
     }
 
-    /// Handle of modes about the undeformed configuration.
     fn drawn(of: SceneHandle, scene: &Scene, modes: Modes) -> Self {
         Self(Rc::new(ModesData { of, scene: scene.clone(), modes, about: ModesReference::Drawn }))
     }
@@ -227,13 +222,11 @@ impl Scripted for ModesHandle {
     }
 }
 
-/// Checks that enough memory is allowed for the requested modes.
 pub(super) fn expect_room(call: &Call, model: &System) -> Result<(), ScriptError> {
     let needed = Modes::memory(model, call.count("count")?);
     call.context().expect_room("so many modes of so large a scene", needed)
 }
 
-/// Computes the requested modes, unless the run is stopped.
 pub(super) fn look(
     call: &Call,
     find: impl FnOnce(usize, &mut dyn FnMut() -> bool) -> Result<Modes, VibrationError>,
@@ -245,7 +238,6 @@ pub(super) fn look(
     }
 }
 
-/// Computes the requested damped modes, unless the run is stopped.
 pub(super) fn look_for_damped(call: &Call, model: &System) -> Result<Dynamic, ScriptError> {
     let context = call.context();
     let found = match DampedMode::of(model, call.count("count")?, &mut || !context.is_stopped()) {

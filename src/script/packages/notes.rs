@@ -8,7 +8,6 @@ use crate::script::bindings::table::{BindingTable, property};
 use crate::script::handles::notes::Printing;
 use crate::script::handles::simulation::SimulationHandle;
 
-/// Domain of warnings about unresolved features.
 pub const TABLE: BindingTable = BindingTable {
     name: "notes",
     doc: "Steps may keep energy and momenta to rounding and be too long to mean anything. While a simulation runs, it measures how well its \
@@ -38,6 +37,5 @@ pub const TABLE: BindingTable = BindingTable {
     .see(&["start", "explain", "run_to"])],
 };
 
-/// Option values for the output of warnings.
 pub(super) const PRINTING: [(&str, Printing); 2] =
     [("print", Printing::AtTheEnd), ("keep", Printing::Never)];

@@ -19,7 +19,6 @@ use crate::script::studies::precision_comparison::comparison;
 use crate::script::studies::precision_rows::{map_of, table};
 use crate::script::studies::reference::FinestRun;
 
-/// Domain of work-precision studies.
 pub const TABLE: BindingTable = BindingTable {
     name: "error against run time",
     doc: "A study runs a scene in many ways and says what they say together. withy study FILE keeps what is finished when it is \
@@ -128,7 +127,6 @@ const fn of_study(
     property(PRECISION, name, body)
 }
 
-/// A finished study.
 #[derive(Clone)]
 struct PrecisionStudy(Rc<Precision>);
 

@@ -15,7 +15,6 @@ use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::numbers::format_number;
 use crate::simulation::Recording;
 
-/// Domain of recording options.
 pub const TABLE: BindingTable = BindingTable {
     name: "recording",
     doc: "A simulation records every step: a row in its history, a configuration for pictures. A long run need not: \
@@ -42,7 +41,6 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// Type of recordings, for other domains.
 pub const RECORDING: Type = Type::of::<Recording>();
 
 impl Scripted for Recording {

@@ -20,7 +20,6 @@ use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::suggest::nearest;
 use crate::system::SystemError;
 
-/// Domain of releases.
 pub const TABLE: BindingTable = BindingTable {
     name: "releases",
     doc: "A joint, a slider, a spring or a drive lets go in the course of a run. Places and velocities go on as they are, so that energy and momenta of the \
@@ -60,7 +59,6 @@ const RELEASE_KEYS: &[Parameter] = &[
     callback("when").doc("the condition, |q| …: whether it lets go now").optional(),
 ];
 
-/// Condition of a release.
 #[derive(Clone, Copy)]
 enum ReleaseWording {
     At,

@@ -12,7 +12,6 @@ use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::numbers::format_number;
 use crate::script::studies::sweeps::design::{SampleKind, Samples};
 
-/// Domain of distributions and samples.
 pub const TABLE: BindingTable = BindingTable {
     name: "samples",
     doc: "Distributions of parameters, and points at which they are taken together. Random numbers are those of ChaCha with twelve rounds, started by the \
@@ -83,7 +82,6 @@ pub const TABLE: BindingTable = BindingTable {
 };
 
 const DISTRIBUTION: Type = Type::of::<Distribution>();
-/// Type of samples.
 pub(super) const SAMPLES: Type = Type::of::<Samples>();
 const FROM: Parameter = number("from");
 const TO: Parameter = number("to");

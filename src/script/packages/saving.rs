@@ -26,7 +26,6 @@ use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::suggest::nearest;
 use crate::simulation::Simulation;
 
-/// Domain of saving and loading.
 pub const TABLE: BindingTable = BindingTable {
     name: "saving",
     doc: "A simulation can be saved and loaded, also by another script, and goes on bit for bit. What a loaded scene holds is found by name.",

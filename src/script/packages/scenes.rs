@@ -29,7 +29,6 @@ use crate::system::{
     BeamDefinition, ParticleDefinition, PointMass, Scene, StartMotion, StationVelocity, SystemError,
 };
 
-/// Domain of scenes and their objects.
 pub const TABLE: BindingTable = BindingTable {
     name: "scenes",
     doc: "A scene is a description: beams, particles, joints, masses and loads. scene.start(…) makes a simulation of it.",
@@ -168,16 +167,11 @@ pub(super) const ROD: &str = "let scene = new_scene(\"example\");\n\
     let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\n\
     let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [2, 0]), basis: bspline(4), section: s });";
 
-/// Type of scenes, for other domains.
 pub const SCENE: Type = Type::of::<SceneHandle>();
-/// Type of beams, for other domains.
 pub const BEAM: Type = Type::of::<BeamHandle>();
-/// Type of stations, for other domains.
 pub const STATION: Type = Type::of::<StationHandle>();
-/// Type of joints, for other domains.
 pub const JOINT: Type = Type::of::<JointHandle>();
 
-/// Default number of spans.
 const SPANS: usize = 16;
 
 /// Relative error of a varying section on its mesh above which a warning is given.
@@ -211,7 +205,6 @@ const PARTICLE_KEYS: &[Parameter] = &[
     point("velocity").unit("length/time").doc("at the start; at rest unless given").optional(),
 ];
 
-/// Initial motion from the options.
 pub(super) fn start_motion(options: &Options) -> Result<StartMotion, ScriptError> {
     let given = |key: &str| options.has(key).then(|| options.point(key)).transpose();
     Ok(StartMotion {
@@ -308,7 +301,6 @@ fn join(call: &mut Call, kind: JointKind) -> Result<Dynamic, ScriptError> {
     newest_joint(call)
 }
 
-/// Joint that was added last to the receiver scene.
 pub(super) fn newest_joint(call: &Call) -> Result<Dynamic, ScriptError> {
     let scene = call.receiver::<SceneHandle>()?;
     let index = scene.scene().borrow().joints.len() - 1;

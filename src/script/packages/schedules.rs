@@ -24,7 +24,6 @@ use crate::script::presentation::details;
 use crate::script::source::program::Program;
 use crate::script::state::context::Context;
 
-/// Domain of schedules.
 pub const TABLE: BindingTable = BindingTable {
     name: "schedules",
     doc: "A schedule is a factor over time that multiplies a load. Steps end where a schedule jumps or bends.",
@@ -131,17 +130,14 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// Type of schedules, for other domains.
 pub const SCHEDULE: Type = Type::of::<Schedule>();
 /// Values accepted as a schedule: a schedule, a constant number, or a function of time.
 pub const SCHEDULE_KINDS: &[Kind] =
     &[Kind::Object(SCHEDULE), Kind::Number(NumberRange::Finite), Kind::Function];
 
-/// Option for the sampling period of a controller.
 pub(super) const SAMPLE: Parameter = number("sample").positive().unit("time").doc(
     "the sampling period of the controller |t, q| …, which is asked at 0, sample, 2 sample, … and held between; steps end there; at every step unless given",
 ).optional();
-/// Option for the delay of a controller.
 pub(super) const DELAY: Parameter = number("delay").non_negative().unit("time").doc(
     "the dead time of the controller: a command acts so much later than it is said, and nothing does before the first",
 ).beside("sample").optional();

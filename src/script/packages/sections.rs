@@ -24,7 +24,6 @@ use crate::script::handles::section::SectionHandle;
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::presentation::details;
 
-/// Domain of sections and meshes.
 pub const TABLE: BindingTable = BindingTable {
     name: "sections",
     doc: "What a beam is made of and how it is discretised. Any consistent set of units will do.",
@@ -104,9 +103,7 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// Type of sections, for other domains.
 pub const SECTION: Type = Type::of::<SectionHandle>();
-/// Type of meshes, for other domains.
 pub const MESH: Type = Type::of::<Mesh>();
 
 const COUNT: Kind = Kind::Whole(NumberRange::Positive);
@@ -136,7 +133,6 @@ const DAMPING_KEYS: &[Parameter] = &[
     number("bending").non_negative().unit("time").or(Presence::Number(0.0)),
 ];
 
-/// Definition of a section.
 #[derive(Clone, Copy)]
 enum GivenBy {
     Stiffness,
@@ -217,7 +213,6 @@ fn section(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(Dynamic::from(SectionHandle { variation: section.into(), solid, relaxation }))
 }
 
-/// Property of a constant section.
 fn of_uniform(call: &Call, number: fn(&Section) -> f64) -> Result<Dynamic, ScriptError> {
     match &call.receiver::<SectionHandle>()?.variation {
         SectionVariation::Uniform(section) => Ok(number(section).into()),
@@ -267,7 +262,6 @@ fn from_stiffness(options: &Options) -> Result<Section, ScriptError> {
     section.validated().map_err(blamed)
 }
 
-/// Moves an error to the option that caused it.
 fn blamed(error: BeamError) -> ScriptError {
     let key = match &error {
         BeamError::SectionValue { name, .. } => Some(*name),

@@ -26,7 +26,6 @@ use crate::script::messages::suggest::nearest;
 use crate::simulation::History;
 use crate::system::{Reactions, Scene, SectionSample, SystemError};
 
-/// Domain of sensors.
 pub const TABLE: BindingTable = BindingTable {
     name: "sensors",
     doc: "A scene records what it is asked to: scene.record(\"rod.end.x\") makes a column of the history, which is told, drawn, saved and counted like every other. \
@@ -273,7 +272,6 @@ fn joint_force(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(force_and_moment(joint.read(now.given())))
 }
 
-/// Index of the requested joint in the scene.
 fn joint_index(call: &mut Call) -> Result<usize, ScriptError> {
     let handle = call.receiver::<SimulationHandle>()?;
     let name = match call.get_if::<JointHandle>("joint") {
@@ -318,7 +316,6 @@ fn unknown<'a>(
     call.error(format!("there is no {what} '{name}'")).hint(hint).at(CallPart::Argument(0))
 }
 
-/// Rejects a beam that was added after the start.
 fn known(call: &Call, built: &Scene, index: usize, beam: &BeamHandle) -> Result<(), ScriptError> {
     if index < built.beams.len() {
         return Ok(());

@@ -32,7 +32,6 @@ use crate::script::messages::error::ScriptError;
 use crate::simulation::{Invariant, Recording, Simulation, SimulationError, SimulationSettings};
 use crate::system::Measures;
 
-/// Domain of simulations.
 pub const TABLE: BindingTable = BindingTable {
     name: "simulations",
     doc: "A simulation is live: step it, look, step on. Everything it went through is in its history.",
@@ -160,7 +159,6 @@ pub(super) const SPINNING: &str = "let scene = new_scene(\"example\");\n\
     let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [2, 0]), basis: bspline(4), section: s, spin: 1 });\n\
     let sim = scene.start(#{ dt: 0.1 });";
 
-/// Type of simulations, for other domains.
 pub const SIMULATION: Type = Type::of::<SimulationHandle>();
 const INVARIANTS: Type = Type::of::<Invariants>();
 
@@ -182,12 +180,10 @@ pub(super) const START: &[Parameter] = &[
         .or(Presence::Text("print")),
 ];
 
-/// Drift of the invariants.
 #[derive(Clone)]
 struct Invariants {
     measures: Measures,
     drifts: [f64; 4],
-    /// Heading of the drift column.
     changes: &'static str,
 }
 
@@ -258,7 +254,6 @@ fn start(call: &mut Call) -> Result<Dynamic, ScriptError> {
     })
 }
 
-/// Starts a simulation with the options of a call.
 pub(super) fn begin(
     call: &Call,
     of: SceneHandle,
@@ -303,7 +298,6 @@ fn counted(call: &Call, read: fn(&Simulation) -> usize) -> Result<Dynamic, Scrip
     Ok(Dynamic::from(count as INT))
 }
 
-/// Receiver simulation, and a station of it.
 fn place(call: &Call) -> Result<(SimulationHandle, BodyPoint), ScriptError> {
     let handle = call.receiver::<SimulationHandle>()?;
     let station = call.get::<StationHandle>("station")?;

@@ -23,7 +23,6 @@ use crate::script::presentation::details;
 use crate::simulation::Arrival;
 use crate::system::{Scene, SliderError, System, SystemError};
 
-/// Domain of sliding joints.
 pub const TABLE: BindingTable = BindingTable {
     name: "sliding joints",
     doc: "A slider keeps a station, the end of a beam or a particle, on the axis of another beam, along which it slides without \
@@ -151,9 +150,7 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// Type of sliding rules.
 const RULE: Type = Type::of::<SlidingRule>();
-/// Type of sliders.
 pub(super) const SLIDER: Type = Type::of::<SliderHandle>();
 
 const ON: Parameter = either("beam", &[Kind::Object(BEAM), Kind::Object(TRACK)]);
@@ -182,7 +179,6 @@ const SLIDER_KEYS: &[Parameter] = &[
     text("name").optional(),
 ];
 
-/// Handle of a slider of a scene.
 #[derive(Clone)]
 pub(super) struct SliderHandle {
     pub(super) scene: SceneHandle,
@@ -194,17 +190,14 @@ impl SliderHandle {
         self.scene.scene().borrow().sliders[self.index].name.clone()
     }
 
-    /// Index in a scene, if the slider belongs to it.
     pub(super) fn within(&self, scene: &SceneHandle) -> Result<usize, ScriptError> {
         scene.expect_same(&self.scene, "slider").map(|()| self.index)
     }
 
-    /// Index in a simulation of the slider's scene.
     pub(super) fn on(&self, handle: &SimulationHandle) -> Result<usize, ScriptError> {
         self.among(handle.scene(), handle.simulation().scene())
     }
 
-    /// Index in a copy of a scene made at its start.
     pub(super) fn among(&self, scene: &SceneHandle, copy: &Scene) -> Result<usize, ScriptError> {
         scene.expect_same(&self.scene, "slider")?;
         if self.index < copy.sliders.len() {
@@ -303,7 +296,6 @@ pub(super) fn meant<T: Copy + Default>(words: &[(&str, T)], word: &str) -> T {
     found.map(|(_, meaning)| *meaning).unwrap_or_default()
 }
 
-/// Moves an error to the argument or option that caused it.
 fn blame(error: SystemError, is_placed: bool) -> ScriptError {
     let place = match &error {
         SystemError::Unnamed { .. } | SystemError::DuplicateName { .. } => {
@@ -319,7 +311,6 @@ fn blame(error: SystemError, is_placed: bool) -> ScriptError {
     ScriptError::from(error).at(place)
 }
 
-/// Queries the slider of a call in the simulation.
 fn asked(call: &Call, ask: impl FnOnce(&System, usize) -> Dynamic) -> Result<Dynamic, ScriptError> {
     let handle = call.receiver::<SimulationHandle>()?;
     let slider = call.get::<SliderHandle>("slider")?.on(&handle)?;

@@ -11,11 +11,9 @@ use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::numbers::as_number;
 use crate::system::{DampingLaw, Origin, SpringKind, SpringLaw};
 
-/// Names of the directions of a spring force.
 pub(super) const ACTS: [(&str, Acts); 3] =
     [("both", Acts::Both), ("pull", Acts::Pull), ("push", Acts::Push)];
 
-/// Directions in which a spring acts.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) enum Acts {
     #[default]
@@ -75,7 +73,6 @@ pub(super) fn law(
     Ok((Some(law), origin))
 }
 
-/// Damping law from the options.
 pub(super) fn damping(call: &Call, options: &Options) -> Result<DampingLaw, ScriptError> {
     let Some(function) = options.get_if::<FnPtr>("damping") else {
         if options.has("rates") {

@@ -24,7 +24,6 @@ use crate::system::{
     Anchor, DampingLaw, Origin, Spring, SpringKind, SpringLaw, SpringState, SystemError,
 };
 
-/// Domain of springs and dampers.
 pub const TABLE: BindingTable = BindingTable {
     name: "springs and dampers",
     doc: "What stores energy and gives it back, and what takes it. The energies of springs are a part of the energy of the scene, and \
@@ -111,7 +110,6 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// Type of springs.
 pub(super) const SPRING: Type = Type::of::<SpringHandle>();
 
 const WHICH: Parameter = object("spring", SPRING);
@@ -181,7 +179,6 @@ const TORSION_KEYS: &[Parameter] = &[
     text("name").optional(),
 ];
 
-/// Handle of a spring of a scene.
 #[derive(Clone)]
 pub(super) struct SpringHandle {
     scene: SceneHandle,
@@ -189,7 +186,6 @@ pub(super) struct SpringHandle {
 }
 
 impl SpringHandle {
-    /// Index in a scene, if the spring belongs to it.
     pub(super) fn within(&self, scene: &SceneHandle) -> Result<usize, ScriptError> {
         scene.expect_same(&self.scene, "spring").map(|()| self.index)
     }
@@ -247,7 +243,6 @@ impl Scripted for SpringHandle {
     }
 }
 
-/// Attachment of a spring from an argument.
 fn anchor(call: &Call, name: &str) -> Result<Anchor, ScriptError> {
     match call.get_if::<StationHandle>(name) {
         Some(station) => Ok(Anchor::Station(call.receiver::<SceneHandle>()?.own(&station)?)),
@@ -255,7 +250,6 @@ fn anchor(call: &Call, name: &str) -> Result<Anchor, ScriptError> {
     }
 }
 
-/// Adds a spring or damper with the law in the options.
 fn resist(call: &Call, kind: SpringKind, options: &Options) -> Result<Dynamic, ScriptError> {
     let law = law(call, options, &kind)?;
     add(call, kind, law, options)
@@ -317,7 +311,6 @@ fn torsion(call: &mut Call) -> Result<Dynamic, ScriptError> {
     }
 }
 
-/// Moves an error to the argument or option that caused it.
 fn blame(error: SystemError) -> ScriptError {
     let place = match &error {
         SystemError::Unnamed { .. } | SystemError::DuplicateName { .. } => {
@@ -334,7 +327,6 @@ fn blame(error: SystemError) -> ScriptError {
     ScriptError::from(error).at(place)
 }
 
-/// Queries the spring of a call in the simulation.
 fn asked(call: &Call, ask: impl FnOnce(&SpringState) -> f64) -> Result<Dynamic, ScriptError> {
     let handle = call.receiver::<SimulationHandle>()?;
     let spring = call.get::<SpringHandle>("spring")?;

@@ -16,7 +16,6 @@ use crate::script::studies::options::StabilityOptions;
 use crate::script::studies::plan::patience;
 use crate::script::studies::stability::{MapColouring, StabilityMap, StabilityPlan};
 
-/// Domain of stability maps.
 pub const TABLE: BindingTable = BindingTable {
     name: "stability maps",
     doc: "What becomes of a simulation on the edge: a run for every combination of parameters, on all cores.",

@@ -12,7 +12,6 @@ use crate::script::handles::history::HistoryHandle;
 use crate::script::messages::error::ScriptError;
 use crate::simulation::{History, SpectrumPeak, TimeSeries};
 
-/// Domain of statistics.
 pub const TABLE: BindingTable = BindingTable {
     name: "statistics",
     doc: "What a column of a history tells as a whole. Between rows it is taken as straight. Windows narrow it: sim.history.after(2).statistics(\"energy\").",
@@ -100,7 +99,6 @@ fn spectrum(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(peaks.into_iter().map(told).collect::<Array>().into())
 }
 
-/// Map of named numbers.
 pub(super) fn map(entries: &[(&str, f64)]) -> Dynamic {
     entries.iter().map(|(name, value)| ((*name).into(), (*value).into())).collect::<Map>().into()
 }

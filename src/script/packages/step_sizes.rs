@@ -10,7 +10,6 @@ use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::presentation::details;
 use crate::simulation::{StepControl, StepSize};
 
-/// Domain of step sizes.
 pub const TABLE: BindingTable = BindingTable {
     name: "step sizes",
     doc: "A scene is started with a step size, dt: 0.1, or with a tolerance, dt: adaptive(#{ tolerance: 1e-4 }).",
@@ -72,7 +71,6 @@ const ADAPTIVE: &[Parameter] = &[
         .optional(),
 ];
 
-/// Type of step controls, for other domains.
 pub const STEP_CONTROL: Type = Type::of::<StepControl>();
 
 impl Scripted for StepControl {

@@ -14,7 +14,6 @@ use crate::script::state::settings::RunMode;
 use crate::script::studies::sweeps::pictures::{MOST_COLUMNS, Picture};
 use crate::script::studies::sweeps::table::SweepTable;
 
-/// Domain of pictures of sweeps.
 pub const TABLE: BindingTable = BindingTable {
     name: "pictures of sweeps",
     doc: "Each is written into a file that is named by the sweep and its columns: NAME-speed-mass-peak.svg. Rows that failed are not drawn. What sweeps have, \
@@ -76,7 +75,6 @@ fn table(call: &Call) -> Result<SweepTable, ScriptError> {
     handle.map(SweepHandle::table).or_else(|_| call.receiver::<SweepTable>())
 }
 
-/// Writes a picture to a file named after the sweep and its columns.
 fn write(
     call: &Call,
     table: &SweepTable,

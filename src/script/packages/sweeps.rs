@@ -29,7 +29,6 @@ use crate::script::studies::sweeps::rows::{RowOutcome, found};
 use crate::script::studies::sweeps::run::SweepRequest;
 use crate::script::studies::sweeps::table::{FAILURE, FinishedSweep, SweepTable};
 
-/// Domain of sweeps.
 pub const TABLE: BindingTable = BindingTable {
     name: "sweeps",
     doc: "A function of parameters, called with all of their values on all cores: what a thousand runs say together. withy study FILE keeps what is finished \
@@ -109,9 +108,7 @@ pub const TABLE: BindingTable = BindingTable {
 /// Setup of examples with a sweep.
 pub(super) const SETUP: &str = "let sweep = study_sweep(#{\n    name: \"first\", parameters: #{ speed: [1, 2, 3], mass: [1, 2] },\n    \
             run: |p| #{ energy: p.mass * p.speed ** 2 / 2 },\n});";
-/// Type of sweeps.
 pub(super) const SWEEP: Type = Type::of::<SweepHandle>();
-/// Type of sweep tables.
 pub(super) const SWEEP_TABLE: Type = Type::of::<SweepTable>();
 const RESULT: Parameter = text("result").doc("a name that the runs give");
 const KEYS: &[Parameter] = SweepOptions::KEYS;
@@ -140,12 +137,10 @@ impl FromOption for Samples {
     }
 }
 
-/// Handle of a finished sweep.
 #[derive(Clone)]
 pub(super) struct SweepHandle(Rc<FinishedSweep>);
 
 impl SweepHandle {
-    /// Table of all rows.
     pub(super) fn table(self) -> SweepTable {
         SweepTable::new(self.0)
     }

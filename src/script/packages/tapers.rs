@@ -12,7 +12,6 @@ use crate::script::bindings::table::{BindingTable, function, method};
 use crate::script::handles::section::SectionHandle;
 use crate::script::messages::error::{CallPart, ScriptError};
 
-/// Domain of tapers.
 pub const TABLE: BindingTable = BindingTable {
     name: "tapers",
     doc: "Sections that vary along a beam: blades, whips, fly rods.",

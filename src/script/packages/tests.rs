@@ -96,7 +96,6 @@ fn check_kind(kind: &Kind) {
     }
 }
 
-/// Returns true if Rhai accepts the name as a function, a method, a property and a key.
 fn can_be_written(name: &str) -> bool {
     let script = format!("let x = #{{ {name}: 1 }}; x.{name}; x.{name}(); {name}(x);");
     rhai::Engine::new_raw().compile(script).is_ok()

@@ -10,7 +10,6 @@ use crate::script::bindings::table::{BindingTable, function};
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::numbers::{format_fixed, format_scientific};
 
-/// Domain of formats.
 pub const TABLE: BindingTable = BindingTable {
     name: "text",
     doc: "Numbers print with as many digits as they need: 0.05, 3, 1e-12. These functions choose the digits, and \

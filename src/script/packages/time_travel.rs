@@ -10,7 +10,6 @@ use crate::script::bindings::table::{BindingTable, method};
 use crate::script::handles::simulation::{RunTarget, SimulationHandle};
 use crate::script::messages::error::ScriptError;
 
-/// Domain of rewinding.
 pub const TABLE: BindingTable = BindingTable {
     name: "going back",
     doc: "A simulation can go back to states that it was in, bit for bit, as long as these fit into the memory set aside for them. \
@@ -60,7 +59,6 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// Megabytes in bytes, saturating.
 pub(super) fn bytes(megabytes: f64) -> usize {
     (megabytes * 1e6) as usize
 }

@@ -16,7 +16,6 @@ use crate::script::handles::track::TrackHandle;
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::system::{Scene, SystemError, TrackError};
 
-/// Domain of tracks.
 pub const TABLE: BindingTable = BindingTable {
     name: "tracks",
     doc: "Beams that meet end to end are a track, along which a slider passes from one to the next: scene.slider(bead, track). Its position counts along the whole track, and \
@@ -68,7 +67,6 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// Type of tracks.
 pub(super) const TRACK: Type = Type::of::<TrackHandle>();
 
 const TRACK_KEYS: &[Parameter] = &[
@@ -78,7 +76,6 @@ const TRACK_KEYS: &[Parameter] = &[
     text("name").optional(),
 ];
 
-/// Beam or track of a slider, by index.
 #[derive(Clone, Copy)]
 pub(super) enum SliderGuide {
     Beam(usize),
@@ -86,7 +83,6 @@ pub(super) enum SliderGuide {
 }
 
 impl SliderGuide {
-    /// Beam or track given in an argument.
     pub(super) fn of(call: &Call, name: &str, scene: &SceneHandle) -> Result<Self, ScriptError> {
         match call.get_if::<TrackHandle>(name) {
             Some(track) => track.own(scene).map(Self::Track),

@@ -16,7 +16,6 @@ use crate::script::bindings::table::{BindingTable, function, operator, property}
 use crate::script::messages::error::ScriptError;
 use crate::script::presentation::details;
 
-/// Domain of vectors.
 pub const TABLE: BindingTable = BindingTable {
     name: "vectors",
     doc: "Points and vectors of the plane, with components x and y.",

@@ -23,7 +23,6 @@ use crate::script::presentation::plots::column_hint;
 use crate::script::presentation::viewer_data::{FIELDS, FieldReader, ViewerOptions, film};
 use crate::script::state::settings::RunMode;
 
-/// Domain of viewers.
 pub const TABLE: BindingTable = BindingTable {
     name: "viewers",
     doc: "A viewer is one HTML file that plays simulations in any browser, without network and without withy: to look at, to send, to keep. \
@@ -76,10 +75,8 @@ const MISSING: Missing = Missing {
     instead: "fields: [\"speed\", \"stretch\", \"curvature\"]",
 };
 
-/// Default fields for the colours of beams.
 const USUAL_FIELDS: [&str; 4] = ["speed", "M", "stretch", "curvature"];
 
-/// Default columns below the motion.
 const LEDGER: [&str; 5] = ["kinetic", "strain", "potential", "energy", "work"];
 
 fn write_viewer(call: &mut Call) -> Result<Dynamic, ScriptError> {
@@ -153,7 +150,6 @@ fn inside(
     }
 }
 
-/// Labels of the simulations.
 fn labels(
     call: &Call,
     simulations: &[SimulationHandle],
@@ -207,7 +203,6 @@ fn assigned(
     Ok(simulations.iter().map(of).collect())
 }
 
-/// Requested columns, which the simulation must have.
 fn columns(
     call: &Call,
     of: &SimulationHandle,
@@ -229,7 +224,6 @@ fn columns(
     given.iter().map(column).collect()
 }
 
-/// Requested fields.
 fn fields(call: &Call, options: &Options) -> Result<Vec<String>, ScriptError> {
     let Ok(given) = options.array("fields") else {
         return Ok(USUAL_FIELDS.map(str::to_owned).to_vec());

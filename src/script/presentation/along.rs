@@ -11,7 +11,6 @@ use crate::simulation::{Outline, Simulation};
 use crate::statics::Equilibrium;
 use crate::system::{BeamPlaces, BeamSample, System, SystemError};
 
-/// Digits of numbers in text.
 const DIGITS: usize = 6;
 
 /// Section results of some beams at one time.
@@ -33,6 +32,7 @@ struct BeamProfile {
 impl SectionForceProfile {
     /// Results at the present time of a simulation, for the beams with these indices, or all if there are none.
     ///
+    /// # Errors
     /// If an axis has a point without a tangent.
     pub fn of_simulation(simulation: &Simulation, beams: &[usize]) -> Result<Self, SystemError> {
         let when = format!("t = {}", significant(simulation.time(), DIGITS));
@@ -42,6 +42,7 @@ impl SectionForceProfile {
 
     /// Results of an equilibrium under full load.
     ///
+    /// # Errors
     /// If an axis has a point without a tangent.
     pub fn of_equilibrium(rest: &Equilibrium, beams: &[usize]) -> Result<Self, SystemError> {
         Self::of_model(&SceneAt::at_rest(rest), rest.model(), beams)

@@ -19,6 +19,7 @@ const OF_A_PARTICLE: f64 = 0.0;
 impl Grids {
     /// Grids of the beams of a simulation.
     ///
+    /// # Errors
     /// If an axis has a point without a tangent.
     pub fn of(simulation: &Simulation) -> Result<Self, SystemError> {
         let scene = simulation.scene();

@@ -80,7 +80,6 @@ impl Vocabulary {
         self.modules.insert(alias.to_owned(), functions.map(str::to_owned).collect());
     }
 
-    /// Returns true if the variable is known and has no such member.
     fn lacks(&self, variable: &str, name: &str) -> bool {
         let members = self.variables.get(variable).and_then(|of| self.members.get(of));
         members.is_some_and(|members| !members.contains(name)) && !self.functions.contains(name)

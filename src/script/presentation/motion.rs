@@ -12,9 +12,7 @@ use crate::simulation::{Configuration, Simulation};
 
 /// With more spans, knots are marked only on request.
 const MOST_SPANS_WITH_DOTS: usize = 40;
-/// Maximum number of snapshots in a picture.
 const MOST_SNAPSHOTS: f64 = 2000.0;
-/// Digits of numbers in text.
 const DIGITS: usize = 6;
 
 /// Times of the snapshots.
@@ -65,7 +63,6 @@ pub struct MotionView {
     limits: AxisLimits,
 }
 
-/// Magnification of displacements.
 #[derive(Clone, Copy)]
 struct Magnifier(f64);
 
@@ -83,6 +80,7 @@ impl Magnifier {
 impl MotionView {
     /// Collects the content from a simulation; `expect` checks each snapshot, with the requested and the recorded time.
     ///
+    /// # Errors
     /// If no or too many snapshots lie in the interval, or `expect` fails.
     pub fn of(
         simulation: &Simulation,
@@ -181,7 +179,6 @@ pub fn marked(picture: ConfigurationPicture, symbols: &[PlacedSymbol]) -> Config
     marks.fold(picture, |picture, (mark, at)| picture.mark(mark, at))
 }
 
-/// Mark of a symbol in a terminal.
 fn mark(placed: &PlacedSymbol) -> Option<PictureMark> {
     match placed.symbol {
         Symbol::Hinge | Symbol::Roller => Some(PictureMark::Hinge),
@@ -256,6 +253,7 @@ fn magnified(start: &Configuration, now: &Configuration, lens: Magnifier) -> Mot
 
 /// Symbols in the configuration nearest to a time, with magnified displacements.
 ///
+/// # Errors
 /// If a station lies outside its beam.
 pub fn placed(
     simulation: &Simulation,

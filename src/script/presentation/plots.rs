@@ -10,11 +10,11 @@ use crate::script::messages::error::ScriptError;
 use crate::script::messages::suggest::nearest;
 use crate::simulation::{Configuration, History, Invariant, Simulation};
 
-/// Digits of numbers in a summary.
 const DIGITS: usize = 6;
 
 /// Chart of history columns over time, as text for a terminal.
 ///
+/// # Errors
 /// If no column or an unknown one is named; the error lists the columns.
 pub fn history_chart(
     history: &History,
@@ -52,6 +52,7 @@ pub fn drift_summary(history: &History) -> String {
 
 /// One-line summary of a column, without a terminal.
 ///
+/// # Errors
 /// If the column is unknown; the error lists the columns.
 pub fn column_summary(history: &History, column: &str) -> Result<String, ScriptError> {
     let dimension = expect_column(history, column)?;
@@ -78,6 +79,7 @@ pub fn column_summary(history: &History, column: &str) -> Result<String, ScriptE
 
 /// Configuration at the present time or nearest to a time, as text for a terminal, with the initial configuration dotted.
 ///
+/// # Errors
 /// If an axis has a point without a tangent.
 pub fn configuration_picture(
     simulation: &Simulation,
@@ -104,6 +106,7 @@ pub fn configuration_picture(
 
 /// Summary of a configuration in lines, without a terminal.
 ///
+/// # Errors
 /// If an axis has a point without a tangent.
 pub fn configuration_summary(
     simulation: &Simulation,
@@ -175,7 +178,6 @@ fn series_name(column: &str) -> String {
     }
 }
 
-/// Common dimension of all columns, or an empty text.
 fn dimension_of(history: &History, names: &[String]) -> &'static str {
     let mut dimensions = names.iter().map(|name| history.dimension(name).unwrap_or_default());
     let first = dimensions.next().unwrap_or_default();
@@ -186,7 +188,6 @@ fn over_time(history: &History, values: Vec<f64>) -> Vec<(f64, f64)> {
     history.samples().iter().map(|row| row.measures.time).zip(values).collect()
 }
 
-/// Dimension of a column, or an error.
 fn expect_column(history: &History, name: &str) -> Result<&'static str, ScriptError> {
     history.dimension(name).ok_or_else(|| {
         ScriptError::new(format!("the history has no column {name:?}"))
@@ -239,7 +240,6 @@ mod tests {
     const STYLE: TerminalStyle =
         TerminalStyle { glyphs: Glyphs::Ascii, colours: Colours::None, width: 50, height: 14 };
 
-    /// A rod rotating about a hinge at its start.
     fn turning() -> Simulation {
         let mut scene = Scene::new("turning");
         let section = Section {

@@ -11,19 +11,15 @@ use crate::script::bindings::kind::{Details, Type};
 
 /// Digits of a number, few enough to hide binary rounding.
 const DIGITS: usize = 10;
-/// Arrays with more items are abbreviated.
 const MOST_ITEMS: usize = 8;
 /// Number of leading items shown of an abbreviated array, besides the last one.
 const FIRST_ITEMS: usize = 3;
-/// Maps with more keys are abbreviated.
 const MOST_KEYS: usize = 12;
 /// Maximum nesting depth; nesting may be infinite.
 const DEEPEST: usize = 4;
-/// Maximum length of a nested text.
 const LONGEST_TEXT: usize = 40;
 /// Minimum width of the values in summaries.
 const LEAST_ROOM: usize = 20;
-/// Maximum number of lines of a text.
 const MOST_LINES: usize = 200;
 
 /// Formats values to a line width; texts with several lines are excepted.
@@ -103,7 +99,6 @@ impl Presenter<'_> {
         }
     }
 
-    /// A text with several lines, as printed.
     fn lines_of(&self, text: &str) -> String {
         let text = text.trim_end_matches('\n');
         let shown: Vec<&str> = text.lines().take(MOST_LINES).collect();
@@ -125,7 +120,6 @@ impl Presenter<'_> {
         text
     }
 
-    /// Type and printed form of a native value.
     fn native(&self, value: &Dynamic) -> Option<(Type, String)> {
         let mut types = self.catalog.tables().flat_map(|table| table.types);
         let (of, shown) = types.find_map(|of| Some((*of, of.show(value)?)))?;
@@ -192,7 +186,6 @@ impl Presenter<'_> {
         line.write("}");
     }
 
-    /// An array of collections, one per line.
     fn rows(&self, array: &Array) -> String {
         let items = elided(array);
         let last = items.len() - 1;
@@ -212,7 +205,6 @@ impl Presenter<'_> {
         format!("{}{count}", rows.join("\n"))
     }
 
-    /// A map, one key per line.
     fn keys(&self, map: &Map) -> String {
         let mut lines = vec!["#{".to_owned()];
         for (key, value) in map.iter().take(MOST_KEYS) {
@@ -282,7 +274,6 @@ fn written_key(key: &str) -> String {
     if is_name { key.to_owned() } else { format!("{key:?}") }
 }
 
-/// A value that is neither a collection nor native.
 fn plain(value: &Dynamic, longest: usize) -> String {
     // Variables captured by closures are shared values behind a lock.
     let value = value.flatten_clone();

@@ -10,7 +10,6 @@ use crate::simulation::Simulation;
 use crate::statics::Equilibrium;
 use crate::system::{Anchor, Drive, Scene, Spring, SpringKind, System, SystemError};
 
-/// Arrows of a line load.
 const ARROWS: usize = 5;
 /// Offset for the tangent direction at a station, as a fraction of the beam length.
 const AROUND: f64 = 1e-3;
@@ -38,7 +37,6 @@ pub enum Pointing {
 }
 
 impl Pointing {
-    /// Direction in space for a given beam direction.
     fn direction(&self, along: Vec2) -> Vec2 {
         match self {
             Self::To(direction) => *direction,
@@ -84,6 +82,7 @@ impl<'a> SceneAt<'a> {
 
     /// Symbols in the current configuration of a model.
     ///
+    /// # Errors
     /// If a station lies outside its beam.
     pub fn symbols(&self, model: &System) -> Result<Vec<PlacedSymbol>, SystemError> {
         let place = |at: &_| Ok(model.position(&self.scene.place(at, model.meshes())?));
@@ -93,6 +92,7 @@ impl<'a> SceneAt<'a> {
 
 /// Symbols of a scene at a time. `places` returns the positions of stations. Loads that are zero have no symbol.
 ///
+/// # Errors
 /// Errors of `places`.
 pub fn symbols(
     at: &SceneAt,
@@ -119,7 +119,6 @@ pub fn symbols(
     Ok(placed.chain(springs.flat_map(|spring| of_spring(spring, &mut ends))).collect())
 }
 
-/// Limit on the symbols of supports, joints and sliders.
 const MOST_HOLDING: usize = 60;
 
 /// Removes the symbols of supports, joints and sliders if there are too many.
@@ -207,7 +206,6 @@ fn of_joint<'a>(scene: &Scene, joint: &'a Joint, hold: Releasable) -> StationSym
     StationSymbol { symbol, name: &joint.name, at, pointing, hold: Some(hold) }
 }
 
-/// Symbol and direction of a support at a station.
 fn of_held(scene: &Scene, at: &Station, held: Components) -> (Symbol, Pointing) {
     match held {
         Components::X => (Symbol::Roller, Pointing::To(Vec2::x())),

@@ -21,7 +21,6 @@ use crate::system;
 
 /// Paths of free ends are drawn if there are at most this many.
 const MOST_FREE_ENDS: usize = 8;
-/// Arrows of a line load per beam.
 const ARROWS_A_BEAM: usize = 6;
 
 /// Options of the viewer data.
@@ -44,6 +43,7 @@ pub struct ViewerOptions<'a> {
 
 /// Creates the viewer data of the recorded frames.
 ///
+/// # Errors
 /// If nothing is recorded in the interval, a station lies outside its beam, or the function of a load fails.
 pub fn film(simulation: &Simulation, wishes: ViewerOptions) -> Result<ViewerData, ScriptError> {
     let (from, to) = wishes.span;
@@ -75,9 +75,7 @@ fn plain<'a>(points: impl Iterator<Item = &'a Vec2>) -> Vec<(f64, f64)> {
     points.map(|point| (point.x, point.y)).collect()
 }
 
-/// Configurations shown.
 struct FrameSelection {
-    /// Indices in the trajectory.
     indices: Vec<usize>,
     /// Control points by frame and body.
     frames: Vec<Vec<Vec<Vec2>>>,
@@ -290,7 +288,6 @@ fn turned(force: Vec2, frame: LoadFrame, axis: Option<&AxisStation>, points: &[V
     }
 }
 
-/// Load factors in the configurations shown.
 fn factors(
     load: &Load,
     simulation: &Simulation,

@@ -4,9 +4,7 @@ use rhai::{Engine, Token};
 
 use super::text::Lexeme;
 
-/// Result of the lexer.
 pub(super) struct Lexed {
-    /// Tokens of the text, without comments.
     pub tokens: Vec<Lexeme>,
     /// True if the text ends inside a block comment.
     pub ends_in_comment: bool,

@@ -73,7 +73,6 @@ fn body(tokens: &[Lexeme], start: usize) -> Option<(Position, char)> {
     is_captured.then_some((tokens[open].1, letter))
 }
 
-/// Returns true if a brace belongs to an interpolation `${…}`.
 fn is_interpolation(tokens: &[Lexeme], index: usize) -> bool {
     matches!(tokens.get(index.wrapping_sub(1)), Some((Token::InterpolatedString(_), _)))
 }

@@ -136,7 +136,6 @@ impl Scanner<'_> {
         self.at += rest.find(|letter| !belongs(letter)).unwrap_or(rest.len());
     }
 
-    /// Reads one token of at least one character.
     fn next(&mut self) -> TokenKind {
         let rest = self.rest();
         let first = rest.chars().next().unwrap_or(' ');

@@ -15,7 +15,6 @@ pub const CHOICE: char = '\u{E007}';
 /// Name of the wrapper for the parser.
 pub const CHOICE_NAME: &str = "\u{E007}";
 
-/// Length of the keyword `switch`.
 const WORD: usize = 6;
 
 /// Registers the wrapper; `judge` checks the value of the `switch` expression and returns the value to compare.

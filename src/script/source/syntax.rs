@@ -185,7 +185,6 @@ pub fn mark(source: &Source) -> Cow<'_, str> {
     Cow::Owned(lines.join("\n"))
 }
 
-/// Kind of inserted mark.
 enum InsertedMark<'m> {
     /// Replaces an assignment operator.
     Assign(&'m [char]),
@@ -298,7 +297,6 @@ fn replace(token: Token) -> Token {
     custom(&format!("{OWN}{symbol}"))
 }
 
-/// Token for one half of a marked assignment.
 fn half(error: &LexError) -> Option<Token> {
     let LexError::UnexpectedInput(text) = error else { return None };
     match text.chars().next()? {

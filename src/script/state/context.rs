@@ -45,7 +45,6 @@ struct ContextData {
     refuses_files: Cell<Option<&'static str>>,
     checks: RefCell<Checks>,
     reports: Reports,
-    /// Names of studies used so far.
     study_names: RefCell<HashSet<PathBuf>>,
     snapshots: usize,
     latest_simulation: RefCell<Option<Dynamic>>,

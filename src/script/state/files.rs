@@ -246,7 +246,6 @@ impl InputFolders {
     }
 }
 
-/// Returns true if a file or one of its parent folders does not exist.
 fn is_missing(error: &io::Error) -> bool {
     matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory)
 }

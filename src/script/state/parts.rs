@@ -49,7 +49,6 @@ impl StudyPart {
         format!("{study}.{}-of-{}.part", self.number, self.of)
     }
 
-    /// Part of a study from its file name.
     fn of_file(study: &str, file: &str) -> Option<Self> {
         let middle = file.strip_prefix(study)?.strip_prefix('.')?.strip_suffix(".part")?;
         let (number, of) = middle.split_once("-of-")?;

@@ -10,7 +10,6 @@ use std::time::{Duration, Instant};
 use super::limits::{HardAbort, Limits, TOO_LARGE, TOO_LATE};
 use crate::script::messages::stop::Stop;
 
-/// Polling interval.
 const INTERVAL: Duration = Duration::from_millis(10);
 
 /// Time for a run to react to an exceeded limit, as a fraction of the time limit. The limit then holds within twice its
@@ -62,7 +61,6 @@ impl Watchdog {
     }
 }
 
-/// Exceeded limit and its alarm code.
 fn first_passed(limits: &Limits, begun: Instant) -> Option<(Stop, u8)> {
     let late = limits.time.filter(|limit| begun.elapsed() > *limit);
     let large = || limits.memory.filter(|limit| occupied() > *limit);

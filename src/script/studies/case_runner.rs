@@ -73,6 +73,7 @@ impl CaseTask<'_> {
 impl<'c> CaseRunner<'c> {
     /// Starts a study, whose name is that of its files; opens a journal if requested.
     ///
+    /// # Errors
     /// If the name is not valid for a file in the output folder, or the journal cannot be read.
     pub fn open(context: &'c Context, name: &str) -> Result<Self, ScriptError> {
         let wishes = context.studies();
@@ -99,6 +100,7 @@ impl<'c> CaseRunner<'c> {
     /// limits of the run. A panic affects only its case. If the run computes a part of the study, only the cases of that part are computed,
     /// and `None` is returned.
     ///
+    /// # Errors
     /// If the run is stopped, with finished cases in the journal, or if a case is missing in merged parts.
     pub fn in_parallel<R: Finding + Clone + Send>(
         &self,
@@ -167,6 +169,7 @@ impl<'c> CaseRunner<'c> {
     /// Computes the cases one by one on this thread, for timing; cases in the journal are skipped. `work` receives a function that returns
     /// false to stop.
     ///
+    /// # Errors
     /// If the run is stopped; finished cases are in the journal.
     pub fn one_by_one<R: Finding>(
         &self,

@@ -15,7 +15,6 @@ use crate::script::messages::numbers::as_number;
 use crate::script::messages::suggest::nearest;
 use crate::simulation::SimulationSettings;
 
-/// Keys that a function may set for a cell.
 const KEYS: [&str; 4] = ["scene", "dt", "end", "integrator"];
 
 /// Message of a thrown value or a native error; `None` for other errors.
@@ -108,7 +107,6 @@ fn expect_no_other_value(call: &Call, own: &Map, values: &Map) -> Result<(), Scr
     Err(call.error(told).hint(hint).at(CallPart::Key("scene".into())))
 }
 
-/// Checks that the map of a function has only known keys.
 fn expect_known_keys(call: &Call, given: &Map) -> Result<(), ScriptError> {
     let Some(unknown) = given.keys().find(|key| !KEYS.contains(&key.as_str())) else {
         return Ok(());

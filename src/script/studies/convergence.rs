@@ -85,7 +85,6 @@ fn refined(call: &Call, plan: &ErrorStudyPlan) -> Result<RefinedParameter, Scrip
     }
 }
 
-/// Writes table and picture.
 fn write(call: &Call, study: &Convergence) -> Result<(), ScriptError> {
     let context = call.context();
     context.write_file(&format!("{}.csv", study.name), records(study).to_text()?.as_bytes())?;
@@ -102,7 +101,6 @@ pub(super) fn size_name(study: &Convergence) -> &'static str {
     }
 }
 
-/// All errors as CSV records.
 fn records(study: &Convergence) -> CsvRecords {
     let names = ["quantity", "integrator", size_name(study), "error", "is_resolved", "order"];
     let number = |value: Option<f64>| value.map_or_else(String::new, format_number);
@@ -166,6 +164,7 @@ pub fn expect_quantity(
 
 /// Errors of a quantity with an integrator; `None` in a dry build.
 ///
+/// # Errors
 /// If the quantity or integrator is not in the study; the error lists the known ones.
 pub fn find<'s>(
     call: &Call,

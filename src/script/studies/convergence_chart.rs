@@ -8,7 +8,6 @@ use crate::output::{AxisScale, LineChart, Marker, Series, SeriesColour, Stroke};
 /// Orders that differ by less are considered equal.
 const SAME_ORDER: f64 = 0.3;
 
-/// A reference line of an order, from coarse to fine.
 struct Slope {
     told: String,
     ends: [(f64, f64); 2],
@@ -103,7 +102,6 @@ fn seen(ladder: &Ladder) -> Option<Slope> {
     })
 }
 
-/// Line of an order through the point of a rung.
 fn through(ladder: &Ladder, rung: usize, order: f64) -> impl Fn(f64) -> Option<(f64, f64)> {
     let (size, error) = (ladder.sizes[rung], ladder.error(rung));
     move |other| Some((other, error? * power(other / size, order)))

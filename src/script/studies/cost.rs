@@ -135,7 +135,6 @@ impl CostTable {
         &self.name
     }
 
-    /// Time of a step relative to that of the plain scene.
     fn ratio(&self, cost: &StepCost) -> f64 {
         let alone = self.costs.first().map_or(f64::NAN, |first| first.shortest.as_secs_f64());
         cost.shortest.as_secs_f64() / alone
@@ -203,7 +202,6 @@ impl CostTable {
             .join("\n")
     }
 
-    /// Reasons of failed rows.
     fn failures(&self) -> Option<String> {
         let failed: Vec<&StepCost> =
             self.costs.iter().filter(|cost| !cost.outcome.is_finished()).collect();
@@ -214,7 +212,6 @@ impl CostTable {
         (some > 0).then(|| format!("\n{some} of {all} did not finish:{lines}"))
     }
 
-    /// Warning if the repetition took a different time.
     fn doubt(&self) -> Option<String> {
         let ratio = self.ratio(self.costs.get(1).filter(|cost| cost.name == PLAIN[1])?);
         (!(1.0 / TRUSTED_RATIO..=TRUSTED_RATIO).contains(&ratio)).then(|| {

@@ -5,11 +5,8 @@ use crate::integrators::Method;
 use crate::output::{Cell, format_number, scientific, significant};
 use crate::simulation::{SimulationSettings, StepSize};
 
-/// Maximum number of digits of a step size.
 const STEP_DIGITS: usize = 6;
-/// Maximum number of characters of a reason.
 const LONGEST_REASON: usize = 100;
-/// Digits of an error.
 const ERROR_DIGITS: usize = 2;
 
 /// Label of an integrator with its parameter: `energy_momentum`, `energy_decaying(0.1)`.

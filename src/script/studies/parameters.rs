@@ -10,7 +10,6 @@ use crate::script::bindings::call::Call;
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::numbers::{as_number, format_number};
 
-/// Maximum number of significant digits in a label.
 const DIGITS: usize = 6;
 
 /// A named parameter with its values.

@@ -170,7 +170,6 @@ pub fn study_name(call: &Call, name: &str) -> Result<String, ScriptError> {
     Ok(name.to_owned())
 }
 
-/// Rejects duplicate values.
 fn expect_all_different<T: PartialEq>(
     call: &Call,
     key: &str,
@@ -222,7 +221,6 @@ pub fn patience(call: &Call, seconds: f64) -> RunLimits {
     }
 }
 
-/// Step sizes, at least one.
 fn step_sizes(call: &Call, dts: &[Dynamic]) -> Result<Vec<StepSize>, ScriptError> {
     let one = |value: &Dynamic| {
         step_size(value).ok_or_else(|| {
@@ -235,7 +233,6 @@ fn step_sizes(call: &Call, dts: &[Dynamic]) -> Result<Vec<StepSize>, ScriptError
     }
 }
 
-/// Requires a non-empty list of positive numbers.
 fn expect_positive(call: &Call, key: &str, numbers: &[f64]) -> Result<(), ScriptError> {
     match numbers.iter().find(|number| **number <= 0.0) {
         _ if numbers.is_empty() => {
@@ -310,7 +307,6 @@ fn subject(call: &Call, mesh: String, made: &Dynamic) -> Result<ObservedScene, S
     Ok(ObservedScene { mesh, scene, observables })
 }
 
-/// Ends of all beams, and all point masses.
 fn usual_stations(scene: &Scene) -> Vec<(String, Station)> {
     let ends = scene.beams.iter().enumerate().flat_map(|(index, beam)| {
         [("start", 0.0), ("end", beam.axis.length())]

@@ -74,7 +74,6 @@ pub fn study(
     Ok(study)
 }
 
-/// Run times of the completed cases.
 fn timings(
     desk: &CaseRunner,
     plan: &ErrorStudyPlan,
@@ -93,7 +92,6 @@ fn timings(
     Ok(trials.iter().map(of).collect())
 }
 
-/// Writes table and picture.
 fn write(call: &Call, study: &Precision) -> Result<(), ScriptError> {
     let context = call.context();
     context.write_file(&format!("{}.csv", study.name), records(study).to_text()?.as_bytes())?;

@@ -53,7 +53,6 @@ fn table_of_mesh(rows: &[PrecisionRow]) -> TextTable {
     table
 }
 
-/// Data of a row: names and values.
 fn facts(study: &Precision, row: &PrecisionRow) -> Vec<(String, Dynamic)> {
     let trial = &row.trial;
     let seconds = |read: fn(&Timing) -> f64| row.timing.map_or(f64::NAN, |timing| read(&timing));

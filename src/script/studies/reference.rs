@@ -155,7 +155,6 @@ fn expect_other_steps_if_doubled(call: &Call, finest: &Case) -> Result<(), Scrip
     }
 }
 
-/// Option `columns`.
 fn columns_of(call: &Call, options: &ErrorOptions) -> Result<Option<Map>, ScriptError> {
     let Some(given) = &options.columns else { return Ok(None) };
     let got = call.describe(given);
@@ -215,7 +214,6 @@ impl Reference {
         Ok(Self::OwnRun(told, [finest].into_iter().chain(coarser).collect()))
     }
 
-    /// Cases of the reference run.
     fn cases(&self) -> &[Case] {
         match self {
             Self::Table(..) => &[],

@@ -15,12 +15,9 @@ use crate::output::{
 use crate::script::bindings::call::Call;
 use crate::script::messages::error::ScriptError;
 
-/// Maximum width of a map in a terminal, in columns.
 const WIDTH: usize = 160;
-/// Result keys of a cell.
 const RESULTS: [&str; 7] =
     ["finished", "outcome", "energy_growth", "iterations", "most_iterations", "retries", "steps"];
-/// Number of maps per row of a page.
 const ABREAST: usize = 2;
 
 /// Quantity that colours the cells.
@@ -113,7 +110,6 @@ impl StabilityPlan {
         (0..all).map(move |at| [at / (rows * columns), at / columns % rows, at % columns])
     }
 
-    /// Named values of a cell.
     fn values(&self, [map, row, column]: [usize; 3]) -> Map {
         let mut values = Map::new();
         self.maps.put(map, &mut values);
@@ -131,7 +127,6 @@ impl StabilityPlan {
         all.into_iter().filter(|(of, _)| !of.name.is_empty())
     }
 
-    /// Labels of a cell with their names.
     fn labels(&self, [map, row, column]: [usize; 3]) -> Vec<(&str, &str)> {
         let axes = self.axes([map, row, column]);
         axes.map(|(of, at)| (of.name.as_str(), of.labels[at].as_str())).collect()
@@ -139,6 +134,7 @@ impl StabilityPlan {
 
     /// Case of each cell, or the message thrown by the script function.
     ///
+    /// # Errors
     /// If the function returns an invalid value, fails otherwise, or throws at every cell, which means that the function is wrong.
     pub fn cases(
         &self,
@@ -251,7 +247,6 @@ impl StabilityMap {
         }
     }
 
-    /// Number that colours a completed cell.
     fn coloured(&self, verdict: &StabilityVerdict) -> String {
         let value = self.shown.of(verdict);
         match self.shown {
@@ -260,7 +255,6 @@ impl StabilityMap {
         }
     }
 
-    /// Text of a completed cell in a picture.
     fn in_lines(&self, verdict: &StabilityVerdict) -> String {
         let halved = match verdict.retries {
             0 => String::new(),
@@ -270,7 +264,6 @@ impl StabilityMap {
         format!("{}\n{iterations} it.{halved}", self.coloured(verdict))
     }
 
-    /// Text of a completed cell in a table.
     fn in_short(&self, verdict: &StabilityVerdict) -> String {
         let halved = match verdict.retries {
             0 => String::new(),

@@ -43,7 +43,6 @@ fn text(state: &TuiState, size: (usize, usize)) -> String {
     lines(state, size).join("\n")
 }
 
-/// Words, independent of line breaks.
 fn words(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }

@@ -6,7 +6,6 @@ use super::super::samples::surroundings;
 use super::*;
 use proptest::prelude::*;
 
-/// Lines that result from accepting each candidate.
 fn offered_in(line: &str, surroundings: &CompletionContext) -> Vec<String> {
     let (before, after) = line.split_once('¦').unwrap_or((line, ""));
     let (start, candidates) = complete(&format!("{before}{after}"), before.len(), surroundings);
@@ -20,7 +19,6 @@ fn offered(line: &str) -> Vec<String> {
     offered_in(line, &surroundings())
 }
 
-/// Replacement texts of the candidates.
 fn names(line: &str) -> Vec<String> {
     let (_, candidates) = complete(line, line.len(), &surroundings());
     candidates.into_iter().map(|candidate| candidate.replacement).collect()

@@ -28,15 +28,11 @@ const MOST: usize = 100;
 
 /// Position where a function branches on a variable that depends on a parameter and on its argument.
 pub(super) struct Decision {
-    /// Variable that depends on the parameter.
     pub(super) parameter: String,
-    /// Operator, function or method.
     pub(super) sign: String,
-    /// Position in the script.
     pub(super) at: Position,
 }
 
-/// Properties of the variables of a function.
 #[derive(Clone, Default)]
 struct VariableFacts {
     /// Variables that depend on a parameter.
@@ -49,7 +45,6 @@ struct VariableFacts {
     functions: BTreeMap<String, FnPtr>,
 }
 
-/// Properties of a value.
 #[derive(Default)]
 struct Facts {
     is_varied: bool,
@@ -66,7 +61,6 @@ struct BranchSearch<'s, 'n> {
 }
 
 impl Decision {
-    /// Finds the first branch in a function that is called with its own arguments.
     pub(super) fn find(native: &NativeCallContext, function: &FnPtr) -> Option<Self> {
         let definition = defined(native, function.fn_name(), None)?;
         let (mut known, own) = VariableFacts::of(function, &definition);
@@ -76,7 +70,6 @@ impl Decision {
 }
 
 impl VariableFacts {
-    /// Properties of the captured variables, and the names of the arguments.
     fn of(function: &FnPtr, definition: &ScriptFuncDef) -> (Self, Vec<String>) {
         let names: Vec<String> = definition.params.iter().map(ToString::to_string).collect();
         let (captured, own) = names.split_at(function.curry().len().min(names.len()));
@@ -110,7 +103,6 @@ impl VariableFacts {
         }
     }
 
-    /// Adds properties to a variable.
     fn keep(&mut self, name: &str, facts: Facts) {
         let Facts { is_varied, is_asked, jumps, function } = facts;
         for (names, is_one) in
@@ -150,7 +142,6 @@ impl VariableFacts {
 }
 
 impl BranchSearch<'_, '_> {
-    /// First branch in a function with the given variables.
     fn function(&self, definition: &ScriptFuncDef, mut known: VariableFacts) -> Option<Decision> {
         if self.depth == DEEPEST || self.left.get() == 0 {
             return None;
@@ -213,7 +204,6 @@ impl BranchSearch<'_, '_> {
         self.deeper().function(&definition, own)
     }
 
-    /// A chain of method calls.
     fn chain(&self, chain: &BinaryExpr, known: &VariableFacts) -> Option<Decision> {
         let mut receivers = vec![&chain.lhs];
         let mut rest = &chain.rhs;
@@ -302,7 +292,6 @@ fn root_of(target: &Expr) -> Option<&str> {
     }
 }
 
-/// First of the given variables that an expression reads.
 fn first_of(expression: &Expr, names: &BTreeSet<String>) -> Option<String> {
     first_in(expression, |node| match node {
         Expr::Variable(variable, ..) => names.get(variable.1.as_str()).cloned(),
@@ -310,7 +299,6 @@ fn first_of(expression: &Expr, names: &BTreeSet<String>) -> Option<String> {
     })
 }
 
-/// First match in an expression and its parts.
 fn first_in<T>(expression: &Expr, mut what: impl FnMut(&Expr) -> Option<T>) -> Option<T> {
     let mut found = None;
     expression.walk(&mut Vec::new(), &mut |path: &[ASTNode]| {

@@ -3,7 +3,6 @@
 use crate::script::bindings::built_in::{BuiltInTable, built_in};
 use crate::script::bindings::returns::Returns;
 
-/// Table of Rhai's methods that access single elements or change the array.
 pub const TABLE: BuiltInTable = BuiltInTable {
     name: "arrays",
     doc: "An array [a, b, c] holds values of any kind. Indices count from 0, and -1 is the last. Methods that change an \

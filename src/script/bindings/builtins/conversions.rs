@@ -3,7 +3,6 @@
 use crate::script::bindings::built_in::{BuiltInTable, built_in};
 use crate::script::bindings::returns::Returns;
 
-/// Table of Rhai's conversions.
 pub const TABLE: BuiltInTable = BuiltInTable {
     name: "conversions",
     doc: "Whole numbers become other numbers by themselves where they must; these functions are for the rest.",

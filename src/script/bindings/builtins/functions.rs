@@ -3,7 +3,6 @@
 use crate::script::bindings::built_in::{BuiltInTable, built_in};
 use crate::script::bindings::returns::Returns;
 
-/// Table of Rhai's methods of function values.
 pub const TABLE: BuiltInTable = BuiltInTable {
     name: "functions",
     doc: "|x| 2 * x is a function without a name, and may be kept in a variable. Written where it stands, it sees the \

@@ -3,7 +3,6 @@
 use crate::script::bindings::built_in::{BuiltInTable, built_in};
 use crate::script::bindings::returns::{Returns, ValueKind};
 
-/// Table of Rhai's methods of maps.
 pub const TABLE: BuiltInTable = BuiltInTable {
     name: "maps",
     doc: "A map #{ key: value } holds values by name: map.key, or map[\"key\"]. To read a key that is not there is an error; \

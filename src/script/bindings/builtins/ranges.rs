@@ -3,7 +3,6 @@
 use crate::script::bindings::built_in::{BuiltInTable, built_in};
 use crate::script::bindings::returns::Returns;
 
-/// Table of Rhai's methods of ranges.
 pub const TABLE: BuiltInTable = BuiltInTable {
     name: "ranges",
     doc: "0..3 is 0, 1, 2; 0..=3 includes 3. Ranges have whole numbers; linspace(from, to, count) makes others.",

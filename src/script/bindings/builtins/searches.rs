@@ -3,7 +3,6 @@
 use crate::script::bindings::built_in::{BuiltInTable, built_in};
 use crate::script::bindings::returns::Returns;
 
-/// Table of Rhai's methods that leave the array unchanged.
 pub const TABLE: BuiltInTable = BuiltInTable {
     name: "searches",
     doc: "Methods of arrays that take a function and leave the array as it is. The function may take the index as its second \

@@ -18,7 +18,6 @@ use crate::script::source::program::Program;
 use crate::script::state::context::Context;
 use crate::script::state::settings::{RunMode, RunSettings};
 
-/// Name, number of arguments and known argument types of an engine function.
 struct EngineFunction {
     name: String,
     count: usize,
@@ -30,7 +29,6 @@ fn standard_engine() -> Engine {
     engine::build(&language(), &context).unwrap()
 }
 
-/// All registered functions, and those built into the engine.
 fn known() -> Vec<EngineFunction> {
     let engine = standard_engine();
     let mut known = engine.collect_fn_metadata(
@@ -61,7 +59,6 @@ fn known() -> Vec<EngineFunction> {
     known
 }
 
-/// Returns true for types that no script value has.
 fn is_out_of_reach(of: &str) -> bool {
     const NUMBERS: [&str; 10] =
         ["i8", "i16", "i32", "i128", "u8", "u16", "u32", "u64", "u128", "f32"];
@@ -73,7 +70,6 @@ fn built_ins() -> impl Iterator<Item = &'static BuiltIn> {
     TABLES.iter().flat_map(|table| table.rows)
 }
 
-/// Returns true if the help covers a call with this many values.
 fn is_documented(name: &str, count: usize) -> bool {
     let catalog = language();
     catalog.named(name).any(|row| {

@@ -3,7 +3,6 @@
 use crate::script::bindings::built_in::{BuiltInTable, built_in};
 use crate::script::bindings::returns::{Returns, ValueKind};
 
-/// Table of Rhai's methods of texts and characters.
 pub const TABLE: BuiltInTable = BuiltInTable {
     name: "texts",
     doc: "A text stands in double quotes, or between backquotes, where ${ } holds values. Characters, such as 'a', count from \

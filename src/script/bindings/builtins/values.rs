@@ -3,7 +3,6 @@
 use crate::script::bindings::built_in::{BuiltInTable, built_in};
 use crate::script::bindings::returns::Returns;
 
-/// Table of Rhai's functions for values of any kind, and the clock.
 pub const TABLE: BuiltInTable = BuiltInTable {
     name: "values",
     doc: "Printing, questions about values and variables, and the clock.",

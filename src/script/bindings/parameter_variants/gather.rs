@@ -13,6 +13,7 @@ use crate::script::messages::numbers::as_number;
 /// Combines `results`, one per variant, variant 0 first, into one value. Equal results stay plain values; scene objects (`is_thing`)
 /// contain their variants; for booleans, texts and integers the result of variant 0 is used.
 ///
+/// # Errors
 /// If arrays or maps differ in more than numbers.
 pub fn gather(
     family: &Rc<ParameterSet>,
@@ -68,7 +69,6 @@ fn differ(what: &str) -> ScriptError {
     )
 }
 
-/// Returns false for numbers and vectors that are infinite or NaN.
 fn is_defined(value: &Dynamic) -> bool {
     let vector = value.read_lock::<Vec2>();
     as_number(value).is_none_or(f64::is_finite)

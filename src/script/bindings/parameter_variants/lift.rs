@@ -17,11 +17,11 @@ use crate::script::messages::error::{CallPart, ScriptError};
 /// Hint for an error that occurs only in a side variant.
 const BESIDE: &str = "derivatives are found from values on both sides of a parameter: choose it within what is allowed, or give value_of(x) here, which has none";
 
-/// Evaluates a binding once.
 type Make<'m> = &'m mut dyn FnMut(Option<&mut Dynamic>, &[Dynamic]) -> Result<Dynamic, ScriptError>;
 
 /// Evaluates a binding for each variant of its receiver and arguments, according to the policy of its domain.
 ///
+/// # Errors
 /// Errors of the call; also if derivatives would be lost, or parameters of two scenes are combined.
 pub fn lift(
     (row, lifting): (&FunctionBinding, Lifting),
@@ -95,7 +95,6 @@ pub fn lift(
     }
 }
 
-/// Evaluates a call for one variant.
 fn make_at(
     variant: usize,
     receiver: Option<&mut Dynamic>,
@@ -183,7 +182,6 @@ fn is_about_derivatives(row: &FunctionBinding) -> bool {
     row.parameters.first().is_some_and(|of| matches!(of.kind, Kind::Anything))
 }
 
-/// Parameter set that a call depends on.
 fn families(
     receiver: Option<&Dynamic>,
     given: &[Dynamic],
@@ -195,6 +193,7 @@ fn families(
 impl ParameterSet {
     /// Common parameter set of some values, if any depends on one.
     ///
+    /// # Errors
     /// If they depend on parameters of two scenes.
     pub fn common(values: &[&Dynamic]) -> Result<Option<Rc<Self>>, ScriptError> {
         let own = |value: &&Dynamic| family_of(value).or_else(|| of_thing(value));
@@ -221,6 +220,7 @@ impl ParameterSet {
 
 /// Combines the results that were computed from some values in each variant.
 ///
+/// # Errors
 /// If arrays or maps differ in more than numbers.
 pub fn gathered(
     family: &Rc<ParameterSet>,
@@ -234,6 +234,7 @@ pub fn gathered(
 
 /// Combines the results of all variants to one value without derivatives, with the reason.
 ///
+/// # Errors
 /// If arrays or maps differ in more than numbers.
 pub fn gathered_without(
     family: &Rc<ParameterSet>,

@@ -63,7 +63,6 @@ pub fn corner_of(
 }
 
 impl Sides<'_> {
-    /// Evaluates a quantity of the arguments at the three variants.
     fn each(&self, what: impl Fn(&[Dynamic]) -> f64) -> [f64; 3] {
         [self.at, self.plus, self.minus].map(what)
     }

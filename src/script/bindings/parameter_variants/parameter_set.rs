@@ -25,7 +25,6 @@ pub struct ParameterSet {
     told: RefCell<BTreeSet<(usize, usize)>>,
 }
 
-/// A declared parameter.
 #[derive(Clone)]
 struct DeclaredParameter {
     name: String,
@@ -61,12 +60,10 @@ pub fn know(id: TypeId, name: &'static str, family_of: SceneParameters) {
     });
 }
 
-/// Name of a native type, if the value is of one.
 pub(super) fn name_of(value: &Dynamic) -> Option<&'static str> {
     THINGS.with_borrow(|known| known.get(&value.type_id()).map(|(name, _)| *name))
 }
 
-/// Parameter set of a scene object.
 pub(super) fn of_thing(value: &Dynamic) -> Option<Rc<ParameterSet>> {
     let known = THINGS.with_borrow(|known| known.get(&value.type_id()).copied());
     known.and_then(|(_, family_of)| family_of(value))
@@ -87,7 +84,6 @@ pub fn lose(reason: &str) {
     LOST.set(Some(reason.into()));
 }
 
-/// Takes the reason set since the last call.
 pub(super) fn take_lost() -> Option<Rc<str>> {
     LOST.take()
 }
@@ -122,6 +118,7 @@ impl ParameterSet {
 
     /// Adds a parameter with its value and a step, or the default step; returns the variant number.
     ///
+    /// # Errors
     /// If the name is in use, or variants are in use already.
     pub fn declare(
         self: &Rc<Self>,

@@ -15,7 +15,6 @@ pub enum Lifting {
     Refused,
 }
 
-/// Domains of definitions, calculations and queries.
 const EACH: &[&str] = &[
     "numbers",
     "vectors",
@@ -40,7 +39,6 @@ const EACH: &[&str] = &[
     "derivatives",
 ];
 
-/// Domains that display numbers.
 const AT_VALUES: &[&str] = &[
     "text",
     "checks",
@@ -58,7 +56,6 @@ const AT_VALUES: &[&str] = &[
 /// Domains without derivatives.
 const REFUSED: &[&str] = &["equilibrium", "modes"];
 
-/// Functions of integers.
 const WHOLE: &[&str] = &["quotient"];
 
 /// Methods that advance a simulation together with its variants, or return values that do not depend on them, such as the time.

@@ -51,7 +51,6 @@ impl VariantValue {
         &self.family
     }
 
-    /// Reason for missing derivatives.
     pub(super) fn lost(&self) -> Option<&Rc<str>> {
         self.lost.as_ref()
     }
@@ -63,6 +62,7 @@ impl VariantValue {
 
     /// Derivative with respect to the parameter with this index.
     ///
+    /// # Errors
     /// If it is unknown, or the value is not differentiable.
     pub fn derivative(&self, parameter: usize) -> Result<Dynamic, ScriptError> {
         if let Some(reason) = &self.lost {
@@ -109,7 +109,6 @@ fn find<T>(value: &Dynamic, what: &dyn Fn(&VariantValue) -> Option<T>) -> Option
     function.curry().iter().find_map(|captured| find(captured, what))
 }
 
-/// What a value is in a variant.
 pub fn project(value: &Dynamic, variant: usize) -> Dynamic {
     if let Some(varied) = value.read_lock::<VariantValue>() {
         return varied.at(variant);

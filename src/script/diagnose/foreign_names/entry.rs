@@ -5,11 +5,8 @@ use super::{languages, mechanics};
 /// Names of other programs and languages with the same meaning, and their replacement.
 #[derive(Debug, PartialEq)]
 pub struct ForeignName {
-    /// Names used elsewhere.
     pub words: &'static [&'static str],
-    /// Replacement in this language.
     pub cure: &'static str,
-    /// Names with help on it.
     pub see: &'static [&'static str],
 }
 
@@ -22,13 +19,11 @@ pub fn find(name: &str) -> Option<&'static ForeignName> {
     })
 }
 
-/// Entry of a foreign name, case-sensitive.
 pub fn find_exactly(name: &str) -> Option<&'static ForeignName> {
     all().find(|entry| entry.words.contains(&name))
 }
 
 impl ForeignName {
-    /// Replacement, and the names with help on it.
     pub fn told(&self) -> String {
         match self.see {
             [] => self.cure.to_owned(),

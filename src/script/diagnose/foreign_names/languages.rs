@@ -2,7 +2,6 @@
 
 use super::entry::{ForeignName, entry};
 
-/// Names in other languages for values, functions and methods.
 pub const WORDS: &[ForeignName] = &[
     entry(&["True", "TRUE"], "write true", &["conditions"]),
     entry(&["False", "FALSE"], "write false", &["conditions"]),

@@ -2,7 +2,6 @@
 
 use super::entry::{ForeignName, entry};
 
-/// Terms of other programs for mechanics.
 pub const WORDS: &[ForeignName] = &[
     entry(
         &[

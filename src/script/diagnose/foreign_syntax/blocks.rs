@@ -5,7 +5,6 @@ use rhai::ParseErrorType;
 use super::fix::{ForeignSyntax, SyntaxFix};
 use super::token_window::TokenWindow;
 
-/// Patterns of conditions and loops.
 pub const HABITS: &[ForeignSyntax] =
     &[else_if, word_operator, counting_loop, colon, body, handler, case, end];
 

@@ -5,7 +5,6 @@ use rhai::ParseErrorType;
 use super::fix::{ForeignSyntax, SyntaxFix};
 use super::token_window::TokenWindow;
 
-/// Patterns of brackets.
 pub const HABITS: &[ForeignSyntax] = &[map_without_sign, assigned_key, unclosed];
 
 /// `{ EA: 1e4 }`.

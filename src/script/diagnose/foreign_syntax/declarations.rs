@@ -6,7 +6,6 @@ use super::fix::{ForeignSyntax, SyntaxFix};
 use super::token_window::TokenWindow;
 use crate::script::messages::suggest::nearest;
 
-/// Patterns of declarations.
 pub const HABITS: &[ForeignSyntax] = &[
     function,
     function_body,

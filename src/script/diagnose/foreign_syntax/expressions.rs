@@ -6,7 +6,6 @@ use super::fix::{ForeignSyntax, SyntaxFix};
 use super::token_window::TokenWindow;
 use crate::script::bindings::table::CallSyntax;
 
-/// Patterns of expressions.
 pub const HABITS: &[ForeignSyntax] = &[
     choice,
     whole_division,

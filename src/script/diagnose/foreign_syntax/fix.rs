@@ -9,11 +9,8 @@ use crate::script::source::program::Program;
 
 /// Explanation of foreign syntax: message, replacement and position.
 pub struct SyntaxFix {
-    /// Error message.
     pub message: String,
-    /// Replacement.
     pub hint: String,
-    /// Position of the token.
     pub at: Position,
 }
 

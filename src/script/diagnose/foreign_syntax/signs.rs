@@ -5,7 +5,6 @@ use rhai::{LexError, ParseErrorType};
 use super::fix::{ForeignSyntax, SyntaxFix};
 use super::token_window::TokenWindow;
 
-/// Patterns of operators and quotes.
 pub const HABITS: &[ForeignSyntax] = &[comment, sign, dotted_operator, quotes, formatted_text];
 
 /// `# …` and, where a statement begins, `% …`.
@@ -102,7 +101,6 @@ fn quotes(spot: &TokenWindow) -> Option<SyntaxFix> {
 }
 
 impl TokenWindow<'_> {
-    /// Returns true if a quote here follows a value.
     fn is_transposable(&self) -> bool {
         self.is_name(-1) || matches!(self.word(-1), "]" | ")")
     }

@@ -6,7 +6,6 @@ use super::fix::SyntaxFix;
 use crate::script::bindings::catalog::Catalog;
 use crate::script::source::program::Program;
 
-/// Number of tokens before and after the position.
 const REACH: usize = 40;
 
 struct Word {
@@ -19,9 +18,7 @@ struct Word {
 
 /// Tokens around the position of a parse error.
 pub struct TokenWindow<'s> {
-    /// Names of the language.
     pub catalog: &'s Catalog,
-    /// Error of the parser.
     pub error: &'s ParseErrorType,
     words: Vec<Word>,
     here: usize,
@@ -79,7 +76,6 @@ impl<'s> TokenWindow<'s> {
         self.words.get(self.first + index).map_or("", |word| word.text.as_str())
     }
 
-    /// Number of tokens of the statement before the error.
     pub fn count(&self) -> usize {
         self.here - self.first
     }
@@ -89,12 +85,10 @@ impl<'s> TokenWindow<'s> {
         self.find(from_here).is_some_and(|word| word.is_joined)
     }
 
-    /// Returns true if the token at this offset is a name.
     pub fn is_name(&self, from_here: isize) -> bool {
         matches!(self.find(from_here).map(|word| &word.token), Some(Token::Identifier(_)))
     }
 
-    /// Returns true if the token at this offset is a number.
     pub fn is_number(&self, from_here: isize) -> bool {
         self.word(from_here).starts_with(|letter: char| letter.is_ascii_digit())
     }
@@ -104,7 +98,6 @@ impl<'s> TokenWindow<'s> {
         self.is_name(from_here) || self.is_number(from_here) || self.is_text(from_here)
     }
 
-    /// Returns true if the token at this offset is a text.
     pub fn is_text(&self, from_here: isize) -> bool {
         self.word(from_here).starts_with(['"', '`', '\''])
     }
@@ -117,7 +110,6 @@ impl<'s> TokenWindow<'s> {
         Some(((self.first + index) as isize - self.here as isize, word.text.as_str()))
     }
 
-    /// Source text of the tokens from one offset up to another.
     pub fn piece(&self, from: isize, to: isize) -> String {
         let mut piece = String::new();
         for index in from..to {
@@ -128,12 +120,10 @@ impl<'s> TokenWindow<'s> {
         piece
     }
 
-    /// Returns true if a comment precedes the position.
     pub fn has_comment_before(&self) -> bool {
         self.gap.contains("//")
     }
 
-    /// Offset of the first token of the statement.
     pub fn first(&self) -> isize {
         self.first as isize - self.here as isize
     }
@@ -146,7 +136,6 @@ impl<'s> TokenWindow<'s> {
         }
     }
 
-    /// Returns true if the source ends at the error.
     pub fn is_at_end(&self) -> bool {
         self.here >= self.words.len()
     }

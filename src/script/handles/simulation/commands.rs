@@ -8,12 +8,10 @@ use std::cell::RefCell;
 pub(super) struct Commands(RefCell<Vec<Vec<(f64, f64)>>>);
 
 impl Commands {
-    /// Empty record for this many controllers.
     pub(super) fn new(controllers: usize) -> Self {
         Self(RefCell::new(vec![Vec::new(); controllers]))
     }
 
-    /// Copies the record of another simulation.
     pub(super) fn go_on_from(&self, other: &Self) {
         self.0.replace(other.0.borrow().clone());
     }

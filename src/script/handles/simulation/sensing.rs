@@ -18,18 +18,15 @@ use crate::script::messages::error::ScriptError;
 use crate::script::messages::numbers::{as_number, describe};
 use crate::simulation::{Simulation, StepSize};
 
-/// Script functions of a simulation.
 pub(super) struct ColumnReader {
     functions: Vec<Rc<StoredFunction>>,
     /// Step count at the last evaluation of the columns.
     looked: Cell<Option<usize>>,
-    /// Controllers called at the start of every step.
     controllers: Vec<Rc<Controller>>,
     /// Outputs of sampled controllers by sample number. Outputs before the present survive a rewind.
     commands: RefCell<Vec<BTreeMap<u64, f64>>>,
     /// Outputs of all controllers over time.
     told: Commands,
-    /// Release conditions, evaluated before every step.
     conditions: Vec<Condition>,
     is_looking: Cell<bool>,
 }
@@ -46,13 +43,11 @@ impl ColumnReader {
         Self { functions, looked, controllers, commands, told, conditions, is_looking }
     }
 
-    /// Copies the controller outputs of another simulation.
     pub(super) fn go_on_from(&self, other: &Self) {
         self.commands.replace(other.commands.borrow().clone());
         self.told.go_on_from(&other.told);
     }
 
-    /// Output of a controller for a sample, if it was computed.
     fn command_of(&self, controller: usize, sample: u64) -> Option<f64> {
         self.commands.borrow().get(controller)?.get(&sample).copied()
     }
@@ -97,6 +92,7 @@ impl SimulationHandle {
 
     /// Evaluates the functions of the columns for the last row, unless this was done.
     ///
+    /// # Errors
     /// Errors of the functions; also if one does not return a number.
     pub fn sense(&self) -> Result<(), ScriptError> {
         let ColumnReader { functions, looked, is_looking, .. } = &self.0.sensing;
@@ -123,6 +119,7 @@ impl SimulationHandle {
 
     /// Releases elements whose condition is met, before the next step.
     ///
+    /// # Errors
     /// Errors of the functions; also if one does not return a boolean.
     fn let_go(&self) -> Result<(), ScriptError> {
         let ColumnReader { conditions, is_looking, .. } = &self.0.sensing;
@@ -149,6 +146,7 @@ impl SimulationHandle {
 
     /// Evaluates release conditions and controllers for the next step or half step.
     ///
+    /// # Errors
     /// Errors of the functions; also if one does not return a finite number.
     pub(super) fn command(&self) -> Result<(), ScriptError> {
         if !self.simulation().is_half_way() {
@@ -186,7 +184,6 @@ impl SimulationHandle {
         }
     }
 
-    /// Evaluates a controller at the present time.
     fn ask(&self, controller: &Controller) -> Result<f64, ScriptError> {
         let (function, is_looking) = (&controller.function, &self.0.sensing.is_looking);
         is_looking.set(true);
@@ -205,7 +202,6 @@ impl SimulationHandle {
         })
     }
 
-    /// Description of a controller with its load or drive.
     fn role_of(&self, controller: &Controller) -> String {
         let simulation = self.simulation();
         let is_own = |schedule: &Schedule| matches!(schedule, Schedule::Sampled(value) | Schedule::Clocked { value, .. } if Rc::ptr_eq(value, &controller.value));
@@ -221,7 +217,6 @@ impl SimulationHandle {
         matches!(self.simulation().settings().dt, StepSize::Adaptive(_))
     }
 
-    /// Returns true if functions must be called before every step.
     pub(super) fn is_controlled(&self) -> bool {
         let ColumnReader { controllers, conditions, .. } = &self.0.sensing;
         let waits = |condition: &Condition| self.simulation().waits_for_release(condition.release);
@@ -239,7 +234,6 @@ impl SimulationHandle {
         self.go_back_after_error(ran)
     }
 
-    /// Takes a step, pausing for controllers.
     pub(super) fn step_and_sense(&self, call: &Call) -> Result<(), ScriptError> {
         let stepped = self.step_with_pauses(call);
         self.go_back_after_error(stepped)

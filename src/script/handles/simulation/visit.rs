@@ -22,6 +22,7 @@ impl SimulationHandle {
     /// Calls `look` with the states of history rows, by increasing times. If a state is not stored, the run is repeated in a copy, and
     /// energies and momenta are compared bit by bit; this takes time and counts steps.
     ///
+    /// # Errors
     /// If a step fails that did not fail before, the run is stopped, or `look` fails.
     pub fn visit(
         &self,

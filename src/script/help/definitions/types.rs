@@ -21,7 +21,6 @@ const COMMON: &[(&str, &str, &str)] = &[
     ("point", "vector | Array", "A vector or an array [x, y]."),
 ];
 
-/// Definition file of all types.
 pub fn file(catalog: &Catalog) -> String {
     let mut text = String::from("module static;\n");
     for (words, meaning, doc) in COMMON {
@@ -33,12 +32,10 @@ pub fn file(catalog: &Catalog) -> String {
     text
 }
 
-/// Name of a native type as one word.
 pub fn identifier(words: &str) -> String {
     words.replace(' ', "_")
 }
 
-/// Type of a parameter.
 pub fn for_kind(kind: &Kind) -> String {
     match kind {
         Kind::Number(_) | Kind::Numeric => "number".into(),
@@ -59,12 +56,10 @@ pub fn for_kind(kind: &Kind) -> String {
     }
 }
 
-/// Type of the receiver of a function of Rhai.
 pub fn for_receiver(word: &str) -> String {
     if word == "value" { "?".into() } else { identifier(word) }
 }
 
-/// Type of a return value.
 pub fn for_value(kind: &ValueKind) -> String {
     match (kind, kind.type_name()) {
         (ValueKind::Nothing, _) => "()".into(),

@@ -16,6 +16,7 @@ use crate::script::messages::numbers::format_number;
 
 /// Help page on `name`, or the overview for an empty name.
 ///
+/// # Errors
 /// If there is no help on this name; the error contains suggestions.
 pub fn page(catalog: &Catalog, name: &str) -> Result<HelpPage, UnknownTopic> {
     if name.trim().is_empty() {
@@ -58,7 +59,6 @@ pub fn page(catalog: &Catalog, name: &str) -> Result<HelpPage, UnknownTopic> {
     Ok(page)
 }
 
-/// Separator between subjects of the same name.
 fn separate(page: &mut HelpPage) {
     if !page.parts.is_empty() {
         page.gap();

@@ -3,7 +3,6 @@
 use super::page::{HelpPage, StyledText};
 use crate::script::library::{DocBlock, ModuleFunction, ModulePage};
 
-/// Appends the description of a module.
 pub fn module(page: &mut HelpPage, of: &ModulePage) {
     page.heading(format!("The library: {}", of.module.name));
     blocks(page, &of.about);
@@ -16,7 +15,6 @@ pub fn module(page: &mut HelpPage, of: &ModulePage) {
     }
 }
 
-/// Appends the description of a library function.
 pub fn function(page: &mut HelpPage, of: &ModuleFunction) {
     page.words(0, vec![StyledText::name(of.signature())]);
     blocks(page, &of.text);

@@ -5,7 +5,6 @@ use crate::output::{columns, columns_of};
 /// Default page width in columns.
 pub const WIDTH: usize = 80;
 
-/// Minimum page width.
 const NARROWEST: usize = 24;
 
 /// A help page.

@@ -7,7 +7,6 @@ use crate::script::bindings::parameter::{Parameter, Presence};
 use crate::script::bindings::returns::Returns;
 use crate::script::bindings::table::{BindingTable, FunctionBinding};
 
-/// Appends the description of a binding.
 pub fn row(page: &mut HelpPage, table: &BindingTable, row: &FunctionBinding) {
     page.words(0, signature(&row.signature(), &row.returns));
     page.paragraph(row.summary);
@@ -30,7 +29,6 @@ pub fn row(page: &mut HelpPage, table: &BindingTable, row: &FunctionBinding) {
     see(page, row.see);
 }
 
-/// Appends the description of a function of Rhai.
 pub fn built_in(page: &mut HelpPage, built_in: &BuiltIn) {
     for form in built_in.forms {
         page.words(0, signature(form, &built_in.returns));
@@ -44,7 +42,6 @@ pub fn built_in(page: &mut HelpPage, built_in: &BuiltIn) {
     see(page, built_in.see);
 }
 
-/// Appends an example, after its setup lines.
 pub fn example(page: &mut HelpPage, setup: &str, script: &str) {
     page.gap();
     page.heading("Example");
@@ -54,7 +51,6 @@ pub fn example(page: &mut HelpPage, setup: &str, script: &str) {
     page.code(script);
 }
 
-/// Appends related names.
 pub fn see(page: &mut HelpPage, names: &[&str]) {
     if !names.is_empty() {
         page.gap();

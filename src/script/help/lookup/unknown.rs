@@ -8,7 +8,6 @@ use crate::script::bindings::topics::TOPICS;
 use crate::script::diagnose::foreign_names::{self, ForeignName};
 use crate::script::messages::suggest::{nearest, related};
 
-/// Maximum number of mentions listed.
 const MOST_MENTIONS: usize = 8;
 
 /// A name without help.

@@ -188,7 +188,6 @@ fn ends(curve: &Curve) -> Result<[Vec2; 2], GeometryError> {
     Ok([curve.point(start)?, curve.point(end)?])
 }
 
-/// Spline of a curve, or an error.
 fn of_spline<'a>(curve: &'a Curve, call: &Call) -> Result<&'a SplineCurve, ScriptError> {
     match curve {
         Curve::Spline(spline) => Ok(spline),
@@ -237,7 +236,6 @@ fn control_points(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(points.iter().copied().map(vector).collect::<Array>().into())
 }
 
-/// Evaluates a quantity of the curve at the parameter of the call.
 fn at_xi<T>(
     call: &Call,
     quantity: fn(&Curve, f64) -> Result<T, GeometryError>,

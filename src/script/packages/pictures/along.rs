@@ -95,7 +95,6 @@ fn quantity(call: &Call, name: &str) -> Result<&'static BeamQuantity, ScriptErro
     })
 }
 
-/// Requested quantities, at least one.
 fn quantities(call: &Call) -> Result<Vec<&'static BeamQuantity>, ScriptError> {
     if let Some(names) = call.get_if::<Array>("quantity") {
         if names.is_empty() || names.len() > NAMES.len() {

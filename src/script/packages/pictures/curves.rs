@@ -51,7 +51,6 @@ const Y: Parameter = array("y").doc("as many numbers, or an array of numbers for
 const OPTIONS: &[Parameter] =
     &[TITLE, X_LABEL, Y_LABEL, X_LOG, Y_LOG, X_LIMITS, Y_LIMITS, MARKERS, LABELS];
 
-/// Maximum number of curves in a chart.
 const MOST_CURVES: usize = 1000;
 
 fn plot(call: &mut Call) -> Result<Dynamic, ScriptError> {
@@ -100,6 +99,7 @@ fn chart(
 
 /// Chart of curves drawn by the prompt over `over`, with options of `plot`.
 ///
+/// # Errors
 /// If an option is unknown or invalid.
 pub fn typed_chart(
     engine: &rhai::Engine,

@@ -16,9 +16,7 @@ use crate::script::packages::recording::expect_all_rows;
 use crate::script::presentation::plots::{drift_lines, line_chart};
 use crate::simulation::History;
 
-/// Parameter for the columns.
 pub const COLUMNS: Parameter = array("columns").doc("names of columns of the history");
-/// Options.
 pub const HISTORY_OPTIONS: &[Parameter] = &[
     text("title").doc("the name of the simulation unless given").optional(),
     choice("axes", &["own", "shared"])
@@ -37,7 +35,6 @@ pub const HISTORY_OPTIONS: &[Parameter] = &[
     MARKERS,
 ];
 
-/// One chart per history, side by side.
 fn write_charts(call: &Call, charts: Vec<LineChart>) -> Result<Dynamic, ScriptError> {
     let mut charts = charts;
     match charts.len() {

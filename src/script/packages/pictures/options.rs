@@ -43,7 +43,6 @@ pub const SYMBOLS: Parameter = boolean("symbols")
     )
     .optional();
 
-/// Digits of a number used as a label.
 const DIGITS: usize = 6;
 
 /// Error of an option, independent of whether it comes from a call or a command.

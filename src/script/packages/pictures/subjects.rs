@@ -22,7 +22,6 @@ pub const RECORDED: Parameter =
     either("of", &[Kind::Object(SIMULATION), Kind::Object(HISTORY), Kind::Array])
         .doc("a simulation or history, or an array of them");
 
-/// Maximum number of simulations in one picture.
 const MOST_SIDE_BY_SIDE: usize = 100;
 
 fn things<T: Scripted>(

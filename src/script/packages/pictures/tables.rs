@@ -9,7 +9,6 @@ use crate::script::bindings::call::Call;
 use crate::script::handles::report::history_table;
 use crate::script::messages::error::ScriptError;
 
-/// Writes a history.
 pub fn write_history(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let [of] =
         histories(call)?.try_into().map_err(|_| call.error("takes one simulation or history"))?;
@@ -17,7 +16,6 @@ pub fn write_history(call: &mut Call) -> Result<Dynamic, ScriptError> {
     write_csv(call, table)
 }
 
-/// Writes the configurations of a simulation.
 pub fn write_states(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let [of] = simulations(call)?.try_into().map_err(|_| call.error("takes one simulation"))?;
     let simulation = of.simulation();

@@ -3,13 +3,11 @@
 use crate::geometry::Vec2;
 use crate::output::significant;
 
-/// Digits of a number.
 const DIGITS: usize = 6;
 
 /// A component below this fraction of the vector is rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// Maximum number of listed names.
 const LISTED: usize = 4;
 
 pub(super) fn line(label: &str, value: impl Into<String>) -> (String, String) {

@@ -5,7 +5,6 @@ use crate::output::{scientific, significant};
 use crate::script::bindings::kind::Details;
 use crate::simulation::{History, Invariant, Simulation, StepSize};
 
-/// Maximum number of sliders listed one by one.
 const SLIDERS: usize = 2;
 
 /// Summary of a simulation: state, statistics, and stored data.

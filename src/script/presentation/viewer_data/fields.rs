@@ -7,14 +7,11 @@ use crate::script::presentation::quantities::BeamQuantity;
 use crate::simulation::{Axes, AxisStation, Outline, Simulation};
 use crate::system::{BeamPlaces, SystemError};
 
-/// A quantity along beams.
 struct FieldKind {
-    /// Name in scripts.
     name: &'static str,
     source: FieldSource,
 }
 
-/// Data that a quantity is computed from.
 enum FieldSource {
     /// Configurations before and after a frame: speed of the axis [length/time].
     Neighbours,
@@ -53,6 +50,7 @@ pub struct FieldReader {
 impl FieldReader {
     /// Creates storage for this many frames of the named fields; `None` if no field needs states.
     ///
+    /// # Errors
     /// If an axis has a point without a tangent.
     pub fn of(
         simulation: &Simulation,
@@ -121,7 +119,6 @@ pub(super) fn fields(
     Ok(KINDS.iter().filter(|kind| names.contains(&kind.name)).filter_map(field).collect())
 }
 
-/// Values of a quantity at all stations, by frame.
 fn along_axes(
     shown: &FrameSelection,
     stations: &[Vec<AxisStation>],
@@ -135,7 +132,6 @@ fn along_axes(
     shown.frames.iter().map(of_frame).collect()
 }
 
-/// Speed of the stations in a configuration, from the recorded neighbours.
 fn speeds(simulation: &Simulation, stations: &[Vec<AxisStation>], index: usize) -> Vec<f64> {
     let times = simulation.trajectory().times();
     let (before, after) = (index.saturating_sub(1), (index + 1).min(times.len() - 1));

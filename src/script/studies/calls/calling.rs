@@ -7,7 +7,6 @@ use crate::script::engine::workers::Worker;
 use crate::script::messages::brief::brief;
 use crate::script::messages::error::Failure;
 
-/// Maximum length of a reason in characters.
 const LONGEST_REASON: usize = 300;
 
 /// Result of a call.

@@ -43,10 +43,8 @@ pub struct FunctionQuery<'q> {
     pub wall: Duration,
 }
 
-/// Request to evaluate the function.
 #[derive(Clone)]
 enum QueryPoint {
-    /// Values at a point.
     Value(Vec<f64>),
     /// Derivatives at a point; each parameter with its step.
     Slopes(Vec<(f64, f64)>),
@@ -93,6 +91,7 @@ impl FunctionQuery<'_> {
 
     /// Calls `drive` with the evaluator.
     ///
+    /// # Errors
     /// If there is no worker; errors of `drive`.
     pub fn with_evaluator<T>(
         &self,
@@ -132,6 +131,7 @@ impl FunctionQuery<'_> {
 
     /// Value of the function at a point, in the engine of the script.
     ///
+    /// # Errors
     /// Errors of the function with their positions.
     pub fn here(&self, calling: &Call, point: &[f64]) -> Result<Dynamic, ScriptError> {
         self.asked_here(calling, &QueryPoint::Value(point.to_vec()))
@@ -161,6 +161,7 @@ impl<'w> Evaluator<'w> {
 
     /// Values of the function at several points, in order.
     ///
+    /// # Errors
     /// If the run is stopped, or the script is wrong before the function has ever succeeded.
     pub fn ask(&mut self, points: &[Vec<f64>]) -> Result<Vec<Evaluation>, ScriptError> {
         let answers = self.answers(points.iter().cloned().map(QueryPoint::Value).collect())?;
@@ -183,6 +184,7 @@ impl<'w> Evaluator<'w> {
     /// Values and derivatives with respect to all parameters at a point, from one call with variant numbers. Each parameter comes with its
     /// step. The inner error is the reason for missing derivatives.
     ///
+    /// # Errors
     /// If the run is stopped.
     pub fn slopes(&mut self, point: &[(f64, f64)]) -> Result<Sloped, ScriptError> {
         let answers = match self.answers(vec![QueryPoint::Slopes(point.to_vec())]) {

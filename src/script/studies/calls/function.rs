@@ -27,9 +27,7 @@ pub fn changes(name: &str) -> String {
     )
 }
 
-/// Use of the argument map by a function.
 struct ParameterReading {
-    /// Names that it reads.
     names: BTreeSet<String>,
     /// True if the map is used as a whole, so that any name may be read.
     is_whole: bool,
@@ -38,6 +36,7 @@ struct ParameterReading {
 impl RunFunction {
     /// Reads the function given for an option key.
     ///
+    /// # Errors
     /// If it has captured a value that cannot be sent to other threads; the error points at its use.
     pub fn read(call: &Call, key: &str, function: &FnPtr) -> Result<Self, ScriptError> {
         let Some(definition) = call.definition(function) else {
@@ -83,6 +82,7 @@ impl RunFunction {
 
     /// Adds a further argument after the map.
     ///
+    /// # Errors
     /// If the value cannot be sent to other threads.
     pub fn take(&mut self, call: &Call, key: &str, value: &Dynamic) -> Result<(), ScriptError> {
         let parameters_of = |function: &FnPtr| call.definition(function).map(|of| of.params.len());
@@ -122,6 +122,7 @@ impl RunFunction {
 
     /// Calls the function in the engine of the script, with its own copies of captured values.
     ///
+    /// # Errors
     /// Errors of the function with their positions; also if it changes a captured variable.
     pub fn call_here(&self, call: &Call, key: &str, values: Map) -> Result<Dynamic, ScriptError> {
         let function_of = |name: &str, parameters| call.function_named(name, parameters);
@@ -142,6 +143,7 @@ impl RunFunction {
 
     /// Rejects parameters that the function never reads, if this can be determined.
     ///
+    /// # Errors
     /// If there is one.
     pub fn expect_read<'n>(
         call: &Call,
@@ -176,7 +178,6 @@ fn variable(expression: &Expr) -> Option<&str> {
     }
 }
 
-/// Position of the first print in a function.
 fn first_print(body: &AST) -> Option<Position> {
     let mut found = None;
     body.walk(&mut |path: &[ASTNode]| {
@@ -195,7 +196,6 @@ fn first_print(body: &AST) -> Option<Position> {
 
 const PRINTING: &[&str] = &["print", "debug"];
 
-/// Position of the first use of a variable in a function.
 fn first_use(body: &AST, name: &str) -> Option<Position> {
     let mut found = None;
     body.walk(&mut |path: &[ASTNode]| {

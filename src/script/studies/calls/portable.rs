@@ -71,6 +71,7 @@ type Stored = (SectionVariation, Option<Solid>, Option<Relaxation>);
 impl Portable {
     /// Converts a value; `parameters_of` returns the number of parameters of a script function, including captured ones.
     ///
+    /// # Errors
     /// If it or a part of it cannot be converted.
     pub fn of(
         engine: &Engine,
@@ -193,7 +194,6 @@ fn stored<T: Serialize>(value: &T) -> Option<Vec<u8>> {
     postcard::to_stdvec(value).ok()
 }
 
-/// Serialises native data.
 fn data(value: &Dynamic) -> Option<(DataKind, Vec<u8>)> {
     if let Some(SectionHandle { variation, solid, relaxation }) = value.read_lock().as_deref() {
         return Some((DataKind::Section, stored(&(variation, solid, relaxation))?));

@@ -18,7 +18,6 @@ use crate::script::studies::calls::evaluator::{FunctionQuery, FunctionResult};
 use crate::script::studies::calls::function::RunFunction;
 use crate::script::studies::plan::at_key;
 
-/// Digits of a number in the table.
 const DIGITS: usize = 6;
 
 /// Objective.
@@ -198,6 +197,7 @@ fn names(given: &Dynamic) -> Vec<String> {
 impl DesignRequest<'_> {
     /// Finds the best design.
     ///
+    /// # Errors
     /// If the function is wrong or fails at the start, a result is missing, or no run meets the constraints.
     pub fn make(self, call: &Call) -> Result<BestDesign, ScriptError> {
         let function = RunFunction::read(call, "run", self.function)?;
@@ -292,6 +292,7 @@ impl DesignRequest<'_> {
 impl DesignRequest<'_> {
     /// Result of a dry build: the start values, at which the function is called.
     ///
+    /// # Errors
     /// Errors of the function.
     pub fn pretend(self, call: &Call) -> Result<BestDesign, ScriptError> {
         let function = RunFunction::read(call, "run", self.function)?;

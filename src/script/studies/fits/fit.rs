@@ -16,9 +16,7 @@ use crate::script::studies::calls::evaluator::{FunctionQuery, FunctionResult};
 use crate::script::studies::calls::function::RunFunction;
 use crate::script::studies::plan::at_key;
 
-/// Digits of a parameter in the table.
 const DIGITS: usize = 7;
-/// Digits of its error.
 const ERROR_DIGITS: usize = 2;
 
 /// Meaning of the function's return value.
@@ -97,6 +95,7 @@ impl Derivatives {
 impl FitRequest<'_> {
     /// Finds the parameters.
     ///
+    /// # Errors
     /// If the function is wrong, fails at the start, or its number of values does not match the data.
     pub fn make(self, call: &Call) -> Result<Fit, ScriptError> {
         let mut function = RunFunction::read(call, self.key, self.function)?;
@@ -183,6 +182,7 @@ impl FitRequest<'_> {
 
     /// Result of a dry build: the start values, at which the function is called.
     ///
+    /// # Errors
     /// Errors of the function.
     pub fn pretend(self, call: &Call) -> Result<Fit, ScriptError> {
         let mut function = RunFunction::read(call, self.key, self.function)?;
@@ -211,7 +211,6 @@ impl FitRequest<'_> {
         Ok(Fit { name, names, fitted, residuals, compared, confidence })
     }
 
-    /// Weighted residuals with their derivatives.
     fn differences_with(&self, rows: Vec<(f64, Vec<f64>)>, roots: Option<&[f64]>) -> Sloped {
         let (values, mut slopes): (Vec<f64>, Vec<Vec<f64>>) = rows.into_iter().unzip();
         let residuals = weighted(roots, self.differences(values)?);
@@ -221,7 +220,6 @@ impl FitRequest<'_> {
         Ok(residuals.into_iter().zip(slopes).collect())
     }
 
-    /// Residuals of the function's return value.
     fn differences(&self, found: Vec<f64>) -> Result<Vec<f64>, String> {
         let expected = match &self.compared {
             Compared::Model { measured, .. } => Some(measured.len()),
@@ -247,7 +245,6 @@ fn weighted(roots: Option<&[f64]>, residuals: Vec<f64>) -> Vec<f64> {
     }
 }
 
-/// Elements of an array, all finite.
 fn numbers(given: &Dynamic) -> FunctionResult {
     let Some(array) = given.read_lock::<Array>() else {
         return FunctionResult::Wrong("it gives no array of numbers".into());
@@ -365,6 +362,7 @@ impl Fit {
 
     /// Page as an SVG picture.
     ///
+    /// # Errors
     /// If it cannot be drawn.
     pub fn picture(&self) -> Result<String, ScriptError> {
         Ok(self.page().figure()?.to_svg()?)

@@ -5,7 +5,6 @@ use std::cell::Cell;
 use super::design::{Limit, Objective};
 use crate::fitting::{Rating, SlopedRating, SlopesOfRating};
 
-/// Scaling of results.
 pub(super) struct ResultScales<'s> {
     goal: &'s Objective,
     /// Index of the objective among the results.
@@ -16,7 +15,6 @@ pub(super) struct ResultScales<'s> {
 }
 
 impl<'s> ResultScales<'s> {
-    /// Scaling for an objective and limits, given with their indices among the results.
     pub(super) fn of(goal: &'s Objective, at: usize, limits: &'s [(usize, &'s Limit)]) -> Self {
         Self { goal, at, limits, size: Cell::new(None) }
     }
@@ -42,6 +40,7 @@ impl<'s> ResultScales<'s> {
 
     /// Scaled objective and constraints with derivatives.
     ///
+    /// # Errors
     /// If the derivatives are not usable, with the reason.
     pub(super) fn with_slopes(&self, rows: Vec<(f64, Vec<f64>)>, results: usize) -> SlopesOfRating {
         if rows.len() != results {

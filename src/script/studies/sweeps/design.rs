@@ -13,7 +13,6 @@ use crate::script::studies::calls::portable::Portable;
 use crate::script::studies::parameters::label;
 use crate::script::studies::plan::at_key;
 
-/// Maximum number of rows.
 const MOST_ROWS: usize = 100_000_000;
 
 /// Joint sampling of the parameters.
@@ -39,7 +38,6 @@ pub enum SampleKind {
 }
 
 impl Samples {
-    /// Number of rows for this many parameters.
     fn rows(self, parameters: usize) -> usize {
         match self.kind {
             SampleKind::Saltelli => self.count.saturating_mul(parameters + 2),
@@ -48,7 +46,6 @@ impl Samples {
     }
 }
 
-/// A parameter as given by the script.
 struct ParameterInput {
     name: String,
     spread: Spread,

@@ -16,6 +16,7 @@ impl SweepRequest<'_> {
     /// Opens the journal of the sweep, if the run uses journals, and reads its entries into the ledger. When parts are merged, all rows are
     /// read and no journal is opened.
     ///
+    /// # Errors
     /// If a file cannot be read or written, or the parts do not form the whole sweep.
     pub fn keeper(
         &self,
@@ -42,7 +43,6 @@ impl SweepRequest<'_> {
         context.journals().open_rows(path, kept, about, |entry| ledger.recall(entry))
     }
 
-    /// Reads all rows from the files of parts.
     fn join(
         &self,
         folders: &[PathBuf],

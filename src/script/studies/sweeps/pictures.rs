@@ -14,7 +14,6 @@ use crate::sampling::Random;
 const MOST_CURVES: usize = 8;
 /// Maximum number of points in a scatter plot; more are thinned at random.
 const MOST_POINTS: usize = 2000;
-/// Maximum number of points in a panel of a matrix.
 const MOST_POINTS_AMONG: usize = 500;
 /// Cells per axis for binning points.
 const CELLS: usize = 20;
@@ -264,7 +263,6 @@ impl Picture<'_> {
     }
 }
 
-/// Bin of a histogram.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Class {
     from: f64,
@@ -301,7 +299,6 @@ fn classes(mut numbers: Vec<f64>) -> Vec<Class> {
     classes
 }
 
-/// Index of the ascending midpoint nearest to `x`.
 fn nearest(middles: &[f64], x: f64) -> Option<usize> {
     let above = middles.partition_point(|middle| *middle < x);
     let distance = |at: &usize| (middles[*at] - x).abs();

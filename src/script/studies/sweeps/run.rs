@@ -40,6 +40,7 @@ pub struct SweepRequest<'o> {
 impl SweepRequest<'_> {
     /// Runs all rows.
     ///
+    /// # Errors
     /// If the function cannot be sent to workers, is wrong, or fails in all rows; or if the run is stopped, with finished rows in the
     /// journal.
     pub fn make(self, call: &Call) -> Result<FinishedSweep, ScriptError> {
@@ -146,6 +147,7 @@ impl SweepRequest<'_> {
 
     /// Runs a row in the engine of the script.
     ///
+    /// # Errors
     /// Errors of the function with their positions.
     pub fn invoked(&self, call: &Call, row: usize) -> Result<Dynamic, ScriptError> {
         let values = self.plan.values(row, &|name, count| call.function_named(name, count));

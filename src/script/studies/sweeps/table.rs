@@ -14,9 +14,7 @@ use crate::output::{
 
 /// Name of the column with the reasons of failures.
 pub const FAILURE: &str = "failure";
-/// Number of rows shown at the start and end of a table.
 const SHOWN: (usize, usize) = (12, 4);
-/// Digits of a number in a text table.
 const DIGITS: usize = 6;
 
 /// A finished sweep with the values passed to its function.
@@ -148,6 +146,7 @@ impl SweepTable {
 
     /// Writes the table as CSV, row by row, with constant memory.
     ///
+    /// # Errors
     /// If it cannot be written.
     pub fn write_csv(&self, file: &mut dyn io::Write) -> io::Result<()> {
         let sweep = self.sweep();
@@ -230,7 +229,6 @@ impl FinishedSweep {
         text
     }
 
-    /// Parameter values of a row as text.
     fn place(&self, row: usize) -> String {
         let parameters = &self.sweep.design.parameters;
         let words = parameters.iter().map(|of| {
