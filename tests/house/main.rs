@@ -6,6 +6,7 @@ mod common;
 mod documents;
 mod figures;
 mod layering;
+mod links;
 mod messages;
 mod theory;
 mod wings;

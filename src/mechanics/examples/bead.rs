@@ -4,9 +4,7 @@ use std::error::Error;
 use withy_mechanics::beams::{Mesh, Section};
 use withy_mechanics::geometry::{Curve, Vec2};
 use withy_mechanics::integrators::Method;
-use withy_mechanics::joints::{
-    EndAction, JointKind, Partner, Slider, SlidingRule, StartVelocities,
-};
+use withy_mechanics::joints::{EndAction, JointKind, Partner, Slider};
 use withy_mechanics::simulation::{NoMonitor, Simulation, SimulationSettings};
 use withy_mechanics::system::{BeamDefinition, ParticleDefinition, Scene};
 

@@ -31,7 +31,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut simulation = Simulation::start(scene, settings)?;
     simulation.run_to(7.5, &mut NoMonitor)?;
     let position = simulation.scene().place(&end, simulation.model().meshes())?;
-    println!("end at {:.4}", simulation.model().position(&position).transpose());
+    let position = simulation.model().position(&position);
+    println!("end at ({:.4}, {:.4})", position.x, position.y);
     for (name, invariant) in Invariant::ALL {
         println!("{name}: largest relative change {:.1e}", simulation.history().drift(invariant));
     }
