@@ -75,10 +75,10 @@ fn the_readme_shows_what_its_script_prints() {
     let shown = blocks(&text, "text").remove(0);
     let out = tempfile::tempdir().unwrap();
     let printed = Notepad::default();
-    let settings = Settings {
+    let settings = RunSettings {
         out: out.path().to_owned(),
         printed: Box::new(printed.clone()),
-        ..Settings::silent(Mode::Run)
+        ..RunSettings::silent(RunMode::Run)
     };
     run(&Program::named("README.md", &script.text), &language(), settings);
     assert_eq!(printed.take().trim_end(), shown.text.trim_end());
