@@ -93,7 +93,6 @@ impl Case {
         starts.zip(&times).all(|(start, stop)| (stop - start) / dt <= 1.0 + SAME_STEP)
     }
 
-    /// Records every state, or about [`MOST_ROWS`] states of very long runs.
     fn recording(&self) -> Recording {
         let steps = match (self.settings.dt, self.stops.last()) {
             (StepSize::Fixed(dt), Some(end)) => end / dt,

@@ -178,7 +178,6 @@ impl Journal {
         Ok(bytes)
     }
 
-    /// Folder of the journal, created if necessary, and file name.
     fn place(&self) -> io::Result<(Folder, PathBuf)> {
         let name = self.path.file_name().ok_or(io::ErrorKind::InvalidInput)?;
         Ok((Folder::make(self.path.parent().unwrap_or(Path::new(".")))?, name.into()))
@@ -205,7 +204,6 @@ impl Journal {
     }
 }
 
-/// Folder of a journal, if it exists, and file name.
 fn found(path: &Path) -> io::Result<(Folder, PathBuf)> {
     let name = path.file_name().ok_or(io::ErrorKind::InvalidInput)?;
     Ok((Folder::find(path.parent().unwrap_or(Path::new(".")))?, name.into()))

@@ -27,7 +27,6 @@ use crate::script::state::limits::Limits;
 use crate::script::state::settings::{RunMode, RunSettings};
 
 const INTERVAL: Duration = Duration::from_millis(5);
-/// Time allowed for the process besides the attempt and its judge.
 const START: Duration = Duration::from_secs(2);
 /// Maximum length of a message in characters, so that a line fits into the pipe.
 const LONGEST_MESSAGE: usize = 4000;

@@ -154,7 +154,6 @@ fn check(
     Ok(Exit::CheckFailed)
 }
 
-/// Records whether an attempt passed; a failure to record is reported.
 fn note(workbook: &Workbook, exercise: &Exercise, has_passed: bool) -> bool {
     let noted = workbook.note(exercise, has_passed);
     if let Err(error) = &noted {
@@ -274,7 +273,6 @@ fn reset(workbook: &Workbook, name: &str) -> Done {
     Ok(Exit::Good)
 }
 
-/// Judges attempts when they are saved: on a full screen if possible, otherwise in lines.
 fn watch(workbook: &Workbook, limits: &LimitOptions) -> Done {
     begin(workbook)?;
     let flag = interrupt::flag(InterruptLoss::Run);
@@ -288,7 +286,6 @@ fn watch(workbook: &Workbook, limits: &LimitOptions) -> Done {
     show_next(workbook)
 }
 
-/// Judges attempts when they are saved, until all have passed or Ctrl-C is pressed.
 fn watch_in_lines(workbook: &Workbook, limits: &LimitOptions, flag: &Arc<AtomicBool>) -> Done {
     let mut watcher = Watcher::new(workbook);
     let mut current = workbook.next()?;

@@ -47,7 +47,6 @@ impl ProgressDisplay {
         bar
     }
 
-    /// Updates the bar, unless the run may end soon.
     fn show(&self, reached: f64, message: impl FnOnce() -> String) {
         let mut shown = self.shown.borrow_mut();
         if shown.is_none() && self.begun.get().is_none_or(|begun| begun.elapsed() < SOON) {

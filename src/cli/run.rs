@@ -215,7 +215,6 @@ fn end_at(stop: Stop) {
     process::exit(Exit::Wrong as i32)
 }
 
-/// Checks that a report file does not exist or is an earlier report.
 fn expect_report(file: &Path) -> Result<(), Diagnostic> {
     if file.symlink_metadata().is_err() {
         return Ok(());

@@ -13,7 +13,6 @@ pub(super) fn stem_of(file: &Path) -> String {
     file.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
-/// Generated program of a command: loads the file as `sim` and continues with a line.
 pub(super) fn program(command: &str, file: &Path, line: &str) -> Program {
     let name = file.file_name().map(|name| name.to_string_lossy()).unwrap_or_default();
     let text = format!("let sim = load_simulation({}); {line}\n", literal(&name));

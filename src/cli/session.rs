@@ -128,7 +128,6 @@ fn settings(options: &SessionOptions, is_conversation: bool) -> RunSettings {
     }
 }
 
-/// Folder that a session may read: that of its file, or the current one.
 fn folder_of(file: &Option<PathBuf>) -> PathBuf {
     let parent = file.as_deref().and_then(Path::parent);
     parent.filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new(".")).into()

@@ -118,7 +118,6 @@ fn put(page: &Path, place: &Path) -> Result<(), Diagnostic> {
     fs::remove_file(page).map_err(|error| failed(error.to_string()))
 }
 
-/// Opens a page with the system's default program; returns false on failure.
 fn open(page: &Path) -> bool {
     let program = match std::env::consts::OS {
         "macos" => "open",

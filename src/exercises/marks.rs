@@ -62,7 +62,6 @@ pub fn open(path: &Path) -> io::Result<(KnownMarks, MarksFile)> {
         rest if read_line(&String::from_utf8_lossy(rest)).is_some() => file.write_all(b"\n")?,
         _ => file.set_len(whole as u64)?,
     }
-    // The last mark of an attempt counts.
     Ok((KnownMarks(known.into_iter().collect()), MarksFile(file)))
 }
 

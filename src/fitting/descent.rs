@@ -47,7 +47,6 @@ struct Descent<'d, 'f, E> {
 }
 
 enum Ended<E> {
-    /// Derivatives are missing, with the reason.
     Unknown(String),
     Error(E),
 }
@@ -205,7 +204,6 @@ impl Design {
         }))
     }
 
-    /// Runs the descent while derivatives are known. Returns true if it converged.
     fn descend<E>(&self, descent: &RefCell<Descent<'_, '_, E>>) -> bool {
         let Scaled { mut start, bounds } = self.scaled();
         let mut margin = 0.0;

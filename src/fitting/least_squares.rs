@@ -89,7 +89,6 @@ impl LeastSquaresState {
         (0..self.x.len()).map(is_free).collect()
     }
 
-    /// Largest cosine between the residuals and the Jacobian columns of free parameters.
     fn cosine(&self, ranges: &[SearchRange]) -> f64 {
         let length = self.residuals.norm();
         let columns = self.derivatives.column_iter().zip(self.free(ranges));
@@ -300,7 +299,6 @@ impl LeastSquares {
             }
             let share = gained / promised;
             let Some(found) = found.filter(|_| share > 1e-4) else {
-                // The derivatives may be outdated.
                 if !is_fresh {
                     return Ok(Round::Goes(None));
                 }

@@ -1,7 +1,7 @@
 //! Animated PNG files, which browsers and Markdown viewers play.
 //!
-//! All frames share a palette of the 256 most frequent colours; other colours map to the nearest of them. Of each frame
-//! only the bounding box of its changes is stored.
+//! All frames share a palette of the 256 most frequent colours; other colours map to the nearest of them. Of each frame only the bounding
+//! box of its changes is stored.
 
 use std::collections::BTreeMap;
 

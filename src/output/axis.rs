@@ -74,8 +74,8 @@ impl Axis {
         Self::linear([low, high], 0.0)
     }
 
-    /// A logarithmic axis over whole powers of ten. Values at or below `floor` are shown at the bottom, one power of
-    /// ten below the least value above `floor`.
+    /// A logarithmic axis over whole powers of ten. Values at or below `floor` are shown at the bottom, one power of ten below the least
+    /// value above `floor`.
     pub fn logarithmic(values: impl IntoIterator<Item = f64>, floor: f64) -> Self {
         let floor = if floor > 0.0 && floor.is_finite() { floor } else { DEFAULT_FLOOR };
         let mut cut = AxisCut::Nothing;
@@ -99,8 +99,8 @@ impl Axis {
         Self { scale: AxisScale::Logarithmic, low, high, cut: AxisCut::Nothing }
     }
 
-    /// Position of `x` on the axis, from 0 at the low end to 1 at the high end. Values outside the range lie beyond 0
-    /// or 1; `nan` gives `nan`.
+    /// Position of `x` on the axis, from 0 at the low end to 1 at the high end. Values outside the range lie beyond 0 or 1; `nan` gives
+    /// `nan`.
     pub fn place(&self, x: f64) -> f64 {
         match self.scale {
             AxisScale::Linear => (x.clamp(-LARGEST, LARGEST) - self.low) / (self.high - self.low),

@@ -11,7 +11,6 @@ use super::{
 const TITLE: f64 = 16.0;
 const TEXT: f64 = 12.5;
 const EDGE: f64 = 14.0;
-/// Height of a row, and of the bar in it.
 const ROW: (f64, f64) = (26.0, 16.0);
 const NAME: f64 = 260.0;
 

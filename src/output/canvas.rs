@@ -1,7 +1,7 @@
 //! Shapes that make up a picture: lines, discs, filled boxes and texts, in pixels from the top left corner.
 //!
-//! Charts draw on a canvas; painters turn the canvas into a file. Charts and painters are independent, so that the
-//! drawing library can be replaced.
+//! Charts draw on a canvas; painters turn the canvas into a file. Charts and painters are independent, so that the drawing library can be
+//! replaced.
 
 use super::{colour::Colour, fonts};
 

@@ -163,15 +163,14 @@ impl LineChart {
         self
     }
 
-    /// Sets the bottom of logarithmic axes: values at or below `floor` are shown there. A `floor` that is not positive
-    /// selects [`DEFAULT_FLOOR`].
+    /// Sets the bottom of logarithmic axes: values at or below `floor` are shown there. A `floor` that is not positive selects
+    /// [`DEFAULT_FLOOR`].
     pub fn floor(mut self, floor: f64) -> Self {
         self.floor = floor;
         self
     }
 
-    /// Fixes the ends of the axes and clips the data to them. An axis without limits fits the visible part of the
-    /// series.
+    /// Fixes the ends of the axes and clips the data to them. An axis without limits fits the visible part of the series.
     pub fn limits(mut self, limits: AxisLimits) -> Self {
         self.limits = limits;
         self
@@ -189,9 +188,8 @@ impl LineChart {
         self
     }
 
-    /// Combines the series of several charts in the axes of the first. Each series takes the name of its chart,
-    /// followed by its own name if its chart has several. Lines of the second chart are dashed, those of the third
-    /// dotted.
+    /// Combines the series of several charts in the axes of the first. Each series takes the name of its chart, followed by its own name if
+    /// its chart has several. Lines of the second chart are dashed, those of the third dotted.
     pub fn shared(
         title: impl Into<String>,
         charts: impl IntoIterator<Item = (String, Self)>,

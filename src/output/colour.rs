@@ -21,8 +21,8 @@ const HUES: [Colour; 7] = [
     Colour(60, 60, 60),
 ];
 
-/// Nine equidistant samples of the viridis colour map (Smith and van der Walt, matplotlib), from pale to dark. The
-/// palest tenth is left out, because it is invisible on white paper.
+/// Nine equidistant samples of the viridis colour map (Smith and van der Walt, matplotlib), from pale to dark. The palest tenth is left
+/// out, because it is invisible on white paper.
 const RAMP: [Colour; 9] = [
     Colour(189, 223, 38),
     Colour(128, 211, 75),

@@ -84,10 +84,6 @@ impl DataTable {
         Ok(String::from_utf8_lossy(&bytes).into_owned())
     }
 
-    /// Common length of the columns.
-    ///
-    /// # Errors
-    /// If the columns differ in length.
     pub(super) fn rows(&self) -> Result<usize, OutputError> {
         let Some(first) = self.columns.first() else { return Ok(0) };
         let expected = first.values.length();

@@ -67,7 +67,6 @@ impl FieldPicture {
     }
 
     fn largest(&self) -> Option<(Point, f64)> {
-        // The first of equal values.
         self.places().copied().reduce(|a, b| if b.1 > a.1 { b } else { a })
     }
 
@@ -108,7 +107,6 @@ impl FieldPicture {
         }
     }
 
-    /// Marks the largest value, and writes it next to the mark, clear of all beams if possible.
     fn draw_largest(
         &self,
         canvas: &mut Canvas,

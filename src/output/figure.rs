@@ -4,7 +4,6 @@ use std::path::Path;
 
 use super::{OutputError, canvas::Canvas, files::write_whole, png, svg};
 
-/// Range of the width and height [pixels].
 const SIDES: std::ops::RangeInclusive<f64> = 100.0..=8000.0;
 
 /// File formats of pictures, by file extension.
@@ -63,7 +62,6 @@ impl Figure {
         png::paint(&self.canvas, self.width, self.height)
     }
 
-    /// Pixels of the picture, row by row from the top, as red, green and blue.
     pub(super) fn to_pixels(&self) -> Result<Vec<u8>, OutputError> {
         png::pixels(&self.canvas, self.width, self.height)
     }

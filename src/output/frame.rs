@@ -15,7 +15,6 @@ const NUMBER: f64 = 12.0;
 const EDGE: f64 = 14.0;
 /// A text is broken into lines before it is set smaller than this fraction of its size.
 const SMALLEST: f64 = 0.8;
-/// Limit that leaves space for the data.
 const MOST_LINES: usize = 4;
 /// With more points, only those of the thinned curve are marked.
 const MOST_MARKS: usize = 2000;

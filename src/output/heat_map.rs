@@ -1,5 +1,4 @@
-//! Heat maps: cells in rows and columns, each coloured by a number on a logarithmic scale; cells without a number are
-//! hatched.
+//! Heat maps: cells in rows and columns, each coloured by a number on a logarithmic scale; cells without a number are hatched.
 
 use super::{
     axis::power_of_ten,
@@ -41,10 +40,8 @@ pub struct HeatCell {
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeatMap {
     title: String,
-    /// Label and names of the columns.
     pub(super) columns: (String, Vec<String>),
     pub(super) rows: (String, Vec<String>),
-    /// Quantity that the colours show, and the powers of ten at the ends of the colour scale.
     pub(super) scale: (String, i32, i32),
     pub(super) hatched: String,
     pub(super) cells: Vec<Vec<HeatCell>>,
@@ -93,20 +90,17 @@ impl HeatMap {
         &self.title
     }
 
-    /// Position of a number on the colour scale, from 0 to 1; `None` for NaN.
     pub(super) fn part(&self, value: f64) -> Option<f64> {
         let (low, high) = (f64::from(self.scale.1), f64::from(self.scale.2));
         let place = (log10(value.max(0.0)) - low) / (high - low);
         (!value.is_nan()).then(|| place.clamp(0.0, 1.0))
     }
 
-    /// Texts at the ends of the colour scale.
     pub(super) fn ends(&self) -> (String, String) {
         let power = |power: i32| power_of_ten(f64::from(power));
         (format!("≤ {}", power(self.scale.1)), format!("≥ {}", power(self.scale.2)))
     }
 
-    /// Size of the map, with cells of at least the given size and large enough for texts, names and key.
     fn with_cells(&self, cell: (f64, f64)) -> (f64, f64) {
         let Margins { left, top, right, bottom } = self.margins(0.0, 0.0);
         let lines = self.cells.iter().flatten().flat_map(|cell| cell.text.lines());

@@ -95,7 +95,6 @@ fn rows(entries: &[LegendEntry], width: f64) -> Vec<Vec<Item<'_>>> {
     let mut rows: Vec<Vec<Item>> = Vec::new();
     let mut used = f64::INFINITY;
     for entry in entries {
-        // The last row keeps space for the number of missing names.
         let is_last = rows.len() == MOST_ROWS;
         let room = if is_last { width - REST } else { width };
         let item = Item::of(entry, width);

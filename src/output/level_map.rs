@@ -1,5 +1,4 @@
-//! Level maps: cells over two numeric axes, each coloured by a number on a linear scale; cells without a number are
-//! hatched.
+//! Level maps: cells over two numeric axes, each coloured by a number on a linear scale; cells without a number are hatched.
 
 use super::{
     axis::{Axis, AxisScale},
@@ -14,8 +13,7 @@ use crate::elementary::ln;
 
 /// Relative tolerance for equal ratios of neighbours.
 const EQUAL_RATIOS: f64 = 1e-6;
-/// Maximum number of cells drawn along an axis. Smaller cells are not visible, and a picture of millions takes many
-/// megabytes.
+/// Maximum number of cells drawn along an axis. Smaller cells are not visible, and a picture of millions takes many megabytes.
 const MOST_CELLS: usize = 160;
 
 /// Axis of a level map: its label and the ascending midpoints of its cells.
@@ -35,7 +33,6 @@ pub struct LevelMap {
     label: String,
     x: LevelAxis,
     y: LevelAxis,
-    /// Values of the drawn cells, by rows of the vertical axis, from the bottom.
     values: Vec<Vec<f64>>,
 }
 
@@ -127,9 +124,9 @@ impl LevelAxis {
 }
 
 impl LevelMap {
-    /// A map over two axes: `values` by rows of the vertical axis, from the bottom; `label` names their quantity.
-    /// Values that are not finite are hatched. On axes with more than 160 numbers neighbouring cells are merged into
-    /// one cell with the mean value, and a caption states this.
+    /// A map over two axes: `values` by rows of the vertical axis, from the bottom; `label` names their quantity. Values that are not
+    /// finite are hatched. On axes with more than 160 numbers neighbouring cells are merged into one cell with the mean value, and a
+    /// caption states this.
     pub fn new(
         title: impl Into<String>,
         label: impl Into<String>,

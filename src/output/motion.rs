@@ -179,15 +179,12 @@ impl MotionPicture {
         self.snapshots.iter().map(|snapshot| snapshot.lines.len()).max().unwrap_or(0)
     }
 
-    /// Paths are dashed, in colours that no beam has. With a single beam they are vermilion, which stands out from the
-    /// colour ramp.
+    /// Paths are dashed, in colours that no beam has. With a single beam they are vermilion, which stands out from the colour ramp.
     fn trace_look(&self, index: usize) -> (Colour, Stroke) {
         let first = if self.beam_count() > 1 { self.beam_count() } else { 1 };
         (hue(first + index), if index < HUE_COUNT { Stroke::Dashed } else { Stroke::Dotted })
     }
 
-    /// Colour of beam `index` at the fraction `part` of the motion: the colour ramp for a single beam, otherwise a tint
-    /// of the hue of the beam.
     fn colour(&self, index: usize, part: f64) -> Colour {
         if self.beam_count() > 1 { tint(hue(index), part) } else { ramp(part) }
     }

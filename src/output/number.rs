@@ -1,7 +1,6 @@
 //! Number formatting for people: short, without artefacts of binary arithmetic.
 //!
-//! Decimal notation for `1e-4 ≤ |x| < 1e7`, otherwise powers of ten, with just enough digits to read back the same
-//! number.
+//! Decimal notation for `1e-4 ≤ |x| < 1e7`, otherwise powers of ten, with just enough digits to read back the same number.
 
 /// The shortest text of a number that reads back as `x`: `0.05`, `374.28285`, `3`, `1e-12`, `1.5e10`, `inf`, `nan`.
 pub fn format_number(x: f64) -> String {
@@ -16,15 +15,15 @@ pub fn format_number(x: f64) -> String {
     }
 }
 
-/// Text of `x` rounded to `digits` significant digits (at least one), in the notation of [`format_number`]:
-/// `significant(1/3, 3)` is `0.333`, `significant(2.0, 3)` is `2`.
+/// Text of `x` rounded to `digits` significant digits (at least one), in the notation of [`format_number`]: `significant(1/3, 3)` is
+/// `0.333`, `significant(2.0, 3)` is `2`.
 pub fn significant(x: f64, digits: usize) -> String {
     let rounded = format!("{:.*e}", decimals(digits), x).parse();
     format_number(rounded.unwrap_or(x))
 }
 
-/// Text of `x` as a power of ten with exactly `digits` significant digits (at least one): `scientific(3.14e-15, 2)` is
-/// `3.1e-15`. Zero is just `0`.
+/// Text of `x` as a power of ten with exactly `digits` significant digits (at least one): `scientific(3.14e-15, 2)` is `3.1e-15`. Zero is
+/// just `0`.
 pub fn scientific(x: f64, digits: usize) -> String {
     if x == 0.0 || !x.is_finite() {
         format_number(x)

@@ -115,7 +115,6 @@ impl Page {
         if self.title.is_empty() { 0.0 } else { TITLE + 22.0 }
     }
 
-    /// Common margins of all panels that `index_of` maps to `track`.
     fn common_margins(&self, track: usize, index_of: impl Fn(usize) -> usize) -> Margins {
         let (widths, heights) = self.tracks();
         let members = self.panels.iter().enumerate().filter(|(index, _)| index_of(*index) == track);

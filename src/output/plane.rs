@@ -29,8 +29,8 @@ pub struct View {
 }
 
 impl View {
-    /// A box that contains the points with some margin, or the box of the limits. An axis without limits fits the
-    /// points inside the limits of the other axis.
+    /// A box that contains the points with some margin, or the box of the limits. An axis without limits fits the points inside the limits
+    /// of the other axis.
     pub fn of(points: impl Iterator<Item = Point> + Clone, limits: &AxisLimits) -> Self {
         let within = |value: f64, ends: Option<(f64, f64)>| {
             ends.is_none_or(|(low, high)| (low..=high).contains(&value))

@@ -1,8 +1,8 @@
 //! PNG painter with anti-aliasing: each pixel is blended by the fraction that a shape covers.
 //!
-//! plotters fills boxes and blends pixels, but its thick lines and polygons have ragged edges. Therefore lines are
-//! covered by distance: a pixel at distance `d` from the centre line of half width `r` is covered by `r + ½ − d`, and a
-//! pixel near several segments by the nearest one.
+//! plotters fills boxes and blends pixels, but its thick lines and polygons have ragged edges. Therefore lines are covered by distance: a
+//! pixel at distance `d` from the centre line of half width `r` is covered by `r + ½ − d`, and a pixel near several segments by the nearest
+//! one.
 
 use plotters::prelude::{BitMapBackend, DrawingBackend, RGBColor};
 use plotters::style::Color;
@@ -123,7 +123,6 @@ impl PngPage<'_> {
     }
 }
 
-/// Coverage of pixels by a line, within its bounding box.
 struct PixelCoverage {
     left: usize,
     top: usize,
@@ -152,8 +151,7 @@ impl PixelCoverage {
         let rows = clip(a.1.min(b.1) - reach, a.1.max(b.1) + reach, self.top, self.rows);
         for row in rows {
             let y = (self.top + row) as f64 + 0.5;
-            // Pixels of this row within reach of the segment: around the crossing with the centre line, between the
-            // ends.
+            // Pixels of this row within reach of the segment: around the crossing with the centre line, between the ends.
             let (mut low, mut high) = (a.0.min(b.0), a.0.max(b.0));
             if dy != 0.0 {
                 let crossing = a.0 + (y - a.1) * dx / dy;
@@ -174,7 +172,6 @@ impl PixelCoverage {
     }
 }
 
-/// Indices of the pixels from `low` to `high`, within the `count` pixels from `first` on.
 fn clip(low: f64, high: f64, first: usize, count: usize) -> std::ops::Range<usize> {
     let whole = |x: f64| (x - first as f64).clamp(0.0, count as f64) as usize;
     whole(low.floor())..whole(high.ceil())

@@ -1,5 +1,4 @@
-//! SVG painter based on plotters. Text becomes outlines, so that no fonts are needed; the texts are kept in the
-//! description of the picture.
+//! SVG painter based on plotters. Text becomes outlines, so that no fonts are needed; the texts are kept in the description of the picture.
 //!
 //! plotters' coordinates are integers: the picture is drawn on a grid of [`GRID`] steps per pixel.
 
@@ -33,8 +32,8 @@ pub fn paint(canvas: &Canvas, width: u32, height: u32) -> Result<String, OutputE
     Ok(head(canvas, width, height, size) + drawn.replace(" opacity=\"1\"", "").as_str())
 }
 
-/// The opening that plotters writes for a grid of this size. It has the wrong size and neither title nor description,
-/// so [`head`] replaces it.
+/// The opening that plotters writes for a grid of this size. It has the wrong size and neither title nor description, so [`head`] replaces
+/// it.
 fn opening(grid: (u32, u32)) -> String {
     let mut empty = String::new();
     drop(SVGBackend::with_string(&mut empty, grid));

@@ -95,8 +95,7 @@ pub struct PlacedSymbol {
     pub symbol: Symbol,
     /// The place of the symbol.
     pub at: Point,
-    /// Direction of the symbol, of any length; zero if it has none. Springs, dampers and tendons end at `at +
-    /// direction`.
+    /// Direction of the symbol, of any length; zero if it has none. Springs, dampers and tendons end at `at + direction`.
     pub direction: Point,
 }
 
@@ -132,7 +131,6 @@ impl PlacedSymbol {
         View::of(points.chain(ends), limits).with_room(about, ROOM, limits)
     }
 
-    /// Draws the symbol, unless its point lies outside the plot.
     pub(super) fn draw(&self, canvas: &mut Canvas, frame: &Frame, plot: &Area) {
         if let Some(end) = self.end() {
             let link = Link::between(frame.place(plot, self.at), frame.place(plot, end));

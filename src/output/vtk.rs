@@ -1,16 +1,14 @@
 //! VTK files for ParaView and other programs: one grid per frame, and a collection with the times of the frames.
 //!
-//! The files are XML with inline base64 data after a byte count, which keeps every bit, including denormal numbers and
-//! NaN, on which readers of the text format fail. (VTK User's Guide, "VTK File Formats": XML file formats;
-//! uncompressed, `header_type="UInt64"`.)
+//! The files are XML with inline base64 data after a byte count, which keeps every bit, including denormal numbers and NaN, on which
+//! readers of the text format fail. (VTK User's Guide, "VTK File Formats": XML file formats; uncompressed, `header_type="UInt64"`.)
 
 use std::fmt::Write;
 
 use super::base64::base64;
 use super::{OutputError, Point};
 
-/// VTK cell types of a point and of a line segment. A body is several such cells, because not all readers support
-/// polylines.
+/// VTK cell types of a point and of a line segment. A body is several such cells, because not all readers support polylines.
 const VERTEX: u8 = 1;
 const LINE: u8 = 3;
 
@@ -109,7 +107,6 @@ impl VtkGrid {
         Ok(text)
     }
 
-    /// Pieces of all bodies, in order: the segments between points, or the only point.
     fn pieces(&self) -> Vec<VtkPiece> {
         let mut first = 0;
         let of_body = |(body, cell): (usize, &VtkCell)| {
@@ -166,7 +163,6 @@ fn push_whole(text: &mut String, name: &str, values: impl Iterator<Item = usize>
     push(text, "Int64", name, 1, values.map(|value| (value as u64).to_le_bytes()));
 }
 
-/// An array: number of bytes, then the bytes.
 fn push<const N: usize>(
     text: &mut String,
     kind: &str,

@@ -56,8 +56,8 @@ pub fn run(shell: &mut Shell, lines: impl BufRead) -> CommandOutcome {
             let told = Diagnostic::general("an input is longer than 16 megabytes");
             return shell.refuse(&told.with_hint("is a bracket or a quotation mark never closed?"));
         }
-        // The next line is read ahead only if the input is complete. Programs that use the pipe interactively end an
-        // input with a semicolon or an empty line.
+        // The next line is read ahead only if the input is complete. Programs that use the pipe interactively end an input with a semicolon
+        // or an empty line.
         let is_complete = is_command(&input)
             || completeness_of_script(&input) == Completeness::Complete
                 && (input.trim_end().ends_with(';')

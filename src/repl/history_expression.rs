@@ -21,8 +21,7 @@ pub struct Followed {
     pub words: String,
 }
 
-/// Evaluates an expression at every earlier state of a simulation that can be reproduced. The simulation itself does
-/// not move.
+/// Evaluates an expression at every earlier state of a simulation that can be reproduced. The simulation itself does not move.
 ///
 /// # Errors
 /// If the expression fails at a state, moves the simulation, or is interrupted; the user has been told.
@@ -99,17 +98,19 @@ fn make_again(
 }
 
 enum PlaybackStep {
-    /// To snapshots, given by their step counts, last first.
     Back(std::vec::IntoIter<usize>),
     /// To the next row of the history; every `every`-th row is evaluated.
-    Again { next: usize, rows: usize, every: usize },
+    Again {
+        next: usize,
+        rows: usize,
+        every: usize,
+    },
 }
 
 enum PlaybackError {
     Moves,
     /// Evaluation was interrupted, or the copy failed to repeat the run.
     Refused(ScriptError),
-    /// The repeated run differs.
     Another(String),
     NoPoint(String),
 }
@@ -201,7 +202,6 @@ type Values = (Vec<(f64, PlotShape)>, Option<String>);
 fn visit(shell: &mut Shell, text: &str, mut visits: Visits) -> Result<Values, CommandOutcome> {
     let reply = shell.session_mut().peek_in_rounds(text, &mut visits);
     let Visits { revisit, points, trouble, place, .. } = visits;
-    // Restores the simulation.
     drop(revisit);
     let at = format!("at t = {}", significant(place.1, DIGITS));
     match (reply, trouble) {

@@ -1,5 +1,5 @@
-//! Interactive sessions: inputs are evaluated and recorded, and failures undone. [`session`] and [`shell`] are
-//! independent of a terminal; [`editor`] handles line editing.
+//! Interactive sessions: inputs are evaluated and recorded, and failures undone. [`session`] and [`shell`] are independent of a terminal;
+//! [`editor`] handles line editing.
 
 pub mod batch;
 pub mod clock;

@@ -36,13 +36,12 @@ pub struct TerminalPager {
 }
 
 impl TerminalPager {
-    /// A pager with the program in the variable `PAGER`, if it is set. `cat` and an empty value disable paging, as does
-    /// a terminal that cannot move its cursor.
+    /// A pager with the program in the variable `PAGER`, if it is set. `cat` and an empty value disable paging, as does a terminal that
+    /// cannot move its cursor.
     pub fn of_environment(variable: impl Fn(&str) -> Option<String>) -> Option<Self> {
         let program = variable("PAGER");
         let is_unwanted = program.as_deref().is_some_and(|name| matches!(name.trim(), "" | "cat"));
         let is_dumb = matches!(variable("TERM").as_deref(), None | Some("" | "dumb"));
-        // The size is set before the first input.
         (!is_unwanted && !is_dumb).then_some(Self { program, size: (0, 0) })
     }
 

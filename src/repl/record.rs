@@ -17,11 +17,9 @@ const HEADER: &str = "//! A session of withy: what worked of it.";
 #[derive(Clone, Debug, PartialEq)]
 enum RecordedInput {
     Statements(Source),
-    /// Statements that end in an expression, whose value was stored as `ans`.
     Expression(Source),
     /// Statements that return early, which would end a script.
     Returning(Source),
-    /// Movement of a simulation by a failed statement.
     Moved(Source),
 }
 
@@ -213,7 +211,6 @@ fn written(source: &Source) -> Vec<FunctionText> {
     definitions(tokens).filter_map(written).collect()
 }
 
-/// Start of the doc comment that ends at `end`.
 fn documented_from(text: &str, end: usize) -> usize {
     let mut from = end;
     while let Some(line) =

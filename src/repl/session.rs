@@ -34,8 +34,8 @@ pub enum Reply {
     Done,
     /// Success with the value of an expression.
     Value(Dynamic),
-    /// A statement failed. Earlier statements of the input stay in effect. Of the failed statement only changes of
-    /// scenes, simulations and variables shared by closures remain.
+    /// A statement failed. Earlier statements of the input stay in effect. Of the failed statement only changes of scenes, simulations and
+    /// variables shared by closures remain.
     Failed(Diagnostic),
     /// A statement was interrupted by Ctrl-C; the effects are those of a failure.
     Interrupted,
@@ -188,7 +188,6 @@ impl Session {
         }
     }
 
-    /// Parses an input at its line in the transcript, publishes its functions, and starts the watchdog.
     fn begin(&mut self, text: &Source, before: usize) -> Result<(AST, Watchdog), Reply> {
         let Self { host, transcript, scope, .. } = self;
         let reply = |halt| reply_to(halt, transcript);
@@ -218,7 +217,6 @@ impl Session {
     }
 
     fn answer(&mut self, value: Dynamic, text: &Source) -> Reply {
-        // A final semicolon suppresses the value.
         if value.is_unit() || text.ends_in_semicolon() {
             return Reply::Done;
         }
@@ -231,8 +229,8 @@ impl Session {
         Reply::Value(value)
     }
 
-    /// Makes the constants after the first `known` variables visible to functions as `global::NAME`, independent of the
-    /// order of definition.
+    /// Makes the constants after the first `known` variables visible to functions as `global::NAME`, independent of the order of
+    /// definition.
     fn publish_constants(&mut self, known: usize) {
         let shared = self.global.constants.get_or_insert_with(Default::default);
         shared.borrow_mut().extend(scope::constants_after(&self.scope, known));
@@ -306,7 +304,6 @@ impl Session {
     }
 }
 
-/// Reply to an input that did not complete, with positions relative to the original inputs.
 fn reply_to(halt: Halt, transcript: &Transcript) -> Reply {
     match halt {
         Halt::Failed(diagnostic) | Halt::Undecided(diagnostic) => {

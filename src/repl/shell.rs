@@ -163,7 +163,6 @@ impl Shell {
     pub fn run_program(&mut self, program: Program) -> CommandOutcome {
         let reply = self.session.eval_program(program);
         match reply {
-            // The last value of a file is not shown.
             Reply::Value(_) => self.tell(Reply::Done),
             reply => self.tell(reply),
         }
@@ -288,7 +287,6 @@ fn without_place_in(input: &str, reply: Reply) -> Reply {
     }
 }
 
-/// Expression for the last simulation if no variable holds it.
 const LATEST: &str = "latest_simulation()";
 
 impl Shell {
@@ -302,7 +300,6 @@ impl Shell {
         self.name_of_latest().is_ok_and(|name| name != LATEST)
     }
 
-    /// Expression for the last simulation: a variable that holds it, if there is one.
     fn name_of_latest(&self) -> Result<String, Diagnostic> {
         let Some(latest) = self.latest() else {
             return Err(no_simulation());
@@ -345,8 +342,8 @@ impl Shell {
         }
     }
 
-    /// Calls a method of the last simulation within a command, and shows the watched expressions. The call, or its
-    /// partial progress, is recorded.
+    /// Calls a method of the last simulation within a command, and shows the watched expressions. The call, or its partial progress, is
+    /// recorded.
     pub fn call_latest_watched(&mut self, call: &str) -> CommandOutcome {
         let input = match self.input_for_latest(call) {
             Ok(input) => input,

@@ -11,8 +11,7 @@ pub fn count(engine: &Engine, text: &str) -> Option<usize> {
     read(engine, &Scope::new(), &text.into(), 0).ok().map(|ast| ast.statements().len())
 }
 
-/// Last position that separates the first `first` statements of a valid text from the rest. Works even after an
-/// interrupt.
+/// Last position that separates the first `first` statements of a valid text from the rest. Works even after an interrupt.
 pub fn boundary(engine: &Engine, text: &str, first: usize) -> Option<usize> {
     Sources::of(engine).undisturbed(|| boundary_of(engine, text, first))
 }

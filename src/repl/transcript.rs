@@ -1,5 +1,5 @@
-//! Transcript of all inputs of a session, which maps error positions back: an error in a function typed at line 3 and
-//! called at line 20 is shown at line 3.
+//! Transcript of all inputs of a session, which maps error positions back: an error in a function typed at line 3 and called at line 20 is
+//! shown at line 3.
 
 use std::sync::Arc;
 
@@ -98,7 +98,6 @@ impl Transcript {
         shown.flat_map(of_piece).collect()
     }
 
-    /// Valid inputs, and the last one.
     fn shown(&self) -> impl Iterator<Item = &TranscriptInput> {
         let last = self.pieces.len().saturating_sub(1);
         let pieces = self.pieces.iter().enumerate();
@@ -131,7 +130,6 @@ impl Transcript {
         diagnostic
     }
 
-    /// Loaded file that contains a line; `None` for typed lines.
     fn file_of(&self, line: usize) -> Option<&TranscriptInput> {
         let piece = self.pieces.iter().rev().find(|piece| piece.before < line)?;
         (piece.program.name != PROMPT).then_some(piece)

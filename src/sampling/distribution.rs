@@ -88,7 +88,6 @@ mod tests {
     use super::super::sobol;
     use super::*;
 
-    /// Mean and standard deviation of many values against closed forms.
     #[test]
     fn moments_are_those_of_the_distribution() {
         let points = sobol(1 << 15, 1, 5).remove(0);

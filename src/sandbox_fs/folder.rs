@@ -200,7 +200,6 @@ impl Folder {
         drop(file);
         let written = written.and_then(|()| folder.0.rename(&partial, &folder.0, name));
         if written.is_err() {
-            // The file may not exist.
             let _ = folder.0.remove_file(&partial);
         }
         written.and_then(|()| folder.sync())

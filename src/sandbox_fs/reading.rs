@@ -7,7 +7,6 @@ use cap_fs_ext::{FollowSymlinks, OpenOptionsFollowExt, OpenOptionsSyncExt};
 use cap_std::ambient_authority;
 use cap_std::fs::{File, OpenOptions};
 
-/// Options for opening a file without blocking.
 pub(super) fn options(follow: FollowSymlinks) -> OpenOptions {
     let mut options = OpenOptions::new();
     options.read(true).nonblock(true).follow(follow);
@@ -35,7 +34,6 @@ pub fn read_text(path: &Path, most: u64) -> io::Result<String> {
     String::from_utf8(bytes).map_err(|_| io::Error::other("it is not UTF-8 text"))
 }
 
-/// Content of an open regular file of at most `most` bytes.
 pub(super) fn read(file: std::fs::File, most: u64) -> io::Result<Vec<u8>> {
     let about = file.metadata()?;
     expect_ordinary(about.is_file())?;

@@ -116,7 +116,6 @@ impl WrittenFiles {
     }
 }
 
-/// Parses `checksum length name`; later lines take precedence.
 fn entry(line: &str) -> Option<(String, FileChecksum)> {
     let (checksum, rest) = line.split_once(' ')?;
     let (length, name) = rest.split_once(' ')?;

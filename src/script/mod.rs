@@ -1,11 +1,11 @@
 //! The scripting language: Rhai with scientific number semantics, bindings in tables, and helpful errors.
 //!
-//! A domain is a [`Table`](rows::table::Table) of bindings; [`engine`] registers the tables and runs a script on a
-//! large stack; [`diagnose`] turns every error into a message at the script's line and column. There is no mechanics
-//! here: bindings are short and call the solver library.
+//! A domain is a [`Table`](rows::table::Table) of bindings; [`engine`] registers the tables and runs a script on a large stack;
+//! [`diagnose`] turns every error into a message at the script's line and column. There is no mechanics here: bindings are short and call
+//! the solver library.
 //!
-//! Modules depend on one another in this order only: [`words`], [`source`], [`state`], [`rows`], [`dialect`],
-//! [`library`], [`diagnose`], [`engine`], [`pages`], [`looks`], [`handles`], [`studies`], [`packages`].
+//! Modules depend on one another in this order only: [`words`], [`source`], [`state`], [`rows`], [`dialect`], [`library`], [`diagnose`],
+//! [`engine`], [`pages`], [`looks`], [`handles`], [`studies`], [`packages`].
 
 pub mod bindings;
 pub mod diagnose;

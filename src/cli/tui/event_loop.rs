@@ -21,7 +21,6 @@ use crate::exercises::watch::{INTERVAL, Watcher};
 use crate::exercises::workbook::{Advice, Workbook};
 use crate::panics::caught;
 
-/// Timeout for keys between checks of the run.
 const PATIENCE: Duration = Duration::from_millis(50);
 
 /// Watches the attempts of a student and judges each saved one, until the user leaves or `stop` is set.

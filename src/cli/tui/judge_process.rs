@@ -51,7 +51,6 @@ impl JudgeProcess {
         thread::spawn(move || {
             let mut text = Vec::new();
             if let Some(output) = output {
-                // Unreadable output is reported as a missing report.
                 let _ = output.take(LONGEST).read_to_end(&mut text);
             }
             let _ = send.send(String::from_utf8_lossy(&text).into_owned());
@@ -91,7 +90,6 @@ impl JudgeProcess {
 
 impl Drop for JudgeProcess {
     fn drop(&mut self) {
-        // Fails if the process has ended already.
         let _ = self.process.kill();
         let _ = self.process.wait();
     }
@@ -179,7 +177,6 @@ fn tell(report: &AttemptReport) {
 #[cfg(target_os = "linux")]
 fn die_with_parent() {
     use nix::sys::signal::Signal;
-    // Otherwise the limits end the process later.
     let _ = nix::sys::prctl::set_pdeathsig(Signal::SIGKILL);
 }
 

@@ -52,7 +52,6 @@ impl ScreenLine {
         for (text, style) in &self.0 {
             match colours {
                 Colours::Ansi if !style.is_empty() => {
-                    // Writing to a string cannot fail.
                     let _ = write!(drawn, "\x1b[{style}m{text}\x1b[0m");
                 }
                 _ => drawn.push_str(text),
@@ -110,7 +109,6 @@ fn fitting(characters: &[(char, &LineStyle)], columns: usize) -> usize {
     characters.iter().position(is_beyond).unwrap_or(characters.len())
 }
 
-/// Number of characters in the first line, at least one if there is any.
 fn end_of_line(characters: &[(char, &LineStyle)], columns: usize) -> usize {
     let most = fitting(characters, columns);
     if most == characters.len() {

@@ -59,7 +59,6 @@ pub fn screen(
     if is_long(&foot, &head) {
         foot = draw(ScrollWindow { last: 1, ..ScrollWindow::default() });
     }
-    // On a low screen the page keeps at least three lines.
     while rows < head.len() + foot.len() + 3 && head.len() > 1 {
         head.pop();
     }
@@ -72,7 +71,6 @@ pub fn screen(
         (_, Some(chosen)) => chosen.saturating_sub(room / 2),
         (ScrollPosition::Line(line), _) => line,
         (ScrollPosition::Part(TaskSection::Beginning), _) => 0,
-        // The line before states the number of lines above.
         (ScrollPosition::Part(TaskSection::Result), _) => body.result.saturating_sub(1),
         (ScrollPosition::Part(TaskSection::Hint), _) => body.hint.saturating_sub(1),
     };

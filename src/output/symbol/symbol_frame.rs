@@ -30,7 +30,6 @@ const CARRIAGE: f64 = 6.5;
 const SMALL_HEAD: f64 = 5.5;
 const TURN: f64 = 15.0;
 
-/// Point and direction of a symbol on the canvas, in pixels.
 pub(super) struct SymbolFrame<'a> {
     pub(super) canvas: &'a mut Canvas,
     pub(super) plot: &'a Area,
@@ -60,7 +59,6 @@ impl SymbolFrame<'_> {
         }
     }
 
-    /// Point at the given distances ahead and to the left.
     fn at(&self, ahead: f64, left: f64) -> Point {
         let (x, y) = self.ahead;
         (self.at.0 + ahead * x + left * y, self.at.1 + ahead * y - left * x)
@@ -166,7 +164,6 @@ impl SymbolFrame<'_> {
         self.line(&[wing(1.0), tip, wing(-1.0)], width);
     }
 
-    /// An arrow that ends at the point, or begins there if it would leave the plot.
     fn arrow(&mut self, length: f64, width: f64) {
         let (tail, tip) = (self.at(-APART - length, 0.0), self.at(-APART, 0.0));
         let is_on_paper = (self.plot.left..=self.plot.right).contains(&tail.0)

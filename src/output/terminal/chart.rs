@@ -46,7 +46,6 @@ struct Layout {
     style: TerminalStyle,
     frame: Frame,
     heading: String,
-    /// Lines of the legend: column, index of the series and name.
     legend: Vec<Vec<(usize, usize, String)>>,
     has_letters: bool,
     has_axes: bool,
@@ -220,7 +219,6 @@ fn heading(frame: &Frame, factor: &Factor, style: &TerminalStyle) -> String {
     style.glyphs.fit(&parts.join("  "), style.width)
 }
 
-/// Names of the series in lines that fit; surplus names are left out and an ellipsis marks this.
 fn legend(chart: &LineChart, style: &TerminalStyle) -> Vec<Vec<(usize, usize, String)>> {
     let glyphs = style.glyphs;
     let sample = |index| match chart.has_letters(style) {

@@ -1,5 +1,4 @@
-//! A raster of two by four dots per character. The dots are square, as terminal characters are about twice as high as
-//! wide.
+//! A raster of two by four dots per character. The dots are square, as terminal characters are about twice as high as wide.
 
 use super::Glyphs;
 use super::character_grid::TerminalColour;
@@ -39,8 +38,8 @@ impl Dots {
         (last(ACROSS * self.columns), last(DOWN * self.rows))
     }
 
-    /// Draws a curve through points given in dots from the upper left one. Points that are not finite leave a gap; what
-    /// lies outside the raster is clipped.
+    /// Draws a curve through points given in dots from the upper left one. Points that are not finite leave a gap; what lies outside the
+    /// raster is clipped.
     pub fn curve(
         &mut self,
         points: impl IntoIterator<Item = Point>,

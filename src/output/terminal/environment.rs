@@ -5,7 +5,6 @@ use super::{Colours, Glyphs, TerminalStyle};
 /// Size of a terminal that does not report its own.
 const USUAL: (usize, usize) = (80, 24);
 
-/// Supported sizes of pictures; reported sizes are clamped to them.
 const WIDTHS: (usize, usize) = (20, 240);
 const HEIGHTS: (usize, usize) = (8, 60);
 
@@ -15,9 +14,9 @@ const LEFT_FREE: usize = 3;
 impl TerminalStyle {
     /// Style for the terminal described by environment variables; `variable` returns the value of one.
     ///
-    /// No colours where `NO_COLOR` is set and not empty, or `TERM` is `dumb` or not known. Braille where the character set of
-    /// `LC_ALL`, else `LC_CTYPE`, else `LANG` is UTF-8 and `TERM` is neither `dumb` nor `linux`, the console without such a
-    /// font. The size is that of `COLUMNS` and `LINES`, or 80 by 24; a picture is a few lines less high.
+    /// No colours where `NO_COLOR` is set and not empty, or `TERM` is `dumb` or not known. Braille where the character set of `LC_ALL`,
+    /// else `LC_CTYPE`, else `LANG` is UTF-8 and `TERM` is neither `dumb` nor `linux`, the console without such a font. The size is that of
+    /// `COLUMNS` and `LINES`, or 80 by 24; a picture is a few lines less high.
     pub fn of_environment(variable: impl Fn(&str) -> Option<String>) -> Self {
         let given = |name: &str| variable(name).filter(|value| !value.is_empty());
         let terminal = given("TERM").unwrap_or_default();

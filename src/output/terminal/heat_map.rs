@@ -6,7 +6,6 @@ use crate::output::heat_map::{HeatCell, HeatMap};
 use crate::output::width::columns;
 
 const BETWEEN: usize = 2;
-/// Width of a block and the blank after it.
 const BLOCK: usize = 3;
 
 impl HeatMap {

@@ -99,8 +99,7 @@ impl ConfigurationPicture {
         self
     }
 
-    /// Text of the picture for a terminal, of at most the width and the height of `style`; fewer lines if the drawing
-    /// is flat.
+    /// Text of the picture for a terminal, of at most the width and the height of `style`; fewer lines if the drawing is flat.
     pub fn text(&self, style: &TerminalStyle) -> String {
         let has_frame = style.width >= LEAST.0 && style.height >= LEAST.1;
         let border = usize::from(has_frame);

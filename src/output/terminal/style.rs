@@ -58,7 +58,6 @@ impl Glyphs {
         }
     }
 
-    /// Converts a text and cuts it to `width` characters.
     pub(super) fn fit(self, text: &str, width: usize) -> String {
         cut(&self.typeset(text), width, self.choose('…', '~'))
     }

@@ -55,9 +55,8 @@ pub struct BodyShape {
     pub points: Vec<(String, PointCombination)>,
     /// Outline of the body: closed if it ends at its start, otherwise a line; empty without points.
     pub outline: Vec<PointCombination>,
-    /// Corners of the body's own polygon, if it has one; `outline` is then the line from its centre to one of its
-    /// points. The corners are given along that line and to its left, as multiples of its length; the last one repeats
-    /// the first.
+    /// Corners of the body's own polygon, if it has one; `outline` is then the line from its centre to one of its points. The corners are
+    /// given along that line and to its left, as multiples of its length; the last one repeats the first.
     pub corners: Vec<(f64, f64)>,
 }
 
@@ -127,8 +126,7 @@ pub struct ColourField {
     pub name: String,
     /// Unit or dimension of the field; empty for a pure number.
     pub unit: String,
-    /// Values in each frame: at the stations of the first beam, then of the next one. Values that are not finite are
-    /// not coloured.
+    /// Values in each frame: at the stations of the first beam, then of the next one. Values that are not finite are not coloured.
     pub values: Vec<Vec<f64>>,
 }
 

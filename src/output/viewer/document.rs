@@ -74,7 +74,6 @@ impl Viewer {
     }
 }
 
-/// Replaces the marks in order, once each, independent of the inserted texts.
 fn filled(template: &str, texts: &[(&str, &str)]) -> String {
     let mut page = String::new();
     let mut rest = template;
@@ -189,7 +188,6 @@ fn packed_points(film: &ViewerData) -> Result<(Value, Value), OutputError> {
     Ok((packed(x, |point| point.0)?, packed(y, |point| point.1)?))
 }
 
-/// Loads, scaled by the largest load of the same kind.
 fn packed_arrows(arrows: &[Arrow], frames: usize) -> Result<Value, OutputError> {
     let largest = |kind: Symbol| {
         let of_kind = arrows.iter().filter(|arrow| arrow.symbol == kind);

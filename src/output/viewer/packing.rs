@@ -52,8 +52,7 @@ impl Quantisation {
     }
 }
 
-/// Packs `numbers` time series of `frames` values each in the format of the page; `value` takes the series and the
-/// frame.
+/// Packs `numbers` time series of `frames` values each in the format of the page; `value` takes the series and the frame.
 ///
 /// # Errors
 /// If compression fails, which would be an internal error.

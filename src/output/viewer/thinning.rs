@@ -2,8 +2,7 @@
 
 const MOST_ROWS: usize = 3000;
 
-/// Indices of the rows to keep, in order: all, or in each piece the first row and the rows with the extremes of every
-/// column.
+/// Indices of the rows to keep, in order: all, or in each piece the first row and the rows with the extremes of every column.
 pub fn rows_to_keep(rows: usize, columns: &[&[f64]]) -> Vec<usize> {
     if rows <= MOST_ROWS {
         return (0..rows).collect();

@@ -28,7 +28,6 @@ pub fn help(shell: &mut Shell, operand: &str) -> CommandOutcome {
     if let Some(NameInfo { page, shown }) = known(shell, name) {
         let text = format!("{}{}", drawn(shell, &page), shown.unwrap_or_default());
         texts.push(text);
-        // If the name itself has no help page, the page of its type is shown.
         let is_plain = lookup::find(shell.session().catalog(), &name_of_page).is_empty();
         let value = shell.session().variables().get(name).filter(|_| is_plain);
         if let Some(value) = value {

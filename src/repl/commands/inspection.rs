@@ -34,7 +34,6 @@ pub fn variables(shell: &mut Shell, _: &str) -> CommandOutcome {
         (function.name.to_owned(), "function".to_owned(), ShownVariable::Words(signature))
     });
     let of_modules = session.modules().map(|(name, module)| {
-        // Private functions and closures of a module are left out.
         let public = |of: &str| !of.starts_with("private ") && !of.starts_with("anon$");
         let functions = module.gen_fn_signatures_with_mapper(|name| name.into());
         let functions: Vec<_> = functions.filter(|signature| public(signature)).collect();
@@ -52,7 +51,6 @@ pub fn variables(shell: &mut Shell, _: &str) -> CommandOutcome {
             };
             let names = longest(&mut rows.iter().map(|(name, ..)| name)).max(4);
             let types = longest(&mut rows.iter().map(|(_, of, _)| of)).max(4);
-            // Columns are separated by two blanks.
             Some(style.width.saturating_sub(names + types + 4).max(LEAST_VALUE_WIDTH))
         }
         ReplyTarget::Pipe => None,
@@ -115,7 +113,6 @@ pub fn show(shell: &mut Shell, operand: &str) -> CommandOutcome {
         "" => None,
         text => match options_of(shell, text, ":show #{ trace: [rod.end] }") {
             Ok(mut map) => {
-                // A time before the options selects the last snapshot.
                 if let Some(time) = time {
                     map.insert("to".into(), time.into());
                 }

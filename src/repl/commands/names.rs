@@ -37,7 +37,6 @@ pub fn known(shell: &mut Shell, name: &str) -> Option<NameInfo> {
     }
     if let Some((alias, within)) = name.split_once("::") {
         let module = shell.session().modules().find(|(known, _)| *known == alias)?.1;
-        // Library functions have their own pages.
         if module.id().and_then(page_of).is_none() {
             for (.., function) in module.iter_script_fn_info() {
                 let metadata: ScriptFnMetadata = (&**function).into();
@@ -162,7 +161,6 @@ fn describe_module(page: &mut HelpPage, alias: &str, module: &Module) {
         0,
         vec![StyledText::name(alias), StyledText::plain(format!(" is an import{from}."))],
     );
-    // The library page is appended later.
     if module.id().and_then(page_of).is_some() {
         return;
     }

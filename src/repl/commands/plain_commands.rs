@@ -2,8 +2,8 @@
 
 use super::{Command, HELP, QUIT};
 
-/// Command that a bare word stands for, and its operand: `quit`, `exit()`, `help`, `help sine`, `sim?`. Names for which
-/// `is_variable` is true keep their meaning as variables.
+/// Command that a bare word stands for, and its operand: `quit`, `exit()`, `help`, `help sine`, `sim?`. Names for which `is_variable` is
+/// true keep their meaning as variables.
 pub fn meant(text: &str, is_variable: impl Fn(&str) -> bool) -> Option<(&'static Command, &str)> {
     let text = text.trim_end_matches(';').trim_end();
     let asked = text.trim_end_matches('?').trim_end();

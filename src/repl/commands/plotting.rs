@@ -201,8 +201,7 @@ fn columns(shell: &mut Shell, names: &[String]) -> PlotData {
     Ok((curves, None))
 }
 
-/// An expression is evaluated at the present time first. If its value is a point of a curve, it is then evaluated at
-/// all earlier states.
+/// An expression is evaluated at the present time first. If its value is a point of a curve, it is then evaluated at all earlier states.
 fn expression(shell: &mut Shell, text: &str) -> PlotData {
     let subject = match subject(shell, text) {
         Ok(subject) => subject,

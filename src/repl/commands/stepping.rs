@@ -30,7 +30,6 @@ pub fn run(shell: &mut Shell, operand: &str) -> CommandOutcome {
         let hint = "write :run T, with the time to run to";
         return shell.refuse(&not_a_number(operand, "a time").with_hint(hint));
     };
-    // If there is nothing to run, the script call reports the reason.
     if !shell.is_watching() || !end.is_finite() || shell.next_stop(end).is_none() {
         return move_latest(shell, &format!("run_to({})", format_number(end)));
     }

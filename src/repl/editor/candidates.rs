@@ -21,8 +21,8 @@ impl Candidate {
         Self { display: word.to_owned(), replacement: word.to_owned(), summary: summary.to_owned() }
     }
 
-    /// Candidate of a function with its arguments in parentheses, `(from, to)`. The opening parenthesis is inserted
-    /// too, and both if there are no arguments.
+    /// Candidate of a function with its arguments in parentheses, `(from, to)`. The opening parenthesis is inserted too, and both if there
+    /// are no arguments.
     pub fn call(name: &str, arguments: &str, summary: &str) -> Self {
         let brackets = if arguments == "()" { "()" } else { "(" };
         Self {
@@ -85,8 +85,8 @@ pub fn arguments(parameters: &[Parameter]) -> String {
     format!("({})", names.collect::<Vec<_>>().join(", "))
 }
 
-/// Candidates that match `typed`, sorted and without duplicates: those with this prefix; if there are none, those with
-/// the prefix ignoring case, or with the typed letters in this order.
+/// Candidates that match `typed`, sorted and without duplicates: those with this prefix; if there are none, those with the prefix ignoring
+/// case, or with the typed letters in this order.
 pub fn fitting(typed: &str, candidates: impl IntoIterator<Item = Candidate>) -> Vec<Candidate> {
     let mut all: Vec<Candidate> = candidates.into_iter().collect();
     all.sort_by_key(|candidate| (candidate.name().to_lowercase(), candidate.clone()));

@@ -58,14 +58,12 @@ pub fn complete_command(text: &str, surroundings: &CompletionContext) -> (usize,
     }
 }
 
-/// Start of a map of options that stands alone or after a blank or comma.
 fn options_at(operand: &str) -> Option<usize> {
     let at = operand.find("#{")?;
     (at == 0 || operand[..at].ends_with([' ', ','])).then_some(at)
 }
 
-/// Completes a map of options as an argument of `call`, whose text ends before the map; otherwise completes an
-/// expression.
+/// Completes a map of options as an argument of `call`, whose text ends before the map; otherwise completes an expression.
 fn in_call(
     call: &str,
     operand: &str,

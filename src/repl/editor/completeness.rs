@@ -33,8 +33,8 @@ pub fn is_command(text: &str) -> bool {
 
 /// Completeness of `text` read from a file or a pipe, where empty lines have no meaning.
 ///
-/// An error that no further line can fix makes the input complete, so that the error is reported: a wrong closing
-/// bracket, or an unterminated string literal.
+/// An error that no further line can fix makes the input complete, so that the error is reported: a wrong closing bracket, or an
+/// unterminated string literal.
 pub fn completeness_of_script(text: &str) -> Completeness {
     let tokens = scan(text);
     // A doc comment belongs to the function after it.

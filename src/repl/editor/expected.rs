@@ -46,8 +46,7 @@ impl<'a, 't> Expected<'a, 't> {
         }
     }
 
-    /// Keys of the options of a library function, with their descriptions, if their bracket is the innermost one at the
-    /// cursor.
+    /// Keys of the options of a library function, with their descriptions, if their bracket is the innermost one at the cursor.
     pub fn library_keys(&self) -> &'a [(String, String)] {
         let [.., call, map] = self.levels.as_slice() else { return &[] };
         if map.bracket != Bracket::Map || call.bracket != Bracket::Round {

@@ -33,15 +33,14 @@ impl Hint {
     }
 }
 
-/// Hint for the cursor at the end of `line`: the rest of the only matching name, the signature of the current call, or
-/// the keys of its options.
+/// Hint for the cursor at the end of `line`: the rest of the only matching name, the signature of the current call, or the keys of its
+/// options.
 pub fn hint(line: &str, position: usize, surroundings: &CompletionContext) -> Option<Hint> {
     if position != line.len() || line.trim().is_empty() {
         return None;
     }
     if is_command(line) {
         let name = line.trim();
-        // Expressions after a command have hints too.
         if let Some((word, operand)) = line.trim_start().split_once(char::is_whitespace)
             && let Some(command) = command_named(word, surroundings)
             && matches!(
@@ -124,7 +123,6 @@ fn signature(called: &ActiveCall, level: &OpenBracket) -> String {
     }
 }
 
-/// Signature of a built-in function of Rhai with the current argument in angle quotes, and its summary.
 fn built_in_signature(known: &[(&BuiltIn, FunctionForm)], level: &OpenBracket) -> Option<String> {
     let is_long_enough = |(_, form): &&(&BuiltIn, FunctionForm)| level.commas < form.listed().len();
     let (known, form) = known.iter().find(is_long_enough).or(known.first())?;

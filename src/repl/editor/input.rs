@@ -99,7 +99,6 @@ impl<'t> Input<'t> {
                 }
                 _ => (),
             }
-            // Closed inner brackets are skipped.
             let opens = matches!(self.kind(index), Some(TokenKind::Open(_)));
             index = match self.partner(index) {
                 Some(closer) if opens => closer + 1,

@@ -38,11 +38,8 @@ enum HistoryDirection {
 }
 
 enum KeyRule {
-    /// Indents the next line of an open input.
     Enter,
-    /// Removes a level of indentation.
     Back,
-    /// Searches the entries that begin like the line before the cursor.
     Search(HistoryDirection, Entries),
 }
 
@@ -82,9 +79,8 @@ fn is_indentation(line: &str, at: usize) -> bool {
         && here.is_some_and(|here| is_blank(here) && here.len() % INDENTATION.len() == 0)
 }
 
-/// Returns true if an arrow key searches the history: in a line with text before the cursor. In an entry fetched from
-/// the history, with the cursor at its end, the arrow moves to the next entry; in an input of several lines it moves
-/// the cursor.
+/// Returns true if an arrow key searches the history: in a line with text before the cursor. In an entry fetched from the history, with the
+/// cursor at its end, the arrow moves to the next entry; in an input of several lines it moves the cursor.
 fn searches(line: &str, at: usize, is_entry: bool) -> bool {
     let is_fetched = is_entry && at == line.len();
     at > 0 && !line.contains('\n') && !is_fetched

@@ -7,8 +7,8 @@ use crate::script::bindings::returns::ValueKind;
 use crate::script::bindings::table::{CallSyntax, FunctionBinding};
 use crate::script::source::scanner::is_name;
 
-/// Members of a value as candidates. For an unknown kind the members of all types are offered once something is typed;
-/// for a map held by a variable its keys.
+/// Members of a value as candidates. For an unknown kind the members of all types are offered once something is typed; for a map held by a
+/// variable its keys.
 pub fn members(
     of: Option<ValueKind>,
     variable: Option<&Variable>,

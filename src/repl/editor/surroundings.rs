@@ -4,8 +4,7 @@ use std::path::PathBuf;
 
 use crate::script::bindings::catalog::Catalog;
 
-/// Names of a session for completion and hints, captured before each prompt. Only names are stored, so it stays small
-/// for large values.
+/// Names of a session for completion and hints, captured before each prompt. Only names are stored, so it stays small for large values.
 #[derive(Clone)]
 pub struct CompletionContext {
     /// Catalog of the language.

@@ -1,7 +1,7 @@
 //! Type-ahead: keys typed while an input is evaluated are kept for the next prompt.
 //!
-//! Between two prompts a terminal would be in line mode and act on keys such as Ctrl-D or Ctrl-R itself. Therefore raw
-//! input is set for the whole session. Ctrl-C and Ctrl-Z keep their meaning.
+//! Between two prompts a terminal would be in line mode and act on keys such as Ctrl-D or Ctrl-R itself. Therefore raw input is set for the
+//! whole session. Ctrl-C and Ctrl-Z keep their meaning.
 
 /// Guard that keeps the terminal in raw input mode, and restores its mode when dropped.
 pub struct TypedAhead(());

@@ -106,7 +106,6 @@ impl<'t> Types<'_, 't> {
         Some(TypedValue { of, start: first.start })
     }
 
-    /// Last token of the value whose member is named at token `at`.
     fn receiver(&self, at: usize) -> Option<usize> {
         at.checked_sub(2).filter(|_| self.input.is_dot(at - 1))
     }
@@ -119,7 +118,6 @@ impl<'t> Types<'_, 't> {
         }
     }
 
-    /// Type of `( … )`, if it contains a single chain of members.
     fn group(&self, opener: usize, closer: usize, depth: usize) -> Option<ValueKind> {
         let inside = self.value(closer.checked_sub(1)?, depth + 1)?;
         inside.of.filter(|_| inside.start == opener + 1)

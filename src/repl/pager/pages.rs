@@ -27,7 +27,6 @@ pub fn rows(text: &str, columns: usize) -> usize {
     text.lines().map(|line| width(line).div_ceil(columns).max(1)).sum()
 }
 
-/// Text of a line without colour sequences.
 fn letters(line: &str) -> String {
     let mut pieces = line.split("\x1b[");
     let first = pieces.next().unwrap_or_default().to_owned();
@@ -143,7 +142,6 @@ fn ask(
         match keys.read(was_interrupted)? {
             Pressed::Byte(b'\r' | b'\n') => break,
             Pressed::Byte(8 | 127) => {
-                // A character may have several bytes.
                 let mut text = String::from_utf8_lossy(&typed).into_owned();
                 text.pop();
                 typed = text.into_bytes();
@@ -157,7 +155,6 @@ fn ask(
             Pressed::End => break,
         }
     }
-    // An empty input repeats the previous search.
     if !typed.is_empty() {
         *word = String::from_utf8_lossy(&typed).into_owned();
     }

@@ -18,7 +18,6 @@ impl Shell {
             }
             ScriptError::Stopped(Stop::Interrupt) => self.tell(Reply::Interrupted),
             ScriptError::Stopped(stop) => self.refuse(&Diagnostic::general(stop.words().0)),
-            // A script function called during a step of a command.
             ScriptError::Engine(error) => match *error {
                 EvalAltResult::ErrorTerminated(token, _) => {
                     self.refuse_native(ScriptError::Stopped(Stop::of_token(&token)))

@@ -140,7 +140,6 @@ impl FunctionForm {
     }
 }
 
-/// Returns true if the receiver word of a notation covers the type.
 fn kind_includes(kind: &str, type_name: &str) -> bool {
     match kind {
         "value" => true,

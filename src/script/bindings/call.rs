@@ -178,7 +178,6 @@ impl<'c, 'r> Call<'c, 'r> {
     pub fn show(&self, value: &Dynamic) -> String {
         let mut value = value.clone();
         let shown = self.native.call_native_fn_raw("to_debug", true, &mut [&mut value]);
-        // Values without their own text are shown as by the engine.
         shown.map_or_else(|_| value.to_string(), |text| text.to_string())
     }
 }

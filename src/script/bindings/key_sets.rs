@@ -78,7 +78,6 @@ impl<T: Copy> KeySets<T> {
     }
 }
 
-/// Enumeration in a sentence: `a, b and c`.
 fn listed<S: AsRef<str>>(names: &[S]) -> String {
     let names: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
     match names.as_slice() {

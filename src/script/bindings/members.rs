@@ -12,7 +12,6 @@ use super::table::{CallSyntax, getter_of, setter_of};
 use crate::script::messages::error::EngineResult;
 use crate::script::state::context::Context;
 
-/// Use of a member: called with this many arguments, read or assigned.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Use {
     Called(usize),

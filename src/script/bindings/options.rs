@@ -16,7 +16,6 @@ pub struct Options {
     arguments: Arguments,
 }
 
-/// Options are read like arguments.
 impl Deref for Options {
     type Target = Arguments;
 
@@ -54,7 +53,6 @@ impl Options {
         Ok(Self { arguments: Arguments::new(keys, values) })
     }
 
-    /// Error of a missing option, with a sentence about the options.
     pub(super) fn missing(&self, owner: &str, name: &str, told: &str) -> ScriptError {
         match self.arguments.parameter(name) {
             Some(key) => missing(owner, name, &format!("{}; {told}", asked_for(key))),
@@ -95,7 +93,6 @@ fn missing(owner: &str, name: &str, what_to_add: &str) -> ScriptError {
         .hint(format!("add {what_to_add}"))
 }
 
-/// Error of a key that is valid only together with another key.
 fn alone(owner: &str, keys: &[Parameter], key: &Parameter) -> ScriptError {
     let Parameter { name, beside, .. } = key;
     let other = keys.iter().find(|other| other.name == *beside);

@@ -38,7 +38,6 @@ pub enum ValueKind {
     OneOf(&'static [ValueKind]),
 }
 
-/// Kinds of built-in types, by type name.
 const PLAIN: &[ValueKind] = &[
     ValueKind::Number,
     ValueKind::Whole,
@@ -96,7 +95,6 @@ impl ValueKind {
     }
 }
 
-/// Description with article.
 impl fmt::Display for ValueKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (self, self.type_name()) {

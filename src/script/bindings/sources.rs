@@ -21,7 +21,6 @@ pub const FOLDER: &str = "std/";
 pub struct Sources {
     functions: Rc<RefCell<HashMap<String, HashSet<String>>>>,
     entered_at: Rc<Cell<Option<usize>>>,
-    /// Checksums of imported files.
     imported: Rc<RefCell<BTreeMap<String, u32>>>,
     catalog: Option<Rc<Catalog>>,
     reader: TokenReader,

@@ -18,7 +18,6 @@ pub struct StoredFunction {
 }
 
 impl StoredFunction {
-    /// Stores a function passed to a native call; `role` names it in messages.
     pub(super) fn new(
         function: FnPtr,
         native: &NativeCallContext,

@@ -81,7 +81,6 @@ impl UnknownName<'_> {
         self.unknown_name(name, &types, &rows, self.is_dotted(at))
     }
 
-    /// Unknown function of an imported module; suggestions exist for the standard library only.
     fn of_module(&self, module: &str, name: &str, got: usize) -> ErrorText {
         let message = format!("there is no function '{name}' in '{module}'");
         let mut imports = self.outline.imports.iter().rev();
@@ -185,7 +184,6 @@ impl UnknownName<'_> {
         }
         let members = receiver.map(|of| self.catalog.members(of)).unwrap_or_default();
         let mut known: Vec<String> = members.iter().map(|row| row.name.to_owned()).collect();
-        // Functions that do not accept the receiver are not suggested.
         let takes = |row: &&FunctionBinding| {
             let first = row.parameters.first();
             matches!(row.form, CallSyntax::Function)

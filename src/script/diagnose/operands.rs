@@ -43,6 +43,5 @@ fn hint(symbol: &str, types: &[&str]) -> Option<&'static str> {
     }
 }
 
-/// Hint for arithmetic on arrays: arrays join, vectors add.
 const OF_ARRAYS: &str = "points are vectors: vec(1, 2) - [1, 0] and 2 * vec(1, 2) work; numbers.map(|x| 2 * x) works on each \
      element of an array";

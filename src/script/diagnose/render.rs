@@ -56,7 +56,6 @@ impl Diagnostic {
 
 /// Longer lines are not drawn; the location is described instead.
 const LONGEST_DRAWN: usize = 1000;
-/// Number of characters shown of such a line.
 const TOLD: usize = 60;
 
 /// Columns before the hint: `  = help: `.
@@ -64,7 +63,6 @@ const BESIDE_HINT: usize = 10;
 
 const NARROWEST: usize = 30;
 
-/// Wraps a line at blanks to `width` columns; longer words stay whole.
 fn wrapped(line: &str, width: usize) -> Vec<String> {
     let mut lines = Vec::new();
     let mut current = String::new();

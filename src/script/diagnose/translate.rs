@@ -63,7 +63,6 @@ pub fn is_waiting(error: &EvalAltResult) -> bool {
     }
 }
 
-/// Hint for a variant number where a plain number is required.
 const PLAIN: &str =
     "value_of(x) is the same without its derivatives; int(x) and round(x) are whole numbers";
 
@@ -326,7 +325,6 @@ fn missing_key(key: &str, outline: &ScriptOutline) -> Diagnosis {
     (format!("the map has no key '{key}'"), Some(hint))
 }
 
-/// The same program, or the imported one that an error names as its source.
 fn source(program: &Program, named: &str) -> Program {
     if named.is_empty() || named == program.name {
         return program.clone();

@@ -22,12 +22,10 @@ struct OnNumbers {
 }
 
 impl OnNumbers {
-    /// An operator that is differentiable everywhere.
     const fn smooth(of: fn(f64, f64) -> f64) -> Self {
         Self { of, corner: None }
     }
 
-    /// An operator that is not differentiable at some points.
     const fn rough(of: fn(f64, f64) -> f64, corner: NonsmoothCheck) -> Self {
         Self { of, corner: Some(corner) }
     }
@@ -90,7 +88,6 @@ pub fn install(engine: &mut Engine) {
     }
 }
 
-/// Type combinations of two operands with at least one variant value.
 fn with_one() -> [[TypeId; 2]; 3] {
     let (varied, any) = (TypeId::of::<VariantValue>(), TypeId::of::<Dynamic>());
     [[varied, varied], [varied, any], [any, varied]]

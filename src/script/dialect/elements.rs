@@ -1,5 +1,5 @@
-//! Methods of arrays and maps with a function argument. Unlike Rhai's own, they do not treat non-boolean results as
-//! false, and `for_each` passes the element instead of the index.
+//! Methods of arrays and maps with a function argument. Unlike Rhai's own, they do not treat non-boolean results as false, and `for_each`
+//! passes the element instead of the index.
 
 use std::any::TypeId;
 use std::cell::Cell;
@@ -49,7 +49,6 @@ fn install_searches(engine: &mut Engine) {
     });
 }
 
-/// Registers a method that depends on the index of the first match.
 fn search(engine: &mut Engine, name: &str, give: fn(&Array, Option<usize>) -> Dynamic) {
     let types = [TypeId::of::<Array>(), TypeId::of::<FnPtr>(), TypeId::of::<INT>()];
     let least = if name == "some" { 2 } else { 3 };

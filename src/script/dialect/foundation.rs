@@ -1,8 +1,7 @@
 //! Selection of Rhai's packages, and removed functions.
 //!
-//! Not included are Rhai's byte arrays and bit fields; its reflection, tags, `take` and JSON parser; and `sleep`, which
-//! cannot be interrupted. Functions that users may expect but that are missing or surprising in Rhai have an error with
-//! a suggestion.
+//! Not included are Rhai's byte arrays and bit fields; its reflection, tags, `take` and JSON parser; and `sleep`, which cannot be
+//! interrupted. Functions that users may expect but that are missing or surprising in Rhai have an error with a suggestion.
 
 use std::any::TypeId;
 
@@ -20,8 +19,8 @@ rhai::def_package! {
         BasicMathPackage, BasicStringPackage, BasicTimePackage, LogicPackage, MoreStringPackage {}
 }
 
-/// Seed of Rhai's hashes. Names of closures (`anon$…`), which scripts can print, contain such hashes; without a fixed
-/// seed they would differ between processes.
+/// Seed of Rhai's hashes. Names of closures (`anon$…`), which scripts can print, contain such hashes; without a fixed seed they would
+/// differ between processes.
 const SEED: [u64; 4] =
     [0x7769_7468_7920_0001, 0x7769_7468_7920_0002, 0x7769_7468_7920_0003, 0x7769_7468_7920_0004];
 

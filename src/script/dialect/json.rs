@@ -1,5 +1,4 @@
-//! `map.to_json()`: like Rhai's, but vectors become arrays, variant values become their value, and values without a
-//! JSON form are an error.
+//! `map.to_json()`: like Rhai's, but vectors become arrays, variant values become their value, and values without a JSON form are an error.
 
 use rhai::{
     Array, Dynamic, Engine, EvalAltResult, FnPtr, Map, NativeCallContext, Position,
@@ -25,7 +24,6 @@ pub fn install(engine: &mut Engine) {
     );
 }
 
-/// JSON form of a value; `key` is its path for messages.
 fn writable(
     engine: &Engine,
     value: &Dynamic,

@@ -1,6 +1,5 @@
-//! Names with a misleading meaning, rejected before a script runs: functions named like functions of the language,
-//! which would replace them everywhere, and constants of the language used in functions of a file that has a variable
-//! of that name, which functions do not see.
+//! Names with a misleading meaning, rejected before a script runs: functions named like functions of the language, which would replace them
+//! everywhere, and constants of the language used in functions of a file that has a variable of that name, which functions do not see.
 
 use rhai::{Engine, EvalAltResult, Position, Token};
 
@@ -11,8 +10,7 @@ use crate::script::messages::error::ScriptError;
 use crate::script::source::definitions::{Definition, definitions};
 use crate::script::source::text::{Source, behind, name_of};
 
-/// Checks the functions of `source`, which starts after `lines_before` lines of a file with the top-level `variables`
-/// and their lines.
+/// Checks the functions of `source`, which starts after `lines_before` lines of a file with the top-level `variables` and their lines.
 ///
 /// # Errors
 /// With the position of the first invalid name.

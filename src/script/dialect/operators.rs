@@ -1,11 +1,11 @@
 //! Scientific number semantics: implementation of the operators of [`syntax`](crate::script::source::syntax).
 //!
-//! Comparisons follow IEEE 754 for every mix of integers and floats, division is never truncated, and a power of
-//! integers with a non-negative exponent is an integer; integer overflow is an error. Other types keep the engine's
-//! operators, except that ordering values of different types is an error instead of silently `false`.
+//! Comparisons follow IEEE 754 for every mix of integers and floats, division is never truncated, and a power of integers with a
+//! non-negative exponent is an integer; integer overflow is an error. Other types keep the engine's operators, except that ordering values
+//! of different types is an error instead of silently `false`.
 //!
-//! Two limits of the engine remain: `switch` also compares the kind of number (`3.0` is not `case 3`), and a minus
-//! binds tighter than a power, therefore `-x^2` is an error.
+//! Two limits of the engine remain: `switch` also compares the kind of number (`3.0` is not `case 3`), and a minus binds tighter than a
+//! power, therefore `-x^2` is an error.
 
 use std::any::TypeId;
 

@@ -1,7 +1,7 @@
 //! Parsing of scripts. All parsing goes through this module.
 //!
-//! Rhai stores lines and columns in 16 bits. Powers, loops and errors are identified by position, so larger texts are
-//! rejected instead of being misread.
+//! Rhai stores lines and columns in 16 bits. Powers, loops and errors are identified by position, so larger texts are rejected instead of
+//! being misread.
 
 use rhai::{AST, Engine, EvalAltResult, Position, Scope};
 

@@ -9,7 +9,6 @@ use crate::script::messages::error::EngineResult;
 use crate::script::source::syntax::OWN;
 use crate::script::state::context::Context;
 
-/// Number of elements between checks for interruption.
 pub(super) const PULSE: usize = 4096;
 
 /// Registers the method with and without a comparison function.

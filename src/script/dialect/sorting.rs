@@ -1,5 +1,5 @@
-//! Sorting by a script function or in natural order. Rhai's own ignores errors of the function and non-integer
-//! differences, and rejects arrays that mix integers and floats.
+//! Sorting by a script function or in natural order. Rhai's own ignores errors of the function and non-integer differences, and rejects
+//! arrays that mix integers and floats.
 
 use std::any::TypeId;
 use std::cmp::Ordering;
@@ -13,7 +13,6 @@ use crate::script::messages::error::{EngineResult, ScriptError};
 use crate::script::messages::numbers::describe;
 use crate::script::state::context::Context;
 
-/// Converts an order to the one that is sorted by.
 type SortFunction = fn(Ordering) -> Ordering;
 
 /// Registers `sort` and `order`, with and without a comparison function.

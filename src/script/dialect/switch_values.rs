@@ -1,5 +1,4 @@
-//! Check of `switch` values: numbers, texts, booleans, and arrays and maps of these. Rhai silently takes the default
-//! case for all others.
+//! Check of `switch` values: numbers, texts, booleans, and arrays and maps of these. Rhai silently takes the default case for all others.
 
 use rhai::{Array, Dynamic, Engine, FnPtr, Map};
 

@@ -48,7 +48,6 @@ impl FolderResolver {
         let content = self.inputs.read(&file, LARGEST_SCRIPT).map_err(|error| {
             error.hint("import looks for NAME.rhai in the script's own folder and below")
         })?;
-        // Normalises repeated slashes.
         let path: PathBuf = Path::new(&file).components().collect();
         let shown =
             if self.folder == Path::new(".") { file.into() } else { self.folder.join(file) };

@@ -117,7 +117,6 @@ fn run_here(program: &Program, catalog: &Catalog, settings: RunSettings) -> RunO
     }
 }
 
-/// Removes the journals of studies; failures are reported but harmless.
 fn discard_journals(context: &Context) {
     if let Err(ScriptError::Failure(failure)) = context.journals().finish() {
         context.tell(&failure.message);

@@ -16,7 +16,6 @@ use crate::script::state::context::Context;
 use crate::script::state::settings::RunSettings;
 use crate::script::state::watchdog::Watchdog;
 
-/// Note on errors after a dry build has skipped a simulation.
 const ONLY_DRY: &str =
     "withy check runs no simulation: what depends on results can only be seen by withy run";
 

@@ -17,7 +17,6 @@ use crate::script::presentation::details;
 use crate::simulation::Variation;
 use crate::system::Scene;
 
-/// Hint for a geometry that depends on a parameter.
 const SHAPED: &str = "numbers of sections, loads, springs, masses and velocities may depend on scene.parameter(…); for shapes and places give plain numbers and take central differences, as fit does";
 
 /// Handle of a scene.
@@ -186,7 +185,6 @@ impl SceneHandle {
         present().is_none_or(|present| present.variant == 0)
     }
 
-    /// Rejects parameters in a scene with functions that are called between steps.
     fn expect_unasked_beside(&self) -> Result<(), ScriptError> {
         if self.controllers.borrow().is_empty() && self.conditions.borrow().is_empty() {
             return Ok(());

@@ -5,7 +5,6 @@ use crate::output::significant;
 use crate::script::bindings::kind::{Details, Scripted};
 use crate::script::presentation::details;
 
-/// Digits of stiffness and inertia when shown.
 const DIGITS: usize = 7;
 
 /// A constant or tapered cross section, and its material damping.

@@ -289,7 +289,6 @@ impl SimulationHandle {
                 self.tell_ending(call.context(), &when);
                 return Ok(());
             }
-            // An event may have advanced the simulation itself.
             if self.time() >= end || stop >= end || stop.is_nan() {
                 return Ok(());
             }
@@ -321,7 +320,6 @@ impl SimulationHandle {
     }
 }
 
-/// Converts an error of a run; interruptions stay interruptions.
 fn explain(error: SimulationError, context: &Context) -> ScriptError {
     match error {
         SimulationError::Interrupted { .. } => {

@@ -98,7 +98,6 @@ fn describe_topic(text: &mut String, topic: &Topic) {
 
 fn describe_table(table: &BindingTable) -> String {
     let mut text = format!("# {}\n\n{}\n", title(table.name), table.doc);
-    // Writing to a string cannot fail.
     for of in table.types {
         let _ = writeln!(text, "\n*{}*: {}", of.name(), of.doc());
     }
@@ -159,12 +158,10 @@ fn see(text: &mut String, names: &[&str]) {
     }
 }
 
-/// Return value, as text after a signature.
 pub(super) fn gives(returns: &Returns) -> String {
     if returns.is_nothing() { String::new() } else { format!(" → {returns}") }
 }
 
-/// Appends a parameter as a list entry, with the keys of its option map below.
 pub(super) fn describe_parameter(text: &mut String, parameter: &Parameter, depth: usize) {
     let doc = if parameter.doc.is_empty() { String::new() } else { format!(", {}", parameter.doc) };
     let _ = writeln!(

@@ -22,7 +22,6 @@ pub fn document() -> String {
         let anchor = page.module.name.replace('/', "-");
         let names: Vec<_> =
             page.functions.iter().map(|known| format!("`{}`", known.name())).collect();
-        // Writing to a string cannot fail.
         let _ = writeln!(text, "- [{}](#{anchor}): {}", page.module.name, names.join(" "));
     }
     pages().iter().for_each(|page| describe(&mut text, page));

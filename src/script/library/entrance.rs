@@ -1,5 +1,5 @@
-//! Native wrappers of library functions, which remember the calling line. A failed check inside the library is
-//! therefore reported at the user's line.
+//! Native wrappers of library functions, which remember the calling line. A failed check inside the library is therefore reported at the
+//! user's line.
 
 use std::any::TypeId;
 

@@ -1,5 +1,5 @@
-//! Help pages of the library, parsed from the comments `//!` of a file and `///` of its functions. They are parsed when
-//! help is requested, not on import.
+//! Help pages of the library, parsed from the comments `//!` of a file and `///` of its functions. They are parsed when help is requested,
+//! not on import.
 
 use std::sync::LazyLock;
 

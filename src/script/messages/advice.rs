@@ -1,5 +1,4 @@
-//! Hints for errors of lower layers, in terms of the language. The lower layers report errors without knowing about
-//! scripts.
+//! Hints for errors of lower layers, in terms of the language. The lower layers report errors without knowing about scripts.
 
 use std::error::Error;
 
@@ -214,7 +213,6 @@ fn on_archive(error: &ArchiveError) -> Option<String> {
     Some(advice.into())
 }
 
-/// Hint for a prescribed motion that jumps.
 const SMOOTH: &str = "let it get there in a time: import \"std/schedules\" as schedules; #{ y: 0.1 * schedules::smooth_step(0, 0.05) }; \
                       what is to move with a speed from the start begins with it: |t| 3 * t";
 

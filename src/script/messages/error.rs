@@ -106,8 +106,7 @@ impl ScriptError {
     }
 }
 
-/// Errors of lower layers become failures with their own message and a hint. Errors caused by a script function are
-/// passed on unchanged.
+/// Errors of lower layers become failures with their own message and a hint. Errors caused by a script function are passed on unchanged.
 impl<E: std::error::Error + 'static> From<E> for ScriptError {
     fn from(error: E) -> Self {
         match Raised::behind(&error) {

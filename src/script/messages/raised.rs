@@ -6,8 +6,8 @@ use std::fmt;
 
 use rhai::EvalAltResult;
 
-/// Error of a script function as carried by the layers below the script. They report its message; on return to the
-/// script the original error is taken out, with its position, trace and thrown value.
+/// Error of a script function as carried by the layers below the script. They report its message; on return to the script the original
+/// error is taken out, with its position, trace and thrown value.
 #[derive(Debug)]
 pub struct Raised {
     words: String,

@@ -86,7 +86,6 @@ impl FrameSource {
         traces.fold(picture, |picture, (name, path)| picture.trace(name.clone(), until(path)))
     }
 
-    /// Everything that is ever visible, in one picture.
     fn whole(&self) -> MotionPicture {
         let picture =
             self.snapshots.iter().cloned().fold(self.base.clone(), MotionPicture::snapshot);
@@ -153,7 +152,6 @@ fn times(
     Ok((0..=pieces).map(|frame| from + (to - from) * frame as f64 / pieces as f64).collect())
 }
 
-/// Number of decimals that distinguish the frame times.
 fn decimals(times: &[f64]) -> usize {
     let apart = times.get(1).map_or(1.0, |second| second - times[0]);
     (0..12).find(|decimals| apart * whole_power(10.0, *decimals as i32) >= 0.999).unwrap_or(12)

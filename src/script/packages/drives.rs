@@ -93,7 +93,6 @@ const MOVE_KEYS: &[Parameter] = &[
     SAMPLE,
     DELAY,
 ];
-/// Options for the rates of x and y.
 const SPEEDS: [&str; 2] = ["x_speed", "y_speed"];
 const MOTOR_KEYS: &[Parameter] = &[
     either("angle", SCHEDULE_KINDS).unit("rad").doc("the turn since the start").optional(),

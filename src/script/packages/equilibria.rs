@@ -200,14 +200,12 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// Setup of examples with a bent beam.
 pub(super) const BENT: &str = "let scene = new_scene(\"example\");\n\
     let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\n\
     let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [2, 0]), basis: bspline(4), section: s });\n\
     scene.clamp(rod.start);\n\
     scene.moment(rod.end, s.EI * 3.14159265358979 / 4);";
 
-/// Setup of examples with a bead sliding into the sag of a beam.
 const SLID: &str = "let scene = new_scene(\"sag\");\n\
     let s = section(#{ EA: 1e6, GA: 1e6, EI: 100, rho_A: 0.1, rho_I: 1e-3 });\n\
     let wire = scene.beam(#{ axis: line([0, 0], [4, 0]), basis: bspline(8), section: s });\n\

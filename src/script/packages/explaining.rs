@@ -68,7 +68,6 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// Text table of the parts.
 fn written(parts: &[SystemFeature]) -> Dynamic {
     let mut table = TextTable::new(&["part", "used", "how much, or what is left out"]);
     for SystemFeature { name, usage } in parts {

@@ -151,7 +151,6 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// Setup of examples with a fit and a design.
 const SETUP: &str = "let found = fit(#{ parameters: #{ slope: 1, height: 0 }, model: |p| [0, 1, 2].map(|x| p.slope * x + p.height), measured: [1, 3, 5] });\n\
     let best = minimise(#{ parameters: #{ x: [0, -3, 3] }, run: |p| #{ y: (p.x - 1) ** 2 }, least: \"y\", tolerance: 1e-5 });";
 const FIT: Type = Type::of::<FitHandle>();
@@ -175,29 +174,17 @@ const PATIENCE: Parameter = number("patience")
 option_set! {
     /// The options of `fit`.
     pub struct FitOptions {
-        /// Name of the fit and its files.
         name: String = name("name").or(Presence::Text("fit")).doc("of the fit and its files"),
-        /// Parameters with start values and bounds.
         parameters: Dynamic = RANGES,
-        /// Function that returns residuals.
         residuals: Option<FnPtr> = callback("residuals").doc("|p| …, gives an array of differences").optional(),
-        /// Function that returns model values.
         model: Option<FnPtr> = callback("model").doc("|p| …, gives an array of what should have been measured").optional(),
-        /// Measured values.
         measured: Option<Vec<f64>> = numbers("measured").doc("what the model is compared with").optional().beside("model"),
-        /// Abscissas of the measurements.
         over: Option<Vec<f64>> = numbers("over").doc("where or when it was measured, for the picture").optional().beside("measured"),
-        /// Second argument of the function.
         data: Option<Dynamic> = anything("data").doc("what the function is called with behind the parameters: read_csv(\"measured.csv\")").optional(),
-        /// Weights of the squares.
         weights: Option<Vec<f64>> = numbers("weights").doc("of the squares, one for each: one over the variance of what was measured").optional(),
-        /// Confidence level of intervals.
         confidence: f64 = number("confidence").between(0.5, 0.9999).or(Presence::Number(0.95)).doc("with which parameters lie in their intervals"),
-        /// Relative step of finite differences.
         step: f64 = number("step").between(1e-8, 0.1).or(Presence::Number(RELATIVE_STEP)).doc("of differences, as a part of the size of a parameter"),
-        /// Source of the derivatives.
         derivatives: String = choice("derivatives", &["known", "differences"]).or(Presence::Text("known")).doc("those that runs know of themselves, or differences of runs always"),
-        /// Wall-clock limit of a run [s].
         patience: f64 = PATIENCE,
     }
 }
@@ -205,23 +192,14 @@ option_set! {
 option_set! {
     /// The options of `minimise`.
     pub struct DesignOptions {
-        /// Parameters with start values and bounds.
         parameters: Dynamic = RANGES,
-        /// Function of a run.
         run: FnPtr = callback("run").doc("|p| …, gives a map of numbers"),
-        /// Name of the result to minimise.
         least: Option<String> = text("least").doc("the name of the result that is to be least").optional(),
-        /// Name of the result to maximise.
         largest: Option<String> = text("largest").doc("the name of the result that is to be largest").optional(),
-        /// Bounds of results.
         constraints: Option<Dynamic> = anything("constraints").doc("the least and the largest that results may be: #{ sag: [-1e-3, 1e-3], mass: [(), 5] }").optional(),
-        /// Tolerance of the parameters.
         tolerance: f64 = number("tolerance").positive().or(Presence::Number(1e-4)).doc("of parameters, as a part of their ranges"),
-        /// Maximum number of runs.
         most_runs: usize = whole("most_runs").positive().or(Presence::Whole(500)),
-        /// Use of derivatives.
         derivatives: String = choice("derivatives", &["known", "none"]).or(Presence::Text("known")).doc("those that runs know of themselves, or none"),
-        /// Wall-clock limit of a run [s].
         patience: f64 = PATIENCE,
     }
 }

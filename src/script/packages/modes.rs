@@ -138,7 +138,6 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// Setup of examples with a vibrating beam.
 const VIBRATING: &str = "let scene = new_scene(\"example\");\n\
     let s = section(#{ EA: 1e6, GA: 1e6, EI: 100, rho_A: 1, rho_I: 1e-4 });\n\
     let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [4, 0]), basis: bspline(8), section: s });\n\
@@ -161,9 +160,7 @@ struct ModesData {
 
 #[derive(Clone, Copy, PartialEq)]
 enum ModesReference {
-    /// Undeformed, before any load acts.
     Drawn,
-    /// Loaded, at rest or in motion.
     Loaded,
 }
 

@@ -108,7 +108,6 @@ pub const TABLE: BindingTable = BindingTable {
 const PRECISION: Type = Type::of::<PrecisionStudy>();
 const FINEST_RUN: Type = Type::of::<FinestRun>();
 
-/// Setup of examples with a scene and a study.
 const SETUP: &str = "let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\n\
     let spinning = |mesh| {\n    let scene = new_scene(\"spinning\");\n    \
     scene.beam(#{ name: \"rod\", axis: line([0, 0], [2, 0]), basis: mesh, section: s, spin: 1 });\n    scene\n};\n\

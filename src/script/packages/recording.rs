@@ -52,7 +52,6 @@ impl Scripted for Recording {
     }
 }
 
-/// Rejects a call that needs a history row for every step.
 pub(super) fn expect_all_rows(
     call: &Call,
     of: &SimulationHandle,
@@ -70,7 +69,6 @@ pub(super) fn expect_all_rows(
     Err(call.error(told).hint("start it without the option record: scene.start(#{ dt: … })"))
 }
 
-/// Rejects a call that draws over time if only the ends of runs were recorded.
 pub(super) fn expect_rows_between(call: &Call, of: &SimulationHandle) -> Result<(), ScriptError> {
     let simulation = of.simulation();
     if simulation.recording() != Recording::Nothing || simulation.has_all_rows() {
@@ -80,7 +78,6 @@ pub(super) fn expect_rows_between(call: &Call, of: &SimulationHandle) -> Result<
     Err(call.error(told).hint("start it with the option record: every(100), or without it"))
 }
 
-/// Data missing in a file because states could not be reproduced.
 pub(super) struct Missing {
     /// Description of the missing data.
     pub what: &'static str,

@@ -105,7 +105,6 @@ fn release(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(Dynamic::UNIT)
 }
 
-/// Element to release, given by its handle or name.
 fn hold(call: &Call, handle: &SceneHandle) -> Result<Releasable, ScriptError> {
     if let Some(joint) = call.get_if::<JointHandle>("what") {
         handle.expect_same(&joint.scene, "joint")?;

@@ -117,7 +117,6 @@ pub const TABLE: BindingTable = BindingTable {
 
 const NAME: Parameter = text("name");
 
-/// All simulations in an array and in nested arrays, without duplicates.
 fn simulations_among(values: &Array) -> Array {
     let mut found: Vec<SimulationHandle> = Vec::new();
     let mut left: Vec<Dynamic> = values.iter().rev().cloned().collect();
@@ -175,7 +174,6 @@ fn load(call: &mut Call) -> Result<Dynamic, ScriptError> {
     )))
 }
 
-/// Index of the object with this name in the receiver scene.
 fn find(
     call: &Call,
     kind: &str,

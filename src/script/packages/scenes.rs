@@ -155,14 +155,12 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// Reports that a value replaces an earlier one.
 fn tell_replaced(call: &Call, what: &str, (earlier, now): (Vec2, Vec2)) {
     let [earlier, now] = [earlier, now]
         .map(|vector| format!("({}, {})", format_number(vector.x), format_number(vector.y)));
     call.context().tell(&format!("note: {what} was {earlier} and is now {now}"));
 }
 
-/// Setup of examples with a beam.
 pub(super) const ROD: &str = "let scene = new_scene(\"example\");\n\
     let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\n\
     let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [2, 0]), basis: bspline(4), section: s });";

@@ -210,7 +210,6 @@ fn stored(call: &Call, function: FnPtr, breaks: Vec<f64>) -> Result<Schedule, Sc
     Ok(Schedule::Function { function, breaks })
 }
 
-/// One-line message of an error of a stored function.
 fn words(context: &Context, error: &EvalAltResult) -> String {
     let Some(engine) = context.engine() else { return error.to_string() };
     let Some(catalog) = Sources::of(&engine).catalog() else { return error.to_string() };
@@ -259,14 +258,12 @@ pub(super) fn controlled_schedule_of(
     })
 }
 
-/// Sampling of controllers from the options.
 pub(super) fn beat_of(options: &Arguments) -> Result<Option<SampleClock>, ScriptError> {
     let delay = options.number_if_given("delay").unwrap_or(0.0);
     let beat = options.number_if_given("sample").map(|period| SampleClock::new(period, delay));
     Ok(beat.transpose()?)
 }
 
-/// Rejects a sampling period if none of these schedules is a controller.
 pub(super) fn expect_controller<'a>(
     call: &Call,
     beat: Option<SampleClock>,

@@ -225,7 +225,6 @@ fn of_uniform(call: &Call, number: fn(&Section) -> f64) -> Result<Dynamic, Scrip
     }
 }
 
-/// Relaxation times from the options; `None` if all are zero.
 fn relaxation(options: &Options) -> Result<Option<Relaxation>, ScriptError> {
     let times = options.options_or_defaults("damping")?;
     let relaxation = Relaxation {
@@ -307,7 +306,6 @@ fn with_quadrature(mesh: Mesh, options: &Options) -> Result<Dynamic, ScriptError
     ))
 }
 
-/// Mesh of an argument, given as a mesh or a knot vector.
 pub(super) fn mesh_of(arguments: &Arguments, name: &str) -> Option<Mesh> {
     let knots = |knots: Rc<KnotVector>| Mesh::new(Basis::BSpline(KnotVector::clone(&knots)));
     arguments.get_if::<Mesh>(name).or_else(|| arguments.get_if::<Rc<KnotVector>>(name).map(knots))

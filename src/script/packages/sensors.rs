@@ -214,14 +214,12 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// Setup of examples with a hanging beam.
 const HANGING: &str = "let scene = new_scene(\"example\");\n\
     let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 0.01 });\n\
     let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [2, 0]), basis: bspline(4), section: s });\n\
     scene.hinge(rod.start);\n\
     scene.gravity([0, -9.81]);";
 
-/// Help text on mean values over a step.
 const MEAN: &str = "It is summed up while steps are made, where one of the columns mean_force, mean_fx, mean_fy, mean_moment is recorded, as in \
     scene.record(\"hinge1.mean_force\"), and then for all joints and supports. With loads, weight and drives, these forces change the momentum over the step, and with \
     the moments about a place, each force in the middle of its way over the step, the angular momentum: to rounding with energy_momentum() and energy_decaying(), and \
@@ -324,7 +322,6 @@ fn known(call: &Call, built: &Scene, index: usize, beam: &BeamHandle) -> Result<
     Err(call.error(told).hint("add everything before scene.start(…), or start again"))
 }
 
-/// Requested station; `None` for the whole beam.
 fn wanted(call: &Call, scene: &Scene, beam: usize) -> Result<Option<Station>, ScriptError> {
     let Some(station) = call.number_if_given("s") else { return Ok(None) };
     let length = scene.beams[beam].axis.length();

@@ -153,7 +153,6 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// Setup of examples with a simulation.
 pub(super) const SPINNING: &str = "let scene = new_scene(\"example\");\n\
     let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\n\
     let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [2, 0]), basis: bspline(4), section: s, spin: 1 });\n\

@@ -290,7 +290,6 @@ fn slider(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(Dynamic::from(SliderHandle { scene: handle, index }))
 }
 
-/// Meaning of a choice; the parameter kind excludes other words.
 pub(super) fn meant<T: Copy + Default>(words: &[(&str, T)], word: &str) -> T {
     let found = words.iter().find(|(other, _)| *other == word);
     found.map(|(_, meaning)| *meaning).unwrap_or_default()

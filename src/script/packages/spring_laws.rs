@@ -138,7 +138,6 @@ fn sampled(call: &Call, options: &Options, ease: &str) -> Result<ParsedLaw, Scri
     })
 }
 
-/// Adapter for a script function of a force, given for option `key`.
 fn force_of<'a>(
     call: &'a Call,
     function: &'a FnPtr,

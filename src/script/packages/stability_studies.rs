@@ -93,7 +93,6 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
             let cases: Vec<Case> = made.iter().flatten().cloned().collect();
             let verdicts =
                 desk.in_parallel(task, &cases, |verdict: &StabilityVerdict| verdict.steps, work)?;
-            // The other parts are computed elsewhere.
             let pretended =
                 || vec![Ok(StabilityVerdict::without_a_run(CaseOutcome::Finished)); cases.len()];
             let verdicts = verdicts.unwrap_or_else(pretended);

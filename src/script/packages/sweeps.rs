@@ -105,28 +105,21 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// Setup of examples with a sweep.
 pub(super) const SETUP: &str = "let sweep = study_sweep(#{\n    name: \"first\", parameters: #{ speed: [1, 2, 3], mass: [1, 2] },\n    \
             run: |p| #{ energy: p.mass * p.speed ** 2 / 2 },\n});";
 pub(super) const SWEEP: Type = Type::of::<SweepHandle>();
 pub(super) const SWEEP_TABLE: Type = Type::of::<SweepTable>();
 const RESULT: Parameter = text("result").doc("a name that the runs give");
 const KEYS: &[Parameter] = SweepOptions::KEYS;
-/// Approximate size of a row as a map.
 const BYTES_OF_A_ROW: u64 = 500;
 
 option_set! {
     /// The options of `study_sweep`.
     pub struct SweepOptions {
-        /// Name of the study and its files.
         name: String = name("name").doc("of the study and its files"),
-        /// Values or distributions of the parameters.
         parameters: Dynamic = anything("parameters").doc("names with values or distributions: #{ speed: linspace(0.1, 2, 20), mass: [1, 2] }"),
-        /// Function of a run.
         run: FnPtr = callback("run").doc("|p| …, a function of the values of a row that gives a map of numbers"),
-        /// Sampling instead of a grid.
         samples: Option<Samples> = object("samples", SAMPLES).doc("points in the place of a grid: latin_hypercube(2000), sobol(4096), saltelli(1024)").optional(),
-        /// Wall-clock limit of a run [s].
         patience: f64 = number("patience").positive().unit("s").or(Presence::Number(600.0)).doc("the longest that a run may take by the clock"),
     }
 }
@@ -180,7 +173,6 @@ fn table_of(call: &Call) -> Result<SweepTable, ScriptError> {
     Ok(call.receiver::<SweepHandle>()?.table())
 }
 
-/// Error of an unknown column; `argument` is its position in the call.
 pub(super) fn no_column(
     call: &Call,
     sweep: &Sweep,

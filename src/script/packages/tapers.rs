@@ -81,7 +81,6 @@ fn variation(all: &[(f64, SectionHandle)]) -> SectionVariation {
     }
 }
 
-/// A point of a taper: fraction of the length, and section.
 fn place(call: &Call, index: usize, given: Dynamic) -> Result<(f64, SectionHandle), ScriptError> {
     let read = |given: Dynamic| {
         let pair = given.try_cast::<Array>()?;

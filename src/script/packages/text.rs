@@ -45,7 +45,6 @@ fn write(call: &Call, format: fn(f64, usize) -> String) -> Result<Dynamic, Scrip
 
 fn tabulate(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let words = |cell: &Dynamic| {
-        // Values other than texts are formatted.
         let text = cell.clone().into_immutable_string().map(|text| text.to_string());
         text.unwrap_or_else(|_| call.show(cell))
     };

@@ -169,7 +169,6 @@ fn labels(
     Ok(given.iter().map(Dynamic::to_string).collect())
 }
 
-/// Time interval shown of a simulation; it must contain recorded states.
 pub(super) fn span(
     call: &Call,
     of: &SimulationHandle,

@@ -121,7 +121,6 @@ impl SectionForceProfile {
             .y_label(quantity.label());
         self.beams.iter().fold(chart, |chart, beam| {
             let points = beam.along.iter().map(|at| (at.arc_length, (quantity.of)(at)));
-            // A single beam needs no legend.
             let name = if self.beams.len() > 1 { beam.name.clone() } else { String::new() };
             chart.series(Series::new(name, points.collect()))
         })
@@ -131,7 +130,6 @@ impl SectionForceProfile {
     pub fn field(&self, quantity: &BeamQuantity) -> FieldPicture {
         let label = match quantity.sign {
             sign if sign.len() == 1 => format!("|{sign}| [{}]", quantity.dimension),
-            // The title names the quantity.
             _ => format!("[{}]", quantity.dimension),
         };
         let picture =

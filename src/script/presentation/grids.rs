@@ -13,7 +13,6 @@ pub struct Grids {
     beams: Vec<BeamPlaces>,
 }
 
-/// Value at a point mass of a field along beams.
 const OF_A_PARTICLE: f64 = 0.0;
 
 impl Grids {

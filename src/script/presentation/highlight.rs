@@ -34,10 +34,8 @@ pub const STRAY: HighlightStyle = HighlightStyle("31");
 pub struct Vocabulary {
     functions: HashSet<String>,
     constants: HashSet<String>,
-    /// Types of variables with native types.
     variables: HashMap<String, &'static str>,
     members: HashMap<&'static str, HashSet<&'static str>>,
-    /// Functions of imported modules.
     modules: HashMap<String, HashSet<String>>,
 }
 
@@ -151,7 +149,6 @@ pub fn highlight(text: &str, cursor: Option<usize>, vocabulary: &Vocabulary) -> 
     drawn
 }
 
-/// Bracket under the cursor, or else before it.
 fn bracket_at(tokens: &[Token], cursor: usize) -> Option<usize> {
     let is_bracket = |token: &Token| matches!(token.kind, TokenKind::Open(_) | TokenKind::Close(_));
     let under = tokens.iter().position(|token| token.start == cursor && is_bracket(token));

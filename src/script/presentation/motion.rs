@@ -190,7 +190,6 @@ fn mark(placed: &PlacedSymbol) -> Option<PictureMark> {
     }
 }
 
-/// Times of the snapshots. The last time is included even if it is no multiple of `every`.
 fn times(simulation: &Simulation, times: &Times) -> Result<Vec<f64>, ScriptError> {
     let Times { from, to, every } = *times;
     let now = simulation.time();

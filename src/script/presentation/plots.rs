@@ -130,7 +130,6 @@ pub fn configuration_summary(
     Ok(format!("t = {}\n{}", significant(shown.time, DIGITS), lines.join("\n")))
 }
 
-/// Configuration at the present time, or recorded nearest to a time.
 fn shown_at(
     simulation: &Simulation,
     time: Option<f64>,
@@ -170,7 +169,6 @@ pub fn drift_lines(title: impl Into<String>, history: &History) -> LineChart {
     })
 }
 
-/// Legend text of a column; names of objects are kept.
 fn series_name(column: &str) -> String {
     match column.rsplit_once('.') {
         Some((thing, quantity)) => format!("{thing} {}", quantity.replace('_', " ")),

@@ -49,7 +49,6 @@ impl OutputLine {
         self.room == 0
     }
 
-    /// Text cut to `width` columns, and true if nothing was cut.
     fn cut(self, width: usize) -> (String, bool) {
         let shown = cut(&self.text, width, '…');
         let is_whole = shown == self.text;
@@ -128,7 +127,6 @@ impl Presenter<'_> {
         Some((of, vector.unwrap_or(shown)))
     }
 
-    /// Value in one line, and true if nothing was cut.
     fn inline(&self, value: &Dynamic, width: usize) -> (String, bool) {
         let mut line = OutputLine::new(width);
         self.write(&mut line, value, 0);
@@ -221,7 +219,6 @@ impl Presenter<'_> {
     }
 }
 
-/// Wraps a text at `room` columns, between words if possible.
 fn wrapped(text: &str, room: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     let mut used = 0;
@@ -252,7 +249,6 @@ fn pieces(word: &str, room: usize) -> Vec<String> {
     pieces
 }
 
-/// Items shown; `None` marks omitted ones.
 fn elided(array: &Array) -> Vec<Option<&Dynamic>> {
     if array.len() <= MOST_ITEMS {
         return array.iter().map(Some).collect();

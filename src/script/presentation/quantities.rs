@@ -24,7 +24,6 @@ const QUANTITIES: [BeamQuantity; 8] = [
     quantity("N", "axial force", "force", |at| at.forces.axial),
     quantity("Q", "shear force", "force", |at| at.forces.shear),
     BeamQuantity {
-        // The stretched side.
         side: BeamSide::Right,
         ..quantity("M", "bending moment", "force·length", |at| at.forces.moment)
     },

@@ -130,7 +130,6 @@ pub fn uncrowded(symbols: Vec<PlacedSymbol>) -> Vec<PlacedSymbol> {
     }
 }
 
-/// Symbols of a spring, whose stations are the next of the positions; a tendon has one per segment.
 fn of_spring(spring: &Spring, found: &mut impl Iterator<Item = Vec2>) -> Vec<PlacedSymbol> {
     let place = |anchor: &Anchor| match anchor {
         Anchor::Station(_) => found.next(),
@@ -230,7 +229,6 @@ fn away(scene: &Scene, at: &Station) -> Pointing {
     Pointing::WithBeam(if is_end { -Vec2::x() } else { Vec2::x() })
 }
 
-/// Symbols of a drive: moved components, or else fixed ones.
 fn of_drive<'a>(scene: &Scene, drive: &'a Drive) -> Vec<StationSymbol<'a>> {
     let is_moved = |component: Component| {
         let motion = drive.motions[component as usize].as_ref();

@@ -145,7 +145,6 @@ fn particles(
 
 fn bodies(simulation: &Simulation, shown: &FrameSelection) -> Result<Vec<BodyShape>, ScriptError> {
     let scene = simulation.scene();
-    // Outlines of bodies with points follow those of the beams.
     let mut outlines = simulation.outlines()?.iter().skip(scene.beams.len());
     let body = |(index, body): (usize, &system::RigidBodyDefinition)| {
         let place = |point: usize| shown.station(simulation, &Station::on_rigid_body(index, point));

@@ -1,10 +1,9 @@
 //! Fresh loop variables for every iteration of a `for` loop, so that a closure captures the values of its iteration.
 //!
-//! In Rhai all iterations of a loop share one variable, so that closures of the first iteration would see the last
-//! value. If the body contains a closure that uses the loop variable, it gets an additional first statement that
-//! declares the variable again in the scope of the iteration. The statement is inserted into the text before parsing,
-//! in place of blanks around the opening brace, so that columns stay right; without two blanks the rest of the line
-//! moves one or two columns to the right.
+//! In Rhai all iterations of a loop share one variable, so that closures of the first iteration would see the last value. If the body
+//! contains a closure that uses the loop variable, it gets an additional first statement that declares the variable again in the scope of
+//! the iteration. The statement is inserted into the text before parsing, in place of blanks around the opening brace, so that columns stay
+//! right; without two blanks the rest of the line moves one or two columns to the right.
 
 use rhai::{Dynamic, Engine, EvalContext, Position, Token};
 
@@ -36,8 +35,7 @@ pub fn install(engine: &mut Engine) {
     }
 }
 
-/// Declares the last variables of the scope again, with their values; the loop assigns its own variables in every
-/// iteration.
+/// Declares the last variables of the scope again, with their values; the loop assigns its own variables in every iteration.
 fn declare_again(context: &mut EvalContext, variables: usize) {
     let scope = context.scope_mut();
     // The newest variables come first.

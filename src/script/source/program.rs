@@ -5,8 +5,7 @@ use std::path::{Path, PathBuf};
 use super::text::Source;
 use crate::sandbox_fs::read_file;
 
-/// Maximum size of a script or imported file [bytes]. Larger files are usually data, and parsing them needs much
-/// memory.
+/// Maximum size of a script or imported file [bytes]. Larger files are usually data, and parsing them needs much memory.
 pub const LARGEST_SCRIPT: u64 = 16 << 20;
 
 /// A script: its name in messages, its text, and the folder for `import`.

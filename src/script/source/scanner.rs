@@ -1,7 +1,6 @@
 //! Lossless tokenisation of incomplete or incorrect input: every character belongs to exactly one token.
 //!
-//! The engine's lexer stops at the first error and drops comments and spaces, but the editor must highlight all of an
-//! unfinished input.
+//! The engine's lexer stops at the first error and drops comments and spaces, but the editor must highlight all of an unfinished input.
 
 /// A piece of an input, `start..end` in bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -181,7 +180,6 @@ impl Scanner<'_> {
         TokenKind::Open(bracket)
     }
 
-    /// A closing bracket; after that of an interpolation the string continues.
     fn closed(&mut self, bracket: Bracket) -> TokenKind {
         self.at += 1;
         let opened = self.open.last().copied();
@@ -196,7 +194,6 @@ impl Scanner<'_> {
         TokenKind::Close(bracket)
     }
 
-    /// A string in backticks, whose first `known` bytes are read, up to its end or next interpolation.
     fn piece(&mut self, known: usize) -> TokenKind {
         let rest = &self.rest()[known..];
         let (end, interpolation) = (rest.find('`'), rest.find("${"));
@@ -219,7 +216,6 @@ impl Scanner<'_> {
         }
     }
 
-    /// A string in quotes. It ends on its line, unless the line ends in a backslash.
     fn quoted(&mut self, quote: char) -> TokenKind {
         let mut is_escaped = false;
         for (at, letter) in self.rest().char_indices().skip(1) {

@@ -1,8 +1,7 @@
 //! Checking of `switch` values. Rhai silently takes the default case for values that it cannot compare.
 //!
-//! A private-use character after the keyword `switch` wraps the expression that follows. It is inserted into the text
-//! before parsing, in place of a blank, so that columns stay right; without a blank the rest of the line moves one
-//! column to the right.
+//! A private-use character after the keyword `switch` wraps the expression that follows. It is inserted into the text before parsing, in
+//! place of a blank, so that columns stay right; without a blank the rest of the line moves one column to the right.
 
 use rhai::{Dynamic, Engine, Position, Token};
 

@@ -93,8 +93,7 @@ impl TokenReader {
 /// Number of tokens between checks of the stop condition; the parser searches all known names for each token.
 const PULSE: u32 = 64;
 
-/// Registers the tokens of this language. The returned reader must be reset before each text. `stop` returns a reason
-/// to stop parsing.
+/// Registers the tokens of this language. The returned reader must be reset before each text. `stop` returns a reason to stop parsing.
 pub fn install(
     engine: &mut Engine,
     stop: impl Fn() -> Option<Stop> + 'static,
@@ -137,8 +136,8 @@ pub fn install(
     Ok(reader)
 }
 
-/// Rewrites `/=`, `^=`, `**=`, `<<=` and `>>=` so that they lex as an operator and a wrapper of the operand, and marks
-/// loop bodies and `switch` expressions. Columns do not move.
+/// Rewrites `/=`, `^=`, `**=`, `<<=` and `>>=` so that they lex as an operator and a wrapper of the operand, and marks loop bodies and
+/// `switch` expressions. Columns do not move.
 pub fn mark(source: &Source) -> Cow<'_, str> {
     let tokens = source.tokens();
     let halves = |token: &Token| -> &[char] {
@@ -186,11 +185,8 @@ pub fn mark(source: &Source) -> Cow<'_, str> {
 }
 
 enum InsertedMark<'m> {
-    /// Replaces an assignment operator.
     Assign(&'m [char]),
-    /// After the brace that opens the body of a loop.
     Round(char),
-    /// After the keyword `switch`.
     Choice,
 }
 

@@ -1,7 +1,6 @@
 //! Text of a script with cached tokens, so that it is tokenised only once.
 //!
-//! Rhai's parser makes its own pass over the text, with the replacements of [`syntax`](super::syntax), because it
-//! cannot take tokens.
+//! Rhai's parser makes its own pass over the text, with the replacements of [`syntax`](super::syntax), because it cannot take tokens.
 
 use std::fmt;
 use std::ops::Deref;

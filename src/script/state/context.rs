@@ -144,8 +144,8 @@ impl Context {
         }
     }
 
-    /// Reason why a loop that polls for interruption was stopped: a limit or an interrupt. It is an internal error if
-    /// `what` stopped without a reason.
+    /// Reason why a loop that polls for interruption was stopped: a limit or an interrupt. It is an internal error if `what` stopped
+    /// without a reason.
     pub fn why_stopped(&self, what: &str) -> ScriptError {
         match self.proceed() {
             Err(stopped) => stopped,
@@ -170,8 +170,8 @@ impl Context {
         self.0.meter.passed()
     }
 
-    /// Resource use and limits of the run. Code that runs a script calls [`watch`](Meter::watch) before and keeps the
-    /// guard until the script has ended.
+    /// Resource use and limits of the run. Code that runs a script calls [`watch`](Meter::watch) before and keeps the guard until the
+    /// script has ended.
     pub fn meter(&self) -> &Meter {
         &self.0.meter
     }
@@ -215,8 +215,7 @@ impl Context {
         result
     }
 
-    /// Calls `work` without printing anything and without writing files; `refusal` is the message for attempts to
-    /// write.
+    /// Calls `work` without printing anything and without writing files; `refusal` is the message for attempts to write.
     pub fn tracelessly<T>(&self, refusal: &'static str, work: impl FnOnce() -> T) -> T {
         let refused_before = self.0.refuses_files.replace(Some(refusal));
         let result = self.silently(work);

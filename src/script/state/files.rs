@@ -1,5 +1,5 @@
-//! File access of scripts. Scripts read in their own folder and the output folder, and write atomically in the output
-//! folder. Links are not followed, and only regular files are opened.
+//! File access of scripts. Scripts read in their own folder and the output folder, and write atomically in the output folder. Links are not
+//! followed, and only regular files are opened.
 
 use std::cell::{OnceCell, RefCell};
 use std::collections::HashMap;
@@ -17,7 +17,6 @@ const LARGEST_INPUT: u64 = 1 << 30;
 /// Folder that a script may write into, created with the first file.
 pub struct OutputFolder {
     folder: PathBuf,
-    /// Folder of the script, which it may read.
     beside: PathBuf,
     mode: RunMode,
     written: RefCell<Vec<PathBuf>>,
@@ -32,8 +31,7 @@ pub struct OutputFolder {
 pub struct WrittenFile {
     /// Path of the file.
     pub path: PathBuf,
-    /// Path under which an older file of the same name is kept, because it was not written by this program or was
-    /// changed since.
+    /// Path under which an older file of the same name is kept, because it was not written by this program or was changed since.
     pub kept: Option<PathBuf>,
 }
 
@@ -57,8 +55,7 @@ impl OutputFolder {
         self.write_by(name, |file| file.write_all(content))
     }
 
-    /// Writes the file `name` in the output folder piece by piece, by calls of `write`. A dry build only checks the
-    /// name.
+    /// Writes the file `name` in the output folder piece by piece, by calls of `write`. A dry build only checks the name.
     ///
     /// # Errors
     /// If the name leads out of the folder, or writing fails.
@@ -176,7 +173,6 @@ impl OutputFolder {
     }
 }
 
-/// Name under which a foreign file is kept.
 fn kept_name(path: &Path, number: usize) -> PathBuf {
     let mut kept = path.as_os_str().to_owned();
     kept.push(match number {

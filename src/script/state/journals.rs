@@ -1,5 +1,5 @@
-//! Journals of the studies of a run. They are kept until the script ends, so that a repeated run after an interrupt or
-//! error reuses finished cases.
+//! Journals of the studies of a run. They are kept until the script ends, so that a repeated run after an interrupt or error reuses
+//! finished cases.
 
 use std::cell::{Cell, RefCell};
 use std::io;
@@ -20,7 +20,6 @@ pub struct Journals {
     of_rows: RefCell<Vec<PathBuf>>,
     /// True if the run computes parts, whose journals are kept.
     has_parts: Cell<bool>,
-    /// Number of cases found in journals or written to them.
     kept: Cell<usize>,
 }
 
@@ -102,8 +101,8 @@ impl Journals {
         Ok(bytes)
     }
 
-    /// Opens the journal of a sweep, if the run uses journals. `recall` receives its entries if the journal is of the
-    /// same sweep, which `about` identifies.
+    /// Opens the journal of a sweep, if the run uses journals. `recall` receives its entries if the journal is of the same sweep, which
+    /// `about` identifies.
     ///
     /// # Errors
     /// If it cannot be read or written.

@@ -47,8 +47,8 @@ pub type HardAbort = Arc<dyn Fn(Stop) + Send + Sync>;
 impl Limits {
     /// Address space of a stack that a script within these limits cannot exhaust [bytes].
     ///
-    /// Nested closures are dropped recursively. A link of such a chain takes less stack than twice its memory, so the
-    /// memory limit bounds the stack.
+    /// Nested closures are dropped recursively. A link of such a chain takes less stack than twice its memory, so the memory limit bounds
+    /// the stack.
     pub fn stack(&self) -> usize {
         let memory = self.memory.unwrap_or(DEFAULT_MEGABYTES * MEGABYTE);
         let memory = usize::try_from(memory).unwrap_or(LARGEST_FOR_VALUES);
@@ -78,7 +78,6 @@ pub struct Meter {
     wants_too_many_steps: Cell<bool>,
     written: Cell<u64>,
     files: Cell<u64>,
-    /// Reason set by the run itself.
     stopped: Cell<Option<Stop>>,
     /// Number of simulation advances skipped by a dry build.
     pretended: Cell<u64>,

@@ -1,5 +1,4 @@
-//! Parts of studies for distributed computation: assignment of cases to parts, and the files of parts until they are
-//! merged.
+//! Parts of studies for distributed computation: assignment of cases to parts, and the files of parts until they are merged.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -112,7 +111,6 @@ pub fn find_parts(
     }
 }
 
-/// File names next to a path; empty if the folder does not exist.
 fn file_names(path: &Path) -> io::Result<Vec<String>> {
     let folder = path.parent().filter(|above| !above.as_os_str().is_empty());
     let folder = match Folder::open(folder.unwrap_or(Path::new("."))) {

@@ -12,8 +12,8 @@ use crate::script::messages::stop::Stop;
 
 const INTERVAL: Duration = Duration::from_millis(10);
 
-/// Time for a run to react to an exceeded limit, as a fraction of the time limit. The limit then holds within twice its
-/// value. The result is clamped to these bounds.
+/// Time for a run to react to an exceeded limit, as a fraction of the time limit. The limit then holds within twice its value. The result
+/// is clamped to these bounds.
 const PATIENCE: f64 = 0.7;
 const LEAST_PATIENCE: Duration = Duration::from_millis(700);
 const MOST_PATIENCE: Duration = Duration::from_secs(5);

@@ -23,7 +23,6 @@ pub fn thrown(call: &Call, error: &EvalAltResult) -> Option<String> {
         EvalAltResult::ErrorInFunctionCall(_, _, inner, _) => thrown(call, inner),
         EvalAltResult::ErrorRuntime(value, _) => Some(match value.read_lock::<Failure>() {
             Some(failure) => failure.message.clone(),
-            // Values other than texts are formatted.
             None => value.clone().into_string().unwrap_or_else(|_| call.show(value)),
         }),
         _ => None,

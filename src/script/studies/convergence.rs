@@ -93,7 +93,6 @@ fn write(call: &Call, study: &Convergence) -> Result<(), ScriptError> {
     Ok(())
 }
 
-/// Name of the refined size: step or mesh.
 pub(super) fn size_name(study: &Convergence) -> &'static str {
     match study.refined {
         RefinedParameter::Step => "dt",

@@ -38,7 +38,6 @@ pub struct CostStepping {
 #[derive(Clone)]
 pub struct CostTable {
     name: String,
-    /// The plain scene comes first.
     costs: Vec<StepCost>,
 }
 
@@ -95,7 +94,6 @@ pub fn cases(
                         .at(CallPart::Key("features".into()))
                 })?;
                 call.expect_arguments(&add, 1, "|scene| …, a function that adds the feature")?;
-                // The return value is ignored.
                 let _ = call.invoke(&add, [Dynamic::from(handle.clone())])?;
                 let scene = handle.scene().borrow().clone();
                 cases.push(way.case(name.as_str(), scene));

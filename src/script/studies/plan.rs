@@ -134,7 +134,6 @@ fn column_of(
 ) -> Result<Observable, ScriptError> {
     let name =
         &readable("columns", name).map_err(|error| error.at(CallPart::Key("columns".into())))?;
-    // A value that is no array is a name only.
     let parts = meant.clone().into_array().unwrap_or_else(|_| vec![meant.clone()]);
     let text = |value: &Dynamic| value.clone().into_string().ok();
     let (column, factor) = match parts.as_slice() {
@@ -260,7 +259,6 @@ pub fn subject_on(
     subject(call, label_of(call, mesh), &made)
 }
 
-/// Converts the result of the scene function: a scene, or a map with scene and stations.
 fn subject(call: &Call, mesh: String, made: &Dynamic) -> Result<ObservedScene, ScriptError> {
     let hint = "it gives the scene, or #{ scene: scene, stations: #{ tip: rod.end } }";
     let refused = || {

@@ -177,7 +177,6 @@ impl Reference {
                 let sheet = read_sheet(call, "reference", file)?;
                 plan.add_columns(call, columns, Some(&sheet))?;
                 let reference = Self::Table(file.clone(), sheet);
-                // Reports errors in the table before anything runs.
                 reference.truth(call, plan, &[])?;
                 return Ok(reference);
             }

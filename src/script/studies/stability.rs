@@ -118,7 +118,6 @@ impl StabilityPlan {
         values
     }
 
-    /// Named parameters with the value index of a cell.
     fn axes(
         &self,
         [map, row, column]: [usize; 3],
@@ -205,7 +204,6 @@ impl StabilityMap {
         self.judged().map(cell).collect()
     }
 
-    /// One heat map per value of `maps`; `words` formats a completed cell.
     fn heat_maps(&self, words: fn(&Self, &StabilityVerdict) -> String) -> Vec<HeatMap> {
         let StabilityPlan { name, maps, rows, columns } = &self.plan;
         let per_map = rows.values.len() * columns.values.len();
@@ -276,7 +274,6 @@ impl StabilityMap {
     pub fn page(&self) -> Page {
         let maps = self.heat_maps(Self::in_lines);
         let page = Page::grid(ABREAST.min(maps.len()));
-        // A single map has the name of the study.
         let is_lone = matches!(self.plan.maps.labels.as_slice(), [label] if label.is_empty());
         let page = if is_lone { page } else { page.title(&self.plan.name) };
         maps.into_iter().fold(page, Page::panel)

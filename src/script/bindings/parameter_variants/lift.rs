@@ -155,7 +155,6 @@ fn refusal(
     ScriptError::new(told).hint(hint).at(place)
 }
 
-/// Innermost option that depends on parameters, with its name.
 fn option_in(options: &Dynamic) -> Option<(String, Dynamic)> {
     let map = options.read_lock::<Map>()?;
     let (key, value) = map.iter().find(|(_, of)| family_of(of).is_some())?;
@@ -177,7 +176,6 @@ impl ScriptError {
     }
 }
 
-/// Returns true if a function accepts variant values unchanged.
 fn is_about_derivatives(row: &FunctionBinding) -> bool {
     row.parameters.first().is_some_and(|of| matches!(of.kind, Kind::Anything))
 }

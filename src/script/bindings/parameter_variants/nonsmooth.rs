@@ -158,7 +158,7 @@ pub fn at_whole_numbers(sides: &Sides) -> Option<NoDerivative> {
     (plus != minus).then_some(NoDerivative::Broken)
 }
 
-/// Where digits change, as for `round_to`.
+/// At changes of digits, as for `round_to`.
 pub fn where_rounded_differs(sides: &Sides) -> Option<NoDerivative> {
     let [_, plus, minus] = sides.each(|given| {
         let digits = number(given, 1);
@@ -187,12 +187,12 @@ pub fn near_zero_base(sides: &Sides) -> Option<NoDerivative> {
     if is_smooth { None } else { sides.nears_zero(|given| number(given, 0)) }
 }
 
-/// Where another element of the array becomes the largest.
+/// At changes of the largest element of an array.
 pub fn where_largest_changes(sides: &Sides) -> Option<NoDerivative> {
     chosen_changes(sides, |x, y| x > y)
 }
 
-/// Where another element of the array becomes the smallest.
+/// At changes of the smallest element of an array.
 pub fn where_smallest_changes(sides: &Sides) -> Option<NoDerivative> {
     chosen_changes(sides, |x, y| x < y)
 }

@@ -12,7 +12,6 @@ use crate::script::messages::error::ScriptError;
 use crate::script::messages::nouns::with_article;
 use crate::script::messages::numbers::{as_number, format_number};
 
-/// Digits of a derivative when shown.
 const DIGITS: usize = 5;
 
 /// A value that depends on parameters.
@@ -21,7 +20,6 @@ pub struct VariantValue {
     family: Rc<ParameterSet>,
     /// Values per variant; later variants equal the first one.
     values: Rc<[Dynamic]>,
-    /// Reason for missing derivatives.
     lost: Option<Rc<str>>,
 }
 

@@ -27,7 +27,6 @@ fn assigned_key(spot: &TokenWindow) -> Option<SyntaxFix> {
     spot.cure(0, "a key of a map is followed by a colon", hint)
 }
 
-/// A bracket that is still open where the script ends.
 fn unclosed(spot: &TokenWindow) -> Option<SyntaxFix> {
     let is_missing =
         matches!(spot.error, ParseErrorType::MissingToken(..) | ParseErrorType::UnexpectedEOF);

@@ -21,7 +21,6 @@ pub const HABITS: &[ForeignSyntax] = &[
     misspelt,
 ];
 
-/// Keywords of function definitions in other languages.
 const FUNCTION_WORDS: &[&str] = &["def", "func", "function", "fun", "sub", "proc", "define"];
 
 /// `def f(x):`, `function y = f(x)`.

@@ -60,7 +60,6 @@ fn sign(spot: &TokenWindow) -> Option<SyntaxFix> {
     spot.cure(0, "'~' is not part of the language", hint)
 }
 
-/// Hint for `x => …`.
 const ARROW: &str = "write |x| … for a function without a name; in switch, => stands behind a case";
 
 /// `.*`, `./` and `.^`.
@@ -75,7 +74,6 @@ fn dotted_operator(spot: &TokenWindow) -> Option<SyntaxFix> {
     )
 }
 
-/// Single-quoted strings, and the transpose operator.
 fn quotes(spot: &TokenWindow) -> Option<SyntaxFix> {
     let is_quote = spot.word(0).starts_with('\'');
     match spot.error {

@@ -156,7 +156,6 @@ impl<'s> TokenWindow<'s> {
     }
 }
 
-/// Source text of a token; `rest` is the source from it to the next token.
 fn written(token: &Token, rest: &str) -> String {
     match token {
         Token::Identifier(name) => name.to_string(),
@@ -171,7 +170,6 @@ fn written(token: &Token, rest: &str) -> String {
     }
 }
 
-/// First token of the statement at `here`, within the line of the token before.
 fn first_of_statement(words: &[Word], here: usize) -> usize {
     let Some(last) = here.checked_sub(1) else { return here };
     let line = words[last].at.line();

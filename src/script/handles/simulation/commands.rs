@@ -16,7 +16,6 @@ impl Commands {
         self.0.replace(other.0.borrow().clone());
     }
 
-    /// Last output of a controller before a time; zero before the first.
     pub(super) fn before(&self, controller: usize, time: f64) -> f64 {
         let all = self.0.borrow();
         let own = all.get(controller).map_or(&[][..], Vec::as_slice);

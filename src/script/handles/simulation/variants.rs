@@ -7,7 +7,6 @@ use crate::script::bindings::parameter_variants::{ParameterSet, lose, present};
 use crate::script::messages::numbers::format_number;
 use crate::simulation::{DerivativeError, History, PerturbedSide, Simulation};
 
-/// Reason for missing derivatives, and a hint if some exist.
 pub(super) fn in_words(reason: &DerivativeError) -> String {
     match reason {
         DerivativeError::Event { time, .. } | DerivativeError::NoStep { time, .. } => {

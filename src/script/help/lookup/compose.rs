@@ -51,7 +51,6 @@ pub fn page(catalog: &Catalog, name: &str) -> Result<HelpPage, UnknownTopic> {
         separate(&mut page);
         describe_option(&mut page, &options);
     }
-    // The word may also be a name from other programs.
     if let Some(found) = foreign_names::find_exactly(name.trim()) {
         separate(&mut page);
         page.paragraph(&found.told());
@@ -168,7 +167,6 @@ fn describe_built_ins(page: &mut HelpPage, table: &BuiltInTable) {
     }
 }
 
-/// Describes an option and the functions that accept it; equal descriptions are merged.
 fn describe_option(page: &mut HelpPage, options: &[(&FunctionBinding, &Parameter)]) {
     let mut told: Vec<(&Parameter, Vec<String>)> = Vec::new();
     for (row, key) in options {

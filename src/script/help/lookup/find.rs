@@ -46,7 +46,6 @@ pub fn find(catalog: &Catalog, name: &str) -> Vec<HelpSubject> {
     if !found.is_empty() {
         return found;
     }
-    // A library module by its last name only.
     if let Some(page) = page_of(&format!("std/{name}")) {
         return vec![HelpSubject::Module(page)];
     }
@@ -122,7 +121,6 @@ fn named(catalog: &Catalog, name: &str) -> Vec<HelpSubject> {
         .collect()
 }
 
-/// All option keys of a function, including those of nested maps.
 fn keys(row: &'static FunctionBinding) -> Vec<&'static Parameter> {
     let mut found = Vec::new();
     row.parameters.iter().for_each(|parameter| collect_keys(&parameter.kind, &mut found));

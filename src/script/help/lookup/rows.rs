@@ -74,7 +74,6 @@ pub fn parameter(page: &mut HelpPage, parameter: &Parameter, indent: usize) {
     }
 }
 
-/// Allowed values and dimension.
 fn expectation(parameter: &Parameter) -> Vec<StyledText> {
     let kind = StyledText::plain(parameter.kind.to_string());
     match parameter.unit {

@@ -134,7 +134,6 @@ fn inside(call: &Call, options: &Options) -> Result<SectionForceProfile, ScriptE
     })
 }
 
-/// Indices of the requested beams, which must have existed when the scene was started.
 fn beams(
     call: &Call,
     options: &Options,

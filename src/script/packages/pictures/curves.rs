@@ -41,7 +41,6 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// Setup of examples with a beam at rest.
 const RESTING: &str = "let scene = new_scene(\"example\");\n\
     let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 0.1 });\n\
     let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [2, 0]), basis: bspline(4), section: s });";
@@ -83,7 +82,6 @@ fn plot(call: &mut Call) -> Result<Dynamic, ScriptError> {
     write_picture(call, &chart.map_err(|wrong| wrong.in_call(call))?)
 }
 
-/// Chart of named curves; the option `labels` replaces the names.
 fn chart(
     options: &Options,
     chart: LineChart,

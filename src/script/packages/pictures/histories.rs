@@ -78,7 +78,6 @@ pub fn plot_history(call: &mut Call) -> Result<Dynamic, ScriptError> {
     write_charts(call, charts.into_iter().map(dress).collect::<Result<_, _>>()?)
 }
 
-/// Requested columns, which all histories must have.
 fn columns(call: &Call, histories: &[HistoryHandle]) -> Result<Vec<String>, ScriptError> {
     let columns = call.array("columns")?;
     for (history, name) in histories.iter().flat_map(|of| columns.iter().map(move |n| (of, n))) {

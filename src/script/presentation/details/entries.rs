@@ -24,7 +24,6 @@ pub(super) fn pair(of: Vec2) -> String {
     format!("({}, {})", number(x), number(y))
 }
 
-/// List in one line; surplus items are cut and counted.
 pub(super) fn listed(things: impl ExactSizeIterator<Item = String>) -> String {
     let count = things.len();
     let shown: Vec<String> = things.take(LISTED).collect();

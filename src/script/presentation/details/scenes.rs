@@ -101,7 +101,7 @@ pub fn of_station(scene: &Scene, station: &Station) -> Details {
     along.into_iter().chain(at).collect()
 }
 
-/// Summary of a section: stiffness and inertia with dimensions, wave speeds, and the time scale that limits the step.
+/// Summary of a section: stiffness and inertia with dimensions, and wave speeds.
 pub fn of_section(section: &Section) -> Details {
     let properties = [
         ("EA [force]", section.axial_stiffness),

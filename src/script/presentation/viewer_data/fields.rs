@@ -17,7 +17,6 @@ enum FieldSource {
     Neighbours,
     /// Configuration of a frame: a function of the axis, and its dimension.
     Axis(fn(&AxisStation, &[Vec2]) -> f64, &'static str),
-    /// State at a frame: the quantity of this name along beams.
     State,
 }
 
@@ -41,9 +40,7 @@ pub const FIELDS: [&str; 7] = ["speed", "M", "strain_energy", "N", "Q", "stretch
 
 /// Fields computed from the states of a simulation, frame by frame.
 pub struct FieldReader {
-    /// Stations of the beams.
     beams: Vec<BeamPlaces>,
-    /// Values by quantity and frame, beam after beam.
     taken: Vec<(&'static BeamQuantity, Vec<Vec<f64>>)>,
 }
 
@@ -96,7 +93,6 @@ impl FieldReader {
     }
 }
 
-/// Fields with these names, in the order of [`FIELDS`]; those computed from states are given as `inside`.
 pub(super) fn fields(
     simulation: &Simulation,
     shown: &FrameSelection,

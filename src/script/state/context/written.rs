@@ -32,8 +32,8 @@ impl Write for CountedFile<'_> {
 }
 
 impl Context {
-    /// Writes a file in the output folder. An existing file that was not written by this program is kept under another
-    /// name, and the user is told.
+    /// Writes a file in the output folder. An existing file that was not written by this program is kept under another name, and the user
+    /// is told.
     ///
     /// # Errors
     /// If it cannot be written, or a limit of the run is exceeded.
@@ -42,8 +42,7 @@ impl Context {
         self.output().write(name, content).map(|written| self.tell_kept(written))
     }
 
-    /// Writes a file in the output folder piece by piece and counts the bytes. An existing file is kept as in
-    /// [`Self::write_file`].
+    /// Writes a file in the output folder piece by piece and counts the bytes. An existing file is kept as in [`Self::write_file`].
     ///
     /// # Errors
     /// If it cannot be written, or a limit of the run is exceeded.
@@ -60,8 +59,8 @@ impl Context {
         Ok(self.tell_kept(written))
     }
 
-    /// Writes a file that the script may [read](Self::read_file) again, also in a dry build. An existing file is kept
-    /// as in [`Self::write_file`].
+    /// Writes a file that the script may [read](Self::read_file) again, also in a dry build. An existing file is kept as in
+    /// [`Self::write_file`].
     ///
     /// # Errors
     /// If it cannot be written, or a limit of the run is exceeded.

@@ -50,7 +50,6 @@ pub fn call<R>(
         (_, called) => called,
     };
     let result = read(called);
-    // Frees the simulations of the call.
     context.forget_simulations();
     CallWork { result, steps: context.meter().steps() - before }
 }

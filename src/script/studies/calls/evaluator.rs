@@ -13,7 +13,6 @@ use crate::script::engine::workers::{EngineConfig, WorkerEvent, WorkerPool, with
 use crate::script::messages::error::ScriptError;
 use crate::script::messages::numbers::as_number;
 
-/// Message for study functions that try to write files.
 const NO_FILES: &str = "a run of a study writes no files: give what is to be kept as its result";
 
 /// Result of the function at a point.
@@ -245,7 +244,6 @@ impl<'w> Evaluator<'w> {
     }
 }
 
-/// Numbers of an array or map, each followed by its derivatives.
 fn slopes_of(given: &Dynamic, parameters: usize) -> FunctionResult {
     let (array, map) = (given.read_lock::<Array>(), given.read_lock::<Map>());
     let values = array.iter().flat_map(|array| array.iter());

@@ -216,7 +216,6 @@ impl ParameterReading {
         reading
     }
 
-    /// Analyses a function whose map has this name.
     fn read(&mut self, call: &Call, function: &FnPtr, map: &str) {
         let is_map = |expression: &Expr| variable(expression) == Some(map);
         call.body(function).walk(&mut |path: &[ASTNode]| {

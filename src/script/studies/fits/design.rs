@@ -75,7 +75,6 @@ pub struct BestDesign {
     pub derivatives: String,
 }
 
-/// Hint for boolean constraints.
 const TRUTH: &str = "let run give a number that is not negative where it holds, such as #{ room: limit - sag }, and write constraints: #{ room: [0, ()] }";
 
 impl Objective {
@@ -230,7 +229,6 @@ impl DesignRequest<'_> {
             most_runs: self.most_runs,
         };
         let scales = ResultScales::of(&self.goal, goal, &limits);
-        // Reason of the first failed run.
         let failure: RefCell<Option<String>> = RefCell::default();
         let found = question.with_evaluator(call, |evaluator| {
             let evaluator = RefCell::new(evaluator);

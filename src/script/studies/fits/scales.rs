@@ -31,7 +31,6 @@ impl<'s> ResultScales<'s> {
         }
     }
 
-    /// Scaled objective and constraints.
     pub(super) fn rating(&self, numbers: &[f64]) -> Rating {
         let distances = self.limits.iter().flat_map(|(at, limit)| limit.distances(numbers[*at]));
         let objective = numbers[self.at] / self.divisor(numbers[self.at]);

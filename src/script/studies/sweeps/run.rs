@@ -19,7 +19,6 @@ use crate::script::studies::calls::calling::{CallWork, call, thrown};
 use crate::script::studies::calls::function::RunFunction;
 use crate::script::studies::plan::at_key;
 
-/// Message for sweep functions that try to write files.
 const NO_FILES: &str = "a run of a sweep writes no files: give what is to be kept in its map";
 
 /// Rows queued ahead per worker, enough to keep it busy while results are collected.

@@ -29,7 +29,6 @@ pub struct FinishedSweep {
 #[derive(Clone)]
 pub struct SweepTable {
     swept: Rc<FinishedSweep>,
-    /// Indices of the rows; `None` for all.
     chosen: Option<Rc<Vec<u32>>>,
 }
 
@@ -238,7 +237,6 @@ impl FinishedSweep {
     }
 }
 
-/// Value as text for programs: all digits, or empty if missing.
 fn exact(column: SweepColumn, row: usize) -> String {
     match column {
         SweepColumn::Parameter(values @ SweptValues::Levels { numbers: None, .. }) => {
