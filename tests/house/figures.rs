@@ -113,7 +113,7 @@ fn what_the_documents_run_is_there() {
             }
         }
     }
-    assert!(count > 1, "only {count} commands were found");
+    assert!(count > 0, "no command was found");
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 

@@ -61,12 +61,12 @@ fn missing(document: &Path, link: &str) -> bool {
     if !target.exists() {
         return true;
     }
-    let is_text = target.extension().is_some_and(|extension| extension == "md");
-    !section.is_empty()
-        && is_text
-        && !headings(&std::fs::read_to_string(&target).unwrap())
-            .iter()
-            .any(|heading| anchor(heading) == section)
+    if section.is_empty() || target.extension().is_none_or(|extension| extension != "md") {
+        return false;
+    }
+    let text = std::fs::read_to_string(&target).unwrap();
+    let has_heading = headings(&text).iter().any(|heading| anchor(heading) == section);
+    !has_heading && !text.contains(&format!("id=\"{section}\""))
 }
 
 #[test]

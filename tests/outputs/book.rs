@@ -1,4 +1,4 @@
-//! Outputs by name, and what is pinned of them.
+//! Outputs by name, compared with recorded ones: texts with readable snapshots, other files with checksums.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -11,8 +11,14 @@ use crate::fingerprint::fingerprint;
 #[derive(Default)]
 pub struct Book(BTreeMap<String, Vec<u8>>);
 
-/// Fingerprints and names.
+/// Checksums and names.
 const PINNED: &str = "tests/outputs/pinned.txt";
+
+/// Longest text that is recorded as a snapshot [bytes].
+const LONGEST: usize = 20_000;
+
+/// Endings of text files that are data or pictures.
+const DATA: [&str; 6] = [".svg", ".csv", ".vtu", ".pvd", ".html", ".json"];
 
 impl Book {
     /// Keeps an output under a name that no other has.
@@ -42,14 +48,43 @@ impl Book {
         self.keep(name, format!("{names:?}"));
     }
 
-    /// Fails where an output is not what is pinned; pins it where that is wanted.
+    /// Returns the text of an output that is recorded as a snapshot.
+    fn snapshot<'o>(name: &str, output: &'o [u8]) -> Option<&'o str> {
+        let is_short = (1..LONGEST).contains(&output.len());
+        let is_data = DATA.iter().any(|ending| name.ends_with(ending));
+        if is_short && !is_data { std::str::from_utf8(output).ok() } else { None }
+    }
+
+    /// Compares all texts with the snapshots, one file for each group of names.
+    fn compare_texts(&self) {
+        let mut groups: BTreeMap<String, String> = BTreeMap::new();
+        for (name, output) in &self.0 {
+            let Some(text) = Self::snapshot(name, output) else { continue };
+            let group = name.split('/').take(2).collect::<Vec<_>>().join("-");
+            let group: String = group
+                .chars()
+                .map(|c| if c.is_alphanumeric() || c == '-' { c } else { '_' })
+                .collect();
+            let _ = writeln!(groups.entry(group).or_default(), "──── {name}\n{text}");
+        }
+        let mut settings = insta::Settings::clone_current();
+        settings.set_prepend_module_to_snapshot(false);
+        settings.set_omit_expression(true);
+        settings.bind(|| {
+            for (group, text) in groups {
+                insta::assert_snapshot!(group, text);
+            }
+        });
+    }
+
+    /// Fails if an output differs from the recorded one.
     pub fn compare(&self) {
         if let Ok(folder) = std::env::var("WITHY_OUTPUTS") {
             self.write_to(Path::new(&folder));
         }
-        let found: BTreeMap<_, _> = self
-            .0
-            .iter()
+        self.compare_texts();
+        let files = self.0.iter().filter(|(name, output)| Self::snapshot(name, output).is_none());
+        let found: BTreeMap<_, _> = files
             .map(|(name, output)| {
                 (name.as_str(), format!("{:016x}", fingerprint(output.iter().copied())))
             })
@@ -74,7 +109,7 @@ impl Book {
         other.dedup();
         assert!(
             other.is_empty(),
-            "{} of {} outputs are not what is pinned; WITHY_OUTPUTS=FOLDER writes them, WITHY_UPDATE=1 pins them anew:\n{other:#?}",
+            "{} of {} files differ from the recorded ones; WITHY_OUTPUTS=FOLDER writes them, WITHY_UPDATE=1 records them:\n{other:#?}",
             other.len(),
             found.len()
         );

@@ -1,8 +1,9 @@
-//! All that withy says and writes, kept as fingerprints: output of scripts, exercises, studies and sessions, help, reference, definition
-//! files, messages about what is wrong, and every table, picture and file of a simulation that comes of them.
+//! Recorded outputs of scripts, exercises, studies, sessions, help, reference, definition files and messages, with all tables, pictures
+//! and files that they write.
 //!
-//! Who moves code changes no line of `pinned.txt`. Who means to change what is said pins it anew with `WITHY_UPDATE=1 cargo test --test
-//! outputs` and reads the difference: with `WITHY_OUTPUTS=FOLDER` everything is written there in full, for a comparison of two versions.
+//! Texts are snapshots in `tests/outputs/snapshots`; other files have checksums in `tests/outputs/pinned.txt`. To record intended
+//! changes, run `INSTA_UPDATE=always WITHY_UPDATE=1 cargo test --test outputs` and read the difference. `WITHY_OUTPUTS=FOLDER` writes
+//! all outputs into a folder.
 #![allow(clippy::unwrap_used)]
 
 #[path = "../common/fingerprint.rs"]
@@ -20,7 +21,7 @@ mod times;
 use book::Book;
 
 #[test]
-fn nothing_is_said_or_written_otherwise() {
+fn outputs_are_the_recorded_ones() {
     let mut book = Book::default();
     pages::record(&mut book);
     language::record(&mut book);

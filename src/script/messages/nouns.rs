@@ -24,7 +24,7 @@ pub fn type_word(name: &str) -> &str {
         "Fn" | "FnPtr" => "function",
         "()" => "nothing",
         range if range.starts_with("core::ops::range::Range") => "range",
-        varied if varied.ends_with("::Varied") => "value with derivatives",
+        value if value.ends_with("::VariantValue") => "value with derivatives",
         captured if captured.starts_with("alloc::rc::Rc<") => "variable from outside",
         other => other,
     }
