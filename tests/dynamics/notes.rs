@@ -158,7 +158,7 @@ fn ring(stiffness: f64, mass: f64, speed: f64) -> Scene {
         track: None,
         arc_length: 0.8,
         rule: SlidingRule::Conserving,
-        ends: EndAction::Bounce,
+        ends: EndAction::Contact,
         restitution: 1.0,
         velocities: StartVelocities::Check,
     };

@@ -36,7 +36,7 @@ fn bar(foot: Foot, axial: f64, mass: f64, spans: usize) -> Scene {
         let start = scene.station(0, 0.0).unwrap();
         scene.join(JointKind::Rigid, start, Partner::Ground).unwrap();
     }
-    bead(&mut scene, 1.0 - 10.0 * SPEED, mass, at(SPEED * axial.sqrt(), 0.0), EndAction::Bounce);
+    bead(&mut scene, 1.0 - 10.0 * SPEED, mass, at(SPEED * axial.sqrt(), 0.0), EndAction::Contact);
     scene
 }
 

@@ -87,7 +87,7 @@ fn a_bead_on_a_beam_at_rest_arrives_at_the_exact_time() {
                     let again = simulation.step(&mut NoMonitor).unwrap_err();
                     assert!(matches!(again, SimulationError::Ended { .. }), "{again}");
                 }
-                EndAction::Bounce => {
+                EndAction::Bounce | EndAction::Contact => {
                     assert_eq!(arrival.kind, ArrivalKind::Bounced);
                     assert!(speed(&simulation) > 0.0 && position(&simulation) > 0.0);
                     assert_eq!(simulation.time(), 0.7);
@@ -156,7 +156,7 @@ fn a_bead_that_starts_at_an_end_leaves_it_or_arrives_at_once() {
                     assert_kept(&label, &away, ROUNDING);
                     match action {
                         EndAction::Stop => assert_eq!((away.time(), position(&away)), (0.0, along)),
-                        EndAction::Bounce => {
+                        EndAction::Bounce | EndAction::Contact => {
                             let distance = (position(&away) - along).abs();
                             assert!((distance - 0.8).abs() < 1e-12, "{label}: {distance}");
                         }

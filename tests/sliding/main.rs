@@ -7,6 +7,7 @@ mod blows;
 mod consistency;
 mod ends;
 mod forces;
+mod impact_law;
 mod invariants;
 mod kinks;
 mod long_ways;
@@ -16,4 +17,5 @@ mod orders;
 mod relaxed;
 mod together;
 mod tracks;
+
 mod wild;

@@ -3,7 +3,7 @@
 //! What happens to it in a step is in [`force_points`](super::force_points).
 
 use super::axis_point::AxisPoint;
-use super::span_stiffness::SpanStiffness;
+use super::span_stiffness::{SpanStiffness, StrainKind};
 use super::{Rotation, Section};
 use crate::geometry::{Vec2, cross, larger, perpendicular};
 
@@ -54,11 +54,10 @@ impl<const N: usize> ForcePoint<N> {
             })
         };
         let turned = perpendicular(self.strain + Vec2::x());
-        let stiffness = [section.axial_stiffness, section.shear_stiffness];
-        let axes = [(Vec2::x(), turned.x), (Vec2::y(), turned.y)];
-        for (stiffness, (axis, turned)) in stiffness.into_iter().zip(axes) {
-            span.add_strain(w * stiffness, row(self.rotation.to_space(axis), -turned));
-        }
+        let stretch = row(self.rotation.to_space(Vec2::x()), -turned.x);
+        let shear = row(self.rotation.to_space(Vec2::y()), -turned.y);
+        span.add_strain(StrainKind::Axial, w * section.axial_stiffness, stretch);
+        span.add_strain(StrainKind::Shear, w * section.shear_stiffness, shear);
         let (force, is_known) = self.present_force(section);
         if force != Vec2::zeros() {
             let rounding = force_of(section, Vec2::new(SAME_STRAIN, SAME_STRAIN)).norm();

@@ -45,6 +45,6 @@ pub use rotation::{Rotation, RotationIncrement};
 pub use section::{Section, SectionShape, Solid};
 pub use section_forces::{SectionForces, SectionPlace, SectionPoints};
 pub use section_variation::SectionVariation;
-pub use span_stiffness::SpanStiffness;
+pub use span_stiffness::{SpanStiffness, StrainKind};
 pub use station::{BodyIndex, BodyPoint, Station};
 pub use taper_quadrature::TaperQuadrature;

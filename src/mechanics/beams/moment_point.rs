@@ -4,7 +4,7 @@
 
 use super::Section;
 use super::axis_point::AxisPoint;
-use super::span_stiffness::SpanStiffness;
+use super::span_stiffness::{SpanStiffness, StrainKind};
 
 /// Curvatures that turn a section less, over the length they stand for, are the same but for rounding [rad].
 const SAME_TURN: f64 = 64.0 * f64::EPSILON;
@@ -31,7 +31,7 @@ impl<const N: usize> MomentPoint<N> {
     /// Adds the row of the curvature at rest at this point.
     pub(super) fn write_at_rest(&self, section: &Section, span: &mut SpanStiffness) {
         let row: [[f64; 3]; N] = std::array::from_fn(|a| [0.0, 0.0, self.axis.slope[a]]);
-        span.add_strain(self.axis.weight * section.bending_stiffness, row);
+        span.add_strain(StrainKind::Bending, self.axis.weight * section.bending_stiffness, row);
     }
 
     /// The moment `M` of this point at the start of the step [force·length]: the one that was an unknown of the last solution, where it is

@@ -8,6 +8,17 @@
 //!
 //! `K = Bᵀ C B + K_g`: added up, the large first part hides by its rounding what is soft in it.
 
+/// A strain of a beam by its direction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StrainKind {
+    /// Stretching along the axis.
+    Axial,
+    /// Shear across the axis.
+    Shear,
+    /// Bending: a change of the curvature.
+    Bending,
+}
+
 /// How one span of a beam resists small movements at rest: rows with an entry for each component (x, y, rotation) of each of its control points.
 #[derive(Debug, Clone, Default)]
 pub struct SpanStiffness {
@@ -17,6 +28,8 @@ pub struct SpanStiffness {
     pub strains: Vec<f64>,
     /// The stiffness of each strain or curvature of the span, times the length it stands for [force·length, force·length³].
     pub stiffness: Vec<f64>,
+    /// The kind of strain of each row of a beam; none for what is not a beam.
+    pub kinds: Vec<StrainKind>,
     /// The pairs of rows `p` and `q` by which section forces resist turning, one after another [force; force·length for rotations, -].
     pub twists: Vec<f64>,
     /// How much of the section force of each pair of rows rounding may have made [-].
@@ -29,14 +42,21 @@ impl SpanStiffness {
         self.first = first;
         self.strains.clear();
         self.stiffness.clear();
+        self.kinds.clear();
         self.twists.clear();
         self.doubts.clear();
     }
 
     /// Adds a row of a strain or curvature: its derivative by x, y and rotation of each control point of the span.
-    pub(super) fn add_strain<const N: usize>(&mut self, stiffness: f64, row: [[f64; 3]; N]) {
+    pub(super) fn add_strain<const N: usize>(
+        &mut self,
+        kind: StrainKind,
+        stiffness: f64,
+        row: [[f64; 3]; N],
+    ) {
         self.strains.extend(row.as_flattened());
         self.stiffness.push(stiffness);
+        self.kinds.push(kind);
     }
 
     /// Adds a pair of rows, `p` and `q`, by which a section force resists turning.

@@ -54,8 +54,17 @@ pub enum EndAction {
     Stop,
     /// The slider bounces off a stop at the end, by its coefficient of restitution; momenta are kept.
     Bounce,
+    /// The slider leans on a stop at the end until that would have to pull: elastic bodies rebound by their waves, where steps resolve these.
+    Contact,
     /// The slider leaves its master at the end and flies free.
     Release,
+}
+
+impl EndAction {
+    /// Whether there is a stop at the end, which holds the slider on its master while the run goes on.
+    pub fn has_stop(self) -> bool {
+        matches!(self, Self::Bounce | Self::Contact)
+    }
 }
 
 /// What happens to start velocities across the master, at which a slider would leave it.

@@ -136,7 +136,7 @@ pub enum Warning {
         /// The number of steps of the bounce, how long it took, and the force in it.
         bounce: ShortBounce,
     },
-    /// A slider bounced off what gives way, and steps are longer than such a blow lasts.
+    /// A slider in elastic contact bounced off what gives way, and steps are longer than such a blow lasts.
     Bounce {
         /// The name of the slider that bounced.
         slider: String,
@@ -334,7 +334,7 @@ impl fmt::Display for Warning {
             Self::Bounce { slider, dt, blows } => write!(
                 f,
                 "slider '{slider}' bounced off a beam that gives way, and a step (dt = {}) is {} times as long as such a blow may last \
-                 ({}): the beam was struck as if it were rigid; take dt below {} to see its waves, or hold the end that is struck",
+                 ({}): the beam was struck as if it were rigid; take dt below {} to see its waves, or let the slider bounce by a restitution",
                 short(*dt),
                 short(*blows),
                 short(dt / blows),

@@ -66,10 +66,12 @@ pub const TABLE: BindingTable = BindingTable {
                  stops, or the slider bounces off, or is released. A station held by the ground is an eyelet through which the \
                  beam slides. On a curved beam, whose mesh is slightly off the curve, the station is moved onto the line of the mesh, and \
                  velocities: \"project\" makes start velocities fit that line. All that bounces at one \
-                 time does so in one impact. Where steps are shorter than an eighth of a blow, in which a wave runs through the beam and back, \
+                 time does so in one impact. With ends: \"bounce\" restitution says how much of its speed the slider keeps, at any step: beams do not stretch in that \
+                 instant, and springs and dampers give nothing; what is lost is in the column dissipated.NAME. With ends: \"contact\" the waves in the beam decide: where steps are shorter \
+                 than an eighth of a blow, in which a wave runs through the beam and back, \
                  2 L √(rho_A/EA), or less for a slider that is lighter than the beam, the slider leans on the end until that would have to pull; in steps much \
-                 longer than the blow the beam is struck as if it were rigid, and sim.notes tells. restitution says how much of its speed the slider keeps; \
-                 what is lost is in the column dissipated.NAME. One that bounces again and again within few steps comes to lean on the end, until it is drawn away. Sliders are called slider1, slider2, … \
+                 longer than the blow the beam is struck as if it were rigid, and sim.notes tells. \
+                 One that bounces again and again within few steps comes to lean on the end, until it is drawn away. Sliders are called slider1, slider2, … \
                  unless they get a name.",
             )
             .example(
@@ -141,7 +143,7 @@ pub const TABLE: BindingTable = BindingTable {
             .summary("When sliders reached ends of their beams and seams of their tracks so far, and what happened there.")
             .doc(
                 "slider is its name; end is \"start\" or \"end\"; what is \"stopped\", \"bounced\", \"rested\" (it leans on the \
-                 end until that would have to pull: in a blow that steps resolve, or until it is drawn away), \"released\" or, on a track, \"passed\": to the next beam. impulse is \
+                 end until that would have to pull: in an elastic contact, or until it is drawn away), \"released\" or, on a track, \"passed\": to the next beam. impulse is \
                  what the slider gave its beams in that instant, in the impact with all else that arrived then, a vector (mass·length/time): contact forces have no part of it. On a track \
                  the map has the name of the beam as well, at one of whose ends that was: beam.",
             )
@@ -155,8 +157,12 @@ pub(super) const SLIDER: Type = Type::of::<SliderHandle>();
 
 const ON: Parameter = either("beam", &[Kind::Object(BEAM), Kind::Object(TRACK)]);
 pub(super) const WHICH: Parameter = object("slider", SLIDER);
-const ENDS: [(&str, EndAction); 3] =
-    [("stop", EndAction::Stop), ("bounce", EndAction::Bounce), ("release", EndAction::Release)];
+const ENDS: [(&str, EndAction); 4] = [
+    ("stop", EndAction::Stop),
+    ("bounce", EndAction::Bounce),
+    ("contact", EndAction::Contact),
+    ("release", EndAction::Release),
+];
 const VELOCITIES: [(&str, StartVelocities); 2] =
     [("check", StartVelocities::Check), ("project", StartVelocities::Project)];
 const SLIDER_KEYS: &[Parameter] = &[
@@ -166,8 +172,8 @@ const SLIDER_KEYS: &[Parameter] = &[
         .doc("where it starts, as a part of the length of the beam or the track as drawn; the nearest place unless given")
         .optional(),
     object("rule", RULE).doc("conserving() unless given").optional(),
-    choice("ends", &[ENDS[0].0, ENDS[1].0, ENDS[2].0])
-        .doc("what happens where the beam or the track ends: the run stops, the slider bounces off an elastic stop, or it flies free")
+    choice("ends", &[ENDS[0].0, ENDS[1].0, ENDS[2].0, ENDS[3].0])
+        .doc("what happens where the beam or the track ends: the run stops, the slider bounces off by its restitution, it leans on the end for as long as that pushes, or it flies free")
         .or(Presence::Text("stop")),
     number("restitution")
         .between(0.0, 1.0)

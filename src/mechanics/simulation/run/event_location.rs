@@ -213,7 +213,7 @@ impl Simulation {
     /// Whether a slider that is at a limit and led beyond it does something there other than to rest: by what steps follow of its motion, it strikes.
     fn strikes(&mut self, limit: MasterLimit) -> bool {
         let dt = self.dt();
-        self.model.end_action(limit.slider) != EndAction::Bounce
+        !self.model.end_action(limit.slider).has_stop()
             || self.model.goes_on(limit)
             || self.model.approaches(limit, dt).unwrap_or(true)
     }
@@ -249,16 +249,16 @@ impl Simulation {
                     ArrivalKind::Released
                 }
                 // It only touched the stop, or its velocity has turned round just there.
-                EndAction::Bounce if landing.step.is_some() && !strikes => ArrivalKind::Bounced,
-                EndAction::Bounce if self.leans(limit, landing, dt)? => {
+                _ if landing.step.is_some() && !strikes => ArrivalKind::Bounced,
+                _ if self.leans(limit, landing, dt)? => {
                     arriving.lean.push(limit);
                     ArrivalKind::Rested
                 }
-                EndAction::Bounce if self.model.restitution(limit.slider) == 0.0 => {
+                _ if self.model.restitution(limit.slider) == 0.0 => {
                     arriving.stay.push(limit);
                     ArrivalKind::Rested
                 }
-                EndAction::Bounce => {
+                EndAction::Bounce | EndAction::Contact => {
                     arriving.strike.push(limit);
                     ArrivalKind::Bounced
                 }
@@ -277,15 +277,16 @@ impl Simulation {
         Ok(())
     }
 
-    /// Whether a slider at a limit comes to lean on its stop, and not to bounce: it strikes again and again within few steps, its blow is resolved by the steps to
-    /// come, or every step leads it beyond although it does not approach.
+    /// Whether a slider at a limit comes to lean on its stop, and not to bounce: it strikes again and again within few steps, its blow is an elastic contact
+    /// that the steps to come resolve, or every step leads it beyond although it does not approach.
     fn leans(
         &mut self,
         limit: MasterLimit,
         landing: &EventStep,
         dt: f64,
     ) -> Result<bool, SimulationError> {
-        if self.chatters(limit, dt) || self.model.resolves_blow(limit, dt)? {
+        let is_contact = self.model.end_action(limit.slider) == EndAction::Contact;
+        if self.chatters(limit, dt) || (is_contact && self.model.resolves_blow(limit, dt)?) {
             return Ok(true);
         }
         Ok(landing.step.is_none() && !self.model.approaches(limit, dt)?)
@@ -345,7 +346,7 @@ impl Simulation {
             let kind = match self.model.end_action(slider) {
                 _ if self.scene.goes_round(slider) => ArrivalKind::Passed,
                 EndAction::Stop => ArrivalKind::Stopped,
-                EndAction::Bounce => ArrivalKind::Bounced,
+                EndAction::Bounce | EndAction::Contact => ArrivalKind::Bounced,
                 EndAction::Release => ArrivalKind::Released,
             };
             self.arrival(limit, kind)

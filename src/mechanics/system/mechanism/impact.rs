@@ -5,7 +5,7 @@
 //! For a blow `G` is what steps follow of that velocity ([`Rigidity`]). What a contact gives to the bodies is `½ P (w⁻ + w⁺)`.
 
 use super::System;
-use super::rigidity::Rigidity;
+use super::rigidity::{Deformation, Rigidity};
 use crate::geometry::{Vec2, cross};
 use crate::integrators::{Inertia, Interval, Mechanism};
 use crate::linalg::{BandedLu, LinearError, Pairing, complementary};
@@ -15,8 +15,11 @@ use crate::system::elements::WorkAndImpulse;
 /// A slider, and the component of its relative velocity on which an impulse acts.
 pub(super) type ImpactDirection = (usize, Vec2);
 
-/// Directions that are met by what steps of a length [time] follow of the motion, or by all of it.
-pub(super) type ImpactSelection<'a> = (&'a [ImpactDirection], Option<f64>);
+/// Directions in which contacts give impulses, and the deformations by which beams answer to these.
+pub(super) type ImpactSelection<'a> = (&'a [ImpactDirection], Deformation);
+
+/// What moves by less than this part of the change of relative velocity is held.
+pub(super) const GIVES: f64 = 1e-9;
 
 /// What a unit impulse transmits, and how the velocities answer.
 pub(super) struct ImpulseResponse {
@@ -165,7 +168,7 @@ impl System {
     /// Takes away the velocities across all masters, and of points of rigid bodies beside these.
     fn strike_across(&mut self) -> Result<(), LinearError> {
         let across = self.across();
-        let encounter = self.encounter(&[(&across, None)], -1.0)?;
+        let encounter = self.encounter(&[(&across, Deformation::All)], -1.0)?;
         let impulses = encounter.impulses(&vec![ImpactLaw::Ends; across.len()])?;
         self.apply(encounter, &impulses.values);
         Ok(())
@@ -206,7 +209,8 @@ impl System {
         let directions = self.sliders.directions(&self.bodies);
         let laws = vec![ImpactLaw::Reverses; directions.len()];
         // So is a matrix that cannot be factorised.
-        let Ok(encounter) = self.encounter_of(&[(&directions, None)], -2.0, jumps) else {
+        let Ok(encounter) = self.encounter_of(&[(&directions, Deformation::All)], -2.0, jumps)
+        else {
             return false;
         };
         let Ok(impulses) = encounter.impulses(&laws) else { return false };
@@ -259,21 +263,27 @@ impl System {
         directions.iter().map(answer).collect()
     }
 
-    /// How velocities answer to a blow in steps of such a length [time]; what these do not follow is rigid.
-    pub(super) fn answers_within(
+    /// How velocities answer to a blow with such deformations. Where two are held against each other by all others, they answer with all.
+    pub(super) fn answers_with(
         &mut self,
         inertia: &BandedLu<'_>,
         directions: &[ImpactDirection],
-        dt: f64,
+        deformation: Deformation,
     ) -> Result<Vec<ImpulseResponse>, LinearError> {
-        let rigidity = Rigidity::of(self, dt);
+        if deformation == Deformation::All {
+            return Ok(self.answers(inertia, directions));
+        }
+        let rigidity = Rigidity::of(self, deformation);
         let mut matrix = rigidity.matrix(self);
         let factors = matrix.factorise()?;
         let unknowns = self.unknowns();
         let mut answer = |direction: &ImpactDirection| {
             let mut forces = self.transmitted(*direction);
+            let all = ImpulseResponse::of(inertia, unknowns, forces.clone(), Vec::new());
             let passed_on = rigidity.pass_on(self, &factors, &mut forces);
-            ImpulseResponse::of(inertia, unknowns, forces, passed_on)
+            let some = ImpulseResponse::of(inertia, unknowns, forces, passed_on);
+            let gives = some.velocity(&some.rates) > GIVES * all.velocity(&all.rates);
+            if gives { some } else { all }
         };
         Ok(directions.iter().map(&mut answer).collect())
     }
@@ -297,12 +307,9 @@ impl System {
         let mut inertia = self.banded_inertia();
         let inertia = inertia.factorise()?;
         let (mut directions, mut answers) = (Vec::new(), Vec::new());
-        for (own, rigid_within) in met.iter().filter(|(own, _)| !own.is_empty()) {
+        for (own, deformation) in met.iter().filter(|(own, _)| !own.is_empty()) {
             directions.extend_from_slice(own);
-            answers.extend(match rigid_within {
-                None => self.answers(&inertia, own),
-                Some(dt) => self.answers_within(&inertia, own, *dt)?,
-            });
+            answers.extend(self.answers_with(&inertia, own, *deformation)?);
         }
         let mut change = vec![0.0; self.unknowns()];
         if !jumps.is_empty() {

@@ -13,6 +13,7 @@
 
 use super::System;
 use super::impact::{ImpactDirection, ImpactImpulses, ImpactLaw, ImpactProblem};
+use super::rigidity::Deformation;
 use crate::elementary::{atan2, sin_cos, square};
 use crate::geometry::{Vec2, cross, perpendicular};
 use crate::linalg::{BandedMatrix, LinearError, Pairing, complementary};
@@ -127,7 +128,7 @@ impl System {
 
     /// Lets sliders that sections have turned pass to the other sides of their seams.
     pub(super) fn pass_seams(&mut self, passages: &SeamCrossings) -> Result<(), LinearError> {
-        self.turn(&passages.of_shear, None)?;
+        self.turn(&passages.of_shear, Deformation::All)?;
         let time = self.motion.time;
         for (slider, _, seam) in &passages.passing {
             self.sliders[*slider].pass(*seam);
@@ -146,7 +147,7 @@ impl System {
             Some(SeamCorner { slider, comes, goes })
         };
         let corners: Vec<SeamCorner> = limits.iter().filter_map(corner).collect();
-        self.turn(&corners, None)?;
+        self.turn(&corners, Deformation::All)?;
         corners.iter().for_each(|corner| self.sliders[corner.slider].straighten());
         Ok(())
     }
@@ -162,11 +163,11 @@ impl System {
         Some([along(slider.connection.master, end)?, -beyond])
     }
 
-    /// Turns the relative velocities of sliders round corners, met by what steps of length `rigid_within` follow of the motion, or by all of it.
+    /// Turns the relative velocities of sliders round corners, met by such deformations.
     pub(super) fn turn(
         &mut self,
         corners: &[SeamCorner],
-        rigid_within: Option<f64>,
+        deformation: Deformation,
     ) -> Result<(), LinearError> {
         if corners.iter().all(SeamCorner::is_straight) {
             return Ok(());
@@ -176,7 +177,7 @@ impl System {
         let others: Vec<ImpactDirection> =
             others.into_iter().filter(|(slider, _)| !passes(*slider)).collect();
         let turned = SeamCorner::directions(corners);
-        let met = [(&turned[..], rigid_within), (&others, rigid_within)];
+        let met = [(&turned[..], deformation), (&others, deformation)];
         let encounter = self.encounter(&met, -2.0)?;
         if let Some(impulses) =
             round_corners(&encounter, corners, &vec![ImpactLaw::Reverses; others.len()])?

@@ -27,7 +27,13 @@ impl System {
     }
 
     /// Gives every span of every body, and every spring, as at rest, with the degrees of freedom of its components.
-    pub(super) fn each_span(&self, take: &mut dyn FnMut(&[usize], &SpanStiffness)) {
+    fn each_span(&self, take: &mut dyn FnMut(&[usize], &SpanStiffness)) {
+        self.each_span_of_bodies(take);
+        self.elements.each_at_rest(&self.bodies, take);
+    }
+
+    /// Gives every span of every body, as at rest, with the degrees of freedom of its components.
+    pub(super) fn each_span_of_bodies(&self, take: &mut dyn FnMut(&[usize], &SpanStiffness)) {
         for body in self.bodies.iter() {
             let order = body.dynamics.order();
             body.dynamics.each_span_at_rest(&mut |span| {
@@ -35,7 +41,6 @@ impl System {
                 take(degrees.as_flattened(), span);
             });
         }
-        self.elements.each_at_rest(&self.bodies, take);
     }
 
     /// The power that dampers, damped materials and drag dissipate at such rates of the unknowns in the present configuration, as at rest there

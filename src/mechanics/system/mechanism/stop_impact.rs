@@ -4,10 +4,12 @@
 //! elastic body that it is, and gives it back when the slider leaves; with a coefficient of restitution below one it is lost.
 
 use super::System;
-use super::impact::{ImpactDirection, ImpactLaw};
+use super::impact::{GIVES, ImpactDirection, ImpactLaw};
+use super::rigidity::Deformation;
 use super::seam_impact::{SeamCorner, round_corners};
 use crate::elementary::square;
-use crate::geometry::{Vec2, perpendicular};
+use crate::geometry::{Vec2, larger, perpendicular};
+use crate::joints::EndAction;
 use crate::linalg::LinearError;
 use crate::system::SystemError;
 use crate::system::sliders::{AxialImpact, MasterLimit, SliderState};
@@ -20,9 +22,6 @@ pub(super) const RIGID: f64 = 4.0;
 
 /// The largest part of a blow that a step may be to resolve it [-].
 pub const RESOLVED_BLOW: f64 = 0.125;
-
-/// What moves by less than this part of the change of relative velocity is held.
-const GIVES: f64 = 1e-9;
 
 /// A slider that approaches its end with less than this part of the fastest speed of the model does not.
 const APPROACHES: f64 = 1e-12;
@@ -78,15 +77,16 @@ impl System {
         limits.filter(arrives).collect()
     }
 
-    /// Whether a slider approaches an end at which it is, by what steps of such a length follow of the motion.
+    /// Whether a slider approaches an end at which it is, by what takes part in an impact in steps of such a length.
     ///
     /// # Errors
     /// When the impulse of a blow is not determined.
     pub fn approaches(&mut self, limit: MasterLimit, dt: f64) -> Result<bool, SystemError> {
         let direction = (limit.slider, self.inward(limit));
         let approach = |model: &mut Self| -> Result<f64, LinearError> {
+            let deformation = model.deformation_at(&[limit], dt)?;
             let mut inertia = model.banded_inertia();
-            let answers = model.answers_within(&inertia.factorise()?, &[direction], RIGID * dt)?;
+            let answers = model.answers_with(&inertia.factorise()?, &[direction], deformation)?;
             Ok(answers.iter().map(|answer| answer.velocity(&model.motion.rates)).sum())
         };
         let speed = approach(self).map_err(|_| self.sliders.overdetermined())?;
@@ -99,19 +99,35 @@ impl System {
     /// # Errors
     /// When the impulse of a blow is not determined.
     pub fn resolves_blow(&mut self, limit: MasterLimit, dt: f64) -> Result<bool, SystemError> {
+        let lasts = self.blow_lasts(limit).map_err(|_| self.sliders.overdetermined())?;
+        self.sliders[limit.slider].note_blow(dt / lasts);
+        Ok(lasts.is_finite() && dt <= RESOLVED_BLOW * lasts)
+    }
+
+    /// How long a blow of a slider at a limit lasts [time]; for ever where nothing gives way to it.
+    fn blow_lasts(&self, limit: MasterLimit) -> Result<f64, LinearError> {
         let direction = (limit.slider, self.inward(limit));
         let mut inertia = self.banded_inertia();
-        let inertia = inertia.factorise().map_err(|_| self.sliders.overdetermined())?;
-        let answers = self.answers(&inertia, &[direction]);
-        let [answer] = &answers[..] else { return Ok(false) };
+        let answers = self.answers(&inertia.factorise()?, &[direction]);
+        let [answer] = &answers[..] else { return Ok(f64::INFINITY) };
         let (slave, master) = self.speeds(direction, &answer.rates);
         let (slave, master) = (slave.abs(), master.abs());
         let least = GIVES * (slave + master);
         let [slave, master] = [slave, master].map(|speed| (speed > least).then(|| 1.0 / speed));
-        let lasts =
-            self.sliders[limit.slider].blow_lasts(&self.bodies, AxialImpact { slave, master });
-        self.sliders[limit.slider].note_blow(dt / lasts);
-        Ok(lasts.is_finite() && dt <= RESOLVED_BLOW * lasts)
+        Ok(self.sliders[limit.slider].blow_lasts(&self.bodies, AxialImpact { slave, master }))
+    }
+
+    /// The deformations that take part in an impact at such limits in steps of such a length [time]. A coefficient of restitution stands for the
+    /// waves along the beams and for all that is over within the blow; an elastic contact has what steps follow.
+    fn deformation_at(&self, limits: &[MasterLimit], dt: f64) -> Result<Deformation, LinearError> {
+        let mut longest = None;
+        for limit in limits.iter().filter(|at| self.end_action(at.slider) != EndAction::Contact) {
+            let lasts = Some(self.blow_lasts(*limit)?).filter(|lasts| lasts.is_finite());
+            longest = Some(larger(longest.unwrap_or(dt), lasts.unwrap_or(dt)));
+        }
+        Ok(longest.map_or(Deformation::Slow(RIGID * dt), |longest| {
+            Deformation::Inextensible(RIGID * longest)
+        }))
     }
 
     /// Keeps the kinks under contact forces as they are in steps to come; gives whether that is another law for the next step.
@@ -152,39 +168,46 @@ impl System {
         let passages = self.passages(&arriving.pass);
         let corners = passages.corners_of_sections();
         if arriving.strikes_or_leans() || !corners.is_empty() {
-            // What a stop holds it must hold as it is, and not as steps follow it.
-            let rigid_within = arriving.lean.is_empty().then_some(RIGID * dt);
+            let struck = [&arriving.strike[..], &arriving.stay].concat();
+            let at_stops = match struck.is_empty() && !arriving.lean.is_empty() {
+                true => Deformation::All,
+                false => self.deformation_at(&struck, dt)?,
+            };
             let hits = self.hits(|model, limit| arriving.law(model, limit));
-            self.hit(&hits, corners, [Some(RIGID * dt), rigid_within])?;
+            self.hit(&hits, corners, [Deformation::Slow(RIGID * dt), at_stops])?;
         }
         if !arriving.stay.is_empty() {
             // The blow is that of a rigid body, which does more than its very end; what is left of it is rounding, and none may be left.
             let hits =
                 self.hits(|_, limit| arriving.stay.contains(&limit).then_some(ImpactLaw::Ends));
-            self.hit(&hits, &[], [None, None])?;
+            self.hit(&hits, &[], [Deformation::All; 2])?;
         }
         arriving.stay.iter().chain(&arriving.lean).for_each(|limit| self.hold(*limit));
         self.pass_seams(&passages)
     }
 
-    /// Changes the velocities by impulses at all contacts at once, those of passing sliders round corners and the others by their laws, met by what
-    /// steps of such lengths [time] follow of the motion.
+    /// Changes the velocities by impulses at all contacts at once, those of passing sliders round corners and the others by their laws, with such
+    /// deformations. What a stop comes to hold it must hold as it is, with all deformations.
     fn hit(
         &mut self,
         hits: &[ImpactContact],
         corners: &[SeamCorner],
-        [at_corners, rigid_within]: [Option<f64>; 2],
+        [at_corners, at_stops]: [Deformation; 2],
     ) -> Result<(), LinearError> {
         let passes = |slider: usize| corners.iter().any(|corner| corner.slider == slider);
         let others = hits.iter().filter(|hit| !passes(hit.direction.0));
+        let (held, others): (Vec<&ImpactContact>, Vec<&ImpactContact>) =
+            others.partition(|hit| hit.law == ImpactLaw::Ends);
+        let held_from = others.len();
         let (directions, laws): (Vec<ImpactDirection>, Vec<ImpactLaw>) =
-            others.map(|hit| (hit.direction, hit.law)).unzip();
+            others.into_iter().chain(held).map(|hit| (hit.direction, hit.law)).unzip();
         let turned = SeamCorner::directions(corners);
-        let met = [(&turned[..], at_corners), (&directions, rigid_within)];
+        let (others, held) = directions.split_at(held_from);
+        let met = [(&turned[..], at_corners), (others, at_stops), (held, Deformation::All)];
         let encounter = self.encounter(&met, -2.0)?;
         let Some(impulses) = round_corners(&encounter, corners, &laws)? else {
             // A blow that turns somebody back at a corner comes first.
-            self.hit(hits, &[], [None, rigid_within])?;
+            self.hit(hits, &[], [Deformation::All, at_stops])?;
             return self.turn(corners, at_corners);
         };
         self.apply(encounter, &impulses.values);
@@ -247,7 +270,7 @@ impl System {
                 _ => 0.0,
             })
             .collect();
-        let encounter = self.encounter(&[(&directions, None)], -2.0)?;
+        let encounter = self.encounter(&[(&directions, Deformation::All)], -2.0)?;
         let laws = |scale: f64| -> Vec<ImpactLaw> {
             let speed = |at: usize| scale * (2.0 * stored[at] * encounter.response[at][at]).sqrt();
             let own = hits.iter().enumerate();

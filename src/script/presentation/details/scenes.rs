@@ -164,6 +164,7 @@ pub fn of_slider(scene: &Scene, index: usize) -> Details {
             format!("it bounces off, with {} of its speed", number(slider.restitution))
         }
         EndAction::Bounce => "it bounces off".to_owned(),
+        EndAction::Contact => "it leans on them in elastic contact".to_owned(),
         EndAction::Release => "it flies free".to_owned(),
     };
     let velocities = match slider.velocities {

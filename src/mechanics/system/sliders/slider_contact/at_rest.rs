@@ -178,6 +178,7 @@ impl SliderContact {
             first: 0,
             strains,
             stiffness: vec![stiffness; 2],
+            kinds: Vec::new(),
             twists: twist,
             doubts: vec![0.0],
         };

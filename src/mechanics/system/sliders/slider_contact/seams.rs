@@ -2,7 +2,7 @@
 
 use super::{SliderContact, would_pull};
 use crate::geometry::{Basis, Vec2};
-use crate::joints::{ContactUnknowns, EndAction};
+use crate::joints::ContactUnknowns;
 use crate::system::bodies::Body;
 use crate::system::sliders::{MasterEnd, Seam, SliderState, TrackPath};
 
@@ -39,8 +39,7 @@ impl SliderContact {
     /// Whether the slider leans where there was a seam, on what is now an end of the track that holds nobody.
     pub(super) fn leans_on_nothing(&self, bodies: &[Body]) -> bool {
         let SliderState::Held(end) = self.state else { return false };
-        let holds = self.ends == EndAction::Bounce;
-        !holds && self.route.as_ref().is_some_and(|route| route.is_torn(bodies, end))
+        !self.ends.has_stop() && self.route.as_ref().is_some_and(|route| route.is_torn(bodies, end))
     }
 
     /// The directions in which the slider leaves the one side of a seam beyond an end of its master, and comes to the other [-].
