@@ -17,6 +17,9 @@ const PINNED: &str = "tests/outputs/pinned.txt";
 /// Longest text that is recorded as a snapshot [bytes].
 const LONGEST: usize = 20_000;
 
+/// Beginnings of the names of generated pages, whose texts are in `docs/language`.
+const GENERATED: [&str; 2] = ["pages/help", "pages/definitions"];
+
 /// Endings of text files that are data or pictures.
 const DATA: [&str; 6] = [".svg", ".csv", ".vtu", ".pvd", ".html", ".json"];
 
@@ -51,7 +54,8 @@ impl Book {
     /// Returns the text of an output that is recorded as a snapshot.
     fn snapshot<'o>(name: &str, output: &'o [u8]) -> Option<&'o str> {
         let is_short = (1..LONGEST).contains(&output.len());
-        let is_data = DATA.iter().any(|ending| name.ends_with(ending));
+        let is_data = DATA.iter().any(|ending| name.ends_with(ending))
+            || GENERATED.iter().any(|start| name.starts_with(start));
         if is_short && !is_data { std::str::from_utf8(output).ok() } else { None }
     }
 
