@@ -47,7 +47,7 @@ impl LowerSplines {
         Ok(splines)
     }
 
-    /// Calls `take` for every point of a rule that is exact for products of a function and a derivative: index of the first derivative, weight,
+    /// Calls `add` for every point of a rule that is exact for products of a function and a derivative: index of the first derivative, weight,
     /// derivatives and functions.
     fn integrate(
         &self,

@@ -112,7 +112,7 @@ impl PrescribedMotion {
                     &[start, 0.5 * (start + end), end],
                     &[first, middle, last],
                 )?;
-                // A jump of the rate within the step is a kink of the motion; the rate after it is used for the whole step.
+                // A jump of the rate within the step is a kink of the motion. The rate after it then replaces that at the start.
                 let first_rate = jump.map_or(first, |_| last);
                 let rounding = ROUNDINGS * f64::EPSILON * size_of(&[first, middle, last]);
                 Ok(MotionInStep { moved, first_rate, rounding, rate: last, accelerations })
