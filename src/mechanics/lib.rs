@@ -1,4 +1,4 @@
-//! Planar dynamics of flexible beams that slide on each other: all of withy that the language stands on.
+//! Planar dynamics of flexible beams with sliding joints: the solver below the scripting language of withy.
 //!
 //! Layers, each using only those to its right:
 //!
@@ -7,8 +7,8 @@
 //!                                          └→ integrators → newton → linalg
 //! ```
 //!
-//! At the bottom of all stand [`elementary`]: sine, logarithm and power with the same bits on every machine; and [`threads`], for beams, bands and bodies
-//! that are worked on in parts.
+//! At the bottom are [`elementary`], functions with identical results on every machine, and [`threads`] for concurrent work on beams, bands and
+//! bodies.
 
 #![forbid(unsafe_code)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]

@@ -1,4 +1,4 @@
-//! A place of the undeformed axis as quadrature needs it.
+//! Point of the undeformed axis, as used in quadrature.
 
 use super::BeamError;
 use super::dynamics::Movement;
@@ -6,25 +6,25 @@ use super::simd::{LANES, Lanes};
 use super::span_points::window;
 use crate::geometry::{Basis, Span, Vec2};
 
-/// The slowest an axis may run along its parameter, relative to its mean.
+/// Smallest speed of the axis along its parameter, relative to its mean.
 const STANDSTILL: f64 = 1e-9;
 
 #[derive(Debug, Clone)]
 pub(super) struct AxisPoint<const N: usize> {
-    /// The values of the basis functions at this point of the axis [-], one for each control point of the span.
+    /// Basis functions [-], one per control point of the span.
     pub(super) shape: [f64; N],
-    /// The derivatives of the basis functions by the arc length of the axis [1/length], one for each control point of the span.
+    /// Derivatives of the basis functions with respect to arc length [1/length], one per control point of the span.
     pub(super) slope: [f64; N],
-    /// The weight of this point in integrals along the axis [length].
+    /// Weight in integrals along the axis [length].
     pub(super) weight: f64,
 }
 
 impl<const N: usize> AxisPoint<N> {
-    /// No point: nothing of the axis counts there, whatever moves.
+    /// Placeholder of zero weight and functions.
     pub(super) const NOWHERE: Self = Self { shape: [0.0; N], slope: [0.0; N], weight: 0.0 };
 }
 
-/// Neighbouring points of the axis side by side, each with the first control point of its span.
+/// Neighbouring points of the axis in lanes, each with the first control point of its span.
 #[derive(Debug, Clone)]
 pub(super) struct AxisPoints<const N: usize> {
     pub(super) shape: [Lanes; N],
@@ -34,7 +34,7 @@ pub(super) struct AxisPoints<const N: usize> {
 }
 
 impl<const N: usize> AxisPoints<N> {
-    /// Points by lanes, in spans that begin with such control points.
+    /// Combines points into lanes, with the first control points of their spans.
     pub(super) fn side_by_side(points: [&AxisPoint<N>; LANES], first: [usize; LANES]) -> Self {
         let none = Lanes::default();
         let mut axis = Self { shape: [none; N], slope: [none; N], weight: none, first };
@@ -48,7 +48,7 @@ impl<const N: usize> AxisPoints<N> {
         axis
     }
 
-    /// The point of a lane.
+    /// Point of a lane.
     pub(super) fn point(&self, lane: usize) -> AxisPoint<N> {
         AxisPoint {
             shape: self.shape.map(|value| value.lane(lane)),
@@ -57,7 +57,7 @@ impl<const N: usize> AxisPoints<N> {
         }
     }
 
-    /// The movements of the control points of each lane.
+    /// Movements of the control points of each lane.
     #[inline(always)]
     pub(super) fn windows<'a>(&self, movements: &'a [Movement]) -> Windows<'a, N> {
         let mut windows = [window(movements, self.first[0]); LANES];
@@ -68,7 +68,7 @@ impl<const N: usize> AxisPoints<N> {
     }
 }
 
-/// The movements of the control points that the points of each lane depend on.
+/// Movements of the control points that affect the points of each lane.
 pub(super) struct Windows<'a, const N: usize>([&'a [Movement; N]; LANES]);
 
 impl<const N: usize> Windows<'_, N> {
@@ -83,22 +83,21 @@ impl<const N: usize> Windows<'_, N> {
     }
 }
 
-/// The axis that control points draw, of about a given length.
+/// Axis through control points, of a given approximate length.
 pub(super) struct BeamAxis<'a> {
     basis: &'a Basis,
     control_points: &'a [Vec2],
-    /// Derivatives by the parameter below this are rounding, not a direction.
+    /// Speed along the parameter below which the direction is rounding.
     standstill: f64,
 }
 
 impl<'a> BeamAxis<'a> {
-    /// The axis of such a length [length] that control points draw on a basis.
     pub(super) fn new(basis: &'a Basis, control_points: &'a [Vec2], length: f64) -> Self {
         let (start, end) = basis.domain();
         Self { basis, control_points, standstill: STANDSTILL * length / (end - start) }
     }
 
-    /// The points of a rule on a span, with the unit tangents there.
+    /// Points of a rule on a span, with their unit tangents.
     pub(super) fn points<const N: usize>(
         &self,
         span: Span,

@@ -1,24 +1,23 @@
-//! The dense tangent of one span.
+//! Dense tangent of one span.
 
 use pulp::Simd;
 
-/// A row of the tangent of one span: an entry for each of its `N` control points and each component x, y, ω.
+/// Row of the tangent of one span: an entry for each of its `N` control points and each component x, y, ω.
 pub(super) type BlockRow<const N: usize> = [[f64; 3]; N];
 
-/// The tangent of one span, `rows[a][i][b][j]` for control points `a`, `b` and components `i`, `j` of x, y, ω; summed up by vector instructions.
+/// Tangent of one span, `rows[a][i][b][j]` for control points `a`, `b` and components `i`, `j` of x, y, ω; accumulated by vector instructions.
 pub(super) struct SpanTangent<S, const N: usize> {
     simd: S,
     pub(super) rows: [[BlockRow<N>; 3]; N],
 }
 
 impl<S: Simd, const N: usize> SpanTangent<S, N> {
-    /// The tangent of a span with zeros only.
     #[inline(always)]
     pub(super) fn zeros(simd: S) -> Self {
         Self { simd, rows: [[[[0.0; 3]; N]; 3]; N] }
     }
 
-    /// Adds a multiple of a row to the row of the tangent for one control point and one component.
+    /// Adds a multiple of a row to the row of one control point and one component.
     #[inline(always)]
     pub(super) fn add_multiple(
         &mut self,
@@ -38,7 +37,7 @@ impl<S: Simd, const N: usize> SpanTangent<S, N> {
         }
     }
 
-    /// All entries of the tangent of the span, row after row.
+    /// Entries of the tangent, row by row.
     #[inline(always)]
     pub(super) fn entries(&self) -> &[f64] {
         self.rows.as_flattened().as_flattened().as_flattened()

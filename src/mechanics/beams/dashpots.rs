@@ -1,11 +1,11 @@
-//! Dashpots beside the quadrature points of a beam: Kelvin–Voigt damping, with relaxation times `τ` of stretching, shear and bending.
+//! Kelvin–Voigt dashpots parallel to the quadrature points of a beam, with relaxation times `τ` of axial, shear and bending deformation.
 //!
 //! ```text
 //! N = C τ ΔΓ/Δt      ΔΓ = Λ̄ᵀ (Δx' - Δω J x̄')      M = EI τ Δκ/Δt      D = Σ w (N·ΔΓ + M Δκ) ≥ 0
 //! ```
 //!
-//! They stand beside the points for `Γ` and `κ` and not in them: a beam without damping knows nothing of them. Their forces are unknowns
-//! of their own, as section forces are.
+//! They are separate from the points for `Γ` and `κ`, so undamped beams have no overhead. Their forces are unknowns of their own, like section
+//! forces.
 
 use serde::{Deserialize, Serialize};
 
@@ -17,25 +17,25 @@ use super::sections::SectionsOnAxis;
 use super::{BeamError, Mesh, RotationIncrement, Section, SectionPlace, SectionVariation};
 use crate::geometry::{Vec2, larger};
 
-/// The relaxation times of a Kelvin–Voigt material: a section resists with `C (Γ + τ Γ̇)` and `EI (κ + τ κ̇)` [time].
+/// Relaxation times of a Kelvin–Voigt material: the section forces are `C (Γ + τ Γ̇)` and `EI (κ + τ κ̇)` [time].
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Relaxation {
-    /// The relaxation time of stretching [time].
+    /// Relaxation time of axial deformation [time].
     pub axial: f64,
-    /// The relaxation time of shear [time].
+    /// Relaxation time of shear [time].
     pub shear: f64,
-    /// The relaxation time of bending [time].
+    /// Relaxation time of bending [time].
     pub bending: f64,
 }
 
 impl Relaxation {
-    /// What a relaxation time may be, in words.
+    /// Description of allowed relaxation times.
     pub const ALLOWED: &'static str = "zero or a positive finite number [time]";
 
-    /// Checks that no time is negative and all are finite.
+    /// Checks that all times are finite and not negative.
     ///
     /// # Errors
-    /// Names the first that is not allowed, with its value.
+    /// Name and value of the first invalid time.
     pub fn validated(&self) -> Result<(), (&'static str, f64)> {
         let times = [("axial", self.axial), ("shear", self.shear), ("bending", self.bending)];
         match times.into_iter().find(|(_, time)| !(time.is_finite() && *time >= 0.0)) {
@@ -45,20 +45,20 @@ impl Relaxation {
     }
 }
 
-/// Where in a step rates are taken, and how they follow from movements: the rate of `q` is `by_change · Δq - by_last · q̇`, `q̇` that of the step before.
+/// Collocation of rates in a step: the rate of `q` is `by_change · Δq - by_last · q̇` with the rate `q̇` of the previous step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RateCollocation {
-    /// The share of the step at which directions are taken: `(1-s)(x0, Λ0) + s (x1, Λ1)` [-].
+    /// Fraction of the step at which directions are taken: `(1-s)(x0, Λ0) + s (x1, Λ1)` [-].
     pub share: f64,
-    /// The factor of the change in the step [1/time].
+    /// Factor of the change in the step [1/time].
     pub by_change: f64,
-    /// The factor of the rate in the step before [-].
+    /// Factor of the rate in the previous step [-].
     pub by_last: f64,
-    /// What rotation increments of the step stand for.
+    /// Kind of rotation increments.
     pub rotations: RotationIncrement,
 }
 
-/// The functions of a beam at one of its points: values [-] and derivatives by arc length [1/length], and the weight of the point [length].
+/// Basis functions at a point of a beam: values [-], derivatives with respect to arc length [1/length], and quadrature weight [length].
 #[derive(Debug, Clone)]
 pub(super) struct Functions {
     pub(super) shape: Vec<f64>,
@@ -67,7 +67,7 @@ pub(super) struct Functions {
 }
 
 impl Functions {
-    /// `(Δx', Δω, Δω')` of movements of the control points of the span.
+    /// Values `(Δx', Δω, Δω')` of movements of the control points of the span.
     pub(super) fn interpolate(&self, moved: &[Movement]) -> (Vec2, f64, f64) {
         let (mut gradient, mut rotation, mut bend) = (Vec2::zeros(), 0.0, 0.0);
         for ((shape, slope), [x, y, omega]) in self.shape.iter().zip(&self.slope).zip(moved) {
@@ -79,7 +79,7 @@ impl Functions {
     }
 }
 
-/// The dashpots of one span.
+/// Dashpots of one span.
 #[derive(Debug, Clone)]
 struct SpanDashpots {
     first: usize,
@@ -87,7 +87,7 @@ struct SpanDashpots {
     moments: Vec<MomentDashpot>,
 }
 
-/// The dashpots of a beam: what its material dissipates, at its quadrature points.
+/// Dashpots of a beam at its quadrature points.
 ///
 /// Movements, rates and forces are indexed by control point.
 #[derive(Debug, Clone)]
@@ -95,15 +95,15 @@ pub struct Dashpots {
     order: usize,
     spans: Vec<SpanDashpots>,
     watch: RateResolution,
-    /// The derivative of the forces of a span, row after row.
+    /// Derivative of the forces of a span, row by row.
     block: Vec<f64>,
 }
 
 impl Dashpots {
-    /// The dashpots of a beam that is drawn by control points on a mesh, at rest.
+    /// Creates the dashpots of a beam at rest with the given control points.
     ///
     /// # Errors
-    /// When the mesh has no quadrature.
+    /// Fails if the mesh has no quadrature.
     pub fn new(
         mesh: &Mesh,
         control_points: &[Vec2],
@@ -144,12 +144,12 @@ impl Dashpots {
         Ok(Self { order, spans, watch, block: vec![0.0; 9 * order * order] })
     }
 
-    /// The number of control points of a span.
+    /// Number of control points per span.
     pub fn order(&self) -> usize {
         self.order
     }
 
-    /// Begins a step with the forces of the last one, in which control points have such rates at its start.
+    /// Prepares a step with the given rates of the control points; forces start from those of the last one.
     pub fn begin_step(&mut self, rates: &[Movement]) {
         for SpanDashpots { first, forces, moments } in &mut self.spans {
             let rates = &rates[*first..*first + self.order];
@@ -158,7 +158,7 @@ impl Dashpots {
         }
     }
 
-    /// Begins a movement that takes no time, in which nothing is damped.
+    /// Prepares a movement of zero duration without damping.
     pub fn rest(&mut self) {
         for span in &mut self.spans {
             span.forces.iter_mut().for_each(ForceDashpot::rest);
@@ -166,12 +166,12 @@ impl Dashpots {
         }
     }
 
-    /// Takes nothing that was seen of rates for true any more: they have jumped.
+    /// Discards the rate history after a jump of the rates.
     pub fn forget_rates(&mut self) {
         self.watch = RateResolution::default();
     }
 
-    /// Gives the forces of the dashpots, as they are, to control points; the largest of them, and how far they are from those of the rates.
+    /// Passes the current dashpot forces to control points. Returns the largest force and the mismatch.
     pub fn add_forces(
         &mut self,
         at: RateCollocation,
@@ -191,7 +191,7 @@ impl Dashpots {
         summary
     }
 
-    /// Gives the forces that the rates ask for to control points, and their derivative, span by span, to a sink: its first control point and the rows.
+    /// Passes the condensed forces to control points, and their derivatives to a sink by span: first control point and rows.
     pub fn add_linearised_forces(
         &mut self,
         at: RateCollocation,
@@ -212,7 +212,7 @@ impl Dashpots {
         }
     }
 
-    /// Gives the forces that would close the mismatch met by the last forces, in the directions of the last linearisation.
+    /// Passes the forces that would remove the current mismatch, in the directions of the last linearisation.
     pub fn add_mismatch_forces(&self, give: &mut dyn FnMut(usize, Movement)) {
         for SpanDashpots { first, forces, moments } in &self.spans {
             forces.iter().for_each(|dashpot| dashpot.add_mismatch_forces(*first, give));
@@ -220,7 +220,7 @@ impl Dashpots {
         }
     }
 
-    /// Carries a correction of the movements over to the forces.
+    /// Updates the forces after a correction of the movements.
     pub fn correct(&mut self, correction: &[Movement]) {
         for SpanDashpots { first, forces, moments } in &mut self.spans {
             let correction = &correction[*first..*first + self.order];
@@ -229,7 +229,7 @@ impl Dashpots {
         }
     }
 
-    /// Accepts the movements of a step of a duration [time], infinite where nothing is damped; what the dashpots dissipated in it [energy].
+    /// Accepts the movements of a step of a duration [time], infinite without damping. Returns the dissipated energy [energy].
     pub fn advance(
         &mut self,
         moved: &[Movement],
@@ -254,8 +254,8 @@ impl Dashpots {
         sum
     }
 
-    /// Gives the forces that such rates of the control points ask for at the start of the step; where steps do not resolve them, those of the means of the
-    /// last two steps, carried on.
+    /// Passes the dashpot forces at given rates at the start of the step. Rates that the steps do not resolve are extrapolated from the means of the
+    /// last two steps.
     pub fn resist(&self, rates: &[Movement], give: &mut dyn FnMut(usize, Movement)) {
         for SpanDashpots { first, forces, moments } in &self.spans {
             let rates = self.watch.told(&rates[*first..*first + self.order]);
@@ -264,8 +264,8 @@ impl Dashpots {
         }
     }
 
-    /// Gives the rates of strain and curvature at such rates of the control points, at the start of the step, each behind what damps it over the length that its
-    /// point stands for: products of it with squares of rates are powers [energy/time].
+    /// Passes the rates of strain and curvature at given rates of the control points, at the start of the step, each with its damping coefficient
+    /// times the quadrature weight. The sum of coefficient times squared rate is a power [energy/time].
     pub fn each_damped_rate(&self, rates: &[Movement], take: &mut dyn FnMut(f64, f64)) {
         for SpanDashpots { first, forces, moments } in &self.spans {
             let rates = &rates[*first..*first + self.order];
@@ -274,9 +274,8 @@ impl Dashpots {
         }
     }
 
-    /// What such rates of the control points let the dashpots transmit at a place at the start of the step, by the weights with which the
-    /// quadrature points that they stand beside add up there: a force in space [force] and a moment [force·length]. Where steps do not resolve
-    /// the rates, the means of the last two steps are carried on instead.
+    /// Dashpot force in space [force] and moment [force·length] at a place at the start of the step, interpolated like section forces. Rates that the
+    /// steps do not resolve are extrapolated from the means of the last two steps.
     pub fn transmitted(&self, place: &SectionPlace, rates: &[Movement]) -> (Vec2, f64) {
         let of_span = |span: usize| {
             let span = &self.spans[span];
@@ -296,7 +295,6 @@ impl Dashpots {
         (force, moment)
     }
 
-    /// Appends the state of the dashpots at the start of a step to `state`.
     pub fn save(&self, state: &mut Vec<f64>) {
         self.watch.save(state);
         for span in &self.spans {
@@ -305,7 +303,6 @@ impl Dashpots {
         }
     }
 
-    /// Takes the state of the dashpots back, in the order in which it was appended.
     pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         self.watch.restore(next);
         for span in &mut self.spans {
@@ -315,12 +312,12 @@ impl Dashpots {
     }
 }
 
-/// How far a force is from the one that is asked for, as a strain; none where nothing resists.
+/// Force mismatch as a strain; zero without resistance.
 pub(super) fn strain_missing(force: f64, resistance: f64) -> f64 {
     if resistance > 0.0 { (force / resistance).abs() } else { 0.0 }
 }
 
-/// The larger of two strains that are missing.
+/// Larger of two strain mismatches.
 pub(super) fn larger_missing(missing: Vec2, resistance: Vec2) -> f64 {
     larger(strain_missing(missing.x, resistance.x), strain_missing(missing.y, resistance.y))
 }

@@ -1,4 +1,4 @@
-//! A beam on its mesh: the quadrature points of all spans, the control points and the inertia.
+//! Discretised beam: quadrature points of all spans, control points and inertia.
 
 use std::ops::Range;
 
@@ -21,10 +21,10 @@ use super::{
 };
 use crate::geometry::Vec2;
 
-/// A beam whose basis has `N` non-zero functions on a span.
+/// Beam whose basis has `N` nonzero functions per span.
 #[derive(Debug, Clone)]
 struct DiscreteBeam<const N: usize, S: Sections = Uniform> {
-    /// That of all points, or of a beam that tapers the mean.
+    /// Section of all points, or the mean of a tapered beam.
     section: Section,
     control_points: Vec<Vec2>,
     remainders: Vec<Vec2>,
@@ -33,11 +33,10 @@ struct DiscreteBeam<const N: usize, S: Sections = Uniform> {
     inertia: InertiaMatrix<N, S::MassIntegral>,
 }
 
-/// A beam with the axis that the control points draw on a mesh, where it is free of stress; `length` is about that of the
-/// axis.
+/// Discretises a beam with a stress-free axis through the control points; `length` is the approximate length of the axis.
 ///
 /// # Errors
-/// When the axis has a point without a tangent.
+/// Fails if the axis has a point without a tangent.
 pub fn discretise(
     control_points: Vec<Vec2>,
     length: f64,
@@ -70,7 +69,7 @@ fn with_sections<S: Sections + 'static>(
         7 => Box::new(DiscreteBeam::<8, S>::new(mesh, variation, length, points)?),
         8 => Box::new(DiscreteBeam::<9, S>::new(mesh, variation, length, points)?),
         9 => Box::new(DiscreteBeam::<10, S>::new(mesh, variation, length, points)?),
-        // Knot vectors refuse degrees above 10.
+        // Knot vectors reject degrees above 10.
         _ => Box::new(DiscreteBeam::<11, S>::new(mesh, variation, length, points)?),
     })
 }
@@ -122,7 +121,7 @@ impl<const N: usize, S: Sections> DiscreteBeam<N, S> {
     }
 }
 
-/// Moves a point by x and y [length], and keeps in `remainder` what rounding cuts off for the next time (compensated summation, Kahan 1965).
+/// Moves a point by x and y [length] with compensated summation (Kahan 1965), keeping the rounding error in `remainder`.
 pub(super) fn move_compensated(point: &mut Vec2, remainder: &mut Vec2, [x, y, _]: &Movement) {
     let wanted = Vec2::new(*x, *y) + *remainder;
     let reached = *point + wanted;
@@ -170,7 +169,7 @@ impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
         let mut summaries = [ForceSummary::default(); MOST_PARTS];
         let summaries = &mut summaries[..parts.count()];
         parts.sum(groups, forces, summaries, |summary, groups, first, forces| {
-            // In memory of this thread: summaries of parts lie beside each other, in lines that caches of several cores would fight for.
+            // A local copy avoids false sharing, as the summaries of parts are adjacent in memory.
             let mut own = *summary;
             let forces = ForcesFrom { first, forces };
             ForceAssembly { iterate, forces, summary: &mut own }.over(groups);

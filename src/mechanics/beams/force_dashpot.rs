@@ -1,4 +1,4 @@
-//! A dashpot beside a quadrature point for `Γ`.
+//! Dashpot parallel to a quadrature point for `Γ`.
 //!
 //! ```text
 //! N = C τ (by_change · ΔΓ - by_last · Γ̇)      n = Λs N      Λs = (1-s) Λ0 + s Λ1      gs = g0 + s Δg
@@ -11,7 +11,7 @@ use super::present_rates::{DashpotRates, RateMismatch};
 use super::{Rotation, RotationIncrement};
 use crate::geometry::{Vec2, cross, larger, perpendicular};
 
-/// A dashpot for the rates of axial and shear strain.
+/// Dashpot for the rates of axial and shear strain.
 #[derive(Debug, Clone)]
 pub(super) struct ForceDashpot {
     functions: Functions,
@@ -21,21 +21,21 @@ pub(super) struct ForceDashpot {
     gradient: Vec2,
     /// `Λ0`
     rotation: Rotation,
-    /// `Γ̇` of the step before, and of the one before that.
+    /// `Γ̇` of the previous step, and of the one before it.
     last_rate: Vec2,
     rate_before: Vec2,
-    /// `Γ̇` at the start of the step, as movements have it.
+    /// `Γ̇` at the start of the step, from the movements.
     start_rate: Vec2,
     /// `N` of the iterate.
     force: Vec2,
-    /// That of the last step.
+    /// Force of the last step.
     last_force: Vec2,
-    /// The force that is asked for, less the force.
+    /// Target force minus force.
     mismatch: Vec2,
     linearised_at: DashpotKinematics,
 }
 
-/// What movements lead to.
+/// Kinematics of movements.
 #[derive(Debug, Clone, Copy)]
 struct DashpotKinematics {
     end_rotation: Rotation,
@@ -49,12 +49,12 @@ struct DashpotKinematics {
     gradient: Vec2,
     /// `1/q`
     inverse_q: f64,
-    /// The derivative of the force by `ΔΓ`.
+    /// Derivative of the force with respect to `ΔΓ`.
     resistance: Vec2,
 }
 
 impl ForceDashpot {
-    /// A dashpot with `C τ` [force·time] at a point of the axis as drawn, with its unit tangent there.
+    /// Creates a dashpot with `C τ` [force·time] at a point of the axis as drawn, with its unit tangent.
     pub(super) fn new(functions: Functions, tangent: Vec2, damping: Vec2) -> Self {
         let rotation = Rotation { cos: tangent.x, sin: tangent.y };
         Self {
@@ -89,12 +89,12 @@ impl ForceDashpot {
         self.force = Vec2::zeros();
     }
 
-    /// The mean rates of the last two steps, carried on to the start of the step.
+    /// Mean rates of the last two steps, extrapolated to the start of the step.
     fn carried(&self, late: f64) -> Vec2 {
         self.last_rate + (self.last_rate - self.rate_before) * late
     }
 
-    /// What is seen of the rates of stretching and shear in the step that was accepted last, which began at such a share between the middles of two.
+    /// Mismatch of the axial and shear rates in the last accepted step, which started at a fraction between the middles of two steps.
     pub(super) fn seen(&self, share: f64) -> [RateMismatch; 2] {
         let of = |axis: usize| {
             let means = [self.rate_before[axis], self.last_rate[axis]];
@@ -118,14 +118,14 @@ impl ForceDashpot {
         }
     }
 
-    /// `ΔΓ = Λ̄ᵀ (Δg - t J ḡ)`, `t` the tangent-scaled increment: not a difference of strains, which would round like a number of size one.
+    /// `ΔΓ = Λ̄ᵀ (Δg - t J ḡ)` with the tangent-scaled increment `t`. A difference of strains would have the rounding of a number of size one.
     fn change(&self, by: Vec2, rotations: RotationIncrement, increment: f64) -> Vec2 {
         let mean = self.rotation.mixed(self.rotation.turned(rotations, increment), 0.5);
         let turned = perpendicular(self.gradient + by * 0.5) * rotations.tangent_scaled(increment);
         mean.to_section(by - turned)
     }
 
-    /// The force that the rates of a configuration ask for.
+    /// Target force at the rates of a configuration.
     fn wanted(&self, at: RateCollocation, now: &DashpotKinematics) -> Vec2 {
         let carried = self.last_rate * at.by_last;
         now.resistance.component_mul(&now.change) - self.damping.component_mul(&carried)
@@ -238,13 +238,13 @@ impl ForceDashpot {
         self.functions.weight * self.force.dot(&change)
     }
 
-    /// `Γ̇` of rates of the control points, at the start of the step.
+    /// `Γ̇` at rates of the control points, at the start of the step.
     fn rate(&self, rates: &[Movement]) -> Vec2 {
         let (gradient, spin, _) = self.functions.interpolate(rates);
         self.rotation.to_section(gradient - perpendicular(self.gradient) * spin)
     }
 
-    /// The rates of strain at the start of the step, as they are told: those of the movements, or those of the last steps.
+    /// Strain rates at the start of the step, present or extrapolated.
     fn told(&self, told: DashpotRates<'_>) -> Vec2 {
         let (present, carried) = (self.rate(told.present), self.carried(told.late));
         let [axial, shear, _] = told.carried;
@@ -254,7 +254,7 @@ impl ForceDashpot {
         )
     }
 
-    /// The force in space that rates ask for at the start of the step [force], and its `w x' × n` [force·length].
+    /// Force in space at the start of the step [force], and its `w x' × n` [force·length].
     pub(super) fn transmitted(&self, rates: DashpotRates<'_>) -> (Vec2, f64) {
         let force = self.rotation.to_space(self.damping.component_mul(&self.told(rates)));
         (force, self.functions.weight * cross(self.gradient, force))

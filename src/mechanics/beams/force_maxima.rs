@@ -1,11 +1,11 @@
-//! The largest mismatches, forces and rotations of points side by side.
+//! Largest mismatches, forces and rotations of points in lanes.
 
 use pulp::Simd;
 
 use super::dynamics::ForceSummary;
 use super::simd::{LaneChunk, Lanes, Number, Vector};
 
-/// A [`ForceSummary`] of each lane.
+/// [`ForceSummary`] of each lane.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct ForceMaxima<T> {
     pub(super) strain_mismatch: T,
@@ -15,7 +15,7 @@ pub(super) struct ForceMaxima<T> {
 }
 
 impl ForceMaxima<Lanes> {
-    /// Takes the larger of both, entry by entry.
+    /// Takes the maximum of both, entry by entry.
     #[inline(always)]
     pub(super) fn join<V: Simd>(&mut self, part: LaneChunk<V>, met: ForceMaxima<Vector<V>>) {
         self.rotation.put(part, self.rotation.get(part).larger(met.rotation));
@@ -28,7 +28,7 @@ impl ForceMaxima<Lanes> {
         self.force.put(part, self.force.get(part).larger(force));
     }
 
-    /// The same for points that have no section force.
+    /// The same for points without a section force.
     #[inline(always)]
     pub(super) fn join_moment<V: Simd>(
         &mut self,
@@ -41,7 +41,7 @@ impl ForceMaxima<Lanes> {
         self.moment.put(part, self.moment.get(part).larger(moment));
     }
 
-    /// Adds what was met in all lanes to a summary.
+    /// Adds the maxima of all lanes to a summary.
     #[inline(always)]
     pub(super) fn join_to(&self, summary: &mut ForceSummary) {
         let (mismatch, force) = (self.strain_mismatch.numbers(), self.force.numbers());

@@ -1,4 +1,4 @@
-//! Quadrature points for `Γ` side by side, in a step: axial and shear strain, and the section force as an unknown of its own.
+//! Quadrature points for `Γ` in lanes: axial and shear strain, and the section force as an unknown of its own.
 //!
 //! With `Δg = Σ N_a' Δx_a`, `Δω = Σ N_a Δω_a`, `1/q = dΔθ/dΔω` and `C = diag(EA, GA)`:
 //!
@@ -8,8 +8,8 @@
 //! R_a = w N_a' n             S_a = -w N_a gτ × n
 //! ```
 //!
-//! The gradient `g = x'` and the rotation are kept at the point and advanced by increments, so that the strains do not
-//! depend on how far from the origin the beam has flown.
+//! The gradient `g = x'` and the rotation are stored at the point and advanced by increments, so that strains do not depend on the distance from the
+//! origin.
 
 use pulp::Simd;
 
@@ -22,7 +22,7 @@ use super::pair::Pair;
 use super::simd::{LANES, LaneChunk, Lanes, Number, Vector};
 use super::{Rotation, RotationIncrement};
 
-/// The stiffness `C = diag(EA, GA)` of as many points as one instruction works on.
+/// Stiffness `C = diag(EA, GA)` of the points of one vector instruction.
 pub(super) type Stiffness<V> = Pair<Vector<V>>;
 
 #[derive(Debug, Clone)]
@@ -34,19 +34,19 @@ pub(super) struct ForcePoints<const N: usize> {
     rotation: Rotation<Lanes>,
     /// `Γ0`
     strain: Pair<Lanes>,
-    /// The section force `N` of the iterate.
+    /// Section force `N` of the iterate.
     force: Pair<Lanes>,
-    /// That of the last step, from which the next one starts: in a motion with fast vibration it is nearer to the solution
-    /// than `C Γ0`, whose sign may change from step to step.
+    /// Section force of the last step, which starts the next one. In fast vibration it is closer to the solution than `C Γ0`, whose sign may
+    /// alternate from step to step.
     last_force: Pair<Lanes>,
-    /// `m = Γσ - C⁻¹ N`, where forces were taken last.
+    /// Mismatch `m = Γσ - C⁻¹ N` at the last evaluation.
     mismatch: Pair<Lanes>,
     linearised_at: StrainKinematics<Lanes>,
-    /// `σ` there.
+    /// `σ` of the last linearisation.
     linearised_stress: f64,
 }
 
-/// The configuration that increments lead to, as corrections of the section force need it.
+/// Configuration after increments, as needed by corrections of the section force.
 #[derive(Debug, Clone, Copy)]
 struct StrainKinematics<T> {
     end_rotation: Rotation<T>,
@@ -57,14 +57,14 @@ struct StrainKinematics<T> {
     inverse_q: T,
 }
 
-/// The section force `w n` and its moment `w gτ × n` about the axis, of which each control point has a part.
+/// Section force `w n` and its moment `w gτ × n` about the axis, to be distributed to the control points.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Resultant {
     force: Pair<Lanes>,
     torque: Lanes,
 }
 
-/// The derivatives of forces by movements, `rows[i] · (δg, δω)` times the weight and the functions.
+/// Derivatives of the forces, `rows[i] · (δg, δω)` times weight and functions.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ForceTangent<const N: usize> {
     rows: [[Lanes; 3]; 3],
@@ -82,7 +82,7 @@ impl<const N: usize> Default for ForceTangent<N> {
 }
 
 impl<const N: usize> ForcePoints<N> {
-    /// Points by lanes, in spans that begin with such control points.
+    /// Combines points into lanes, with the first control points of their spans.
     pub(super) fn side_by_side(points: [&ForcePoint<N>; LANES], first: [usize; LANES]) -> Self {
         let (none, rotation) = (Pair::default(), Rotation::default());
         let undeformed = StrainKinematics {
@@ -107,7 +107,7 @@ impl<const N: usize> ForcePoints<N> {
         side_by_side
     }
 
-    /// What is kept of the point of a lane between two steps.
+    /// Persistent state of the point of a lane.
     pub(super) fn point(&self, lane: usize) -> ForcePoint<N> {
         ForcePoint {
             axis: self.axis.point(lane),
@@ -118,7 +118,7 @@ impl<const N: usize> ForcePoints<N> {
         }
     }
 
-    /// Puts the point of a lane into another state.
+    /// Sets the state of the point of a lane.
     pub(super) fn set(&mut self, lane: usize, point: &ForcePoint<N>) {
         self.gradient.set_lane(lane, point.gradient);
         self.rotation.set_lane(lane, point.rotation);
@@ -130,7 +130,7 @@ impl<const N: usize> ForcePoints<N> {
         self.force = self.last_force;
     }
 
-    /// `(Δg, Δω)` of movements.
+    /// Values `(Δg, Δω)` of movements.
     #[inline(always)]
     fn interpolate<V: Simd>(
         &self,
@@ -148,7 +148,7 @@ impl<const N: usize> ForcePoints<N> {
         (gradient, rotation)
     }
 
-    /// The configuration, `Γσ` and `Δω`.
+    /// Configuration, `Γσ` and `Δω`.
     #[inline(always)]
     fn configuration<V: Simd>(
         &self,
@@ -173,7 +173,7 @@ impl<const N: usize> ForcePoints<N> {
         (configuration, strain + (end_strain - strain) * sigma, increment)
     }
 
-    /// What a section force in space comes to, with the weight of the points.
+    /// Multiplies a section force in space by the weights of the points.
     #[inline(always)]
     fn weigh<V: Simd>(
         &self,
@@ -187,7 +187,7 @@ impl<const N: usize> ForcePoints<N> {
         resultant.torque.put(part, gradient.cross(force) * weight);
     }
 
-    /// Adds the forces of the point of a lane on the control points of its span.
+    /// Adds the forces of the point of a lane to the control points of its span.
     #[inline(always)]
     pub(super) fn distribute(
         &self,
@@ -205,7 +205,7 @@ impl<const N: usize> ForcePoints<N> {
         }
     }
 
-    /// The forces of the section forces as they are.
+    /// Forces at the current section forces.
     #[inline(always)]
     pub(super) fn take_forces<V: Simd>(
         &mut self,
@@ -217,7 +217,7 @@ impl<const N: usize> ForcePoints<N> {
         maxima: &mut ForceMaxima<Lanes>,
     ) {
         let (now, collocated_strain, increment) = self.configuration(part, at, moved);
-        // Where the strain of the start alone counts, the section force is known.
+        // With the strain of the start only, the section force is known.
         let force = if at.stress == 0.0 {
             stiffness.by_component(self.strain.get(part))
         } else {
@@ -239,7 +239,7 @@ impl<const N: usize> ForcePoints<N> {
         );
     }
 
-    /// The condensed forces, and their derivatives.
+    /// Condensed forces and their derivatives.
     #[inline(always)]
     pub(super) fn linearise<V: Simd>(
         &mut self,
@@ -283,7 +283,7 @@ impl<const N: usize> ForcePoints<N> {
         self.linearised_stress = at.stress;
     }
 
-    /// Adds the derivatives of the forces of the point of a lane to the block of its span.
+    /// Adds the force derivatives of the point of a lane to the block of its span.
     #[inline(always)]
     pub(super) fn add_tangent<V: Simd>(
         &self,
@@ -313,7 +313,7 @@ impl<const N: usize> ForcePoints<N> {
         }
     }
 
-    /// The forces `C m` of the strain mismatch `m`, in the directions of the last linearisation.
+    /// Forces `C m` of the strain mismatch `m`, in the directions of the last linearisation.
     #[inline(always)]
     pub(super) fn take_mismatch_forces<V: Simd>(
         &self,
@@ -360,7 +360,7 @@ impl<const N: usize> ForcePoints<N> {
         self.strain.put(part, strain_of(rotation, gradient));
     }
 
-    /// The movements of the control points of each lane.
+    /// Movements of the control points of each lane.
     #[inline(always)]
     pub(super) fn windows<'a>(&self, movements: &'a [Movement]) -> Windows<'a, N> {
         self.axis.windows(movements)

@@ -1,4 +1,4 @@
-//! The inertia matrix of a beam, by diagonals: each of them multiplies the rates of all control points as one long vector.
+//! Inertia matrix of a beam by diagonals, each of which multiplies the rates of all control points as one long vector.
 
 use std::ops::Range;
 
@@ -8,30 +8,30 @@ use super::Section;
 use super::dynamics::Movement;
 use super::sections::MassIntegral;
 
-/// The rows of so many control points are given at once, so that they stay at hand for all diagonals.
+/// Number of control points whose rows are processed together, to stay in the cache for all diagonals.
 const AT_ONCE: usize = 16;
 
-/// The inertia matrix `∫ ρA N_a N_b dX` of x and y, `∫ ρI N_a N_b dX` of rotations, of a beam whose basis has `N` non-zero functions on a span.
+/// Inertia matrix of a beam with `N` nonzero basis functions per span: `∫ ρA N_a N_b dX` for x and y, `∫ ρI N_a N_b dX` for rotations.
 #[derive(Debug, Clone)]
 pub(super) struct InertiaMatrix<const N: usize, I> {
-    /// `∫ N_a N_{a+k} dX` for k = 0 … N-1 [length], with the inertia where it varies.
+    /// `∫ N_a N_{a+k} dX` for k = 0 … N-1 [length], including inertia if it varies.
     gram: Vec<[I; N]>,
-    /// The integrals of each k for all control points and components, one after another.
+    /// Integrals of each k for all control points and components.
     diagonals: [Vec<f64>; N],
-    /// By what the integrals of a component are multiplied, for all control points.
+    /// Factors of the integrals by component, for all control points.
     shares: Vec<f64>,
     section: Section,
 }
 
 impl<const N: usize, I: MassIntegral> InertiaMatrix<N, I> {
-    /// The inertia matrix of a beam with such a section, of the integrals `∫ N_a N_{a+k} dX` for k = 0 … N-1.
+    /// Creates the inertia matrix of a beam from the integrals `∫ N_a N_{a+k} dX` for k = 0 … N-1.
     pub(super) fn new(gram: Vec<[I; N]>, section: Section) -> Self {
         let diagonal = |k: usize| gram.iter().flat_map(|row| row[k].weights()).collect();
         let shares = gram.iter().flat_map(|_| I::shares(&section)).collect();
         Self { diagonals: std::array::from_fn(diagonal), shares, section, gram }
     }
 
-    /// The sum over the functions of what belongs to their products with that of every control point.
+    /// Row sums by control point.
     pub(super) fn lumped(&self, of: impl Fn(I) -> f64) -> Vec<f64> {
         let mut sums = vec![0.0; self.gram.len()];
         for (a, row) in self.gram.iter().enumerate() {
@@ -45,7 +45,7 @@ impl<const N: usize, I: MassIntegral> InertiaMatrix<N, I> {
         sums
     }
 
-    /// Adds `factor · M · rates` to the forces on the control points of a range.
+    /// Adds `factor · M · rates` to the forces on a range of control points.
     pub(super) fn add_product(
         &self,
         points: Range<usize>,
@@ -57,8 +57,7 @@ impl<const N: usize, I: MassIntegral> InertiaMatrix<N, I> {
         Arch::new().dispatch(InertiaProduct { matrix: self, points, factor, rates, forces });
     }
 
-    /// Gives the rows of some control points in `factor · M` to `take`, in pieces of diagonals: the first control point of the rows, by how many control
-    /// points the columns stand behind these, and the entries, three for each control point.
+    /// Passes rows of `factor · M` by diagonals: first control point of the rows, offset of the columns, and three entries per control point.
     pub(super) fn each_diagonal(
         &self,
         factor: f64,
@@ -68,8 +67,7 @@ impl<const N: usize, I: MassIntegral> InertiaMatrix<N, I> {
         Arch::new().dispatch(Diagonals { matrix: self, points, factor, take });
     }
 
-    /// Gives the rows of some control points in `factor · M` to `take`, in pieces: control point of the row, first one of the columns, and the
-    /// three diagonal entries for each column.
+    /// Passes rows of `factor · M` in pieces: control point of the row, first one of the columns, and three diagonal entries per column.
     pub(super) fn each_row(
         &self,
         factor: f64,
@@ -89,7 +87,7 @@ impl<const N: usize, I: MassIntegral> InertiaMatrix<N, I> {
     }
 }
 
-/// The work of [`each_diagonal`](InertiaMatrix::each_diagonal).
+/// Kernel of [`each_diagonal`](InertiaMatrix::each_diagonal).
 struct Diagonals<'a, const N: usize, I> {
     matrix: &'a InertiaMatrix<N, I>,
     points: Range<usize>,
@@ -109,7 +107,7 @@ impl<const N: usize, I> WithSimd for Diagonals<'_, N, I> {
             let end = points.end.min(first + AT_ONCE);
             for offset in 1 - N as isize..N as isize {
                 let k = offset.unsigned_abs();
-                // An entry before the diagonal is that of its column behind it.
+                // Entries before the diagonal are those of the transposed place behind it.
                 let (first, columns) = if offset < 0 {
                     (first.max(k), first.max(k) - k..end.max(k) - k)
                 } else {
@@ -124,7 +122,7 @@ impl<const N: usize, I> WithSimd for Diagonals<'_, N, I> {
     }
 }
 
-/// The work of [`add_product`](InertiaMatrix::add_product), on numbers of all components one after another.
+/// Kernel of [`add_product`](InertiaMatrix::add_product), on the numbers of all components in sequence.
 struct InertiaProduct<'a, const N: usize, I> {
     matrix: &'a InertiaMatrix<N, I>,
     points: Range<usize>,
@@ -136,7 +134,7 @@ struct InertiaProduct<'a, const N: usize, I> {
 impl<const N: usize, I> WithSimd for InertiaProduct<'_, N, I> {
     type Output = ();
 
-    /// Adds diagonal by diagonal, from the first column of a row to its last one.
+    /// Adds by diagonal, from the first column of a row to the last.
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let Self { matrix: InertiaMatrix { gram, diagonals, shares, .. }, points, factor, .. } =
@@ -210,7 +208,7 @@ mod tests {
         rotary_inertia: 0.3,
     };
 
-    /// Row by row and entry by entry, as [`InertiaMatrix::each_row`] gives them.
+    /// Entries as passed by [`InertiaMatrix::each_row`].
     fn by_rows<const N: usize>(
         matrix: &InertiaMatrix<N, f64>,
         rates: &[Movement],
@@ -253,7 +251,7 @@ mod tests {
         assert_same_entries(count, cut.min(count)..count, &matrix);
     }
 
-    /// Entry by entry of a full matrix: as diagonals and as rows have them.
+    /// Compares diagonals and rows with a dense matrix, entry by entry.
     fn assert_same_entries<const N: usize>(
         count: usize,
         points: Range<usize>,

@@ -1,7 +1,7 @@
-//! The kink of an axis under a point force, which smooth functions smear: how far the force moves the axis beyond what the mesh knows.
+//! Kink of an axis under a point force, which smooth functions smear: the displacement that the mesh does not represent.
 //!
-//! A force on a shear-flexible beam makes its tangent jump. What a mesh that cannot jump misses is that of a string on the same
-//! functions, with the same points and weights; derived in docs/theory.md, section 10.1.
+//! A force on a shear-flexible beam causes a jump of its tangent. The displacement that a smooth mesh misses equals that of a string with the same
+//! functions, points and weights; derived in docs/theory.md, section 10.1.
 
 mod running;
 
@@ -10,32 +10,32 @@ use crate::geometry::{
     PiecewisePolynomial, PositiveBand, PositiveFactors, Span, Vec2, lower_splines,
 };
 
-/// A length below this part of a span is rounding.
+/// Lengths below this fraction of a span are rounding.
 const ROUNDING: f64 = 1e-11;
 
-/// What a mesh misses of the kink of its axis under a point force.
+/// Kink of the axis under a point force that a mesh does not represent.
 #[derive(Debug, Clone)]
 pub struct MissedKink {
-    /// The kink length `g(ξ)` [length].
+    /// Kink length `g(ξ)` [length].
     pub length: PiecewisePolynomial,
-    /// How much heavier a kink that moves along the axis is than its length tells [-]: the energy of motion that the mesh misses is `½ μ ρA g |a|² v²` in
-    /// the mean over the places of the kink, `μ = 1` where strains are integrated exactly.
+    /// Correction factor `μ` of the inertia of a moving kink [-]: the kinetic energy that the mesh misses is `½ μ ρA g |a|² v²`, averaged over the
+    /// places of the kink; `μ = 1` for exactly integrated strains.
     pub inertia: f64,
 }
 
-/// What a mesh misses of the kink of the axis that control points draw on it; the kink length `g(ξ)` says that a force `λ` across the beam
-/// at `ξ` moves the axis there by `g λ/GA` more than the mesh lets it.
+/// Computes the kink of an axis that the mesh does not represent. A force `λ` across the beam at `ξ` displaces the axis there by `g(ξ) λ/GA` more
+/// than in the mesh.
 ///
 /// ```text
 /// g(ξ) = l(ξ)ᵀ M⁻¹ r(ξ)        M = Σ w t tᵀ/|x_ξ|        l = ∫ t dξ up to ξ, r = ∫ t dξ from ξ on
 /// ```
 ///
-/// over the splines `t` of one degree less, with the points and weights of the beam's shear strain: what a string on these functions gives
-/// way under a point load, taken from what it should, whichever ends are held. A polynomial of twice the degree on each span, zero where the
-/// basis is C⁰. None where it is not positive between these places, as with fewer quadrature points than the patch rule has.
+/// over the splines `t` of one degree less, with the points and weights of the shear strain. It is the exact compliance of a string under a point
+/// load minus that of a string on these functions, for any end supports. `g` is a polynomial of twice the degree on each span, and zero where the
+/// basis is C⁰. Returns `None` if it is not positive between these places, as with fewer quadrature points than those of the patch rule.
 ///
 /// # Errors
-/// When the mesh has no quadrature, or the axis a point without a tangent.
+/// Fails if the mesh has no quadrature, or the axis a point without a tangent.
 pub fn missed_kink(mesh: &Mesh, control_points: &[Vec2]) -> Result<Option<MissedKink>, BeamError> {
     let (basis, degree) = (mesh.basis(), mesh.basis().degree());
     let spans = basis.spans();
@@ -70,14 +70,13 @@ pub fn missed_kink(mesh: &Mesh, control_points: &[Vec2]) -> Result<Option<Missed
     Ok(Some(MissedKink { length, inertia }))
 }
 
-/// The length of the control polygon of a span [length].
+/// Length of the control polygon of a span [length].
 fn control_polygon_length(control_points: &[Vec2], span: &Span, degree: usize) -> f64 {
     let own = &control_points[span.first..=span.first + degree];
     own.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
 }
 
-/// The parts of the lower splines of a span that lie before a place on it, `Σ_(a > t) N_a`, each by the coefficients of powers of t from -1 to 1 on
-/// the span.
+/// Integrals of the lower splines of a span up to a place on it, `Σ_(a > t) N_a`, as coefficients of powers of t from -1 to 1 on the span.
 fn fractions(mesh: &Mesh, span: &Span) -> Vec<Vec<f64>> {
     let degree = mesh.basis().degree();
     let half = 0.5 * (span.end - span.start);
@@ -90,12 +89,12 @@ fn fractions(mesh: &Mesh, span: &Span) -> Vec<Vec<f64>> {
     (0..degree).map(|lower| (0..=degree).map(|order| behind(lower, order)).collect()).collect()
 }
 
-/// A string on splines: the products `M` of its strains, what solves `M a = 1`, and the inverse of `M` near its diagonal.
+/// String on splines: the products `M` of its strains, the solution of `M a = 1`, and the inverse of `M` near its diagonal.
 struct SplineString {
     degree: usize,
     products: PositiveBand,
     factors: PositiveFactors,
-    /// The string under a constant force.
+    /// Strains of the string under a constant force.
     stretched: Vec<f64>,
     inverse: PositiveBand,
 }
@@ -109,8 +108,8 @@ impl SplineString {
         Some(Self { degree, products, factors, stretched, inverse })
     }
 
-    /// What is left of a load on all splines before number `cut` when these are stretched as a constant force would stretch them: it has a few entries
-    /// about the cut only, of which the first one's number comes first.
+    /// Residual of a load on all splines before index `cut` when these have the strains of a constant force. It has a few entries around the cut
+    /// only; returns the index of the first one.
     fn left_over(&self, cut: usize) -> (usize, Vec<f64>) {
         let (size, reach) = (self.stretched.len(), self.degree - 1);
         let first = cut.saturating_sub(reach);
@@ -131,11 +130,11 @@ impl SplineString {
         (*first..).zip(load).map(|(at, r)| self.inverse.get(row, at) * r).sum()
     }
 
-    /// The coefficients of `g = lᵀ M⁻¹ r` on a span, with the parts of its splines before a place: all earlier splines lie before it, all later
+    /// Coefficients of `g = lᵀ M⁻¹ r` on a span, with the fractions of its splines before a place. Earlier splines lie completely before it, later
     /// ones behind.
     ///
-    /// What earlier and later splines give is `M⁻¹` times loads of ones up to a number, which is the stretched string up to there, but for what is
-    /// left over.
+    /// Contributions of earlier and later splines are `M⁻¹` times a load of ones up to an index: the strains of a constant force up to there, plus
+    /// those of the residual.
     fn polynomial(&self, span: &Span, fractions: &[Vec<f64>]) -> Vec<f64> {
         let own = span.first..span.first + self.degree;
         let (before, behind) = (self.left_over(own.start), self.left_over(own.end));

@@ -1,4 +1,4 @@
-//! The mesh of a beam: a basis, and where strains are sampled.
+//! Mesh of a beam: basis and strain quadrature.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,18 +7,18 @@ use crate::geometry::{
     Basis, GaussRule, GeometryError, KnotVector, LagrangeBasis, RunRule, Span, patch_rule,
 };
 
-/// A rule for where axial and shear strain of a beam are sampled.
+/// Quadrature of the axial and shear strain of a beam.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Quadrature {
-    /// The patch rule: on each piece of the mesh that is smooth, one point for each derivative of a function, at the Gauss points of these
-    /// splines ([`patch_rule`]). That neither locks nor leaves zero-energy modes, and passes the patch test.
+    /// Patch rule: on each smooth piece of the mesh one point per derivative of a function, at the Gauss points of these splines ([`patch_rule`]). It
+    /// avoids locking and zero-energy modes, and passes the patch test.
     #[default]
     Patch,
-    /// Every span has the same number of Gauss points: too many lock, too few leave modes without energy.
+    /// Fixed number of Gauss points per span. Too many lock, too few leave zero-energy modes.
     Points(usize),
 }
 
-/// How a beam is discretised: a basis with its quadrature.
+/// Discretisation of a beam: basis and quadrature.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "(Basis, Quadrature)")]
 pub struct Mesh {
@@ -26,18 +26,18 @@ pub struct Mesh {
     quadrature: Quadrature,
 }
 
-/// The numbers of quadrature points of a whole beam.
+/// Numbers of quadrature points of a beam.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PointCounts {
-    /// The number of points for axial and shear strain `Γ`, each with a section force as an unknown that is condensed there.
+    /// Points for axial and shear strain `Γ`, each with a condensed section force as unknown.
     pub force: usize,
-    /// The number of points for the bending strain `κ`.
+    /// Points for the bending strain `κ`.
     pub moment: usize,
-    /// The number of points for the mass matrix, which is integrated once.
+    /// Points for the mass matrix, which is integrated once.
     pub inertia: usize,
 }
 
-/// A span with its points for the strain `Γ`, `∫ f dξ ≈ Σ weight · f(point)`, and the number of those for the curvature `κ`.
+/// Span with its points for the strain `Γ`, `∫ f dξ ≈ Σ weight · f(point)`, and the number of points for the curvature `κ`.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct QuadratureSpan {
     pub(super) span: Span,
@@ -46,13 +46,12 @@ pub(super) struct QuadratureSpan {
 }
 
 impl QuadratureSpan {
-    /// The quadrature rule of the span for the curvature `κ`.
+    /// Quadrature rule of the span for the curvature `κ`.
     pub(super) fn moment_rule(&self) -> Result<GaussRule, GeometryError> {
         GaussRule::new(self.moment_points)
     }
 }
 
-/// From basis and quadrature, as stored.
 impl TryFrom<(Basis, Quadrature)> for Mesh {
     type Error = BeamError;
 
@@ -62,31 +61,31 @@ impl TryFrom<(Basis, Quadrature)> for Mesh {
 }
 
 impl Mesh {
-    /// A mesh of B-splines with the patch rule: `spans` equal spans, C^`continuity` where they meet.
+    /// Returns a B-spline mesh with the patch rule: `spans` equal spans, C^`continuity` at interior knots.
     ///
     /// # Errors
-    /// When the numbers make no knot vector.
+    /// Fails if the numbers define no knot vector.
     pub fn bspline(spans: usize, degree: usize, continuity: usize) -> Result<Self, GeometryError> {
         Ok(Self::new(Basis::BSpline(KnotVector::uniform(spans, degree, continuity)?)))
     }
 
-    /// A mesh of equal Lagrange elements of degree 1 to 3, with the patch rule.
+    /// Returns a mesh of equal Lagrange elements of degree 1 to 3 with the patch rule.
     ///
     /// # Errors
-    /// When degree or number of elements is out of range.
+    /// Fails if the degree or the number of elements is out of range.
     pub fn lagrange(elements: usize, degree: usize) -> Result<Self, GeometryError> {
         Ok(Self::new(Basis::Lagrange(LagrangeBasis::uniform(elements, degree)?)))
     }
 
-    /// A mesh of any basis, with the patch rule.
+    /// Returns a mesh of any basis with the patch rule.
     pub fn new(basis: Basis) -> Self {
         Self { basis, quadrature: Quadrature::Patch }
     }
 
-    /// The mesh of the same basis with another quadrature for axial and shear strain.
+    /// Returns the mesh with another quadrature of axial and shear strain.
     ///
     /// # Errors
-    /// When the number of points is zero or far above what the degree can use.
+    /// Fails if the number of points is zero or far too large for the degree.
     pub fn with_quadrature(self, quadrature: Quadrature) -> Result<Self, BeamError> {
         let (degree, most) = (self.basis.degree(), self.basis.degree() + 3);
         match quadrature {
@@ -97,32 +96,32 @@ impl Mesh {
         }
     }
 
-    /// The same mesh, only C⁰ at the given parameters [-] of the domain.
+    /// Returns the mesh with the continuity reduced to C⁰ at the given parameters [-].
     ///
     /// # Errors
-    /// When a place lies outside the domain.
+    /// Fails if a place lies outside the domain.
     pub fn with_breaks(&self, places: &[f64]) -> Result<Self, GeometryError> {
         let broken =
             places.iter().try_fold(self.basis.clone(), |basis, &xi| basis.with_break(xi))?;
         Ok(Self { basis: broken, quadrature: self.quadrature })
     }
 
-    /// The basis of the mesh.
+    /// Basis of the mesh.
     pub fn basis(&self) -> &Basis {
         &self.basis
     }
 
-    /// The quadrature of the mesh for axial and shear strain.
+    /// Quadrature of axial and shear strain.
     pub fn quadrature(&self) -> Quadrature {
         self.quadrature
     }
 
-    /// The number of spans or elements of the mesh.
+    /// Number of spans or elements.
     pub fn spans(&self) -> usize {
         self.basis.spans().len()
     }
 
-    /// The mesh in words, such as `cubic B-splines C², 14 spans`.
+    /// Description such as `cubic B-splines C², 14 spans`.
     pub fn describe(&self) -> String {
         let degree = match self.basis.degree() {
             1 => "linear".to_owned(),
@@ -154,7 +153,7 @@ impl Mesh {
         }
     }
 
-    /// The numbers of quadrature points that all spans of the mesh have together.
+    /// Total numbers of quadrature points.
     pub fn point_counts(&self) -> PointCounts {
         let runs = self.runs();
         let force = |run: &Vec<Span>| match self.quadrature {
@@ -168,22 +167,22 @@ impl Mesh {
         }
     }
 
-    /// The dimension of the derivatives of the functions of a run.
+    /// Dimension of the derivatives of the functions of a run.
     fn derivatives(&self, run: &[Span]) -> usize {
         run[run.len() - 1].first - run[0].first + self.basis.degree()
     }
 
-    /// How many more points for `Γ` there are than derivatives of functions: too many lock, too few leave twice as many modes without
-    /// energy.
+    /// Number of points for `Γ` minus the number of derivatives of functions. A surplus causes locking; each missing point leaves two zero-energy
+    /// modes.
     fn surplus(&self) -> isize {
         let wanted: usize = self.runs().iter().map(|run| self.derivatives(run)).sum();
         self.point_counts().force as isize - wanted as isize
     }
 
-    /// The spans of the mesh with their quadrature points for `Γ` and `κ`.
+    /// Spans with their quadrature points for `Γ` and `κ`.
     ///
     /// # Errors
-    /// When the spans of a smooth piece differ so much in length that it has no patch rule.
+    /// Fails if the lengths of the spans of a smooth piece differ too much for a patch rule.
     pub(super) fn quadrature_spans(&self) -> Result<Vec<QuadratureSpan>, BeamError> {
         let mut spans = Vec::with_capacity(self.spans());
         for run in self.runs() {
@@ -195,15 +194,15 @@ impl Mesh {
         Ok(spans)
     }
 
-    /// The spans, cut where the basis is C⁰ only: pieces whose strains have nothing to do with each other.
+    /// Spans grouped by smooth pieces, cut at C⁰ knots. The strains of different pieces are independent.
     fn runs(&self) -> Vec<Vec<Span>> {
         let spans = self.basis.spans();
         spans.chunk_by(|a, b| self.is_smooth(a, b)).map(<[Span]>::to_vec).collect()
     }
 
-    /// Whether two neighbouring spans of the mesh are joined at least C¹.
+    /// Returns true if two neighbouring spans are joined at least C¹.
     pub(super) fn is_smooth(&self, a: &Span, b: &Span) -> bool {
-        // Neighbours that are C⁰ share a single function.
+        // C⁰ neighbours share a single function.
         b.first < a.first + self.basis.degree()
     }
 
@@ -228,15 +227,14 @@ impl Mesh {
         }
     }
 
-    /// The number of points for `κ` in each span of a run: one fewer than for a single polynomial where the spans have full continuity, which
-    /// leaves no curvature unseen.
+    /// Points for `κ` per span of a run: one fewer than for a single polynomial if the continuity is full, which leaves no curvature unsampled.
     fn moment_points(&self, run: &[Span]) -> usize {
         let degree = self.basis.degree();
         let is_fully_smooth = run.windows(2).all(|pair| pair[1].first == pair[0].first + 1);
         if run.len() > 1 && is_fully_smooth { (degree - 1).max(2) } else { degree }
     }
 
-    /// The Gauss rule that integrates the inertia of a span of the mesh exactly when it is straight.
+    /// Gauss rule that integrates the inertia of a straight span exactly.
     pub(super) fn inertia_rule(&self) -> Result<GaussRule, GeometryError> {
         GaussRule::new(self.points_of_inertia())
     }

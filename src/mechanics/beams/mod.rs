@@ -1,4 +1,4 @@
-//! The beam theory: planar Simo–Reissner beams on any basis, stress-free as drawn.
+//! Beam theory: planar Simo–Reissner beams on any basis, stress-free as drawn.
 //!
 //! J. C. Simo & L. Vu-Quoc, ASME J. Appl. Mech. 53 (1986) 849–863; E. Reissner, ZAMP 23 (1972) 795–804.
 

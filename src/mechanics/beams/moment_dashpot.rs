@@ -1,4 +1,4 @@
-//! A dashpot beside a quadrature point for `κ`.
+//! Dashpot parallel to a quadrature point for `κ`.
 //!
 //! ```text
 //! M = EI τ (by_change · Δκ - by_last · κ̇)      Δκ = Δω'/q      S_a = w N_a' M/q
@@ -9,35 +9,35 @@ use super::dashpots::{Functions, RateCollocation, strain_missing};
 use super::dynamics::{ForceSummary, Movement};
 use super::present_rates::{DashpotRates, RateMismatch};
 
-/// A dashpot for the rate of curvature.
+/// Dashpot for the rate of curvature.
 #[derive(Debug, Clone)]
 pub(super) struct MomentDashpot {
     functions: Functions,
     /// `EI τ` [force·length²·time]
     damping: f64,
-    /// `κ̇` of the step before, and of the one before that.
+    /// `κ̇` of the previous step, and of the one before it.
     last_rate: f64,
     rate_before: f64,
-    /// `κ̇` at the start of the step, as movements have it.
+    /// `κ̇` at the start of the step, from the movements.
     start_rate: f64,
     /// `M` of the iterate.
     moment: f64,
-    /// That of the last step.
+    /// Moment of the last step.
     last_moment: f64,
-    /// The moment that is asked for, less the moment.
+    /// Target moment minus moment.
     mismatch: f64,
     linearised_at: RotationKinematics,
 }
 
-/// What movements lead to.
+/// Kinematics of movements.
 #[derive(Debug, Clone, Copy, Default)]
 struct RotationKinematics {
     /// `Δω'`
     slope: f64,
-    /// `1/q`, and its derivative by `Δω`.
+    /// `1/q`, and its derivative with respect to `Δω`.
     inverse_q: f64,
     inverse_q_slope: f64,
-    /// The derivative of the moment by `Δκ`.
+    /// Derivative of the moment with respect to `Δκ`.
     resistance: f64,
 }
 
@@ -48,7 +48,7 @@ impl RotationKinematics {
 }
 
 impl MomentDashpot {
-    /// A dashpot with `EI τ` [force·length²·time] at a point of the axis.
+    /// Creates a dashpot with `EI τ` [force·length²·time] at a point of the axis.
     pub(super) fn new(functions: Functions, damping: f64) -> Self {
         Self {
             functions,
@@ -72,12 +72,12 @@ impl MomentDashpot {
         self.moment = 0.0;
     }
 
-    /// The mean rates of the last two steps, carried on to the start of the step.
+    /// Mean rates of the last two steps, extrapolated to the start of the step.
     fn carried(&self, late: f64) -> f64 {
         self.last_rate + (self.last_rate - self.rate_before) * late
     }
 
-    /// What is seen of the rate in the step that was accepted last, which began at such a share between the middles of two.
+    /// Mismatch of the rate in the last accepted step, which started at a fraction between the middles of two steps.
     pub(super) fn seen(&self, share: f64) -> RateMismatch {
         let damping = self.functions.weight * self.damping;
         RateMismatch::of(damping, self.start_rate, [self.rate_before, self.last_rate], share)
@@ -94,7 +94,7 @@ impl MomentDashpot {
         }
     }
 
-    /// The moment that the rate of a configuration asks for.
+    /// Target moment at the rate of a configuration.
     fn wanted(&self, at: RateCollocation, now: &RotationKinematics) -> f64 {
         now.resistance * now.change() - self.damping * at.by_last * self.last_rate
     }
@@ -137,7 +137,7 @@ impl MomentDashpot {
         self.mismatch = wanted - self.moment;
         self.distribute(wanted * now.inverse_q, first, give);
 
-        // δ(M/q) with the moment of the iterate in the geometric term.
+        // δ(M/q), with the moment of the iterate in the geometric term.
         let resistance = now.resistance * now.inverse_q;
         let by_slope = resistance * now.inverse_q;
         let by_rotation =
@@ -180,7 +180,7 @@ impl MomentDashpot {
         self.functions.weight * self.moment * change
     }
 
-    /// The moment that rates ask for at the start of the step [force·length].
+    /// Moment at given rates at the start of the step [force·length].
     pub(super) fn transmitted(&self, rates: DashpotRates<'_>) -> f64 {
         let [_, _, is_carried] = rates.carried;
         self.damping

@@ -1,11 +1,11 @@
-//! Quadrature points for the curvature `κ` side by side, in a step, and the moment as an unknown of its own.
+//! Quadrature points for the curvature `κ` in lanes, with the moment as an unknown of its own.
 //!
 //! ```text
 //! κ1 = κ0 + Δω'/q     1/q = dΔθ/dΔω     M = EI ((1-σ) κ0 + σ κ1)     S_a = w N_a' M/q
 //! ```
 //!
-//! The moment is linear in the curvature, so that Newton's method gains nothing by the unknown; but a moment computed from
-//! increments of a configuration rounds like `EI` times these, which in a stiff beam is more than what is to be balanced.
+//! The moment is linear in the curvature, so Newton's method does not need the unknown. But a moment computed from the increments of a configuration
+//! has the rounding of `EI` times these, which in a stiff beam exceeds the forces to be balanced.
 
 use pulp::Simd;
 
@@ -22,29 +22,29 @@ pub(super) struct MomentPoints<const N: usize> {
     axis: AxisPoints<N>,
     /// `κ0`
     curvature: Lanes,
-    /// The moment `M` of the iterate.
+    /// Moment `M` of the iterate.
     moment: Lanes,
-    /// That of the last step, from which the next one starts.
+    /// Moment of the last step, which starts the next one.
     last_moment: Lanes,
-    /// `m = κσ - M/EI`, where forces were taken last.
+    /// Mismatch `m = κσ - M/EI` at the last evaluation.
     mismatch: Lanes,
     linearised_at: CurvatureKinematics<Lanes>,
-    /// `σ` there.
+    /// `σ` of the last linearisation.
     linearised_stress: f64,
 }
 
-/// What increments lead to.
+/// Kinematics of increments.
 #[derive(Debug, Clone, Copy, Default)]
 struct CurvatureKinematics<T> {
     /// `Δω'`
     slope: T,
-    /// `1/q`, and its derivative by `Δω`.
+    /// `1/q`, and its derivative with respect to `Δω`.
     inverse_q: T,
     inverse_q_slope: T,
 }
 
 impl<T: Number> CurvatureKinematics<T> {
-    /// `δκ1 = δω'/q + Δω' δ(1/q)`, by `δω'` and `δω`.
+    /// Factors of `δω'` and `δω` in `δκ1 = δω'/q + Δω' δ(1/q)`.
     #[inline(always)]
     fn curvature_by(&self) -> (T, T) {
         (self.inverse_q, self.slope * self.inverse_q_slope)
@@ -69,7 +69,7 @@ impl CurvatureKinematics<Lanes> {
     }
 }
 
-/// The derivatives of the forces on rotations by rotations.
+/// Derivatives of the forces on rotations with respect to rotations.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct MomentTangent<const N: usize>([[Lanes; N]; N]);
 
@@ -80,7 +80,7 @@ impl<const N: usize> Default for MomentTangent<N> {
 }
 
 impl<const N: usize> MomentPoints<N> {
-    /// Points by lanes, in spans that begin with such control points.
+    /// Combines points into lanes, with the first control points of their spans.
     pub(super) fn side_by_side(points: [&MomentPoint<N>; LANES], first: [usize; LANES]) -> Self {
         let none = Lanes::default();
         let mut side_by_side = Self {
@@ -96,7 +96,7 @@ impl<const N: usize> MomentPoints<N> {
         side_by_side
     }
 
-    /// What is kept of the point of a lane between two steps.
+    /// Persistent state of the point of a lane.
     pub(super) fn point(&self, lane: usize) -> MomentPoint<N> {
         MomentPoint {
             axis: self.axis.point(lane),
@@ -105,7 +105,7 @@ impl<const N: usize> MomentPoints<N> {
         }
     }
 
-    /// Puts the point of a lane into another state.
+    /// Sets the state of the point of a lane.
     pub(super) fn set(&mut self, lane: usize, point: &MomentPoint<N>) {
         self.curvature.set_lane(lane, point.curvature);
         self.last_moment.set_lane(lane, point.last_moment);
@@ -115,7 +115,7 @@ impl<const N: usize> MomentPoints<N> {
         self.moment = self.last_moment;
     }
 
-    /// `(Δω', Δω)` of movements.
+    /// Values `(Δω', Δω)` of movements.
     #[inline(always)]
     fn interpolate<V: Simd>(
         &self,
@@ -131,7 +131,7 @@ impl<const N: usize> MomentPoints<N> {
         (slope, rotation)
     }
 
-    /// The bend, and `κσ`.
+    /// Kinematics and `κσ`.
     #[inline(always)]
     fn bend<V: Simd>(
         &self,
@@ -145,7 +145,7 @@ impl<const N: usize> MomentPoints<N> {
         (CurvatureKinematics { slope, inverse_q: rate, inverse_q_slope: rate_slope }, curvature)
     }
 
-    /// Adds the moments of the point of a lane on the control points of its span.
+    /// Adds the moments of the point of a lane to the control points of its span.
     #[inline(always)]
     pub(super) fn distribute(&self, lane: usize, moment: &Lanes, forces: &mut [Movement; N]) {
         let moment = moment.lane(lane);
@@ -154,7 +154,7 @@ impl<const N: usize> MomentPoints<N> {
         }
     }
 
-    /// The moments `w M/q` of the moments as they are.
+    /// Moments `w M/q` at the current unknowns.
     #[inline(always)]
     pub(super) fn take_forces<V: Simd>(
         &mut self,
@@ -166,7 +166,7 @@ impl<const N: usize> MomentPoints<N> {
         maxima: &mut ForceMaxima<Lanes>,
     ) {
         let (now, collocated_curvature) = self.bend(part, at, moved);
-        // Where the curvature of the start alone counts, the moment is known.
+        // With the curvature of the start only, the moment is known.
         let known = stiffness * self.curvature.get(part);
         let moment = if at.stress == 0.0 { known } else { self.moment.get(part) };
         let length = self.axis.weight.get(part);
@@ -176,7 +176,7 @@ impl<const N: usize> MomentPoints<N> {
         maxima.join_moment(part, length * mismatch.abs(), moment.abs());
     }
 
-    /// The condensed moments, and their derivatives.
+    /// Condensed moments and their derivatives.
     #[inline(always)]
     pub(super) fn linearise<V: Simd>(
         &mut self,
@@ -190,7 +190,7 @@ impl<const N: usize> MomentPoints<N> {
         let w = part.splat(weight) * self.axis.weight.get(part);
         weighted_moment.put(part, w * stiffness * collocated_curvature * now.inverse_q);
 
-        // δ(M/q) with the moment of the iterate in the geometric term.
+        // δ(M/q), with the moment of the iterate in the geometric term.
         let moment = self.moment.get(part);
         let (curvature_by_slope, curvature_by_rotation) = now.curvature_by();
         let resistance = stiffness * part.splat(at.stress) * now.inverse_q;
@@ -211,7 +211,7 @@ impl<const N: usize> MomentPoints<N> {
         self.linearised_stress = at.stress;
     }
 
-    /// Adds the derivatives of the moments of the point of a lane to the block of its span.
+    /// Adds the moment derivatives of the point of a lane to the block of its span.
     #[inline(always)]
     pub(super) fn add_tangent<V: Simd>(
         &self,
@@ -226,7 +226,7 @@ impl<const N: usize> MomentPoints<N> {
         }
     }
 
-    /// The moments `EI m` of the curvature mismatch `m`, in the directions of the last linearisation.
+    /// Moments `EI m` of the curvature mismatch `m`, in the directions of the last linearisation.
     #[inline(always)]
     pub(super) fn take_mismatch_forces<V: Simd>(
         &self,
@@ -240,7 +240,7 @@ impl<const N: usize> MomentPoints<N> {
         weighted_moment.put(part, w * moment);
     }
 
-    /// Corrects the moments for a correction of the movements: `M ← M + EI (m + σ δκ1)`.
+    /// Corrects the moments after a correction of the movements: `M ← M + EI (m + σ δκ1)`.
     #[inline(always)]
     pub(super) fn correct_moments<V: Simd>(
         &mut self,
@@ -269,7 +269,7 @@ impl<const N: usize> MomentPoints<N> {
         self.curvature.put(part, self.curvature.get(part) + change);
     }
 
-    /// The movements of the control points of each lane.
+    /// Movements of the control points of each lane.
     #[inline(always)]
     pub(super) fn windows<'a>(&self, movements: &'a [Movement]) -> Windows<'a, N> {
         self.axis.windows(movements)

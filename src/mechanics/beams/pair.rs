@@ -1,4 +1,4 @@
-//! Vectors of the plane whose components are those of one point, or of several side by side.
+//! Vectors of the plane, of one point or of several in lanes.
 
 use std::ops::{Add, AddAssign, Mul, Sub};
 
@@ -8,7 +8,7 @@ use super::Rotation;
 use super::simd::{LaneChunk, Lanes, Number, Vector};
 use crate::geometry::Vec2;
 
-/// What has two components in the plane.
+/// Type with two components in the plane.
 pub trait Planar<T> {
     fn of(x: T, y: T) -> Self;
 
@@ -27,7 +27,7 @@ impl Planar<f64> for Vec2 {
     }
 }
 
-/// A vector of the plane with components of any kind.
+/// Vector of the plane with generic components.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Pair<T> {
     pub(super) x: T,
@@ -47,13 +47,13 @@ impl<T> Planar<T> for Pair<T> {
 }
 
 impl<T: Number> Pair<T> {
-    /// The first unit vector, of numbers such as `like`.
+    /// First unit vector, in the number type of `like`.
     #[inline(always)]
     pub(super) fn first_axis(like: T) -> Self {
         Self { x: like.same(1.0), y: like.same(0.0) }
     }
 
-    /// The second unit vector, of numbers such as `like`.
+    /// Second unit vector, in the number type of `like`.
     #[inline(always)]
     pub(super) fn second_axis(like: T) -> Self {
         Self { x: like.same(0.0), y: like.same(1.0) }
@@ -64,31 +64,29 @@ impl<T: Number> Pair<T> {
         self.x * other.x + self.y * other.y
     }
 
-    /// The cross product `a × b = a1 b2 - a2 b1`.
+    /// Cross product `a × b = a1 b2 - a2 b1`.
     #[inline(always)]
     pub(super) fn cross(self, other: Self) -> T {
         self.x * other.y - self.y * other.x
     }
 
-    /// The vector `J a = (-a2, a1)`.
+    /// Vector `J a = (-a2, a1)`.
     #[inline(always)]
     pub(super) fn perpendicular(self) -> Self {
         Self { x: -self.y, y: self.x }
     }
 
-    /// The products of the components.
     #[inline(always)]
     pub(super) fn by_component(self, other: Self) -> Self {
         Self { x: self.x * other.x, y: self.y * other.y }
     }
 
-    /// The quotients of the components.
     #[inline(always)]
     pub(super) fn over_component(self, other: Self) -> Self {
         Self { x: self.x / other.x, y: self.y / other.y }
     }
 
-    /// The larger of the magnitudes of both components.
+    /// Larger magnitude of both components.
     #[inline(always)]
     pub(super) fn larger_magnitude(self) -> T {
         self.x.abs().larger(self.y.abs())
@@ -176,7 +174,7 @@ impl Rotation<Lanes> {
 }
 
 impl Default for Rotation<Lanes> {
-    /// Lanes that are still to be told their rotations.
+    /// Placeholder; every lane is set later.
     fn default() -> Self {
         Self { cos: Lanes::default(), sin: Lanes::default() }
     }

@@ -1,24 +1,24 @@
-//! Rates of strain at the end of a step, where a step resolves how they relax and where it does not.
+//! Strain rates at the end of a step, for steps that resolve the relaxation and steps that do not.
 //!
-//! What decays within a step leaves it in the energy–momentum method with `v1 ≈ -v0`, and where a stiff dashpot goes along with a large motion, rates at the end
-//! of a step carry the error of that motion, of second order, times its damping: the mean of a step is right, its ends are not, and a dashpot that is asked for
-//! the force at the end tells one that was never there. The means of the last two steps, carried on to the end, tell it with an error of second order.
+//! In the energy–momentum method, a quantity that decays within a step ends it with `v1 ≈ -v0`. If a stiff dashpot takes part in a large motion,
+//! rates at the end of a step contain its second-order error times the damping. The mean of a step is accurate, its ends are not. Extrapolation of
+//! the means of the last two steps to the end has an error of second order.
 
 use super::Movement;
 
-/// With which rates a dashpot is asked for its force at the present moment.
+/// Rates for the evaluation of dashpot forces at the present time.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct DashpotRates<'a> {
-    /// The present rates of the control points of its span.
+    /// Present rates of the control points of the span.
     pub(super) present: &'a [Movement],
-    /// How far beyond its middle the last step ends, as a part of the time between the middles of the last two [-].
+    /// Extrapolation distance from the middle of the last step to its end, relative to the time between the middles of the last two steps [-].
     pub(super) late: f64,
-    /// Whether the means of the last two steps are carried on instead, of stretching, shear and bending.
+    /// True if the means of the last two steps are extrapolated, for axial, shear and bending rates.
     pub(super) carried: [bool; 3],
 }
 
-/// How far rates at the start of a step are from those between the means of this step and the one before, and how far these are apart: as powers, of
-/// stretching, shear or bending [energy/time].
+/// Squared deviation of rates at the start of a step from the interpolated means of this step and the previous one, and squared difference of these
+/// means, as powers of axial, shear or bending dashpots [energy/time].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct RateMismatch {
     pub(super) off: f64,
@@ -26,7 +26,8 @@ pub(super) struct RateMismatch {
 }
 
 impl RateMismatch {
-    /// What is seen of a rate at the start of a step, and of its means in the step before and in this one, behind its damping [force·time; energy/time].
+    /// Mismatch of a rate with its damping [force·time; energy/time], from its value at the start of a step and the means of the previous step and
+    /// this one.
     pub(super) fn of(damping: f64, start: f64, [before, now]: [f64; 2], share: f64) -> Self {
         let (change, off) = (now - before, start - before);
         let off = off - share * change;
@@ -39,33 +40,34 @@ impl RateMismatch {
     }
 }
 
-/// The part of what was seen that is left after a step.
+/// Weight of older measurements per step.
 const KEPT: f64 = 0.8;
 
-/// Rates are resolved where those at the ends of steps are off by less than this part of what they change in a step: a vibration with `ω h < 2`.
+/// Rates count as resolved if those at the ends of steps deviate by less than this fraction of their change in a step: vibrations with `ω h < 2`.
 const MOST_OFF: f64 = 0.5;
 
-/// How well steps resolve the rates of what is damped, by those that were seen last.
+/// Resolution of the dashpot rates by the recent steps.
 #[derive(Debug, Clone, Default)]
 pub(super) struct RateResolution {
-    /// Of stretching, shear and bending, older steps for less.
+    /// Mismatches of axial, shear and bending rates, with decreasing weight of older steps.
     seen: [RateMismatch; 3],
-    /// How far beyond its middle the last step ends, as a part of the time between the middles of the last two; zero before there were two [-].
+    /// Distance from the middle of the last step to its end, relative to the time between the middles of the last two steps; zero before there were
+    /// two [-].
     late: f64,
-    /// The duration of the last step; zero before there was one [time].
+    /// Duration of the last step; zero before there was one [time].
     before: f64,
 }
 
 impl RateResolution {
-    /// Where between the middles of the last step and of one of a duration [time] the latter begins, as a part of that; none where there is no such step.
+    /// Start of a step of a duration [time] as a fraction of the time between its middle and that of the last step; `None` without such a step.
     pub(super) fn share(&self, duration: f64) -> Option<f64> {
         let between = duration + self.before;
-        // A part of a fourth-order step goes back in time, and may end where the one before began.
+        // A substep of the fourth-order method runs back in time, and may end where the previous one started.
         let is_there = duration.is_finite() && self.before * between > 0.0;
         is_there.then(|| self.before / between)
     }
 
-    /// Takes in a step of a duration [time], infinite where it took no time.
+    /// Records a step of a duration [time], infinite for a movement of zero duration.
     pub(super) fn add(&mut self, duration: f64, seen: [RateMismatch; 3]) {
         if !duration.is_finite() {
             *self = Self::default();
@@ -79,7 +81,7 @@ impl RateResolution {
         self.before = duration;
     }
 
-    /// With which rates dashpots of a span are to be asked, where its control points have these.
+    /// Selects the rates for the dashpots of a span with the given present rates.
     pub(super) fn told<'a>(&self, present: &'a [Movement]) -> DashpotRates<'a> {
         let is_off = |seen: RateMismatch| seen.off > MOST_OFF * MOST_OFF * seen.apart;
         let carried = self.seen.map(|seen| self.late > 0.0 && is_off(seen));
@@ -101,7 +103,7 @@ impl RateResolution {
 mod tests {
     use super::*;
 
-    /// Whether rates are told as they are after each of some steps, where they are given at the ends of these.
+    /// Selection after each of some steps, for rates given at their ends.
     fn are_told(rate: impl Fn(i32) -> f64) -> Vec<bool> {
         let mut watch = RateResolution::default();
         let mean = |step: i32| 0.5 * (rate(step) + rate(step - 1));

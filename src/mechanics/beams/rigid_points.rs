@@ -1,4 +1,4 @@
-//! Bodies that nothing strains: a particle, or the centre and the points of a rigid body. Their masses are point masses of the scene.
+//! Bodies without elasticity: particles, or the centre and points of a rigid body. Their masses are point masses of the scene.
 
 use std::ops::Range;
 
@@ -8,28 +8,28 @@ use super::span_stiffness::SpanStiffness;
 use super::{Rotation, RotationIncrement, Section, SectionForces, SectionPlace};
 use crate::geometry::{Vec2, larger};
 
-/// A body of points without elasticity: a particle, or the centre of mass and then the points of a rigid body, which rigid links hold to it.
+/// Body of points without elasticity: a particle, or the centre of mass followed by the points of a rigid body, which rigid links connect.
 #[derive(Debug, Clone)]
 pub struct RigidPoints {
     positions: Vec<Vec2>,
     remainders: Vec<Vec2>,
-    /// That of the first point; none of a particle.
+    /// Rotation of the first point; `None` for a particle.
     rotation: Option<Rotation>,
 }
 
 impl RigidPoints {
-    /// A particle at a position [length].
+    /// Creates a particle at a position [length].
     pub fn particle(position: Vec2) -> Self {
         Self { positions: vec![position], remainders: vec![Vec2::zeros()], rotation: None }
     }
 
-    /// A rigid body with its centre of mass first and then its points [length], turned by an angle [rad].
+    /// Creates a rigid body from its centre of mass, its other points [length], and its angle [rad].
     pub fn rigid(positions: Vec<Vec2>, angle: f64) -> Self {
         let remainders = vec![Vec2::zeros(); positions.len()];
         Self { positions, remainders, rotation: Some(Rotation::by(angle)) }
     }
 
-    /// Nothing but how far it turns.
+    /// Contains the rotation only.
     fn summary(&self, moved: &[Movement]) -> ForceSummary {
         let rotation = moved.iter().fold(0.0, |most, moved| larger(most, moved[2].abs()));
         ForceSummary { rotation, ..ForceSummary::default() }

@@ -4,26 +4,26 @@ use super::pair::Planar;
 use super::simd::Number;
 use crate::elementary::{atan, sin_cos, tan};
 
-/// What an interpolated rotation increment `Δω` stands for: which angle `Δθ` a section turns by.
+/// Meaning of a rotation increment `Δω`: its relation to the rotation angle `Δθ`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RotationIncrement {
-    /// The increment is the scaled tangent of the angle, `Δθ = 2 atan(Δω/2)`: then `Λ1 - Λ0 = Δω J (Λ0 + Λ1)/2`, on which conservation rests.
+    /// Scaled tangent of the angle, `Δθ = 2 atan(Δω/2)`. Then `Λ1 - Λ0 = Δω J (Λ0 + Λ1)/2`, which is the basis of conservation.
     TangentScaled,
-    /// The increment is the angle itself: `Δθ = Δω`.
+    /// Angle itself: `Δθ = Δω`.
     Angle,
 }
 
-/// The rotation by the angle `Δθ(Δω)` of an increment, with its derivative.
+/// Rotation by the angle `Δθ(Δω)` of an increment, with its derivative.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Turn<T> {
     cos: T,
     sin: T,
-    /// The derivative `dΔθ/dΔω` of the angle by the increment [-].
+    /// Derivative `dΔθ/dΔω` [-].
     pub(super) rate: T,
 }
 
 impl RotationIncrement {
-    /// The rotation that an increment `Δω` stands for.
+    /// Rotation of an increment `Δω`.
     #[inline(always)]
     pub(super) fn turn<T: Number>(self, increment: T) -> Turn<T> {
         let one = increment.same(1.0);
@@ -40,7 +40,7 @@ impl RotationIncrement {
         }
     }
 
-    /// The first two derivatives of the angle by the increment, `dΔθ/dΔω` and `d²Δθ/dΔω²`, for which no angle needs its sine.
+    /// Derivatives `dΔθ/dΔω` and `d²Δθ/dΔω²`, computed without trigonometric functions.
     #[inline(always)]
     pub fn rates<T: Number>(self, increment: T) -> (T, T) {
         let one = increment.same(1.0);
@@ -54,7 +54,7 @@ impl RotationIncrement {
         }
     }
 
-    /// The angle `Δθ` that an increment `Δω` stands for [rad].
+    /// Angle `Δθ` of an increment `Δω` [rad].
     pub fn angle(self, increment: f64) -> f64 {
         match self {
             Self::TangentScaled => 2.0 * atan(0.5 * increment),
@@ -62,7 +62,7 @@ impl RotationIncrement {
         }
     }
 
-    /// The increment that stands for an angle `Δθ` [rad].
+    /// Increment of an angle `Δθ` [rad].
     pub fn of_angle(self, angle: f64) -> f64 {
         match self {
             Self::TangentScaled => 2.0 * tan(0.5 * angle),
@@ -70,7 +70,7 @@ impl RotationIncrement {
         }
     }
 
-    /// The tangent-scaled increment `2 tan(Δθ/2)` of the angle that an increment stands for, with which `Λ1 - Λ0 = 2 tan(Δθ/2) J (Λ0 + Λ1)/2` [-].
+    /// Tangent-scaled increment `2 tan(Δθ/2)` of the angle of an increment, with `Λ1 - Λ0 = 2 tan(Δθ/2) J (Λ0 + Λ1)/2` [-].
     pub fn tangent_scaled(self, increment: f64) -> f64 {
         match self {
             Self::TangentScaled => increment,
@@ -78,24 +78,24 @@ impl RotationIncrement {
         }
     }
 
-    /// The derivative `dΔθ/dΔω` of the angle by the increment [-].
+    /// Derivative `dΔθ/dΔω` [-].
     #[inline(always)]
     pub fn rate<T: Number>(self, increment: T) -> T {
         self.rates(increment).0
     }
 }
 
-/// The rotation `Λ = [[c, -s], [s, c]]` from the section frame to space; a mean of two rotations is not itself one.
+/// Rotation `Λ = [[c, -s], [s, c]]` from the section frame to space. A mean of two rotations is not itself a rotation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rotation<T = f64> {
-    /// The cosine `c` of the angle of the rotation, or a mean of such.
+    /// Cosine `c` of the angle, or a mean of cosines.
     pub cos: T,
-    /// The sine `s` of the angle of the rotation, or a mean of such.
+    /// Sine `s` of the angle, or a mean of sines.
     pub sin: T,
 }
 
 impl Rotation {
-    /// The rotation by an angle [rad].
+    /// Rotation by an angle [rad].
     pub fn by(angle: f64) -> Self {
         let (sin, cos) = sin_cos(angle);
         Self { cos, sin }
@@ -103,13 +103,13 @@ impl Rotation {
 }
 
 impl<T: Number> Rotation<T> {
-    /// This rotation followed by the one that an increment stands for.
+    /// This rotation followed by that of an increment.
     #[inline(always)]
     pub fn turned(self, kind: RotationIncrement, increment: T) -> Self {
         self.times(&kind.turn(increment))
     }
 
-    /// The product of this rotation with a turn.
+    /// Product of this rotation and a turn.
     #[inline(always)]
     pub(super) fn times(self, turn: &Turn<T>) -> Self {
         Self {
@@ -118,7 +118,7 @@ impl<T: Number> Rotation<T> {
         }
     }
 
-    /// Pulls a rotation that rounding has moved off the unit circle back onto it.
+    /// Normalises a rotation that rounding has moved off the unit circle.
     #[inline(always)]
     pub fn normalised(self) -> Self {
         let square = self.cos * self.cos + self.sin * self.sin;
@@ -126,7 +126,7 @@ impl<T: Number> Rotation<T> {
         Self { cos: self.cos * correction, sin: self.sin * correction }
     }
 
-    /// The mixture `(1 - t) Λ + t Λ'` of this rotation and another.
+    /// Mixture `(1 - t) Λ + t Λ'` of this rotation and another.
     #[inline(always)]
     pub fn mixed(self, other: Self, t: T) -> Self {
         Self {
@@ -135,14 +135,14 @@ impl<T: Number> Rotation<T> {
         }
     }
 
-    /// The vector `Λ a`: `a` of the section frame, in space.
+    /// Vector `Λ a`: transforms `a` from the section frame to space.
     #[inline(always)]
     pub fn to_space<P: Planar<T>>(self, a: P) -> P {
         let (x, y) = a.components();
         P::of(self.cos * x - self.sin * y, self.sin * x + self.cos * y)
     }
 
-    /// The vector `Λᵀ a`: `a` of space, in the section frame.
+    /// Vector `Λᵀ a`: transforms `a` from space to the section frame.
     #[inline(always)]
     pub fn to_section<P: Planar<T>>(self, a: P) -> P {
         let (x, y) = a.components();
@@ -165,7 +165,7 @@ mod tests {
 
     #[test]
     fn the_difference_of_rotations_is_the_increment_times_their_mean() {
-        // Λ1 - Λ0 = Δω J Λ̄: the property that makes the midpoint rule conserve.
+        // Λ1 - Λ0 = Δω J Λ̄, the property that makes the midpoint rule conserving.
         let (start, increment) = (Rotation::by(-0.7), 0.9);
         let end = start.turned(RotationIncrement::TangentScaled, increment);
         let mean = start.mixed(end, 0.5);

@@ -7,73 +7,73 @@ use std::f64::consts::PI;
 use super::BeamError;
 use crate::elementary::{square, whole_power};
 
-/// The stiffnesses and inertias of a linear elastic, homogeneous cross section.
+/// Stiffnesses and inertias of a linear elastic, homogeneous cross section.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Section {
-    /// Axial stiffness `EA` of the section [force].
+    /// Axial stiffness `EA` [force].
     pub axial_stiffness: f64,
-    /// Shear stiffness `GA` of the section, its correction factor included [force].
+    /// Shear stiffness `GA`, including the shear correction factor [force].
     pub shear_stiffness: f64,
-    /// Bending stiffness `EI` of the section [force·length²].
+    /// Bending stiffness `EI` [force·length²].
     pub bending_stiffness: f64,
-    /// Mass per length `ρA` of the beam [mass/length].
+    /// Mass per length `ρA` [mass/length].
     pub mass_per_length: f64,
-    /// Rotary inertia per length `ρI` of the beam [mass·length].
+    /// Rotary inertia per length `ρI` [mass·length].
     pub rotary_inertia: f64,
 }
 
-/// The outline of a cross section; bending is about the horizontal centroidal axis.
+/// Shape of a cross section. Bending is about the horizontal centroidal axis.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum SectionShape {
-    /// The cross section is a solid rectangle.
+    /// Solid rectangle.
     Rectangle {
-        /// The width of the rectangle, out of the plane of motion [length].
+        /// Width, out of the plane of motion [length].
         width: f64,
-        /// The height of the rectangle, in the plane of motion [length].
+        /// Height, in the plane of motion [length].
         height: f64,
     },
-    /// The cross section is a solid circle.
+    /// Solid circle.
     Circle {
-        /// The radius of the solid circle [length].
+        /// Radius [length].
         radius: f64,
     },
-    /// The cross section is a circular tube.
+    /// Circular tube.
     Tube {
-        /// The outer radius of the tube [length].
+        /// Outer radius [length].
         outer: f64,
-        /// The inner radius of the tube [length].
+        /// Inner radius [length].
         inner: f64,
     },
 }
 
-/// A cross section as a homogeneous isotropic material in a shape.
+/// Cross section of a homogeneous isotropic material.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Solid {
-    /// Young's modulus of the material [force/length²].
+    /// Young's modulus [force/length²].
     pub young: f64,
-    /// Poisson's ratio of the material [-].
+    /// Poisson's ratio [-].
     pub poisson: f64,
-    /// The density of the material [mass/length³].
+    /// Density [mass/length³].
     pub density: f64,
-    /// The outline of the cross section.
+    /// Shape of the cross section.
     pub shape: SectionShape,
 }
 
 impl Section {
-    /// How fast a wave of stretching runs, `√(EA/ρA)` [length/time].
+    /// Speed of axial waves, `√(EA/ρA)` [length/time].
     pub fn axial_wave_speed(&self) -> f64 {
         (self.axial_stiffness / self.mass_per_length).sqrt()
     }
 
-    /// How fast a wave of shear runs, `√(GA/ρA)` [length/time].
+    /// Speed of shear waves, `√(GA/ρA)` [length/time].
     pub fn shear_wave_speed(&self) -> f64 {
         (self.shear_stiffness / self.mass_per_length).sqrt()
     }
 
-    /// Checks that every property of the section is positive and finite, and hands the section on.
+    /// Checks that every property is positive and finite, and returns the section.
     ///
     /// # Errors
-    /// Names the first property that is not.
+    /// Fails for the first property that is not.
     pub fn validated(self) -> Result<Self, BeamError> {
         const ROTARY: &str = "; without rotary inertia the mass matrix is singular: give the true value, or a small one";
         let properties = [
@@ -91,10 +91,10 @@ impl Section {
         }
     }
 
-    /// The section of a solid shape, with the shear correction factors of Cowper, J. Appl. Mech. 33 (1966) 335–340.
+    /// Returns the section of a solid, with the shear correction factors of Cowper, J. Appl. Mech. 33 (1966) 335–340.
     ///
     /// # Errors
-    /// When a dimension or a material constant is out of range.
+    /// Fails if a dimension or a material constant is out of range.
     pub fn from_solid(solid: Solid) -> Result<Self, BeamError> {
         let Solid { young, poisson, density, shape } = solid;
         let shape_values = match shape {
@@ -130,7 +130,7 @@ impl Section {
         Self::of_solid(solid).validated()
     }
 
-    /// The section of a solid whose numbers are in their ranges.
+    /// Section of a validated solid.
     pub(super) fn of_solid(Solid { young, poisson, density, shape }: Solid) -> Self {
         let (area, inertia) = (shape.area(), shape.second_moment());
         Self {
@@ -143,7 +143,7 @@ impl Section {
         }
     }
 
-    /// Numbers made of those of two sections, one by one.
+    /// Combines the properties of two sections one by one.
     pub(super) fn each(&self, other: &Self, of: impl Fn(f64, f64) -> f64) -> Self {
         Self {
             axial_stiffness: of(self.axial_stiffness, other.axial_stiffness),
@@ -154,24 +154,23 @@ impl Section {
         }
     }
 
-    /// The mixture of this section and a share of another.
+    /// Linear interpolation to another section.
     pub(super) fn mixed(&self, other: &Self, share: f64) -> Self {
         self.each(other, |a, b| a + share * (b - a))
     }
 
-    /// The sum of this section and another, weighted.
     pub(super) fn plus(&self, other: &Self, weight: f64) -> Self {
         self.each(other, |a, b| a + weight * b)
     }
 }
 
 impl Solid {
-    /// Whether another solid has a shape of the same kind, so that there are shapes between them.
+    /// Returns true if both solids have the same kind of shape, so that intermediate shapes exist.
     pub fn is_of_one_kind_with(&self, other: &Self) -> bool {
         std::mem::discriminant(&self.shape) == std::mem::discriminant(&other.shape)
     }
 
-    /// The mixture of this solid and a share of another of the same kind, dimension by dimension.
+    /// Linear interpolation of all dimensions and constants to another solid of the same kind.
     pub(super) fn mixed(&self, other: &Self, share: f64) -> Self {
         let mix = |a: f64, b: f64| a + share * (b - a);
         let shape = match (self.shape, other.shape) {
@@ -197,7 +196,7 @@ impl Solid {
 }
 
 impl SectionShape {
-    /// The area `A` of the cross section [length²].
+    /// Area `A` [length²].
     pub fn area(&self) -> f64 {
         match *self {
             Self::Rectangle { width, height } => width * height,
@@ -206,7 +205,7 @@ impl SectionShape {
         }
     }
 
-    /// The second moment of area `I` of the cross section about the horizontal centroidal axis [length⁴].
+    /// Second moment of area `I` about the horizontal centroidal axis [length⁴].
     pub fn second_moment(&self) -> f64 {
         match *self {
             Self::Rectangle { width, height } => width * whole_power(height, 3) / 12.0,
@@ -217,7 +216,7 @@ impl SectionShape {
         }
     }
 
-    /// Cowper's shear correction factor of the cross section (1966, table 1) [-].
+    /// Cowper's shear correction factor (1966, table 1) [-].
     pub fn shear_correction(&self, poisson: f64) -> f64 {
         let nu = poisson;
         match *self {

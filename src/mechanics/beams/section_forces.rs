@@ -1,57 +1,56 @@
 //! Section forces at any place of a beam.
 //!
-//! What the balance knows of the section forces are their integrals with the derivatives of the functions, by the quadrature of the beam:
+//! The balance determines integrals of the section forces with the derivatives of the functions, by the quadrature of the beam:
 //!
 //! ```text
 //! Σ w N_a' n = F_a          Σ w N_a' M - Σ w N_a (x' × n) = T_a          F_a, T_a: loads minus inertia, exact
 //! ```
 //!
-//! Forces `n`, `M` at the quadrature points balance that; at the ends of a beam they differ from those that balance it by exact
-//! integrals at first order in the length of a span, since the rules take few points. Told are the latter: of all derivatives `T` of the functions of a run
-//! of smoothly joined spans, the ones with
+//! Forces `n`, `M` at the quadrature points satisfy this. At the ends of a beam they differ, at first order in the span length, from forces that
+//! satisfy it with exact integrals, because the rules have few points. This module reports the latter: of all derivatives `T` of the functions of a
+//! run of smoothly joined spans, those with
 //!
 //! ```text
 //! ∫ t n̂ dξ = Σ w t n               for all t in T
 //! ∫ t M̂ dξ = Σ w t M + ∫ v (Π m) dξ - Σ w v m      for all t in T, v' = t;  m = x' × n,  ∫ t Π m dξ = Σ w t m
 //! ```
 //!
-//! which are the projections of the true section forces, up to the ends: `n` with an error of order `p` in the length of a span, `M` of order 2 at least
-//! (1 on linear elements, where it is constant). With the reproducing kernel of
-//! `T` they are weighted sums over the points, whose weights fall off within a few spans. Runs know nothing of each
-//! other: where they meet, at a joint or a node of Lagrange elements, both have a value.
+//! They are projections of the exact section forces, up to the ends: `n` has an error of order `p` in the span length, `M` of order 2 at least (1 on
+//! linear elements, where it is constant). With the reproducing kernel of `T` they are weighted sums over the points, with weights that decay within
+//! a few spans. Runs are independent: where they meet, at a joint or a node of Lagrange elements, both have a value.
 
 use super::sections::{Interpolation, Sections};
 use super::span_points::{SpanGroup, group_of};
 use super::{BeamError, Mesh, Section};
 use crate::geometry::{LowerSplines, Reproduction, Span, Vec2, cross, larger};
 
-/// Weights that are smaller than this part of the largest are zero but for rounding.
+/// Weights below this fraction of the largest are rounding.
 const NO_WEIGHT: f64 = 1e-14;
 
-/// What a cross section transmits, and how it is strained by that.
+/// Section forces at a cross section with their strains.
 ///
-/// In the frame of the section, whose first axis is its normal: these are forces of the part of the beam that follows on the part before. Where
-/// the material is damped they are more than the strains alone ask for.
+/// They are given in the section frame, whose first axis is the section normal, as forces of the following part of the beam on the preceding one.
+/// With material damping they exceed the elastic forces of the strains.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SectionForces {
-    /// The normal of the section in the plane, of length one; zero on a particle, which has no section [-].
+    /// Unit normal of the section; zero on a particle, which has no section [-].
     pub normal: Vec2,
-    /// The axial force `N`, along the normal of the section: positive in tension [force].
+    /// Axial force `N`, positive in tension [force].
     pub axial: f64,
-    /// The shear force `Q`, across the normal of the section, positive to its left [force].
+    /// Shear force `Q`, positive to the left of the normal [force].
     pub shear: f64,
-    /// The bending moment `M`, positive counter-clockwise [force·length].
+    /// Bending moment `M`, positive counter-clockwise [force·length].
     pub moment: f64,
-    /// The axial strain `Γ1`: `N/EA` but for damping [-].
+    /// Axial strain `Γ1`; `N/EA` without damping [-].
     pub axial_strain: f64,
-    /// The shear strain `Γ2`: `Q/GA` but for damping [-].
+    /// Shear strain `Γ2`; `Q/GA` without damping [-].
     pub shear_strain: f64,
-    /// The curvature `κ`: `M/EI` but for damping; the change of the axis' curvature since drawn [1/length].
+    /// Curvature `κ`, the change of the axis curvature since drawn; `M/EI` without damping [1/length].
     pub curvature: f64,
 }
 
 impl SectionForces {
-    /// The section forces of a force in space [force] and a moment [force·length], where the section has a normal of any length.
+    /// Section forces of a force in space [force] and a moment [force·length], for a section normal of any length.
     pub(super) fn of(section: &Section, normal: Vec2, force: Vec2, moment: f64) -> Self {
         let normal = normal.normalize();
         let (axial, shear) = (normal.dot(&force), cross(normal, force));
@@ -66,7 +65,7 @@ impl SectionForces {
         }
     }
 
-    /// With a force in space [force] and a moment [force·length] that are transmitted besides those of the strains, which stay.
+    /// Adds a viscous force in space [force] and moment [force·length]. Strains are unchanged.
     pub fn with_viscous(self, (force, moment): (Vec2, f64)) -> Self {
         Self {
             axial: self.axial + self.normal.dot(&force),
@@ -76,14 +75,14 @@ impl SectionForces {
         }
     }
 
-    /// The energy that the strains store, per length as drawn: `(N Γ1 + Q Γ2 + M κ)/2`, where nothing viscous has been added [energy/length].
+    /// Strain energy per length as drawn, `(N Γ1 + Q Γ2 + M κ)/2`, for section forces without a viscous part [energy/length].
     pub fn strain_energy(&self) -> f64 {
         let Self { axial, shear, moment, axial_strain, shear_strain, curvature, .. } = *self;
         0.5 * (axial * axial_strain + shear * shear_strain + moment * curvature)
     }
 }
 
-/// A place of a beam among its quadrature points: by which weights their values add up to what is transmitted there.
+/// Place of a beam with the weights of the quadrature points for its section forces.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SectionPlace {
     pub(super) force_shares: Vec<ForceShare>,
@@ -91,7 +90,7 @@ pub struct SectionPlace {
 }
 
 impl SectionPlace {
-    /// What the quadrature points of the spans of a beam add up to here.
+    /// Weighted sum over the quadrature points of the spans.
     pub(super) fn sum_up<const N: usize, S: Sections>(
         &self,
         section: &Section,
@@ -117,20 +116,20 @@ impl SectionPlace {
     }
 }
 
-/// The part of a point for `Γ`.
+/// Weights of a point for `Γ`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct ForceShare {
     pub(super) span: usize,
     pub(super) point: usize,
-    /// The share of the point's normal [-].
+    /// Weight of its normal [-].
     pub(super) of_normal: f64,
-    /// The share of the point's section force [-].
+    /// Weight of its section force [-].
     pub(super) of_force: f64,
-    /// The share of the point's `w x' × n` in the moment [-].
+    /// Weight of its `w x' × n` in the moment [-].
     pub(super) of_couple: f64,
 }
 
-/// The share of a quadrature point for `κ` in what is transmitted at a place.
+/// Weight of a point for `κ`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct MomentShare {
     pub(super) span: usize,
@@ -138,15 +137,15 @@ pub(super) struct MomentShare {
     pub(super) of_moment: f64,
 }
 
-/// The quadrature points of a beam in the order of the parameter of its mesh, run by run.
+/// Quadrature points of a beam in the order of the parameter, by runs.
 #[derive(Debug, Clone)]
 pub struct SectionPoints {
     runs: Vec<SmoothRun>,
-    /// The most points that a polynomial for the normal goes through: as many on either side.
+    /// Largest number of points of the interpolation polynomial of the normal, half on either side.
     most: usize,
 }
 
-/// Spans that join smoothly.
+/// Smoothly joined spans.
 #[derive(Debug, Clone)]
 struct SmoothRun {
     splines: LowerSplines,
@@ -155,7 +154,7 @@ struct SmoothRun {
     of_moment: Vec<PointAt>,
 }
 
-/// A quadrature point: its parameter and weight, its span by its number in the run and in the beam, and which of the points of the span it is.
+/// Quadrature point: parameter and weight, index of its span in the run and in the beam, and its index in the span.
 #[derive(Debug, Clone, Copy)]
 struct PointAt {
     xi: f64,
@@ -166,10 +165,10 @@ struct PointAt {
 }
 
 impl SectionPoints {
-    /// The quadrature points of a beam on a mesh.
+    /// Collects the quadrature points of a beam on a mesh.
     ///
     /// # Errors
-    /// When the mesh has no quadrature.
+    /// Fails if the mesh has no quadrature.
     pub fn of(mesh: &Mesh) -> Result<Self, BeamError> {
         let numbered: Vec<_> = mesh.quadrature_spans()?.into_iter().enumerate().collect();
         let mut runs = Vec::new();
@@ -190,20 +189,20 @@ impl SectionPoints {
         Ok(Self { runs, most: (mesh.basis().degree() + 1).next_multiple_of(2) })
     }
 
-    /// The place at a parameter of the mesh; where two runs meet, on the one that begins there.
+    /// Place at a parameter of the mesh. Where two runs meet, it belongs to the second.
     ///
     /// # Errors
-    /// None that [`of`](Self::of) did not meet.
+    /// Fails only if [`of`](Self::of) would.
     pub fn at(&self, xi: f64) -> Result<SectionPlace, BeamError> {
         let run = self.runs.partition_point(|run| run.end() <= xi).min(self.runs.len() - 1);
         self.runs[run].place(xi, self.most)
     }
 
-    /// Places along the whole beam, with their parameters: so many in each span besides the knots. Where two runs meet there are two, the first
-    /// on the run that ends.
+    /// Places along the whole beam with their parameters: the knots, and `within` places in each span. Where two runs meet there are two places, the
+    /// first on the first run.
     ///
     /// # Errors
-    /// None that [`of`](Self::of) did not meet.
+    /// Fails only if [`of`](Self::of) would.
     pub fn along(&self, within: usize) -> Result<Vec<(f64, SectionPlace)>, BeamError> {
         let pieces = (within + 1) as f64;
         let of_run = |run: &SmoothRun| {
@@ -271,7 +270,7 @@ impl SmoothRun {
     }
 }
 
-/// The points nearest to a parameter, half of them on either side where there are as many.
+/// Points nearest to a parameter, half of them on either side if available.
 fn nearest(points: &[PointAt], most: usize, xi: f64) -> std::ops::Range<usize> {
     let count = most.min(points.len());
     let next = points.partition_point(|point| point.xi <= xi);
@@ -279,7 +278,7 @@ fn nearest(points: &[PointAt], most: usize, xi: f64) -> std::ops::Range<usize> {
     first..first + count
 }
 
-/// The share of one of some points in the polynomial through them.
+/// Lagrange polynomial of one of the points.
 fn lagrange(points: &[PointAt], of: &PointAt, xi: f64) -> f64 {
     let others = points.iter().filter(|other| other.xi != of.xi);
     others.map(|other| (xi - other.xi) / (of.xi - other.xi)).product()

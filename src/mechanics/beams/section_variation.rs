@@ -1,24 +1,24 @@
-//! Sections along a beam: the same everywhere, or a taper.
+//! Sections along a beam: uniform or tapered.
 
 use serde::{Deserialize, Serialize};
 
 use super::{BeamError, Section, Solid};
 use crate::geometry::{GaussRule, larger};
 
-/// Most places of a taper.
+/// Largest number of places of a taper.
 const MOST_PLACES: usize = 10_000;
 
-/// Points that integrate what is cubic along a piece of a taper: mass, and what a height does to stiffness.
+/// Number of points that integrate cubics along a piece of a taper, such as the mass or the bending stiffness of a varying height.
 const POINTS: usize = 3;
 
-/// What a beam is made of along its axis.
+/// Sections along the axis of a beam.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum SectionVariation {
-    /// The section is the same everywhere.
+    /// Uniform section.
     Uniform(Section),
-    /// Stiffness and inertia are linear between the sections at some places, which are parts of the length [-]: rising from 0 to 1.
+    /// Stiffness and inertia that are linear between places, given as fractions of the length [-] increasing from 0 to 1.
     Numbers(Vec<(f64, Section)>),
-    /// Dimensions and material are linear between some places; all solids are of one shape.
+    /// Dimensions and material that are linear between places, for solids of one shape.
     Dimensions(Vec<(f64, Solid)>),
 }
 
@@ -29,10 +29,10 @@ impl From<Section> for SectionVariation {
 }
 
 impl SectionVariation {
-    /// Checks the sections and their places, and hands them on.
+    /// Checks the sections and their places, and returns them.
     ///
     /// # Errors
-    /// When a number of a section is out of its range, or places do not rise from 0 to 1.
+    /// Fails if a number of a section is out of range, or places do not increase from 0 to 1.
     pub fn validated(self) -> Result<Self, BeamError> {
         match &self {
             Self::Uniform(section) => return section.validated().map(Self::Uniform),
@@ -64,7 +64,7 @@ impl SectionVariation {
         Ok(self)
     }
 
-    /// The section at a part of the length of the beam, from 0 to 1 [-].
+    /// Section at a fraction of the length, from 0 to 1 [-].
     pub fn at(&self, part: f64) -> Section {
         match self {
             Self::Uniform(section) => *section,
@@ -74,14 +74,14 @@ impl SectionVariation {
             }
             Self::Dimensions(all) => {
                 let (share, [before, after]) = between(all, part);
-                // Between two solids that are allowed there is no other.
+                // Interpolations of valid solids are valid.
                 let solid = before.mixed(&after, share);
                 Section::from_solid(solid).unwrap_or_else(|_| Section::of_solid(solid))
             }
         }
     }
 
-    /// The mean over the length: the section itself where it is the same everywhere.
+    /// Mean over the length; the section itself if uniform.
     pub fn mean(&self) -> Section {
         if let Self::Uniform(section) = self {
             return *section;
@@ -96,17 +96,17 @@ impl SectionVariation {
         sum
     }
 
-    /// The largest of each number, wherever it is.
+    /// Largest value of each property.
     pub fn largest(&self) -> Section {
         self.sections().into_iter().reduce(|a, b| a.each(&b, larger)).unwrap_or_default()
     }
 
-    /// How fast the fastest wave of stretching runs, `√(EA/ρA)` [length/time]: between places it is no faster.
+    /// Speed of the fastest axial wave, `√(EA/ρA)` [length/time]. Waves between the places are no faster.
     pub fn axial_wave_speed(&self) -> f64 {
         self.sections().iter().map(Section::axial_wave_speed).fold(0.0, larger)
     }
 
-    /// The places of a taper, which are parts of the length [-]; none of a uniform beam.
+    /// Places of a taper, as fractions of the length [-]; empty for a uniform beam.
     pub fn places(&self) -> Vec<f64> {
         match self {
             Self::Uniform(_) => Vec::new(),
@@ -115,7 +115,7 @@ impl SectionVariation {
         }
     }
 
-    /// The sections at the places of a taper; the one section of a uniform beam.
+    /// Sections at the places of a taper; the single section of a uniform beam.
     pub fn sections(&self) -> Vec<Section> {
         match self {
             Self::Uniform(section) => vec![*section],
@@ -125,7 +125,7 @@ impl SectionVariation {
     }
 }
 
-/// The two values around a part of the length, and the share of the second.
+/// Both values around a fraction of the length, and the weight of the second.
 fn between<T: Copy>(all: &[(f64, T)], part: f64) -> (f64, [T; 2]) {
     let beyond = all.partition_point(|(place, _)| *place <= part).clamp(1, all.len() - 1);
     let [(start, before), (end, after)] = [all[beyond - 1], all[beyond]];
@@ -168,7 +168,7 @@ mod tests {
 
     #[test]
     fn means_are_integrals() {
-        // ∫ h: 0.9 over a quarter, 0.5 over the rest; ∫ h³ by antiderivatives of straight pieces.
+        // ∫ h: 0.9 over a quarter, 0.5 over the rest; ∫ h³ by antiderivatives of the linear pieces.
         let mean = wedge().mean();
         assert!((mean.mass_per_length - 1.5 * (0.25 * 0.9 + 0.75 * 0.5)).abs() < 1e-14);
         let cubes = 0.25 * (1.0 - 0.8_f64.powi(4)) / (4.0 * 0.2)

@@ -1,6 +1,6 @@
-//! Numbers of neighbouring quadrature points side by side, on which vector instructions work at once.
+//! Numbers of neighbouring quadrature points in lanes of vector instructions.
 //!
-//! Each lane goes through the operations of its own point in their order, none of them fused: vectors of any width give the same bits.
+//! Each lane performs the operations of its point in their order without fusing, so that vectors of any width give identical results.
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
@@ -8,15 +8,15 @@ use pulp::{Simd, bytemuck};
 
 use crate::elementary::sin_cos;
 
-/// How many points are side by side: as many as common vector instructions take.
+/// Number of lanes, that of common vector instructions.
 pub(super) const LANES: usize = 4;
 
-/// A number of each of some neighbouring points.
+/// One number for each of several neighbouring points.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[repr(align(32))]
 pub(super) struct Lanes([f64; LANES]);
 
-/// The lanes on which one instruction works: a whole part of them.
+/// Part of the lanes that is processed by one instruction.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LaneChunk<V> {
     simd: V,
@@ -24,7 +24,7 @@ pub(super) struct LaneChunk<V> {
 }
 
 impl<V: Simd> LaneChunk<V> {
-    /// How many parts the lanes have.
+    /// Number of parts of the lanes.
     pub(super) const COUNT: usize = {
         assert!(LANES.is_multiple_of(V::F64_LANES), "vectors are no longer than the lanes");
         LANES / V::F64_LANES
@@ -35,7 +35,7 @@ impl<V: Simd> LaneChunk<V> {
         Self { simd, index }
     }
 
-    /// The same number in all lanes.
+    /// Broadcasts a number to all lanes.
     #[inline(always)]
     pub(super) fn splat(self, number: f64) -> Vector<V> {
         Vector { simd: self.simd, numbers: self.simd.splat_f64s(number) }
@@ -65,13 +65,12 @@ impl Lanes {
         self.0[lane] = number;
     }
 
-    /// The numbers of all lanes.
     pub(super) fn numbers(&self) -> [f64; LANES] {
         self.0
     }
 }
 
-/// What the formulas of a point are made of: a number, or those of several points.
+/// Number type of point formulas: a scalar, or several lanes.
 pub trait Number:
     Copy
     + Add<Output = Self>
@@ -81,12 +80,12 @@ pub trait Number:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
-    /// A number that is the same for all points.
+    /// Broadcasts a number to all points.
     fn same(self, number: f64) -> Self;
 
     fn abs(self) -> Self;
 
-    /// The larger of two numbers; not a number when either is not.
+    /// Larger of two numbers; NaN if either is NaN.
     fn larger(self, other: Self) -> Self;
 
     fn sin_cos(self) -> (Self, Self);
@@ -114,7 +113,7 @@ impl Number for f64 {
     }
 }
 
-/// The numbers of as many points as one instruction works on.
+/// Lanes of one vector instruction.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Vector<V: Simd> {
     simd: V,
@@ -200,7 +199,7 @@ mod tests {
     use proptest::prelude::*;
     use pulp::{Arch, WithSimd};
 
-    /// Some operations of formulas, on all lanes.
+    /// Operations of typical formulas on all lanes.
     struct Formula([Lanes; 2]);
 
     fn formula<T: Number>(a: T, b: T) -> T {

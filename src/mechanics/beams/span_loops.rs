@@ -1,6 +1,6 @@
-//! The loops of a step over the spans of a beam, by vector instructions.
+//! Vectorised loops of a step over the spans of a beam.
 //!
-//! Points are computed side by side, several at once; what they give is added up span by span, in the order of the beam.
+//! Points are evaluated in lanes. Their results are accumulated by span, in the order of the beam.
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -14,12 +14,12 @@ use super::simd::{LANES, LaneChunk, Lanes};
 use super::span_points::{SpanGroup, window_mut};
 use super::{RotationIncrement, Section};
 
-/// A loop over spans: a type for each, so that the compiler knows which instructions it may use all through it.
+/// Loop over spans. Each loop is a type, so that the compiler can use the selected instructions throughout.
 pub(super) trait SpanLoop<const N: usize, S> {
-    /// What the loop does at a group of spans.
+    /// Body of the loop for a group of spans.
     fn at<V: Simd>(&mut self, simd: V, group: &mut SpanGroup<N, S>);
 
-    /// Goes through some groups of spans.
+    /// Runs the loop over groups of spans.
     fn over(self, groups: &mut [SpanGroup<N, S>])
     where
         Self: Sized,
@@ -28,7 +28,7 @@ pub(super) trait SpanLoop<const N: usize, S> {
     }
 }
 
-/// A loop, and the spans that it is over.
+/// Loop with its range of spans.
 pub(super) struct LoopRange<'a, const N: usize, S, W> {
     pub(super) groups: &'a mut [SpanGroup<N, S>],
     pub(super) work: W,
@@ -45,7 +45,7 @@ impl<const N: usize, S, W: SpanLoop<N, S>> WithSimd for LoopRange<'_, N, S, W> {
     }
 }
 
-/// What internal forces depend on besides the spans: sections, where in the step, movements, and the factor of the forces.
+/// Inputs of internal forces besides the spans: section, collocation, movements, and the factor of the forces.
 #[derive(Clone, Copy)]
 pub(super) struct SpanInputs<'a> {
     pub(super) section: &'a Section,
@@ -54,21 +54,21 @@ pub(super) struct SpanInputs<'a> {
     pub(super) weight: f64,
 }
 
-/// The forces on control points, from one of them on.
+/// Forces on consecutive control points.
 pub(super) struct ForcesFrom<'a> {
     pub(super) first: usize,
     pub(super) forces: &'a mut [Movement],
 }
 
 impl ForcesFrom<'_> {
-    /// Those on the control points of the span that begins with such a control point.
+    /// Forces on the control points of the span with the given first control point.
     #[inline(always)]
     fn of<const N: usize>(&mut self, first: usize) -> &mut [Movement; N] {
         window_mut(self.forces, first - self.first)
     }
 }
 
-/// Adds the internal forces, with the section forces as they are.
+/// Adds the internal forces at the current section forces.
 pub(super) struct ForceAssembly<'a> {
     pub(super) iterate: SpanInputs<'a>,
     pub(super) forces: ForcesFrom<'a>,
@@ -117,7 +117,7 @@ impl<const N: usize, S: Sections> SpanLoop<N, S> for ForceAssembly<'_> {
     }
 }
 
-/// Adds the condensed internal forces, and gives the tangent of each span.
+/// Adds the condensed internal forces, and passes on the tangent of each span.
 pub(super) struct Linearisation<'a> {
     pub(super) iterate: SpanInputs<'a>,
     pub(super) forces: ForcesFrom<'a>,
@@ -169,7 +169,7 @@ impl<const N: usize, S: Sections> SpanLoop<N, S> for Linearisation<'_> {
     }
 }
 
-/// Adds the forces that would close the strain mismatch.
+/// Adds the forces that would remove the strain mismatch.
 pub(super) struct MismatchForces<'a> {
     pub(super) section: &'a Section,
     pub(super) weight: f64,
@@ -212,7 +212,7 @@ impl<const N: usize, S: Sections> SpanLoop<N, S> for MismatchForces<'_> {
     }
 }
 
-/// Carries a correction of the movements over to the section forces.
+/// Updates section forces after a correction of the movements.
 #[derive(Clone, Copy)]
 pub(super) struct ForceCorrection<'a> {
     pub(super) section: &'a Section,
@@ -226,7 +226,7 @@ impl<const N: usize, S: Sections> SpanLoop<N, S> for ForceCorrection<'_> {
     }
 }
 
-/// Accepts movements of a step.
+/// Accepts the movements of a step.
 #[derive(Clone, Copy)]
 pub(super) struct Advance<'a> {
     pub(super) moved: &'a [Movement],

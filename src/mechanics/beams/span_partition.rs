@@ -1,8 +1,8 @@
-//! The spans of a beam in parts, on which several threads work at once, with the very bits that one thread gives.
+//! Partition of the spans of a beam for concurrent work, with results identical to those of one thread.
 //!
-//! Parts are cut at control points: each owns those from its cut to the next one, and the spans that reach no others. A few
-//! spans lie astride a cut. Sums are rounded, so that each of them is to be made in the order of the spans; spans astride a cut
-//! therefore count for the control points behind it before the parts are worked on, and for those before it afterwards.
+//! Parts are cut at control points. Each part owns the control points up to the next cut, and the spans that involve no others. A few spans lie
+//! astride a cut. Because of rounding, each sum must be made in the order of the spans. Spans astride a cut are therefore added to the control points
+//! behind it before the parts are processed, and to those before it afterwards.
 
 use std::ops::Range;
 
@@ -11,40 +11,40 @@ use super::sections::Sections;
 use super::span_points::{SPANS_AT_ONCE, SpanGroup};
 use crate::threads::at_once;
 
-/// What a part of a beam has for itself: what its work needs, its spans, its first control point and its sums.
+/// Data of one part: its context, its spans, its first control point and its sums.
 type PartOf<'a, const N: usize, S, C> =
     (&'a mut C, &'a mut [SpanGroup<N, S>], usize, &'a mut [Movement]);
 
-/// The largest number of parts of a beam that are worked on at once: a few cores use up the bandwidth of the memory.
+/// Largest number of concurrent parts. A few cores saturate the memory bandwidth.
 pub(super) const MOST_PARTS: usize = 8;
 
-/// Fewest spans of a part: smaller ones gain little, and lose where the other cores have other work (docs/studies.md).
+/// Fewest spans of a part. Smaller parts gain little, and lose if the other cores are busy (docs/studies.md).
 const SMALLEST_PART: usize = 4000;
 
-/// Fewest spans of a part for what takes little time at each: less than a tenth of what their tangents take.
+/// Fewest spans of a part for light operations, which take less than a tenth of the time of tangents.
 const SMALLEST_LIGHT_PART: usize = 2000;
 
 fn count_spans<const N: usize, S>(groups: &[SpanGroup<N, S>]) -> usize {
     groups.iter().map(|group| group.spans.len()).sum()
 }
 
-/// Where one part ends and the next begins.
+/// Boundary between two parts.
 #[derive(Debug, Clone, PartialEq)]
 struct SpanCut {
-    /// The first control point behind it.
+    /// First control point behind it.
     point: usize,
-    /// The groups of spans that reach over it.
+    /// Groups of spans across it.
     astride: Range<usize>,
 }
 
-/// How the spans of a beam are cut into parts, on which threads work at once.
+/// Partition of the spans of a beam into concurrent parts.
 #[derive(Debug, Clone, Default)]
 pub(super) struct SpanPartition {
     cuts: Vec<SpanCut>,
 }
 
 impl SpanPartition {
-    /// The cut of some spans into at most so many parts, each as large as is worth a thread.
+    /// Returns a partition into at most `most` parts that are worth a thread each.
     pub(super) fn worthwhile<const N: usize, S: Sections>(
         groups: &[SpanGroup<N, S>],
         most: usize,
@@ -52,7 +52,7 @@ impl SpanPartition {
         Self::new(groups, most.min(MOST_PARTS).min(count_spans(groups) / SMALLEST_PART))
     }
 
-    /// So many parts, of about as many spans each.
+    /// Partition into `count` parts of similar size.
     fn new<const N: usize, S: Sections>(groups: &[SpanGroup<N, S>], count: usize) -> Self {
         let cut = |part: usize| {
             let behind = part * groups.len() / count;
@@ -68,17 +68,17 @@ impl SpanPartition {
         self.cuts.len() + 1
     }
 
-    /// The index of the first control point of each part of the beam but the first.
+    /// First control point of each part except the first.
     pub(super) fn first_points(&self) -> Vec<usize> {
         self.cuts.iter().map(|cut| cut.point).collect()
     }
 
-    /// Whether the parts are large enough for threads that do little for each span.
+    /// Returns true if the parts are large enough for light operations.
     fn are_large(&self, spans: usize) -> bool {
         !self.cuts.is_empty() && spans >= SMALLEST_LIGHT_PART * self.count()
     }
 
-    /// Works a little on all spans of a beam, parts at once, where spans give nothing to each other.
+    /// Applies an independent light operation to all spans, with concurrent parts.
     pub(super) fn each<const N: usize, S: Sections>(
         &self,
         groups: &mut [SpanGroup<N, S>],
@@ -91,7 +91,7 @@ impl SpanPartition {
         at_once(groups.chunks_mut(most), work);
     }
 
-    /// Works a little on the sums of the control points of each part of a beam, parts at once.
+    /// Applies a light operation to the sums of the control points, with concurrent parts.
     pub(super) fn each_point(
         &self,
         sums: &mut [Movement],
@@ -111,10 +111,10 @@ impl SpanPartition {
         at_once(parts, |(points, sums)| work(points, sums));
     }
 
-    /// Adds up what the spans of a beam give to control points, parts at once.
+    /// Accumulates contributions of spans to control points, with concurrent parts.
     ///
-    /// `work` is called with what a part has for itself, some spans, the first control point of some sums, and these. Of
-    /// spans astride a cut it is called twice, and must do the same both times.
+    /// `work` is called with the context of a part, some spans, the first control point of its sums, and these. For spans astride a cut it is called
+    /// twice, and must do the same both times.
     pub(super) fn sum<const N: usize, S: Sections, C: Send>(
         &self,
         groups: &mut [SpanGroup<N, S>],
@@ -154,7 +154,7 @@ impl SpanPartition {
         }
     }
 
-    /// The same for sums that take little time at each span.
+    /// The same for light operations.
     pub(super) fn sum_lightly<const N: usize, S: Sections>(
         &self,
         groups: &mut [SpanGroup<N, S>],
@@ -168,7 +168,7 @@ impl SpanPartition {
         self.sum(groups, sums, own, |(), groups, first, sums| work(groups, first, sums));
     }
 
-    /// What each part has for itself, without the spans astride.
+    /// Splits the data by parts, without the spans astride.
     fn split<'a, const N: usize, S, C>(
         &self,
         mut groups: &'a mut [SpanGroup<N, S>],

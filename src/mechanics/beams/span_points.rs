@@ -1,4 +1,4 @@
-//! The quadrature points of some neighbouring spans.
+//! Quadrature points of a group of neighbouring spans.
 
 use std::ops::Range;
 
@@ -16,27 +16,27 @@ use super::simd::{LANES, LaneChunk};
 use super::span_stiffness::SpanStiffness;
 use crate::geometry::Vec2;
 
-/// So many spans share lanes: enough that few lanes are empty, and few enough that their points stay at hand.
+/// Number of spans that share lanes: large enough that few lanes are empty, and small enough that the points stay in the cache.
 pub(super) const SPANS_AT_ONCE: usize = 16;
 
-/// A span, and which of the points of its group are its own.
+/// Span with the range of its points in the group.
 #[derive(Debug, Clone)]
 pub(super) struct SpanPlace {
-    /// The index of the first control point of the span.
+    /// First control point of the span.
     pub(super) first: usize,
     pub(super) force_points: Range<usize>,
     pub(super) moment_points: Range<usize>,
 }
 
-/// A span on which `N` functions of the basis are not zero, with its points one by one.
+/// Span with `N` nonzero basis functions and its individual points.
 pub(super) struct SpanOfPoints<const N: usize> {
-    /// The index of the first control point of the span.
+    /// First control point of the span.
     pub(super) first: usize,
     pub(super) force_points: Vec<(ForcePoint<N>, Section)>,
     pub(super) moment_points: Vec<(MomentPoint<N>, Section)>,
 }
 
-/// The quadrature points of at most [`SPANS_AT_ONCE`] neighbouring spans on which `N` functions of the basis are not zero, side by side.
+/// Quadrature points in lanes of at most [`SPANS_AT_ONCE`] neighbouring spans with `N` nonzero basis functions.
 #[derive(Debug, Clone)]
 pub(super) struct SpanGroup<const N: usize, S = Uniform> {
     pub(super) spans: Vec<SpanPlace>,
@@ -45,7 +45,7 @@ pub(super) struct SpanGroup<const N: usize, S = Uniform> {
     pub(super) sections: S,
 }
 
-/// The movements of the `N` control points from `first` on.
+/// Movements of the `N` control points from `first` on.
 #[inline(always)]
 pub(super) fn window<const N: usize>(movements: &[Movement], first: usize) -> &[Movement; N] {
     movements[first..]
@@ -63,7 +63,7 @@ pub(super) fn window_mut<const N: usize>(
         .expect("a span has as many control points as its basis has functions")
 }
 
-/// The group of a span of a beam, by the number of the span, and its place in that.
+/// Group of a span, and its index in the group.
 pub(super) fn group_of<const N: usize, S>(
     groups: &[SpanGroup<N, S>],
     span: usize,
@@ -73,7 +73,7 @@ pub(super) fn group_of<const N: usize, S>(
 }
 
 impl<const N: usize, S: Sections> SpanGroup<N, S> {
-    /// The points of neighbouring spans side by side.
+    /// Combines the points of neighbouring spans into lanes.
     pub(super) fn side_by_side(spans: &[SpanOfPoints<N>]) -> Self {
         let (mut places, mut of_force, mut of_moment) = (Vec::new(), 0, 0);
         for span in spans {
@@ -105,7 +105,7 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
         }
     }
 
-    /// The control points of these spans.
+    /// Control points of these spans.
     pub(super) fn control_points(&self) -> Range<usize> {
         self.spans[0].first..self.spans[self.spans.len() - 1].first + N
     }
@@ -115,7 +115,7 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
         self.moment_points.iter_mut().for_each(MomentPoints::begin_step);
     }
 
-    /// Updates the section forces for a correction of the movements of all control points.
+    /// Updates the section forces after a correction of the movements of all control points.
     #[inline(always)]
     pub(super) fn correct_section_forces<V: Simd>(
         &mut self,
@@ -141,7 +141,7 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
         }
     }
 
-    /// Accepts the movements of all control points, as far as they are of these spans.
+    /// Accepts the movements of all control points.
     #[inline(always)]
     pub(super) fn advance<V: Simd>(
         &mut self,
@@ -163,7 +163,7 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
         }
     }
 
-    /// The points for `Γ` of a span, each with its section.
+    /// Points for `Γ` of a span, with their sections.
     pub(super) fn force_points_of<'a>(
         &'a self,
         uniform: &'a Section,
@@ -175,7 +175,7 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
         })
     }
 
-    /// The points for `κ` of a span, each with its section.
+    /// Points for `κ` of a span, with their sections.
     pub(super) fn moment_points_of<'a>(
         &'a self,
         uniform: &'a Section,
@@ -187,7 +187,7 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
         })
     }
 
-    /// One of the points for `Γ` of a span, with its section.
+    /// A point for `Γ` of a span, with its section.
     pub(super) fn force_point_of<'a>(
         &'a self,
         uniform: &'a Section,
@@ -198,7 +198,7 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
         (self.force_point(index), self.sections.of_force(uniform, index))
     }
 
-    /// One of the points for `κ` of a span, with its section.
+    /// A point for `κ` of a span, with its section.
     pub(super) fn moment_point_of<'a>(
         &'a self,
         uniform: &'a Section,
@@ -217,7 +217,7 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
         self.moment_points[index / LANES].point(index % LANES)
     }
 
-    /// Writes how each span resists small movements at rest, and hands it on.
+    /// Passes the stiffness of each span at rest to the callback.
     pub(super) fn each_at_rest(
         &self,
         section: &Section,
@@ -236,7 +236,7 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
         }
     }
 
-    /// The strain energy of each span.
+    /// Strain energy of each span.
     pub(super) fn strain_energies_of_spans(&self, section: &Section) -> impl Iterator<Item = f64> {
         self.spans.iter().map(move |span| {
             let points = self.force_points_of(section, span);
@@ -250,7 +250,7 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
         points.map(|(point, section)| point.strain_energy(section)).sum::<f64>()
     }
 
-    /// Adds the energies of stretching, of shear and of bending of these spans [energy].
+    /// Adds the axial, shear and bending strain energies of these spans [energy].
     pub(super) fn add_strain_energies(&self, section: &Section, sums: &mut [f64; 3]) {
         for span in &self.spans {
             for (point, section) in self.force_points_of(section, span) {
@@ -262,13 +262,12 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
         }
     }
 
-    /// Writes the normals of the sections at the points for `Γ`, span by span.
+    /// Appends the section normals at the points for `Γ`, by span.
     pub(super) fn write_normals(&self, normals: &mut Vec<Vec2>) {
         let count = self.spans[self.spans.len() - 1].force_points.end;
         normals.extend((0..count).map(|index| self.force_point(index).normal()));
     }
 
-    /// Writes the state of all points, span by span.
     pub(super) fn save(&self, state: &mut Vec<f64>) {
         for span in &self.spans {
             span.force_points.clone().for_each(|index| self.force_point(index).save(state));
@@ -276,7 +275,6 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
         }
     }
 
-    /// Reads the state of all points as [`save`](Self::save) wrote it.
     pub(super) fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         for place in 0..self.spans.len() {
             let SpanPlace { force_points, moment_points, .. } = self.spans[place].clone();
@@ -294,7 +292,7 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
     }
 }
 
-/// Points by lanes, with the first control points of their spans; lanes that are left over have no point.
+/// Points in lanes, with the first control points of their spans. Remaining lanes are empty.
 fn in_lanes<'a, P>(
     points: &'a [(usize, &'a (P, Section))],
     nowhere: &'a P,

@@ -1,27 +1,27 @@
-//! What the points of a mesh see of a section that varies.
+//! Quadrature errors of a mesh for a varying section.
 
 use super::{BeamError, Mesh, Section, SectionVariation};
 use crate::geometry::{GaussRule, larger};
 
-/// Points between two places of a taper, or two knots, for integrals that are compared with.
+/// Points between places of a taper or knots, for reference integrals.
 const POINTS: usize = 8;
 
-/// By how much integrals along a beam are off, taken at the points of its mesh, as parts of what they are [-].
+/// Relative errors of integrals along a beam by the quadrature of its mesh [-].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct TaperQuadrature {
-    /// That of `ρA`, the mass.
+    /// Error of the mass, `∫ ρA`.
     pub mass: f64,
-    /// That of `1/EA`, by which the beam stretches under its ends.
+    /// Error of `∫ 1/EA`, the axial compliance under end forces.
     pub stretching: f64,
-    /// That of `1/EI`, by which it bends under couples.
+    /// Error of `∫ 1/EI`, the rotation under couples.
     pub bending: f64,
 }
 
 impl TaperQuadrature {
-    /// What a mesh sees of a section along a beam; the places of the section are taken for parts of its parameter, as they are where spans are of equal length.
+    /// Evaluates the errors for a section variation. Places are taken as fractions of the parameter, which is exact for spans of equal length.
     ///
     /// # Errors
-    /// When the mesh has no quadrature.
+    /// Fails if the mesh has no quadrature.
     pub fn of(variation: &SectionVariation, mesh: &Mesh) -> Result<Self, BeamError> {
         let mut cuts = variation.places();
         if cuts.is_empty() {
@@ -58,13 +58,12 @@ impl TaperQuadrature {
         Ok(Self { mass: off(0), stretching: off(1), bending: off(2) })
     }
 
-    /// The largest of the three.
+    /// Largest of the three errors.
     pub fn largest(&self) -> f64 {
         larger(self.mass, larger(self.stretching, self.bending))
     }
 }
 
-/// `ρA`, `1/EA` and `1/EI`.
 fn integrands(section: &Section) -> [f64; 3] {
     [section.mass_per_length, 1.0 / section.axial_stiffness, 1.0 / section.bending_stiffness]
 }
@@ -91,7 +90,7 @@ mod tests {
         let (thin, thick) = (of(1.0, 1.0), of(1.0, 20.0));
         let flange = vec![(0.0, thin), (0.52, thin), (0.53, thick), (0.54, thin), (1.0, thin)];
         let seen = TaperQuadrature::of(&SectionVariation::Numbers(flange), &mesh).unwrap();
-        // The mass of the flange alone is 0.19 of 1.19; stiffness is the same everywhere.
+        // The mass of the flange alone is 0.19 of 1.19. The stiffness is uniform.
         assert!(seen.mass > 0.05 && seen.mass < 0.2, "{seen:?}");
         assert!(seen.bending < 1e-12 && seen.stretching < 1e-12, "{seen:?}");
         let uniform = SectionVariation::Uniform(thin);

@@ -1,123 +1,123 @@
-//! Trigonometric, hyperbolic and exponential functions and their inverses, by the crate `libm`: musl's and FreeBSD's in Rust.
+//! Trigonometric, hyperbolic and exponential functions and their inverses, from the crate `libm`, a Rust port of those of musl and FreeBSD.
 //!
-//! Errors are below one unit in the last place for most of them, below two for the hyperbolic ones. Angles are in radians; undefined
-//! values are NaN, as in IEEE 754.
+//! Most errors are below one unit in the last place, those of hyperbolic functions below two. Angles are in radians; undefined values are NaN, as in
+//! IEEE 754.
 
-/// The sine of an angle [rad], with the same bits on every machine.
+/// Sine of an angle [rad], identical on every machine.
 #[inline]
 pub fn sin(angle: f64) -> f64 {
     libm::sin(angle)
 }
 
-/// The cosine of an angle [rad], with the same bits on every machine.
+/// Cosine of an angle [rad], identical on every machine.
 #[inline]
 pub fn cos(angle: f64) -> f64 {
     libm::cos(angle)
 }
 
-/// Sine and cosine, in this order, of an angle [rad]: those of [`sin`] and [`cos`], for little more than the price of one.
+/// Sine and cosine of an angle [rad], as by [`sin`] and [`cos`] but cheaper.
 #[inline]
 pub fn sin_cos(angle: f64) -> (f64, f64) {
     libm::sincos(angle)
 }
 
-/// The tangent of an angle [rad], with the same bits on every machine.
+/// Tangent of an angle [rad], identical on every machine.
 #[inline]
 pub fn tan(angle: f64) -> f64 {
     libm::tan(angle)
 }
 
-/// The angle in `[-π/2, π/2]` [rad] whose sine is `x`; NaN outside `[-1, 1]`.
+/// Angle in `[-π/2, π/2]` [rad] with sine `x`; NaN outside `[-1, 1]`.
 #[inline]
 pub fn asin(x: f64) -> f64 {
     libm::asin(x)
 }
 
-/// The angle in `[0, π]` [rad] whose cosine is `x`; NaN outside `[-1, 1]`.
+/// Angle in `[0, π]` [rad] with cosine `x`; NaN outside `[-1, 1]`.
 #[inline]
 pub fn acos(x: f64) -> f64 {
     libm::acos(x)
 }
 
-/// The angle in `[-π/2, π/2]` [rad] whose tangent is `x`.
+/// Angle in `[-π/2, π/2]` [rad] with tangent `x`.
 #[inline]
 pub fn atan(x: f64) -> f64 {
     libm::atan(x)
 }
 
-/// The angle in `[-π, π]` [rad] from the first axis to the vector `(x, y)`.
+/// Angle in `[-π, π]` [rad] from the first axis to the vector `(x, y)`.
 #[inline]
 pub fn atan2(y: f64, x: f64) -> f64 {
     libm::atan2(y, x)
 }
 
-/// The hyperbolic sine of a number.
+/// Hyperbolic sine.
 #[inline]
 pub fn sinh(x: f64) -> f64 {
     libm::sinh(x)
 }
 
-/// The hyperbolic cosine of a number.
+/// Hyperbolic cosine.
 #[inline]
 pub fn cosh(x: f64) -> f64 {
     libm::cosh(x)
 }
 
-/// The hyperbolic tangent of a number.
+/// Hyperbolic tangent.
 #[inline]
 pub fn tanh(x: f64) -> f64 {
     libm::tanh(x)
 }
 
-/// The number whose hyperbolic sine is `x`.
+/// Inverse hyperbolic sine.
 #[inline]
 pub fn asinh(x: f64) -> f64 {
     libm::asinh(x)
 }
 
-/// The number of zero or more whose hyperbolic cosine is `x`; NaN for `x` below 1.
+/// Inverse hyperbolic cosine, zero or more; NaN for `x` below 1.
 #[inline]
 pub fn acosh(x: f64) -> f64 {
     libm::acosh(x)
 }
 
-/// The number whose hyperbolic tangent is `x`; NaN outside `[-1, 1]`.
+/// Inverse hyperbolic tangent; NaN outside `[-1, 1]`.
 #[inline]
 pub fn atanh(x: f64) -> f64 {
     libm::atanh(x)
 }
 
-/// The exponential `eˣ` of a number.
+/// Exponential `eˣ`.
 #[inline]
 pub fn exp(x: f64) -> f64 {
     libm::exp(x)
 }
 
-/// The natural logarithm of a number; NaN for a negative one.
+/// Natural logarithm; NaN for negative numbers.
 #[inline]
 pub fn ln(x: f64) -> f64 {
     libm::log(x)
 }
 
-/// The logarithm of a number to base 2; exact for powers of 2.
+/// Logarithm to base 2; exact for powers of 2.
 #[inline]
 pub fn log2(x: f64) -> f64 {
     libm::log2(x)
 }
 
-/// The logarithm of a number to base 10; exact for powers of 10 that are whole.
+/// Logarithm to base 10; exact for integer powers of 10.
 #[inline]
 pub fn log10(x: f64) -> f64 {
     libm::log10(x)
 }
 
-/// The logarithm of a number to any base: a quotient of natural logarithms.
+/// Logarithm to any base, as a quotient of natural logarithms.
 #[inline]
 pub fn log(x: f64, base: f64) -> f64 {
     ln(x) / ln(base)
 }
 
-/// The length of the vector `(x, y)`, without overflow on the way.
+/// Length of the vector `(x, y)`, without intermediate overflow.
 #[inline]
 pub fn hypot(x: f64, y: f64) -> f64 {
     libm::hypot(x, y)
@@ -128,7 +128,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// The distance of two numbers in units in the last place.
+    /// Distance of two numbers in units in the last place.
     fn apart(a: f64, b: f64) -> u64 {
         let place = |x: f64| match x.to_bits() as i64 {
             bits if bits < 0 => i64::MIN - bits,
@@ -157,13 +157,13 @@ mod tests {
             (atan2(0.0, -1.0), atan2(-0.0, -1.0)),
             (std::f64::consts::PI, -std::f64::consts::PI)
         );
-        // Their squares are beyond all numbers.
+        // Their squares overflow.
         let large = 2_f64.powi(900);
         assert_eq!((hypot(3.0, 4.0), hypot(3.0 * large, 4.0 * large)), (5.0, 5.0 * large));
         assert_eq!((sin(-0.0).to_bits(), cos(0.0)), ((-0.0_f64).to_bits(), 1.0));
     }
 
-    // The machine's own functions are right to about one unit: ours may not be far from them.
+    // The functions of the machine are accurate to about one unit, so the results must be close.
     proptest! {
         #[test]
         fn they_are_those_of_the_machine_but_for_the_last_bits(

@@ -1,9 +1,8 @@
-//! Elementary functions that give the same bits on every machine.
+//! Elementary functions with identical results on every machine.
 //!
-//! Those of the standard library call the C library of the machine, or become constants at compile time by another one: their last bit
-//! depends on the C library, on its version and on the instructions of the processor. Those of here are computed by additions,
-//! multiplications, divisions and square roots, which IEEE 754 defines to the last bit. All other code uses these; `clippy.toml`
-//! refuses the others.
+//! Those of the standard library call the C library of the machine, or are evaluated at compile time by another one. Their last bit depends on the
+//! library, its version and the processor. The functions here use additions, multiplications, divisions and square roots only, which IEEE 754 defines
+//! exactly. All other code uses these; `clippy.toml` rejects the others.
 
 mod functions;
 mod powers;

@@ -1,14 +1,14 @@
 //! Powers.
 
-/// The square `x²` of a number.
+/// Square `x²`.
 #[inline(always)]
 pub fn square(x: f64) -> f64 {
     x * x
 }
 
-/// A power with a whole exponent, by squares from the lowest bit of the exponent on; `1/xⁿ` for a negative one.
+/// Integer power, by repeated squaring from the lowest bit of the exponent on; `1/xⁿ` for negative exponents.
 ///
-/// The order of the multiplications, and with it every rounding, is laid down here; that of `f64::powi` is the compiler's to choose.
+/// The order of multiplications, and so every rounding, is fixed here; that of `f64::powi` is up to the compiler.
 #[inline]
 pub fn whole_power(x: f64, exponent: i32) -> f64 {
     let (mut power, mut squares, mut left) = (1.0, x, exponent.unsigned_abs());
@@ -25,7 +25,7 @@ pub fn whole_power(x: f64, exponent: i32) -> f64 {
     if exponent < 0 { 1.0 / power } else { power }
 }
 
-/// A power with any exponent; exact where a whole power of a whole number is a number of 53 bits. Undefined ones are NaN.
+/// Power with any exponent; exact if an integer power of an integer has at most 53 bits. Undefined powers are NaN.
 #[inline]
 pub fn power(x: f64, exponent: f64) -> f64 {
     libm::pow(x, exponent)

@@ -1,4 +1,4 @@
-//! The lowest natural frequencies of a cantilever, beside those of the Euler–Bernoulli beam.
+//! Lowest natural frequencies of a cantilever, compared with those of the Euler–Bernoulli beam.
 use std::error::Error;
 
 use withy_mechanics::beams::{Mesh, Section};

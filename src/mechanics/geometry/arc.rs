@@ -8,7 +8,7 @@ use super::{GeometryError, Vec2, perpendicular, unit};
 use crate::elementary::power;
 use std::f64::consts::TAU;
 
-/// A full turn may be exceeded by this fraction of it, for rounding in the angles.
+/// Relative rounding by which a full turn may be exceeded.
 const ROUNDING: f64 = 1e-12;
 
 /// An arc of a circle of radius `r` about `c`, `x(ξ) = c + r (cos φ, sin φ)` with
@@ -22,7 +22,6 @@ pub struct CircularArc {
     to_angle: f64,
 }
 
-/// From centre, radius and both angles, as stored.
 impl TryFrom<(Vec2, f64, f64, f64)> for CircularArc {
     type Error = GeometryError;
 
@@ -55,7 +54,7 @@ impl CircularArc {
         Ok(arc)
     }
 
-    /// The angle from start to end of the arc [rad], positive counter-clockwise.
+    /// Angle from start to end [rad], positive counter-clockwise.
     pub(super) fn sweep(&self) -> f64 {
         self.to_angle - self.from_angle
     }
@@ -64,7 +63,7 @@ impl CircularArc {
         self.radius * self.sweep().abs()
     }
 
-    /// The curvature `1 / r` of the arc [1/length], positive where it turns counter-clockwise.
+    /// Curvature `1 / r` [1/length], positive if the arc turns counter-clockwise.
     pub(super) fn curvature(&self) -> f64 {
         self.sweep().signum() / self.radius
     }
@@ -72,7 +71,7 @@ impl CircularArc {
     pub(super) fn derivative(&self, xi: f64, order: usize) -> Result<Vec2, GeometryError> {
         check_inside(xi, 0.0, 1.0)?;
         let outward = unit((1.0 - xi) * self.from_angle + xi * self.to_angle);
-        // Each derivative turns by +90° and multiplies by the sweep.
+        // Each derivative rotates by +90° and multiplies by the sweep.
         let turned = match order % 4 {
             0 => outward,
             1 => perpendicular(outward),

@@ -3,16 +3,15 @@
 use super::GaussRule;
 use std::sync::LazyLock;
 
-/// Bisections of an interval before the quadrature gives up on a cusp.
+/// Largest number of bisections, reached at cusps only.
 const DEPTH: usize = 48;
 
-/// Steps of the root finding; it needs about five, and bisection alone would need 60.
+/// Largest number of iterations. About five are needed; bisection alone needs 60.
 const STEPS: usize = 100;
 
 static RULE: LazyLock<GaussRule> = LazyLock::new(|| GaussRule::legendre(16));
 
-/// The integral `∫ speed dξ` from `start` to `end`, halving the interval until the 16-point Gauss rule and its two
-/// halves agree within `tolerance`.
+/// Integral `∫ speed dξ` from `start` to `end`. Intervals are halved until the 16-point Gauss rule and its two halves agree within `tolerance`.
 pub(super) fn integrate(speed: &impl Fn(f64) -> f64, start: f64, end: f64, tolerance: f64) -> f64 {
     refine(speed, (start, end), gauss(speed, start, end), tolerance, DEPTH)
 }
@@ -38,8 +37,7 @@ fn refine(
     }
 }
 
-/// The `ξ` in `[start, end]` where the integral of `speed` from `start` reaches `length`: Newton's
-/// method, kept by bisection inside the interval known to hold the root.
+/// Parameter `ξ` in `[start, end]` at which the integral of `speed` from `start` equals `length`, by Newton's method safeguarded by bisection.
 pub(super) fn invert(
     speed: &impl Fn(f64) -> f64,
     start: f64,

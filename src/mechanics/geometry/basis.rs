@@ -1,4 +1,4 @@
-//! Bases of functions on an interval, of either kind that beams are made of.
+//! Bases of functions on an interval: B-splines and Lagrange elements.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,20 +6,20 @@ use super::knots::check_inside;
 use super::values::LowDerivatives;
 use super::{BasisValues, GeometryError, KnotVector, LagrangeBasis, MAX_DEGREE, Span, bspline};
 
-/// A break closer than this fraction of the domain to an existing knot means that knot.
+/// Distance, relative to the domain, below which a break coincides with an existing knot.
 const SAME_BREAK: f64 = 1e-10;
 
-/// Functions `N_i(ξ)` that sum to one, each non-zero on a few spans only.
+/// Functions `N_i(ξ)` that sum to one, each nonzero on a few spans only.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Basis {
-    /// The functions are the B-splines of a knot vector.
+    /// B-splines of a knot vector.
     BSpline(KnotVector),
-    /// The functions are Lagrange polynomials on elements.
+    /// Lagrange polynomials on elements.
     Lagrange(LagrangeBasis),
 }
 
 impl Basis {
-    /// The polynomial degree of the functions of the basis.
+    /// Polynomial degree.
     pub fn degree(&self) -> usize {
         match self {
             Self::BSpline(knots) => knots.degree(),
@@ -27,7 +27,7 @@ impl Basis {
         }
     }
 
-    /// The number of functions of the basis.
+    /// Number of functions.
     pub fn functions(&self) -> usize {
         match self {
             Self::BSpline(knots) => knots.functions(),
@@ -35,7 +35,7 @@ impl Basis {
         }
     }
 
-    /// The interval of the parameter ξ [-] on which the functions of the basis live: its start and its end.
+    /// Interval of the parameter ξ [-]: start and end.
     pub fn domain(&self) -> (f64, f64) {
         match self {
             Self::BSpline(knots) => knots.domain(),
@@ -43,7 +43,7 @@ impl Basis {
         }
     }
 
-    /// The intervals between the breaks, in order; on each the functions are polynomials.
+    /// Intervals between the breaks, in order. The functions are polynomials on each.
     pub fn spans(&self) -> Vec<Span> {
         match self {
             Self::BSpline(knots) => knots.spans(),
@@ -51,7 +51,7 @@ impl Basis {
         }
     }
 
-    /// The ends of the spans of the basis [-] in order, those of the domain included.
+    /// Ends of the spans [-] in order, including those of the domain.
     pub fn breaks(&self) -> Vec<f64> {
         match self {
             Self::BSpline(knots) => knots.breaks(),
@@ -59,10 +59,10 @@ impl Basis {
         }
     }
 
-    /// The span of the basis that contains the parameter `xi` [-]; where two meet, the right one.
+    /// Span that contains the parameter `xi` [-]; at a break the right one.
     ///
     /// # Errors
-    /// `xi` outside the domain, or not a number.
+    /// Fails if `xi` is outside the domain or NaN.
     pub fn span_at(&self, xi: f64) -> Result<Span, GeometryError> {
         match self {
             Self::BSpline(knots) => {
@@ -77,17 +77,15 @@ impl Basis {
         }
     }
 
-    /// The functions of the basis that are not zero at `xi`, and their derivatives, continuous from the right at interior
-    /// breaks.
+    /// Nonzero functions at `xi` and their derivatives, continuous from the right at interior breaks.
     ///
     /// # Errors
-    /// `xi` outside the domain, or not a number.
+    /// Fails if `xi` is outside the domain or NaN.
     pub fn evaluate(&self, xi: f64) -> Result<BasisValues, GeometryError> {
         Ok(self.evaluate_in(&self.span_at(xi)?, xi))
     }
 
-    /// The functions of one of this basis' own spans, continued as polynomials, at any `xi`: at the ends
-    /// of the span these are the one-sided values.
+    /// Functions of a span of this basis, extended as polynomials to any `xi`. At the ends of the span these are the one-sided values.
     ///
     /// # Panics
     /// May panic if the span belongs to another basis.
@@ -98,8 +96,7 @@ impl Basis {
         }
     }
 
-    /// What [`evaluate_in`](Self::evaluate_in) gives, up to the second derivatives, of functions of the degree `WIDTH - 1`; where that is the largest, of any
-    /// degree.
+    /// Functions of degree `WIDTH - 1` as in [`evaluate_in`](Self::evaluate_in), up to second derivatives; the largest width serves any degree.
     #[inline]
     pub(super) fn evaluate_low<const WIDTH: usize>(
         &self,
@@ -115,8 +112,7 @@ impl Basis {
         low
     }
 
-    /// The number of continuous derivatives of the functions at the least smooth interior break; the degree if there is
-    /// none, for a single polynomial.
+    /// Number of continuous derivatives at the least smooth interior break; the degree for a single polynomial.
     pub fn continuity(&self) -> usize {
         let breaks = self.breaks();
         match self {
@@ -130,8 +126,7 @@ impl Basis {
         }
     }
 
-    /// One parameter for each function at which to interpolate: the Greville abscissae of splines, the
-    /// nodes of Lagrange elements. Strictly increasing, ends included.
+    /// Interpolation parameter of each function: Greville abscissae of splines, nodes of Lagrange elements. Strictly increasing, ends included.
     pub fn abscissae(&self) -> Vec<f64> {
         match self {
             Self::BSpline(knots) => knots.greville(),
@@ -139,14 +134,12 @@ impl Basis {
         }
     }
 
-    /// A basis that can kink at `xi` and is the same otherwise: the knot repeated `degree` times, or the
-    /// Lagrange element split there.
+    /// Returns the basis with continuity C⁰ at `xi`: the knot has multiplicity `degree`, or the Lagrange element is split.
     ///
-    /// A knot closer to `xi` than 1e-10 of the domain is taken in place of `xi`; at a place that is C⁰
-    /// already, and at the ends, nothing changes.
+    /// A knot closer to `xi` than 1e-10 of the domain is used instead of `xi`. Nothing changes at places that are C⁰ already, and at the ends.
     ///
     /// # Errors
-    /// `xi` outside the domain, or not a number; too many spans.
+    /// Fails if `xi` is outside the domain or NaN, or there are too many spans.
     pub fn with_break(&self, xi: f64) -> Result<Self, GeometryError> {
         let (start, end) = self.domain();
         check_inside(xi, start, end)?;
@@ -217,7 +210,7 @@ mod tests {
         assert!(smooth.with_break(1.1).is_err());
     }
 
-    /// Strictly inside a span, its number and the parameter.
+    /// Parameter strictly inside a span, with the span.
     fn inside(basis: &Basis, t: f64) -> (Span, f64) {
         let spans = basis.spans();
         let place = t * spans.len() as f64;

@@ -3,12 +3,10 @@
 use super::values::BasisValues;
 use super::{KnotVector, Span};
 
-/// The B-splines that are non-zero on `span` of `knots`, with all derivatives, at `xi`: the polynomials
-/// of that span, also beside it.
+/// Nonzero B-splines on `span` of `knots` with all derivatives at `xi`, extended as polynomials.
 ///
-/// Both follow from the splines of one degree less. Of degree `q - 1`, `N_m` lives on `[ξ_m, ξ_{m+q}]`,
-/// of length `h_m`, and enters two splines of degree `q` (The NURBS Book, equations 2.5 and 2.7; the
-/// numbers are those of algorithm A2.3):
+/// Both follow from the splines of one degree less. Of degree `q - 1`, `N_m` has the support `[ξ_m, ξ_{m+q}]` of length `h_m`, and contributes to two
+/// splines of degree `q` (The NURBS Book, equations 2.5 and 2.7; the results are those of algorithm A2.3):
 ///
 /// ```text
 /// N_{m-1}   gets   (ξ_{m+q} - ξ) / h_m · N_m       its derivatives   -q / h_m · (those of N_m, one order less)
@@ -20,9 +18,9 @@ pub(super) fn evaluate(knots: &KnotVector, span: &Span, xi: f64) -> BasisValues 
     basis
 }
 
-/// Fills rows of zeros with the functions and as many of their derivatives as there are more rows.
+/// Fills zeroed rows with the functions and their derivatives, one order per row.
 ///
-/// The degree of the knots stands beside them, for those to whom the compiler can tell it.
+/// The degree is a separate argument, because the compiler may know it.
 #[inline(always)]
 pub(super) fn fill<const WIDTH: usize>(
     (knots, degree): (&KnotVector, usize),
@@ -32,7 +30,7 @@ pub(super) fn fill<const WIDTH: usize>(
 ) {
     let most = rows.len() - 1;
     rows[0][0] = 1.0;
-    // Before the span, `degree` knots count, and as many after it.
+    // `degree` knots before the span, and as many after it.
     let local = &knots.knots()[span.first + 1..=span.first + 2 * degree];
     for q in 1..=degree {
         let supports = local[degree - q..degree]
@@ -46,7 +44,7 @@ pub(super) fn fill<const WIDTH: usize>(
     }
 }
 
-/// The values of degree one higher at `xi`, given the ends of the supports of the `lower` functions.
+/// Values of degree one higher at `xi`, from the supports of the `lower` functions.
 #[inline(always)]
 fn raise<const WIDTH: usize>(
     lower: &[f64; WIDTH],
@@ -62,7 +60,7 @@ fn raise<const WIDTH: usize>(
     higher
 }
 
-/// The derivatives, one order higher, of the functions of degree `q`, given those of degree `q - 1`.
+/// Derivatives of the next order of the functions of degree `q`, from those of degree `q - 1`.
 #[inline(always)]
 fn differentiate<const WIDTH: usize>(
     lower: &[f64; WIDTH],

@@ -1,18 +1,17 @@
-//! Systems of equations in which splines are asked for at points.
+//! Collocation systems of splines.
 
 use std::ops::{AddAssign, Div, Mul, SubAssign};
 
-/// One row of a collocation system, such as `Σ_i N_i(ξ_r) P_i = x(ξ_r)`.
+/// Row of a collocation system, such as `Σ_i N_i(ξ_r) P_i = x(ξ_r)`.
 pub(super) struct CollocationRow<R> {
-    /// The number of the first unknown with an entry in this row of the collocation system.
+    /// First unknown with an entry in this row.
     pub(super) first: usize,
     pub(super) entries: Vec<f64>,
     pub(super) right_side: R,
 }
 
-/// The solution of a banded system by Gauss elimination without pivoting, which is stable for the totally positive matrices
-/// of B-spline collocation (de Boor & Pinkus 1977, Numer. Math. 27) and fills nothing in: neither the first nor the last
-/// column with an entry decreases from row to row.
+/// Solves a banded system by Gauss elimination without pivoting. It is stable for the totally positive matrices of B-spline collocation (de Boor &
+/// Pinkus 1977, Numer. Math. 27) and has no fill-in, because neither the first nor the last nonzero column decreases from row to row.
 pub(super) fn solve<R>(mut rows: Vec<CollocationRow<R>>) -> Vec<R>
 where
     R: Copy + Default + AddAssign + SubAssign + Mul<f64, Output = R> + Div<f64, Output = R>,

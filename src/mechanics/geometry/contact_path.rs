@@ -1,4 +1,4 @@
-//! Basis functions along a way between two parameters, for a point that slides along a beam.
+//! Basis functions along a path between two parameters, for a point that slides along a beam.
 
 use std::sync::Arc;
 
@@ -6,32 +6,28 @@ use super::piecewise::FunctionOnPath;
 use super::values::FunctionRow;
 use super::{Basis, GaussRule, MAX_DEGREE, PiecewisePolynomial, Span};
 
-/// The basis functions `B_i` along a way from the parameter ξ₀ to ξ₁, as a point needs them that
-/// slides along `Σ B_i(ξ) x_i` during a time step: above all the quotients
-/// `(B_i(ξ₁) - B_i(ξ₀)) / (ξ₁ - ξ₀)`, which are accurate for ways of any length, zero included, and
-/// across breaks of any smoothness.
+/// Basis functions `B_i` along a path from the parameter ξ₀ to ξ₁, for a point that slides along `Σ B_i(ξ) x_i` during a time step. In particular the
+/// quotients `(B_i(ξ₁) - B_i(ξ₀)) / (ξ₁ - ξ₀)`, which are accurate for paths of any length, including zero, and across breaks of any smoothness.
 ///
-/// The window of the functions `first, first + 1, …` contains those that are non-zero anywhere on
-/// the spans of the way; every accessor returns one number for each of them. Parameters are
-/// dimensionless, and so is all that is returned.
+/// The window of the functions `first, first + 1, …` contains those that are nonzero anywhere on the spans of the path. Every accessor returns one
+/// number for each of them. Parameters and results are dimensionless.
 ///
-/// A way that starts at a break starts in the span ahead, and one that ends at a break ends in the
-/// span it came through. A way of length zero at a break lies in the right span. Outside the
-/// domain the polynomials of the end spans are continued.
+/// A path that starts at a break starts in the span ahead, and one that ends at a break ends in the span it came through. A path of length zero at a
+/// break lies in the right span. Outside the domain the polynomials of the end spans are extended.
 #[derive(Debug, Clone)]
 pub struct ContactPath {
-    /// Shared with its copies, of which there is one for each point on the same beam.
+    /// Shared by all copies for the same beam.
     line: Arc<PathSupport>,
     way: PathInterval,
-    /// The functions at the start of the way, in the span of its departure: one way after another starts there.
+    /// Functions at the start of the path, in the span of departure, cached for consecutive paths with the same start.
     departing: Option<(f64, usize, FunctionRow)>,
     first: usize,
     length: usize,
-    /// The numbers of the window, a row of them for each [`PathQuantity`], side by side; behind them room for those of the longest way, in copies too.
+    /// Rows of the window, one for each [`PathQuantity`], with capacity for the longest path in all copies.
     numbers: Vec<f64>,
 }
 
-/// What is known of each function along a way, in the order of the rows.
+/// Quantity of each function along a path, in the order of the rows.
 #[derive(Debug, Clone, Copy)]
 enum PathQuantity {
     Start,
@@ -42,21 +38,21 @@ enum PathQuantity {
     Change,
 }
 
-/// The number of rows.
+/// Number of rows.
 const QUANTITIES: usize = PathQuantity::Change as usize + 1;
 
-/// Along what ways lead.
+/// Basis and spans of the paths.
 #[derive(Debug)]
 struct PathSupport {
     basis: Basis,
     spans: Vec<Span>,
-    /// For each span, the number of breaks up to its start at which slopes jump.
+    /// For each span, the number of breaks with jumps of slopes up to its start.
     kinks: Vec<usize>,
     /// Points and weights on `[0, 1]`, exact for polynomials of one degree less than the basis.
     rule: Vec<(f64, f64)>,
 }
 
-/// Where a way starts and ends, and the indices of the spans in which it does.
+/// Start and end of a path, with the indices of their spans.
 #[derive(Debug, Clone, Copy)]
 struct PathInterval {
     from: f64,
@@ -65,19 +61,19 @@ struct PathInterval {
     arrival: usize,
 }
 
-/// The part of a way within one span.
+/// Part of a path within one span.
 struct PathPiece {
     enter: f64,
     leave: f64,
-    /// The fraction of the way that lies before the piece.
+    /// Fraction of the path before the part.
     before: f64,
-    /// The fraction of the way that is the piece.
+    /// Length of the part as a fraction of the path.
     share: f64,
 }
 
 impl ContactPath {
-    /// A way of length zero at the start of the domain of `basis`. All the room that longer ways
-    /// need is taken here; [`go`](Self::go) allocates nothing.
+    /// Creates a path of length zero at the start of the domain of `basis`. Memory for all paths is allocated here; [`go`](Self::go) allocates
+    /// nothing.
     pub fn new(basis: Basis) -> Self {
         let room = QUANTITIES * basis.functions();
         let (start, _) = basis.domain();
@@ -96,8 +92,7 @@ impl ContactPath {
         passage
     }
 
-    /// Replaces the way by the one from ξ₀ = `from`, in the domain, to ξ₁ = `to`, which may lie
-    /// outside.
+    /// Replaces the path by the one from ξ₀ = `from`, in the domain, to ξ₁ = `to`, which may lie outside.
     ///
     /// If either is not finite, all numbers are NaN, and the window is that of the span of `from`.
     pub fn go(&mut self, from: f64, to: f64) {
@@ -113,7 +108,7 @@ impl ContactPath {
         self.length = self.line.spans[high].first + self.line.basis.degree() + 1 - self.first;
         if finite {
             self.fill(0.0);
-            // The compiler knows how many functions the usual degrees have.
+            // The common degrees are compile-time constants.
             match self.line.basis.degree() {
                 1 => self.add_values::<2>(way),
                 2 => self.add_values::<3>(way),
@@ -125,54 +120,53 @@ impl ContactPath {
         }
     }
 
-    /// The basis along which the way leads.
+    /// Basis of the path.
     pub fn basis(&self) -> &Basis {
         &self.line.basis
     }
 
-    /// The index of the first basis function of the window of the way.
+    /// First basis function of the window.
     pub fn first(&self) -> usize {
         self.first
     }
 
-    /// The values `B_i(ξ₀)` at the start of the way, one for each function of its window. They sum to one.
+    /// Values `B_i(ξ₀)` at the start of the path. They sum to one.
     pub fn start(&self) -> &[f64] {
         self.row(PathQuantity::Start)
     }
 
-    /// The values `B_i(ξ₁)` at the end of the way, one for each function of its window. They sum to one.
+    /// Values `B_i(ξ₁)` at the end of the path. They sum to one.
     pub fn end(&self) -> &[f64] {
         self.row(PathQuantity::End)
     }
 
-    /// The means `½ (B_i(ξ₀) + B_i(ξ₁))` of start and end of the way, one for each function of its window. They sum to one.
+    /// Means `½ (B_i(ξ₀) + B_i(ξ₁))` of start and end. They sum to one.
     pub fn mean(&self) -> &[f64] {
         self.row(PathQuantity::Mean)
     }
 
-    /// The derivatives `B_i'(ξ₁)` at the end of the way, on its side, one for each function of its window. They sum to zero.
+    /// One-sided derivatives `B_i'(ξ₁)` at the end of the path. They sum to zero.
     pub fn slope(&self) -> &[f64] {
         self.row(PathQuantity::Slope)
     }
 
-    /// The divided differences `D_i = (B_i(ξ₁) - B_i(ξ₀)) / (ξ₁ - ξ₀)`, the means of `B_i'` over the way, to rounding;
-    /// `B_i'(ξ₀)` for a way of length zero. One for each function of the window; they sum to zero.
+    /// Divided differences `D_i = (B_i(ξ₁) - B_i(ξ₀)) / (ξ₁ - ξ₀)`, the means of `B_i'` over the path, accurate to rounding; `B_i'(ξ₀)` for a path of
+    /// length zero. They sum to zero.
     pub fn difference(&self) -> &[f64] {
         self.row(PathQuantity::Difference)
     }
 
-    /// The derivatives of the divided differences by the end of the way, `∂D_i/∂ξ₁ = (B_i'(ξ₁) - D_i) / (ξ₁ - ξ₀)` for fixed ξ₀;
-    /// `½ B_i''(ξ₀)` for a way of length zero. One for each function of the window; they sum to zero.
+    /// Derivatives of the divided differences with respect to the end of the path, `∂D_i/∂ξ₁ = (B_i'(ξ₁) - D_i) / (ξ₁ - ξ₀)` for fixed ξ₀;
+    /// `½ B_i''(ξ₀)` for a path of length zero. They sum to zero.
     ///
-    /// To rounding, unless the way crosses a break at which the `B_i'` jump: then the rounding of
-    /// `D_i` is divided by the length of the way.
+    /// They are accurate to rounding, unless the path crosses a jump of `B_i'`. Then the rounding of `D_i` is divided by the length of the path.
     pub fn change(&self) -> &[f64] {
         self.row(PathQuantity::Change)
     }
 
-    /// A function that is a polynomial on each span of the basis, along the way; NaN where an end of the way is not finite.
+    /// Evaluates a piecewise polynomial along the path; NaN if an end of the path is not finite.
     ///
-    /// Its slope may jump where those of the basis do, and only there.
+    /// Its slope may jump only where those of the basis do.
     pub fn along(&self, function: &PiecewisePolynomial) -> FunctionOnPath {
         let way = self.way;
         let [start, ..] = function.in_span(way.departure, way.from);
@@ -194,13 +188,12 @@ impl ContactPath {
         FunctionOnPath { start, end, slope, difference, change }
     }
 
-    /// A function that is a polynomial on each span of the basis, at the end of the way: its value, its first and its second derivative by ξ.
+    /// Value, first and second derivative with respect to ξ of a piecewise polynomial at the end of the path.
     pub fn at_end(&self, function: &PiecewisePolynomial) -> [f64; 3] {
         function.in_span(self.way.arrival, self.way.to)
     }
 
-    /// How many spans of the basis lie between two parameters, parts of spans as parts: for a small way, its length over the width of
-    /// its span.
+    /// Number of spans between two parameters, including fractions: for a short path its length over the width of its span.
     pub fn spans_between(&self, from: f64, to: f64) -> f64 {
         let (from, to) = if from <= to { (from, to) } else { (to, from) };
         let PathInterval { departure, arrival, .. } = self.way(from, to);
@@ -210,7 +203,7 @@ impl ContactPath {
         self.line.spans[departure..=arrival].iter().map(part).sum()
     }
 
-    /// The way with its spans found.
+    /// Locates the spans of a path.
     fn way(&self, from: f64, to: f64) -> PathInterval {
         let spans = &self.line.spans;
         let last = spans.len() - 1;
@@ -226,24 +219,21 @@ impl ContactPath {
         PathInterval { from, to, departure, arrival }
     }
 
-    /// The numbers of one kind, one for each function of the window.
+    /// Row of one quantity.
     #[inline]
     fn row(&self, quantity: PathQuantity) -> &[f64] {
         &self.numbers[quantity as usize * self.length..][..self.length]
     }
 
-    /// Sets every number of the window.
     fn fill(&mut self, value: f64) {
         self.numbers[..QUANTITIES * self.length].fill(value);
     }
 
-    /// What the functions are on the way, added to zeros.
     fn add_values<const WIDTH: usize>(&mut self, way: PathInterval) {
         self.add_ends::<WIDTH>(way);
         self.add_quotients::<WIDTH>(way);
     }
 
-    /// What the functions are at the ends, added to zeros.
     fn add_ends<const WIDTH: usize>(&mut self, way: PathInterval) {
         let PathSupport { basis, spans, .. } = &*self.line;
         let [start, end, mean, slope, ..] = rows(&mut self.numbers, self.length);
@@ -265,8 +255,8 @@ impl ContactPath {
         add(mean, 0, 0.5, end);
     }
 
-    /// The integrals over the way, added to zeros: `D = ∫ B'(ξ₀ + s Δξ) ds` over `0 < s < 1` and its
-    /// derivative `∫ s B''(ξ₀ + s Δξ) ds`, unless `B'` jumps on the way.
+    /// Adds the integrals over the path: `D = ∫ B'(ξ₀ + s Δξ) ds` over `0 < s < 1` and its derivative `∫ s B''(ξ₀ + s Δξ) ds`, unless `B'` jumps on
+    /// the path.
     fn add_quotients<const WIDTH: usize>(&mut self, way: PathInterval) {
         let PathSupport { basis, spans, kinks, rule } = &*self.line;
         let [.., slope, difference, change] = rows(&mut self.numbers, self.length);
@@ -295,15 +285,15 @@ impl ContactPath {
 }
 
 impl PathInterval {
-    /// The indices of the leftmost and of the rightmost span.
+    /// Indices of the leftmost and the rightmost span.
     fn lowest_and_highest(self) -> (usize, usize) {
         (self.departure.min(self.arrival), self.departure.max(self.arrival))
     }
 
-    /// The part within `span`, one of those of the way, with its `index`.
+    /// Part within a span of the path.
     fn piece(self, index: usize, span: &Span) -> PathPiece {
         if self.departure == self.arrival {
-            // Apart from the rest, which divides by the length of the way: it may be zero.
+            // Separate, because the other case divides by the length of the path, which may be zero.
             return PathPiece { enter: self.from, leave: self.to, before: 0.0, share: 1.0 };
         }
         let (behind, ahead) = if self.departure < self.arrival {
@@ -323,8 +313,7 @@ impl PathInterval {
     }
 }
 
-/// For each span, the number of breaks up to its start at which slopes of the functions jump:
-/// those across which no more than one function lives on both sides.
+/// For each span, the number of breaks with jumps of slopes up to its start: breaks across which at most one function is nonzero on both sides.
 fn kinks(spans: &[Span], degree: usize) -> Vec<usize> {
     let jumps = spans.windows(2).map(|pair| usize::from(pair[1].first - pair[0].first >= degree));
     std::iter::once(0)
@@ -336,13 +325,12 @@ fn kinks(spans: &[Span], degree: usize) -> Vec<usize> {
         .collect()
 }
 
-/// The rows of numbers of a window of so many functions, in the order of [`PathQuantity`].
+/// Rows of a window of `length` functions, in the order of [`PathQuantity`].
 fn rows(numbers: &mut [f64], length: usize) -> [&mut [f64]; QUANTITIES] {
     let mut rows = numbers.chunks_exact_mut(length);
     std::array::from_fn(|_| rows.next().unwrap_or_default())
 }
 
-/// Adds `factor · values` to the entries of `row` behind the first `skip`.
 #[inline]
 fn add(row: &mut [f64], skip: usize, factor: f64, values: &[f64]) {
     row[skip..].iter_mut().zip(values).for_each(|(entry, value)| *entry += factor * value);

@@ -1,4 +1,4 @@
-//! Planar curves, as a beam's axis is drawn.
+//! Planar curves, for the axes of beams.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,43 +6,43 @@ use super::knots::check_inside;
 use super::{CircularArc, GeometryError, KnotVector, Line, SplineCurve, Vec2, cross, local_cubic};
 use crate::elementary::{atan2, hypot};
 
-/// Places nearer to each other than this part of a length are one but for rounding.
+/// Relative distance below which two places coincide.
 pub const ROUNDING_OF_PLACES: f64 = 1e-12;
 
-/// Speeds below this fraction of the mean one are zero but for rounding.
+/// Speed relative to the mean below which a curve has no tangent.
 const STANDSTILL: f64 = 1e-12;
 
-/// Whether an arc length lies on a curve of a length, but for rounding.
+/// Returns true if an arc length lies on a curve of a length, within rounding.
 pub fn is_on_length(arc_length: f64, length: f64) -> bool {
     let tolerance = ROUNDING_OF_PLACES * length;
     (-tolerance..=length + tolerance).contains(&arc_length)
 }
 
-/// A curve `x(ξ)` of the plane. Points are lengths, the parameter ξ is dimensionless.
+/// Planar curve `x(ξ)`. Points are lengths, the parameter ξ is dimensionless.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Curve {
-    /// The curve is a straight line.
+    /// Straight line.
     Line(Line),
-    /// The curve is a circular arc.
+    /// Circular arc.
     Arc(CircularArc),
-    /// The curve is a B-spline curve.
+    /// B-spline curve.
     Spline(SplineCurve),
 }
 
 impl Curve {
-    /// The straight line between two points [length], ξ from 0 to 1.
+    /// Returns the straight line between two points [length], ξ from 0 to 1.
     ///
     /// # Errors
-    /// Coordinates that are not finite; points that coincide.
+    /// Fails if coordinates are not finite or the points coincide.
     pub fn line(from: Vec2, to: Vec2) -> Result<Self, GeometryError> {
         Line::new(from, to).map(Self::Line)
     }
 
-    /// The arc of the circle about `center` [length] of `radius` [length] between two angles [rad] from
-    /// the first axis, ξ from 0 to 1: counter-clockwise if `to_angle` is larger.
+    /// Returns the circular arc about `center` [length] with `radius` [length] between two angles [rad] from the first axis, ξ from 0 to 1:
+    /// counter-clockwise if `to_angle` is larger.
     ///
     /// # Errors
-    /// Numbers that are not finite; a radius that is not positive; equal angles; more than a full turn.
+    /// Fails if numbers are not finite, the radius is not positive, the angles are equal, or the arc exceeds a full turn.
     pub fn arc(
         center: Vec2,
         radius: f64,
@@ -52,25 +52,24 @@ impl Curve {
         CircularArc::new(center, radius, from_angle, to_angle).map(Self::Arc)
     }
 
-    /// The B-spline curve of a knot vector with one control point [length] for each basis function.
+    /// Returns the B-spline curve of a knot vector with one control point [length] per basis function.
     ///
     /// # Errors
-    /// As [`SplineCurve::new`].
+    /// Errors of [`SplineCurve::new`].
     pub fn spline(knots: KnotVector, control_points: Vec<Vec2>) -> Result<Self, GeometryError> {
         SplineCurve::new(knots, control_points).map(Self::Spline)
     }
 
-    /// The C¹ cubic spline through `n + 1` points [length] by local cubic interpolation (The NURBS Book,
-    /// section 9.3.4): `2n + 2` control points, double interior knots at the points, ξ from 0 to 1.
+    /// Returns the C¹ cubic spline through `n + 1` points [length] by local cubic interpolation (The NURBS Book, section 9.3.4): `2n + 2` control
+    /// points, double interior knots at the points, ξ from 0 to 1.
     ///
     /// # Errors
-    /// Fewer than two points; coordinates that are not finite; consecutive points that coincide, or are
-    /// closer than 1e-12 of the whole.
+    /// Fails if there are fewer than two points, coordinates are not finite, or consecutive points coincide or are closer than 1e-12 of the whole.
     pub fn through(points: &[Vec2]) -> Result<Self, GeometryError> {
         local_cubic::through(points).map(Self::Spline)
     }
 
-    /// The interval of the parameter ξ of the curve [-]: its start and its end.
+    /// Interval of the parameter ξ [-]: start and end.
     pub fn domain(&self) -> (f64, f64) {
         match self {
             Self::Line(_) | Self::Arc(_) => (0.0, 1.0),
@@ -78,18 +77,18 @@ impl Curve {
         }
     }
 
-    /// The point `x(ξ)` of the curve [length].
+    /// Point `x(ξ)` [length].
     ///
     /// # Errors
-    /// `xi` outside the domain, or not a number.
+    /// Fails if `xi` is outside the domain or NaN.
     pub fn point(&self, xi: f64) -> Result<Vec2, GeometryError> {
         self.derivative(xi, 0)
     }
 
-    /// The derivative `dᵏx/dξᵏ` of the curve [length] of `order` k, at knots from the right.
+    /// Derivative `dᵏx/dξᵏ` [length] of `order` k, at knots from the right.
     ///
     /// # Errors
-    /// `xi` outside the domain, or not a number.
+    /// Fails if `xi` is outside the domain or NaN.
     pub fn derivative(&self, xi: f64, order: usize) -> Result<Vec2, GeometryError> {
         match self {
             Self::Line(line) => line.derivative(xi, order),
@@ -98,20 +97,19 @@ impl Curve {
         }
     }
 
-    /// The angle of the tangent `dx/dξ` of the curve from the first axis [rad], in `[-π, π]`.
+    /// Angle of the tangent `dx/dξ` from the first axis [rad], in `[-π, π]`.
     ///
     /// # Errors
-    /// `xi` outside the domain, or not a number; a curve that stands still there.
+    /// Fails if `xi` is outside the domain or NaN, or the derivative vanishes there.
     pub fn tangent_angle(&self, xi: f64) -> Result<f64, GeometryError> {
         let velocity = self.velocity(xi)?;
         Ok(atan2(velocity.y, velocity.x))
     }
 
-    /// The curvature `(x' × x'') / |x'|³` of the curve [1/length], positive where it turns counter-clockwise;
-    /// at knots from the right.
+    /// Curvature `(x' × x'') / |x'|³` [1/length], positive if the curve turns counter-clockwise; at knots from the right.
     ///
     /// # Errors
-    /// `xi` outside the domain, or not a number; a curve that stands still there.
+    /// Fails if `xi` is outside the domain or NaN, or the derivative vanishes there.
     pub fn curvature(&self, xi: f64) -> Result<f64, GeometryError> {
         let velocity = self.velocity(xi)?;
         match self {
@@ -124,7 +122,7 @@ impl Curve {
         }
     }
 
-    /// The length of the curve [length], for splines within about 1e-13 of the control polygon's.
+    /// Length of the curve [length]; for splines with an error of about 1e-13 of the control polygon.
     pub fn length(&self) -> f64 {
         match self {
             Self::Line(line) => line.length(),
@@ -133,10 +131,10 @@ impl Curve {
         }
     }
 
-    /// The arc length from the start of the curve to `xi` [length].
+    /// Arc length from the start to `xi` [length].
     ///
     /// # Errors
-    /// `xi` outside the domain, or not a number.
+    /// Fails if `xi` is outside the domain or NaN.
     pub fn length_to(&self, xi: f64) -> Result<f64, GeometryError> {
         match self {
             Self::Line(_) | Self::Arc(_) => {
@@ -147,10 +145,10 @@ impl Curve {
         }
     }
 
-    /// The parameter [-] at which the arc length from the start of the curve is `arc_length` [length]; one that is beyond an end by rounding is that end.
+    /// Parameter [-] at an arc length from the start [length]. Values beyond an end by rounding give that end.
     ///
     /// # Errors
-    /// `arc_length` outside `[0, length]`, or not a number.
+    /// Fails if `arc_length` is outside `[0, length]` or NaN.
     pub fn parameter_at(&self, arc_length: f64) -> Result<f64, GeometryError> {
         let length = self.length();
         if !is_on_length(arc_length, length) {
@@ -163,7 +161,7 @@ impl Curve {
         }
     }
 
-    /// `dx/dξ`, if it is not zero.
+    /// Derivative `dx/dξ`, if it is not zero.
     fn velocity(&self, xi: f64) -> Result<Vec2, GeometryError> {
         let velocity = self.derivative(xi, 1)?;
         let (start, end) = self.domain();

@@ -1,271 +1,270 @@
-//! What can be wrong with the description of a curve, a basis or a rule.
+//! Errors of curves, bases and quadrature rules.
 
 use super::Vec2;
 
-/// An impossible request to the geometry layer. Every message names the object, the value, what is
-/// allowed and, where it is not plain, what to do.
+/// Invalid request to the geometry layer. Every message names the object, the value, the allowed range and, if not obvious, the remedy.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum GeometryError {
-    /// A number given to the geometry is NaN or infinite.
+    /// Number that is NaN or infinite.
     #[error("{object}: {value} is not a finite number; give a finite one")]
     NotFinite {
-        /// What the number that is not finite was to be, e.g. "knot 3".
+        /// Meaning of the number, such as "knot 3".
         object: String,
-        /// The number that is not finite.
+        /// Rejected number.
         value: f64,
     },
 
-    /// A polynomial degree that the basis does not offer.
+    /// Polynomial degree that is not available.
     #[error("degree {degree} is not available; allowed are 1 to {largest}")]
     Degree {
-        /// The polynomial degree asked for.
+        /// Requested degree.
         degree: usize,
-        /// The largest polynomial degree on offer.
+        /// Largest degree.
         largest: usize,
     },
 
-    /// A basis with no span at all, or with too many of them.
+    /// Basis without spans, or with too many.
     #[error("spans: {spans} asked for; at least 1 and at most {largest} are allowed")]
     Spans {
-        /// The number of spans asked for.
+        /// Requested number of spans.
         spans: usize,
-        /// The largest number of spans allowed.
+        /// Largest number of spans.
         largest: usize,
     },
 
-    /// More continuous derivatives at the interior knots than the degree of the splines leaves.
+    /// Continuity too high for the degree.
     #[error(
         "continuity {continuity} is not possible with degree {degree}; allowed are 0 to {}",
         .degree - 1
     )]
     Continuity {
-        /// The number of continuous derivatives asked for at interior knots.
+        /// Requested number of continuous derivatives at interior knots.
         continuity: usize,
-        /// The polynomial degree of splines for which too many continuous derivatives were asked.
+        /// Degree of the splines.
         degree: usize,
     },
 
-    /// A knot vector with fewer knots than its two ends need.
+    /// Knot vector with too few knots.
     #[error(
         "knots: {count} are too few for degree {degree}; an open knot vector has at least {} ({} at each end)",
         2 * (.degree + 1), .degree + 1
     )]
     TooFewKnots {
-        /// The number of knots given where there are too few.
+        /// Number of knots.
         count: usize,
-        /// The polynomial degree of splines with too few knots.
+        /// Degree of the splines.
         degree: usize,
     },
 
-    /// A knot smaller than the one before it.
+    /// Knot smaller than the previous one.
     #[error(
         "knots: entry {index} ({value}) is smaller than entry {} ({previous}); knots must not decrease",
         .index - 1
     )]
     DecreasingKnots {
-        /// The position of the knot that is smaller than the one before it, counted from 0.
+        /// Index of the knot, from 0.
         index: usize,
-        /// The knot that is smaller than the one before it [-].
+        /// Knot [-].
         value: f64,
-        /// The knot before the one that is smaller [-].
+        /// Previous knot [-].
         previous: f64,
     },
 
-    /// An end knot that is not repeated often enough: the curve could not begin or end in its end control point.
+    /// End knot of wrong multiplicity, so that the curve would not end in its end control point.
     #[error(
         "knots: the {end} knot {knot} has multiplicity {multiplicity}; an open knot vector of degree {degree} \
          repeats it {} times: write {}",
         .degree + 1, open_end(end, *knot, *degree)
     )]
     EndMultiplicity {
-        /// Which end knot of the vector is meant: "first" or "last".
+        /// The word "first" or "last".
         end: &'static str,
-        /// The end knot that is repeated too seldom or too often [-].
+        /// End knot [-].
         knot: f64,
-        /// How often the end knot occurs in the knot vector.
+        /// Multiplicity of the knot.
         multiplicity: usize,
-        /// The polynomial degree of the splines whose end knot is not repeated as it should be.
+        /// Degree of the splines.
         degree: usize,
     },
 
-    /// An interior knot that is repeated so often that the basis would be torn there.
+    /// Interior knot of too high multiplicity, where the curve would be discontinuous.
     #[error(
         "knots: the interior knot {knot} would have multiplicity {multiplicity}; \
          at most {degree}, the degree, is allowed, else the curve is torn there"
     )]
     InteriorMultiplicity {
-        /// The interior knot that would be repeated too often [-].
+        /// Interior knot [-].
         knot: f64,
-        /// How often the interior knot would occur.
+        /// Multiplicity of the knot.
         multiplicity: usize,
-        /// The polynomial degree of the splines, which is the largest multiplicity of an interior knot.
+        /// Degree of the splines, the largest allowed multiplicity.
         degree: usize,
     },
 
-    /// Two knots or breaks that are meant to be equal but are not, quite: the span between them would be nothing but rounding.
+    /// Span as short as rounding, between almost equal knots or breaks.
     #[error(
         "{object}: the span from {start} to {end} is shorter than 1e-12 of the whole; \
          make the two equal or move them apart"
     )]
     ShortSpan {
-        /// What is too close together: "knots" or "breaks".
+        /// The word "knots" or "breaks".
         object: &'static str,
-        /// The start of the span that is too short [-].
+        /// Start of the span [-].
         start: f64,
-        /// The end of the span that is too short [-].
+        /// End of the span [-].
         end: f64,
     },
 
-    /// A knot vector whose first and last knot coincide.
+    /// Knot vector whose first and last knots coincide.
     #[error("knots: all of them are {knot}; the last knot must be larger than the first")]
     EmptyDomain {
-        /// The only value of the knots of an empty domain [-].
+        /// Value of the knots [-].
         knot: f64,
     },
 
-    /// The ends of Lagrange elements do not increase.
+    /// Breaks of Lagrange elements that do not increase.
     #[error(
         "breaks: entry {index} ({value}) is not larger than entry {} ({previous}); breaks must increase",
         .index - 1
     )]
     BreakOrder {
-        /// The position of the break that is not larger than the one before it, counted from 0.
+        /// Index of the break, from 0.
         index: usize,
-        /// The break that is not larger than the one before it [-].
+        /// Break [-].
         value: f64,
-        /// The break before the one that should be larger [-].
+        /// Previous break [-].
         previous: f64,
     },
 
-    /// A parameter outside the curve or basis.
+    /// Parameter outside a curve or basis.
     #[error("parameter {xi} is outside [{start}, {end}]")]
     OutsideDomain {
-        /// The parameter that lies outside the curve or basis [-].
+        /// Parameter [-].
         xi: f64,
-        /// The start of the domain of the curve or basis [-].
+        /// Start of the domain [-].
         start: f64,
-        /// The end of the domain of the curve or basis [-].
+        /// End of the domain [-].
         end: f64,
     },
 
-    /// A knot to insert that is not strictly inside the domain.
+    /// Inserted knot that is not strictly inside the domain.
     #[error("knot {xi} cannot be inserted; it must lie strictly between {start} and {end}")]
     InsertOutside {
-        /// The knot that was to be inserted [-].
+        /// Knot to be inserted [-].
         xi: f64,
-        /// The start of the domain inside which a knot can be inserted [-].
+        /// Start of the domain [-].
         start: f64,
-        /// The end of the domain inside which a knot can be inserted [-].
+        /// End of the domain [-].
         end: f64,
     },
 
-    /// The numbers of control points and of basis functions differ.
+    /// Different numbers of control points and basis functions.
     #[error(
         "control points: {points} given; the knot vector has {functions} basis functions and needs one each"
     )]
     ControlPointCount {
-        /// The number of control points given for a curve.
+        /// Number of control points.
         points: usize,
-        /// The number of basis functions, each of which needs a control point.
+        /// Number of basis functions.
         functions: usize,
     },
 
     /// Too few points for a curve.
     #[error("points: {count} given; a curve needs at least {needed}")]
     TooFewPoints {
-        /// The number of points given for a curve.
+        /// Number of points.
         count: usize,
-        /// The number of points that the curve needs at least.
+        /// Smallest number of points.
         needed: usize,
     },
 
-    /// Two consecutive points of a curve in the same place.
+    /// Consecutive points of a curve that coincide.
     #[error(
         "points: entries {} and {index} are both ({}, {}); consecutive points must differ: leave one out",
         .index - 1, .point.x, .point.y
     )]
     CoincidentPoints {
-        /// The position of the second of two points in the same place, counted from 0.
+        /// Index of the second point, from 0.
         index: usize,
-        /// The place where two consecutive points coincide [length].
+        /// Place of both [length].
         point: Vec2,
     },
 
-    /// A straight line that is a point: it ends where it starts.
+    /// Line of zero length.
     #[error("line: start and end are both ({}, {}); give two different points", .point.x, .point.y)]
     ZeroLengthLine {
-        /// The point where the line starts and ends [length].
+        /// Start and end [length].
         point: Vec2,
     },
 
-    /// A spline that is a point: all its control points coincide.
+    /// Spline whose control points all coincide.
     #[error("spline: all control points are ({}, {}); at least one must differ", .point.x, .point.y)]
     ZeroLengthSpline {
-        /// The point where all control points of the spline are [length].
+        /// Place of the control points [length].
         point: Vec2,
     },
 
-    /// An arc whose radius is not positive.
+    /// Arc whose radius is not positive.
     #[error("arc: radius {radius} is not allowed; it must be positive")]
     ArcRadius {
-        /// The radius given for the arc [length].
+        /// Radius [length].
         radius: f64,
     },
 
-    /// An arc that goes nowhere: it ends at the angle where it starts.
+    /// Arc with equal start and end angles.
     #[error(
         "arc: it starts and ends at angle {angle}; the two must differ (add 2π for a full circle)"
     )]
     ZeroArc {
-        /// The angle at which the arc starts and ends [rad].
+        /// Start and end angle [rad].
         angle: f64,
     },
 
-    /// An arc of more than a full turn, which overlaps itself.
+    /// Arc of more than a full turn.
     #[error(
         "arc: it turns by {sweep} rad; at most a full turn, 2π, is allowed in either direction"
     )]
     ArcTurn {
-        /// The angle from start to end of the arc that overlaps itself [rad].
+        /// Angle from start to end [rad].
         sweep: f64,
     },
 
-    /// The curve stands still: it has neither tangent nor curvature there.
+    /// Point of a curve where the derivative vanishes, without tangent and curvature.
     #[error(
         "curve: no tangent at parameter {xi}, where its derivative is zero; \
          move control points that coincide, or ask beside it"
     )]
     NoTangent {
-        /// The parameter at which the curve stands still [-].
+        /// Parameter [-].
         xi: f64,
     },
 
-    /// An arc length that the curve does not have.
+    /// Arc length outside a curve.
     #[error("arc length {arc_length} is outside [0, {length}], the curve's length")]
     OutsideLength {
-        /// The arc length asked for, which the curve does not have [length].
+        /// Requested arc length [length].
         arc_length: f64,
-        /// The length of the curve of which another arc length was asked [length].
+        /// Length of the curve [length].
         length: f64,
     },
 
-    /// A Gauss rule that is not on offer.
+    /// Gauss rule that is not available.
     #[error("quadrature: {points} points asked for; allowed are 1 to {largest}")]
     QuadraturePoints {
-        /// The number of quadrature points asked for.
+        /// Requested number of points.
         points: usize,
-        /// The largest number of quadrature points on offer.
+        /// Largest number of points.
         largest: usize,
     },
 }
 
-/// The end of an open knot vector as one would write it.
+/// Formats the end of an open knot vector.
 fn open_end(end: &str, knot: f64, degree: usize) -> String {
     let repeated = vec![knot.to_string(); degree + 1].join(", ");
     if end == "first" { format!("[{repeated}, …]") } else { format!("[…, {repeated}]") }
 }
 
-/// Gives `value` back, if it is a finite number; otherwise an error that names the `object`, what the number was to be.
+/// Returns `value` if it is finite, otherwise an error that names the `object`.
 pub(super) fn finite(object: impl Into<String>, value: f64) -> Result<f64, GeometryError> {
     if value.is_finite() {
         Ok(value)
@@ -274,7 +273,7 @@ pub(super) fn finite(object: impl Into<String>, value: f64) -> Result<f64, Geome
     }
 }
 
-/// Gives `point` back, if both its coordinates are finite numbers; otherwise an error that names the `object`, what the point was to be.
+/// Returns `point` if both coordinates are finite, otherwise an error that names the `object`.
 pub(super) fn finite_point(object: impl Into<String>, point: Vec2) -> Result<Vec2, GeometryError> {
     match point.iter().find(|coordinate| !coordinate.is_finite()) {
         None => Ok(point),

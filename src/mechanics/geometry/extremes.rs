@@ -1,12 +1,12 @@
-//! Extremes in which a lost value is not overlooked.
+//! Extremes that propagate NaN.
 
-/// The larger of two numbers; not a number when either is not, where `f64::max` would hide it.
+/// Larger of two numbers; NaN if either is NaN, unlike `f64::max`.
 #[inline]
 pub fn larger(a: f64, b: f64) -> f64 {
     if a >= b || a.is_nan() { a } else { b }
 }
 
-/// The smaller of two numbers; not a number when either is not.
+/// Smaller of two numbers; NaN if either is NaN.
 #[inline]
 pub fn smaller(a: f64, b: f64) -> f64 {
     if a <= b || a.is_nan() { a } else { b }

@@ -1,17 +1,17 @@
-//! A curve in the terms of a basis: its control points or nodes.
+//! Representation of a curve in a basis.
 
 use super::collocation::{CollocationRow, solve};
 use super::{Basis, Curve, GeometryError, Vec2};
 
-/// The control points (splines) or nodes (Lagrange) [length] of `curve` in `basis`, one for each function;
-/// the domain of the basis is mapped affinely to that of the curve.
+/// Returns the control points (splines) or nodes (Lagrange) [length] of `curve` in `basis`, one per function. The domain of the basis is mapped
+/// affinely to that of the curve.
 ///
-/// Exact for lines, and for splines of the same knots. Otherwise the curve is interpolated at the
-/// basis' [abscissae](Basis::abscissae), its ends exactly; smooth curves with an error of the order
-/// `degree + 1` in the span length. Kinks of the curve are kept only at breaks of the basis that can kink.
+/// The result is exact for lines, and for splines of the same knots. Otherwise the curve is interpolated at the [abscissae](Basis::abscissae) of the
+/// basis, including its ends; smooth curves with an error of order `degree + 1` in the span length. Kinks of the curve are kept only at C⁰ breaks of
+/// the basis.
 ///
 /// # Errors
-/// None but those of evaluating the curve inside its domain.
+/// Errors of evaluating the curve only.
 pub fn interpolate(curve: &Curve, basis: &Basis) -> Result<Vec<Vec2>, GeometryError> {
     if let (Curve::Spline(spline), Basis::BSpline(knots)) = (curve, basis)
         && spline.knots().is_affine_to(knots)
@@ -22,7 +22,7 @@ pub fn interpolate(curve: &Curve, basis: &Basis) -> Result<Vec<Vec2>, GeometryEr
     let points =
         abscissae.iter().map(|&xi| curve.point(corresponding(xi, basis.domain(), curve.domain())));
     match (curve, basis) {
-        // Splines and Lagrange elements with control points on a line at these places draw the line.
+        // With control points on a line at these places, splines and Lagrange elements reproduce the line.
         (Curve::Line(_), _) | (_, Basis::Lagrange(_)) => points.collect(),
         _ => {
             let rows = abscissae.iter().zip(points).map(|(&xi, point)| {
@@ -38,7 +38,7 @@ pub fn interpolate(curve: &Curve, basis: &Basis) -> Result<Vec<Vec2>, GeometryEr
     }
 }
 
-/// The image of `xi` under the affine map of one interval to another; ends go to ends exactly.
+/// Affine map of `xi` from one interval to another, exact at the ends.
 pub fn corresponding(xi: f64, (a, b): (f64, f64), (start, end): (f64, f64)) -> f64 {
     let t = (xi - a) / (b - a);
     ((1.0 - t) * start + t * end).clamp(start, end)
@@ -59,7 +59,7 @@ mod tests {
         Basis::BSpline(KnotVector::uniform(spans, degree, continuity).unwrap())
     }
 
-    /// The largest distance between curve and interpolant.
+    /// Largest distance between curve and interpolant.
     fn error(curve: &Curve, basis: &Basis) -> f64 {
         let points = interpolate(curve, basis).unwrap();
         (0..=200)

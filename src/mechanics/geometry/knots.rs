@@ -1,17 +1,17 @@
-//! Open knot vectors: where the polynomial pieces of a spline meet, and how smoothly.
+//! Open knot vectors: breaks of a spline, and its continuity there.
 
 use serde::{Deserialize, Serialize};
 
 use super::GeometryError;
 use super::error::finite;
 
-/// The largest polynomial degree of a basis.
+/// Largest polynomial degree of a basis.
 pub const MAX_DEGREE: usize = 10;
 
-/// The largest number of spans (elements) of a basis.
+/// Largest number of spans (elements) of a basis.
 pub const MAX_SPANS: usize = 400_000;
 
-/// Spans shorter than this fraction of the domain are taken for a slip of rounding and refused.
+/// Length, relative to the domain, below which a span is rejected as rounding.
 const SHORTEST_SPAN: f64 = 1e-12;
 
 /// An open knot vector of some degree `p`: knots `ξ_0 ≤ … ≤ ξ_m` on an interval `[a, b]`, the end
@@ -24,18 +24,17 @@ pub struct KnotVector {
     knots: Vec<f64>,
 }
 
-/// A non-empty knot interval, or a Lagrange element: the functions of a basis are one polynomial each on it.
+/// Nonempty knot interval or Lagrange element, on which each function is one polynomial.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Span {
-    /// The index of the first basis function that is not zero on the span; the others are the next `degree`.
+    /// First basis function that is nonzero on the span; the others are the next `degree`.
     pub first: usize,
-    /// The parameter at which the span starts [-].
+    /// Start of the span [-].
     pub start: f64,
-    /// The parameter at which the span ends [-].
+    /// End of the span [-].
     pub end: f64,
 }
 
-/// From degree and knots, as stored.
 impl TryFrom<(usize, Vec<f64>)> for KnotVector {
     type Error = GeometryError;
 
@@ -45,12 +44,11 @@ impl TryFrom<(usize, Vec<f64>)> for KnotVector {
 }
 
 impl KnotVector {
-    /// The knot vector of `degree` 1 to [`MAX_DEGREE`] with the given `knots`.
+    /// Creates the knot vector of `degree` 1 to [`MAX_DEGREE`] with the given `knots`.
     ///
     /// # Errors
-    /// A degree not on offer; knots that are too few, not finite, decreasing or all equal; end knots
-    /// not repeated `degree + 1` times, interior ones more than `degree` times; a span shorter than
-    /// 1e-12 of the domain; more than [`MAX_SPANS`] spans.
+    /// Fails for an unavailable degree; knots that are too few, not finite, decreasing or all equal; end knots not repeated `degree + 1` times;
+    /// interior knots repeated more than `degree` times; spans shorter than 1e-12 of the domain; more than [`MAX_SPANS`] spans.
     pub fn new(degree: usize, knots: Vec<f64>) -> Result<Self, GeometryError> {
         check_degree(degree, MAX_DEGREE)?;
         if knots.len() < 2 * (degree + 1) {
@@ -65,12 +63,11 @@ impl KnotVector {
         Ok(vector)
     }
 
-    /// `spans` equal spans on `[0, 1]` with `continuity` continuous derivatives at the interior knots,
-    /// whose multiplicity is `degree - continuity`.
+    /// Creates `spans` equal spans on `[0, 1]` with `continuity` continuous derivatives at the interior knots, whose multiplicity is
+    /// `degree - continuity`.
     ///
     /// # Errors
-    /// `spans` outside 1 to [`MAX_SPANS`], `degree` outside 1 to [`MAX_DEGREE`], `continuity` not below
-    /// `degree`.
+    /// Fails for `spans` outside 1 to [`MAX_SPANS`], `degree` outside 1 to [`MAX_DEGREE`], or `continuity` not below `degree`.
     pub fn uniform(spans: usize, degree: usize, continuity: usize) -> Result<Self, GeometryError> {
         check_degree(degree, MAX_DEGREE)?;
         check_spans(spans)?;
@@ -86,27 +83,27 @@ impl KnotVector {
         Ok(Self { degree, knots })
     }
 
-    /// The polynomial degree `p` of the splines of the knot vector.
+    /// Polynomial degree `p`.
     pub fn degree(&self) -> usize {
         self.degree
     }
 
-    /// All knots of the vector [-], repeated ones as often as they count.
+    /// Knots [-], with repetitions.
     pub fn knots(&self) -> &[f64] {
         &self.knots
     }
 
-    /// The number of basis functions of the knot vector: the number of knots less `p + 1`.
+    /// Number of basis functions: the number of knots minus `p + 1`.
     pub fn functions(&self) -> usize {
         self.knots.len() - self.degree - 1
     }
 
-    /// First and last knot of the vector, `(a, b)` [-].
+    /// First and last knot, `(a, b)` [-].
     pub fn domain(&self) -> (f64, f64) {
         (self.knots[0], self.knots[self.knots.len() - 1])
     }
 
-    /// The non-empty spans of the knot vector, in order.
+    /// Nonempty spans, in order.
     pub fn spans(&self) -> Vec<Span> {
         self.knots[self.degree..=self.functions()]
             .windows(2)
@@ -116,24 +113,24 @@ impl KnotVector {
             .collect()
     }
 
-    /// The distinct knots of the vector [-] in order, ends included.
+    /// Distinct knots [-] in order, ends included.
     pub fn breaks(&self) -> Vec<f64> {
         let mut breaks = self.knots.clone();
         breaks.dedup();
         breaks
     }
 
-    /// How often `xi` occurs among the knots of the vector.
+    /// Multiplicity of `xi` among the knots.
     pub fn multiplicity(&self, xi: f64) -> usize {
         self.knots.partition_point(|&knot| knot <= xi)
             - self.knots.partition_point(|&knot| knot < xi)
     }
 
-    /// The index `i` with `ξ_i ≤ xi < ξ_{i+1}`, for the right end that of the last non-empty span
-    /// (The NURBS Book, algorithm A2.1). The functions `i - p` to `i` are non-zero there.
+    /// Index `i` with `ξ_i ≤ xi < ξ_{i+1}`, at the right end that of the last nonempty span (The NURBS Book, algorithm A2.1). The functions `i - p`
+    /// to `i` are nonzero there.
     ///
     /// # Errors
-    /// `xi` outside the domain, or not a number.
+    /// Fails if `xi` is outside the domain or NaN.
     pub fn span_at(&self, xi: f64) -> Result<usize, GeometryError> {
         let (start, end) = self.domain();
         check_inside(xi, start, end)?;
@@ -141,11 +138,10 @@ impl KnotVector {
         Ok((behind - 1).min(self.functions() - 1))
     }
 
-    /// The same knot vector with `xi` repeated `times` more.
+    /// Returns the knot vector with `xi` inserted `times` times.
     ///
     /// # Errors
-    /// `xi` not strictly inside the domain, closer than 1e-12 of it to another knot, or repeated more
-    /// than `degree` times in the end.
+    /// Fails if `xi` is not strictly inside the domain, is closer than 1e-12 of it to another knot, or exceeds the multiplicity `degree`.
     pub fn insert(&self, xi: f64, times: usize) -> Result<Self, GeometryError> {
         let (start, end) = self.domain();
         if !(start < xi && xi < end) {
@@ -165,14 +161,14 @@ impl KnotVector {
         Self::new(self.degree, knots)
     }
 
-    /// The Greville abscissae `(ξ_{i+1} + … + ξ_{i+p}) / p`, one per basis function and strictly
-    /// increasing: control points placed on a line at these parameters draw it with uniform speed.
+    /// Greville abscissae `(ξ_{i+1} + … + ξ_{i+p}) / p`, one per basis function and strictly increasing. Control points on a line at these parameters
+    /// give a parameterisation of uniform speed.
     pub fn greville(&self) -> Vec<f64> {
         self.knots[1..self.knots.len() - 1]
             .windows(self.degree)
             .map(|knots| {
                 let (low, high) = (knots[0], knots[knots.len() - 1]);
-                // The mean of equal numbers may round to another one; ends must be hit exactly.
+                // The mean of equal numbers may be rounded, but ends must be exact.
                 if low == high {
                     low
                 } else {
@@ -182,7 +178,7 @@ impl KnotVector {
             .collect()
     }
 
-    /// Whether an affine map of the parameter makes `other` out of this knot vector, up to rounding.
+    /// Returns true if an affine map of the parameter transforms this knot vector into `other`, up to rounding.
     pub(super) fn is_affine_to(&self, other: &Self) -> bool {
         self.degree == other.degree
             && self.knots.len() == other.knots.len()
@@ -192,7 +188,7 @@ impl KnotVector {
                 .all(|(own, others)| (own - others).abs() <= SHORTEST_SPAN)
     }
 
-    /// The knots mapped to `[0, 1]`.
+    /// Knots mapped to `[0, 1]`.
     fn normalised(&self) -> impl Iterator<Item = f64> {
         let (start, end) = self.domain();
         self.knots.iter().map(move |knot| (knot - start) / (end - start))
@@ -243,7 +239,6 @@ impl KnotVector {
     }
 }
 
-/// Refuses a `degree` outside 1 to `largest`.
 pub(super) fn check_degree(degree: usize, largest: usize) -> Result<(), GeometryError> {
     if (1..=largest).contains(&degree) {
         Ok(())
@@ -252,7 +247,6 @@ pub(super) fn check_degree(degree: usize, largest: usize) -> Result<(), Geometry
     }
 }
 
-/// Refuses a number of `spans` outside 1 to [`MAX_SPANS`].
 pub(super) fn check_spans(spans: usize) -> Result<(), GeometryError> {
     if (1..=MAX_SPANS).contains(&spans) {
         Ok(())
@@ -261,7 +255,7 @@ pub(super) fn check_spans(spans: usize) -> Result<(), GeometryError> {
     }
 }
 
-/// Refuses a domain of infinite length and spans that are nothing but rounding; `breaks` increase.
+/// Rejects domains of infinite length and spans as short as rounding; `breaks` increase.
 pub(super) fn check_span_lengths(
     object: &'static str,
     breaks: &[f64],
@@ -276,7 +270,7 @@ pub(super) fn check_span_lengths(
     }
 }
 
-/// Refuses a parameter `xi` outside `[start, end]`, and NaN.
+/// Rejects a parameter outside `[start, end]`, and NaN.
 pub(super) fn check_inside(xi: f64, start: f64, end: f64) -> Result<(), GeometryError> {
     if (start..=end).contains(&xi) {
         Ok(())

@@ -1,4 +1,4 @@
-//! Lagrange polynomials on elements: the bases of the classical finite elements.
+//! Lagrange polynomials on elements, the bases of classical finite elements.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,11 +7,11 @@ use super::knots::{check_degree, check_inside, check_span_lengths, check_spans};
 use super::values::{BasisValues, FunctionRow};
 use super::{GeometryError, Span};
 
-/// The largest degree of Lagrange elements; equispaced nodes serve no higher one well.
+/// Largest degree of Lagrange elements. Equispaced nodes are unsuitable for higher degrees.
 const LARGEST_DEGREE: usize = 3;
 
-/// Continuous piecewise Lagrange polynomials: `degree + 1` equispaced nodes in each element, the end
-/// ones shared with the neighbours, so nodes and functions number `elements · degree + 1`.
+/// Continuous piecewise Lagrange polynomials with `degree + 1` equispaced nodes per element. End nodes are shared, so there are
+/// `elements · degree + 1` nodes and functions.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "(usize, Vec<f64>)")]
 pub struct LagrangeBasis {
@@ -19,7 +19,6 @@ pub struct LagrangeBasis {
     breaks: Vec<f64>,
 }
 
-/// From degree and breaks, as stored.
 impl TryFrom<(usize, Vec<f64>)> for LagrangeBasis {
     type Error = GeometryError;
 
@@ -29,11 +28,11 @@ impl TryFrom<(usize, Vec<f64>)> for LagrangeBasis {
 }
 
 impl LagrangeBasis {
-    /// Elements of `degree` 1 to 3 between consecutive `breaks` (dimensionless, increasing).
+    /// Creates elements of `degree` 1 to 3 between consecutive `breaks` (dimensionless, increasing).
     ///
     /// # Errors
-    /// A degree not on offer; breaks that are fewer than two, not finite, not increasing, closer than
-    /// 1e-12 of the whole; more than [`MAX_SPANS`](super::MAX_SPANS) elements.
+    /// Fails for an unavailable degree; breaks that are fewer than two, not finite, not increasing, or closer than 1e-12 of the whole; more than
+    /// [`MAX_SPANS`](super::MAX_SPANS) elements.
     pub fn new(degree: usize, breaks: Vec<f64>) -> Result<Self, GeometryError> {
         check_degree(degree, LARGEST_DEGREE)?;
         check_spans(breaks.len().saturating_sub(1))?;
@@ -53,44 +52,44 @@ impl LagrangeBasis {
         Ok(Self { degree, breaks })
     }
 
-    /// `elements` equal elements of `degree` 1 to 3 on `[0, 1]`.
+    /// Creates `elements` equal elements of `degree` 1 to 3 on `[0, 1]`.
     ///
     /// # Errors
-    /// `elements` outside 1 to [`MAX_SPANS`](super::MAX_SPANS), `degree` outside 1 to 3.
+    /// Fails for `elements` outside 1 to [`MAX_SPANS`](super::MAX_SPANS), or `degree` outside 1 to 3.
     pub fn uniform(elements: usize, degree: usize) -> Result<Self, GeometryError> {
         check_spans(elements)?;
         Self::new(degree, (0..=elements).map(|i| i as f64 / elements as f64).collect())
     }
 
-    /// The polynomial degree of the Lagrange elements.
+    /// Polynomial degree.
     pub fn degree(&self) -> usize {
         self.degree
     }
 
-    /// The number of Lagrange polynomials of the basis, one for each node.
+    /// Number of functions, one per node.
     pub fn functions(&self) -> usize {
         (self.breaks.len() - 1) * self.degree + 1
     }
 
-    /// First and last break of the Lagrange elements [-].
+    /// First and last break [-].
     pub fn domain(&self) -> (f64, f64) {
         (self.breaks[0], self.breaks[self.breaks.len() - 1])
     }
 
-    /// The ends of the Lagrange elements [-], in order.
+    /// Ends of the elements [-], in order.
     pub fn breaks(&self) -> &[f64] {
         &self.breaks
     }
 
-    /// The Lagrange elements as spans, in order.
+    /// Elements as spans, in order.
     pub fn spans(&self) -> Vec<Span> {
         (0..self.breaks.len() - 1).map(|element| self.span(element)).collect()
     }
 
-    /// The Lagrange element that contains the parameter `xi` [-]; where two meet, the right one.
+    /// Element that contains the parameter `xi` [-]; at a break the right one.
     ///
     /// # Errors
-    /// `xi` outside the domain, or not a number.
+    /// Fails if `xi` is outside the domain or NaN.
     pub fn span_at(&self, xi: f64) -> Result<Span, GeometryError> {
         let (start, end) = self.domain();
         check_inside(xi, start, end)?;
@@ -98,7 +97,7 @@ impl LagrangeBasis {
         Ok(self.span(behind.min(self.breaks.len() - 1) - 1))
     }
 
-    /// The parameters of the nodes [-], one for each Lagrange polynomial, which is 1 there; all others are 0.
+    /// Parameters of the nodes [-]. Each function is 1 at its node and 0 at all others.
     pub fn nodes(&self) -> Vec<f64> {
         let mut nodes = vec![self.breaks[0]];
         for span in self.spans() {
@@ -107,10 +106,10 @@ impl LagrangeBasis {
         nodes
     }
 
-    /// The same Lagrange elements, but the one around `xi` split there.
+    /// Returns the basis with the element around `xi` split there.
     ///
     /// # Errors
-    /// `xi` outside the domain or too close to a break.
+    /// Fails if `xi` is outside the domain or too close to a break.
     pub fn split(&self, xi: f64) -> Result<Self, GeometryError> {
         let (start, end) = self.domain();
         check_inside(xi, start, end)?;
@@ -120,14 +119,14 @@ impl LagrangeBasis {
         Self::new(self.degree, breaks)
     }
 
-    /// The polynomials of the element `span`, also beside it, with all derivatives, at `xi`.
+    /// Polynomials of the element `span` with all derivatives at any `xi`.
     pub fn evaluate_in(&self, span: &Span, xi: f64) -> BasisValues {
         let mut basis = BasisValues::zeros(span.first, self.degree);
         self.fill(span, xi, basis.rows_mut());
         basis
     }
 
-    /// Fills rows of zeros with the functions and as many of their derivatives as there are more rows.
+    /// Fills zeroed rows with the functions and their derivatives, one order per row.
     pub(super) fn fill<const WIDTH: usize>(&self, span: &Span, xi: f64, rows: &mut [[f64; WIDTH]]) {
         for j in 0..=self.degree {
             let derivatives = self.polynomial(span, j, xi);
@@ -135,8 +134,8 @@ impl LagrangeBasis {
         }
     }
 
-    /// `L_j = Π_{m≠j} (ξ - ξ_m) / (ξ_j - ξ_m)` and its derivatives, multiplied up factor by factor: a
-    /// linear factor `f` changes them by the rule of Leibniz, `(f g)⁽ᵏ⁾ = f g⁽ᵏ⁾ + k f' g⁽ᵏ⁻¹⁾`.
+    /// `L_j = Π_{m≠j} (ξ - ξ_m) / (ξ_j - ξ_m)` and its derivatives, multiplied factor by factor. For a linear factor `f`, Leibniz' rule is
+    /// `(f g)⁽ᵏ⁾ = f g⁽ᵏ⁾ + k f' g⁽ᵏ⁻¹⁾`.
     fn polynomial(&self, span: &Span, j: usize, xi: f64) -> FunctionRow {
         let mut derivatives = FunctionRow::default();
         derivatives[0] = 1.0;
@@ -159,7 +158,7 @@ impl LagrangeBasis {
         }
     }
 
-    /// Node `j` of an element; the end nodes are the breaks to the last bit.
+    /// Node `j` of an element. The end nodes are exactly the breaks.
     fn node(&self, span: &Span, j: usize) -> f64 {
         let t = j as f64 / self.degree as f64;
         (1.0 - t) * span.start + t * span.end

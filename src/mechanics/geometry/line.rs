@@ -7,7 +7,7 @@ use super::knots::check_inside;
 use super::{GeometryError, Vec2};
 use crate::elementary::hypot;
 
-/// The segment from one point to another, `x(ξ) = (1 - ξ) from + ξ to` on `[0, 1]`.
+/// Line segment, `x(ξ) = (1 - ξ) from + ξ to` on `[0, 1]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "(Vec2, Vec2)")]
 pub struct Line {
@@ -15,7 +15,6 @@ pub struct Line {
     to: Vec2,
 }
 
-/// From its ends, as stored.
 impl TryFrom<(Vec2, Vec2)> for Line {
     type Error = GeometryError;
 

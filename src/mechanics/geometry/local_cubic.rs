@@ -1,18 +1,17 @@
-//! A cubic spline through points, built piece by piece from tangents.
+//! Local cubic spline interpolation from tangents.
 
 use super::error::finite_point;
 use super::{GeometryError, KnotVector, SplineCurve, Vec2, cross};
 
-/// Angles [rad] below which chords count as parallel, and relative sizes below which they cancel.
+/// Angle [rad] below which chords are parallel, and relative size below which they cancel.
 const PARALLEL: f64 = 1e-12;
 
-/// Local cubic interpolation (The NURBS Book, section 9.3.4): through `n + 1` points, one cubic piece
-/// between each two, with the tangents of [`tangents`] and equal speed at the ends and the middle of all
-/// pieces. The curve is C¹, with `2n + 2` control points and double interior knots, on `[0, 1]`.
+/// Local cubic interpolation (The NURBS Book, section 9.3.4) through `n + 1` points: one cubic piece between consecutive points, with the tangents of
+/// [`tangents`] and equal speed at the ends and the middle of all pieces. The curve is C¹, with `2n + 2` control points and double interior knots, on
+/// `[0, 1]`.
 ///
 /// # Errors
-/// Fewer than two points; coordinates that are not finite; consecutive points that coincide, or are
-/// closer than 1e-12 of the whole.
+/// Fails if there are fewer than two points, coordinates are not finite, or consecutive points coincide or are closer than 1e-12 of the whole.
 pub(super) fn through(points: &[Vec2]) -> Result<SplineCurve, GeometryError> {
     if points.len() < 2 {
         return Err(GeometryError::TooFewPoints { count: points.len(), needed: 2 });
@@ -43,19 +42,19 @@ pub(super) fn through(points: &[Vec2]) -> Result<SplineCurve, GeometryError> {
     SplineCurve::new(KnotVector::new(3, knots)?, control_points)
 }
 
-/// The speed `α = |x'|` at start, middle and end of the piece, on the unit interval, across `chord` whose
-/// end tangents have the sum `T_0 + T_3`: the positive root of equation 9.50.
+/// Speed `α = |x'|` at start, middle and end of a piece on the unit interval, for a `chord` and the sum `T_0 + T_3` of the end tangents: the positive
+/// root of equation 9.50.
 fn common_speed(chord: Vec2, tangent_sum: Vec2) -> f64 {
     let a = 16.0 - tangent_sum.norm_squared();
     let half_b = 6.0 * chord.dot(&tangent_sum);
     let c = -36.0 * chord.norm_squared();
     let root = (half_b * half_b - a * c).sqrt();
-    // Of the two forms of the root, the one that subtracts nothing.
+    // Form of the root without cancellation.
     if half_b > 0.0 { -c / (half_b + root) } else { (root - half_b) / a }
 }
 
-/// The unit tangents at the points between `chords`, and at both ends: Akima's rule, from two chords on
-/// either side (equations 9.29 and 9.31). Beyond the ends the chords are continued by equation 9.33.
+/// Unit tangents at the points between `chords`, and at both ends, by Akima's rule from two chords on either side (equations 9.29 and 9.31). Chords
+/// beyond the ends follow from equation 9.33.
 fn tangents(chords: &[Vec2]) -> Vec<Vec2> {
     let count = chords.len();
     let before = continued(chords[0], chords[1.min(count - 1)]);
@@ -64,18 +63,16 @@ fn tangents(chords: &[Vec2]) -> Vec<Vec2> {
     all.windows(4).map(|chords| akima_tangent(chords[0], chords[1], chords[2], chords[3])).collect()
 }
 
-/// The next two chords beyond an end, that turn as the last two do. The book's `2 near - far` with `far`
-/// brought to the length of `near`: the same for equidistant points, and for others the curve cannot
-/// start backwards.
+/// Two chords beyond an end that continue the turn of the last two. This is the book's `2 near - far` with `far` scaled to the length of `near`:
+/// identical for equidistant points, and otherwise the curve cannot start backwards.
 fn continued(near: Vec2, far: Vec2) -> [Vec2; 2] {
     let next = |near: Vec2, far: Vec2| 2.0 * near - near.norm() / far.norm() * far;
     let first = next(near, far);
     [first, next(first, near)]
 }
 
-/// The unit tangent at the point between chords `b` and `c`, of four consecutive ones. At a corner
-/// between two straight parts both count alike, so the corner is rounded; where the points turn straight
-/// back, the tangent is that of the chord ahead.
+/// Unit tangent at the point between chords `b` and `c` of four consecutive ones. At a corner between two straight parts both have equal weight, so
+/// the corner is rounded. If the points reverse, the tangent is that of the following chord.
 fn akima_tangent(a: Vec2, b: Vec2, c: Vec2, d: Vec2) -> Vec2 {
     let (bend_before, bend_after) = (cross(a, b).abs(), cross(c, d).abs());
     let straight = bend_before <= PARALLEL * a.norm() * b.norm()
@@ -183,7 +180,7 @@ mod tests {
             for (&xi, &point) in breaks.iter().zip(&points) {
                 prop_assert!(near(curve.derivative(xi, 0).unwrap(), point));
             }
-            // Equal speed, the same at the ends and in the middle of every piece.
+            // Equal speed at the ends and the middle of every piece.
             let speed = curve.derivative(0.0, 1).unwrap().norm();
             for (span, next) in knots.spans().iter().zip(breaks.iter().skip(1)) {
                 let middle = curve.derivative(0.5 * (span.start + span.end), 1).unwrap().norm();

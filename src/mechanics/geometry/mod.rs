@@ -1,4 +1,4 @@
-//! Knot vectors, bases, planar curves and quadrature. No mechanics, and nothing else of ours.
+//! Knot vectors, bases, planar curves and quadrature, independent of mechanics and of the other modules.
 
 mod arc;
 mod arc_length;

@@ -1,19 +1,19 @@
-//! The point of a curve that is nearest to a given one.
+//! Nearest point of a curve.
 
 use super::{Curve, GeometryError, Vec2};
 
-/// Places of a curve that are tried at first.
+/// Number of initial samples of a curve.
 const SAMPLES: usize = 512;
 
-/// Halvings of the interval around the nearest sample: more than a parameter has digits.
+/// Number of bisections, which exhausts the precision of a parameter.
 const HALVINGS: usize = 60;
 
-/// The parameter at which a curve comes nearest to a point; of several equally near ones, the first found.
+/// Parameter of the point of a curve nearest to a given point; the first of several equally near ones.
 ///
 /// Details of the curve smaller than a five-hundredth of it may be missed.
 ///
 /// # Errors
-/// None but those of evaluating the curve inside its domain.
+/// Errors of evaluating the curve only.
 pub fn nearest(curve: &Curve, point: Vec2) -> Result<f64, GeometryError> {
     let (start, end) = curve.domain();
     let sample = |index: usize| start + (end - start) * (index as f64 / SAMPLES as f64);

@@ -1,38 +1,38 @@
-//! Functions that are a polynomial on each span of a basis.
+//! Piecewise polynomials on the spans of a basis.
 
 use super::{GaussRule, Span, larger};
 use nalgebra::{DMatrix, DVector};
 
-/// A function of the parameter ξ of a basis that is a polynomial of one degree on each of its spans.
+/// Function of the parameter ξ of a basis that is a polynomial of one degree on each of its spans.
 #[derive(Debug, Clone)]
 pub struct PiecewisePolynomial {
-    /// The middle and half the width of each span.
+    /// Centre and half width of each span.
     spans: Vec<(f64, f64)>,
-    /// Of all spans one after another: `Σ c_k t^k` with `t` from -1 to 1 on the span.
+    /// Coefficients of all spans in sequence: `Σ c_k t^k` with `t` from -1 to 1 on the span.
     coefficients: Vec<f64>,
-    /// How many coefficients each span has.
+    /// Number of coefficients per span.
     count: usize,
     /// Points and weights on `[0, 1]`, exact for polynomials of one degree less.
     rule: Vec<(f64, f64)>,
 }
 
-/// A function along a way between two parameters, with the mean of its slope.
+/// Function along a path between two parameters, with its mean slope.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FunctionOnPath {
-    /// The value of the function at the start `ξ0` of the way.
+    /// Value at the start `ξ0` of the path.
     pub start: f64,
-    /// The value of the function at the end `ξ1` of the way.
+    /// Value at the end `ξ1` of the path.
     pub end: f64,
-    /// The derivative of the function at the end of the way, on its side.
+    /// One-sided derivative at the end of the path.
     pub slope: f64,
-    /// The divided difference `D = (f(ξ1) - f(ξ0))/(ξ1 - ξ0)` of the function, to rounding for ways of any length.
+    /// Divided difference `D = (f(ξ1) - f(ξ0))/(ξ1 - ξ0)`, accurate to rounding for paths of any length.
     pub difference: f64,
-    /// The derivative of the divided difference by the end of the way, `∂D/∂ξ1` for a fixed start.
+    /// Derivative of the divided difference with respect to the end of the path, `∂D/∂ξ1` for a fixed start.
     pub change: f64,
 }
 
 impl PiecewisePolynomial {
-    /// A function by the coefficients of its polynomials, a row of as many for each span: `Σ c_k t^k` with `t` from -1 to 1 on the span.
+    /// Creates a function from a row of coefficients per span: `Σ c_k t^k` with `t` from -1 to 1 on the span.
     pub fn new(spans: &[Span], rows: &[Vec<f64>]) -> Self {
         let count = rows.first().map_or(1, Vec::len);
         let place = |span: &Span| (0.5 * (span.start + span.end), 0.5 * (span.end - span.start));
@@ -44,8 +44,8 @@ impl PiecewisePolynomial {
         }
     }
 
-    /// The integral of a function over the spans, which follow one another, from the start of the first one on; on each span the function is taken for the
-    /// polynomial that it is at so many Gauss points.
+    /// Integral of a function over consecutive spans from the start of the first one. On each span the function is interpolated at `points` Gauss
+    /// points.
     pub fn integral(spans: &[Span], points: usize, function: impl Fn(&Span, f64) -> f64) -> Self {
         let rule = GaussRule::legendre(points);
         let places: Vec<f64> = rule.iter_on(-1.0, 1.0).map(|(t, _)| t).collect();
@@ -69,18 +69,18 @@ impl PiecewisePolynomial {
         Self::new(spans, &rows)
     }
 
-    /// Points and weights on `[0, 1]` that integrate the derivative of the function on a part of a span exactly.
+    /// Points and weights on `[0, 1]` that integrate the derivative on a part of a span exactly.
     pub(super) fn rule(&self) -> &[(f64, f64)] {
         &self.rule
     }
 
-    /// The largest value of the function in the middle of a span.
+    /// Largest value in the middle of a span.
     pub fn largest_in_middle(&self) -> f64 {
         let middles = self.spans.iter().enumerate();
         middles.map(|(span, (middle, _))| self.in_span(span, *middle)[0]).fold(0.0, larger)
     }
 
-    /// The value of the function, its first and its second derivative by ξ, by the polynomial of a span, also beside the span.
+    /// Value, first and second derivative with respect to ξ of the polynomial of a span, also outside the span.
     #[inline]
     pub fn in_span(&self, span: usize, xi: f64) -> [f64; 3] {
         let (middle, half) = self.spans[span];

@@ -1,23 +1,23 @@
-//! Vectors of the plane and the two products that planar mechanics needs.
+//! Planar vectors and their two products.
 
 use crate::elementary::sin_cos;
 
-/// A vector or point of the plane: two components, in the unit of what it stands for.
+/// Planar vector or point.
 pub type Vec2 = nalgebra::Vector2<f64>;
 
-/// The vector `J a = (-a2, a1)`: `a` turned by +90°.
+/// Vector `J a = (-a2, a1)`: `a` rotated by +90°.
 #[inline]
 pub fn perpendicular(a: Vec2) -> Vec2 {
     Vec2::new(-a.y, a.x)
 }
 
-/// The cross product `a × b = a1 b2 - a2 b1` of two vectors of the plane, positive when `b` lies counter-clockwise of `a`.
+/// Cross product `a × b = a1 b2 - a2 b1`, positive if `b` is counter-clockwise of `a`.
 #[inline]
 pub fn cross(a: Vec2, b: Vec2) -> f64 {
     a.x * b.y - a.y * b.x
 }
 
-/// The unit vector at `angle` [rad] from the first axis.
+/// Unit vector at `angle` [rad] from the first axis.
 #[inline]
 pub fn unit(angle: f64) -> Vec2 {
     let (sin, cos) = sin_cos(angle);

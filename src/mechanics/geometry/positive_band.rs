@@ -1,18 +1,18 @@
-//! Symmetric positive definite matrices with a narrow band, and the band of their inverse.
+//! Symmetric positive definite band matrices, and the band of their inverse.
 
-/// A pivot below this part of its entry on the diagonal is rounding.
+/// Pivot, relative to the diagonal entry, below which the matrix counts as singular.
 const ROUNDING: f64 = 1e-11;
 
-/// A symmetric positive definite matrix with entries near its diagonal only, such as the products of neighbouring splines.
+/// Symmetric positive definite band matrix, such as the Gram matrix of splines.
 ///
-/// Entries further from the diagonal than the half-bandwidth are zero.
+/// Entries beyond the half-bandwidth are zero.
 #[derive(Debug, Clone)]
 pub struct PositiveBand {
     /// Row `i` holds the entries `(i, i), (i, i + 1), …`.
     rows: Vec<Vec<f64>>,
 }
 
-/// The factors `L D Lᵀ` of a [`PositiveBand`], `L` with ones on its diagonal.
+/// Factors `L D Lᵀ` of a [`PositiveBand`], with a unit diagonal of `L`.
 #[derive(Debug, Clone)]
 pub struct PositiveFactors {
     /// Row `i` holds `D_i` and the entries `(i + 1, i), (i + 2, i), …` of `L`.
@@ -20,37 +20,37 @@ pub struct PositiveFactors {
 }
 
 impl PositiveBand {
-    /// A matrix of zeros with as many rows as `size`, and entries up to `half_bandwidth` from the diagonal.
+    /// Creates a zero matrix of a size with entries up to `half_bandwidth` from the diagonal.
     pub fn zeros(size: usize, half_bandwidth: usize) -> Self {
         Self { rows: vec![vec![0.0; half_bandwidth + 1]; size] }
     }
 
-    /// The number of rows of the matrix.
+    /// Number of rows.
     pub fn size(&self) -> usize {
         self.rows.len()
     }
 
-    /// Adds `factor · vᵢ vⱼ` to all entries of the functions from the row `first` on, one for each number of `v`.
+    /// Adds `factor · vᵢ vⱼ` to the rows and columns from `first` on, one for each entry of `v`.
     pub fn add_square(&mut self, first: usize, factor: f64, v: &[f64]) {
         for (row, (left, a)) in self.rows[first..].iter_mut().zip(v.iter().enumerate()) {
             row.iter_mut().zip(&v[left..]).for_each(|(entry, b)| *entry += factor * a * b);
         }
     }
 
-    /// The entry of a row and a column.
+    /// Entry of a row and a column.
     pub fn get(&self, row: usize, column: usize) -> f64 {
         let (low, high) = (row.min(column), row.max(column));
         self.rows[low].get(high - low).copied().unwrap_or(0.0)
     }
 
-    /// The factors `L D Lᵀ` of the matrix; none where a pivot is not positive, or rounding.
+    /// Factorises as `L D Lᵀ`; `None` if a pivot is not positive, or is rounding.
     pub fn factorise(&self) -> Option<PositiveFactors> {
         let mut columns = self.rows.clone();
         for at in 0..columns.len() {
             let (done, rest) = columns.split_at_mut(at + 1);
             let column = &mut done[at];
             let pivot = column[0];
-            // What is left of a row that depends on earlier ones is rounding.
+            // Remainders of dependent rows are rounding.
             if !(pivot > ROUNDING * self.rows[at][0] && pivot.is_finite()) {
                 return None;
             }
@@ -65,7 +65,7 @@ impl PositiveBand {
 }
 
 impl PositiveFactors {
-    /// Replaces the right side `x` by the solution.
+    /// Replaces the right-hand side `x` by the solution.
     pub fn solve(&self, x: &mut [f64]) {
         for (at, column) in self.columns.iter().enumerate() {
             let (done, rest) = x.split_at_mut(at + 1);
@@ -78,14 +78,14 @@ impl PositiveFactors {
         }
     }
 
-    /// The entries of the inverse up to `width` from its diagonal, `width` being no less than the half-bandwidth.
+    /// Entries of the inverse up to `width` from its diagonal; `width` is at least the half-bandwidth.
     ///
-    /// From `Lᵀ Z = D⁻¹ L⁻¹`, the last row first (Takahashi, Fagan & Chin 1973; Erisman & Tinney 1975).
+    /// From `Lᵀ Z = D⁻¹ L⁻¹`, starting with the last row (Takahashi, Fagan & Chin 1973; Erisman & Tinney 1975).
     pub fn inverse(&self, width: usize) -> PositiveBand {
         let size = self.columns.len();
         let mut inverse = PositiveBand::zeros(size, width);
         for (row, column) in self.columns.iter().enumerate().rev() {
-            // The diagonal last: it needs the others of its row.
+            // The diagonal depends on the other entries of its row.
             for away in (0..=width.min(size - 1 - row)).rev() {
                 let known = (row + 1..size).zip(&column[1..]);
                 let products = known.map(|(at, factor)| factor * inverse.get(at, row + away));
@@ -101,7 +101,6 @@ impl PositiveFactors {
 mod tests {
     use super::*;
 
-    /// A matrix with a half-bandwidth of two.
     fn band() -> PositiveBand {
         let mut band = PositiveBand::zeros(7, 2);
         for first in 0..5 {

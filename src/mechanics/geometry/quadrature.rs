@@ -4,23 +4,23 @@ use super::GeometryError;
 use crate::elementary::cos;
 use std::f64::consts::PI;
 
-/// The largest number of points of a rule.
+/// Largest number of points of a rule.
 const MOST_POINTS: usize = 64;
 
-/// The Gauss–Legendre rule of `n` points, exact for polynomials up to degree `2n - 1`.
+/// Gauss–Legendre rule of `n` points, exact for polynomials up to degree `2n - 1`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GaussRule {
-    /// The points of the Gauss rule on `[-1, 1]`, increasing and symmetric about 0 to the last bit.
+    /// Points on `[-1, 1]`, increasing and exactly symmetric about 0.
     pub points: Vec<f64>,
-    /// The weights of the points of the Gauss rule, positive, with sum 2.
+    /// Positive weights with sum 2.
     pub weights: Vec<f64>,
 }
 
 impl GaussRule {
-    /// The Gauss–Legendre rule of `n` points, to rounding.
+    /// Returns the Gauss–Legendre rule of `n` points, accurate to rounding.
     ///
     /// # Errors
-    /// `n` outside 1 to 64.
+    /// Fails for `n` outside 1 to 64.
     pub fn new(n: usize) -> Result<Self, GeometryError> {
         if (1..=MOST_POINTS).contains(&n) {
             Ok(Self::legendre(n))
@@ -29,8 +29,8 @@ impl GaussRule {
         }
     }
 
-    /// The Gauss–Legendre rule of `n` points by Newton's method on the Legendre polynomial, from the points of Tricomi's estimate;
-    /// weights `2 / ((1 - x²) P'_n(x)²)` (Abramowitz & Stegun 25.4.29).
+    /// Rule of `n` points by Newton's method on the Legendre polynomial from Tricomi's estimate, with weights `2 / ((1 - x²) P'_n(x)²)` (Abramowitz &
+    /// Stegun 25.4.29).
     pub(super) fn legendre(n: usize) -> Self {
         let (mut points, mut weights) = (vec![0.0; n], vec![0.0; n]);
         for i in 0..n.div_ceil(2) {
@@ -50,7 +50,7 @@ impl GaussRule {
         Self { points, weights }
     }
 
-    /// Points and weights of the rule on `[start, end]`: `∫ f dξ ≈ Σ weight · f(point)`.
+    /// Points and weights on `[start, end]`: `∫ f dξ ≈ Σ weight · f(point)`.
     pub fn iter_on(&self, start: f64, end: f64) -> impl Iterator<Item = (f64, f64)> {
         let (middle, half) = (0.5 * (start + end), 0.5 * (end - start));
         self.points

@@ -1,38 +1,36 @@
-//! What the derivatives of splines know of a function from its integrals with them.
+//! Projections of functions onto derivatives of splines.
 
 use super::spline_rule::{lower_count, lower_splines};
 use super::{Basis, BasisValues, GaussRule, GeometryError, Span};
 
-/// The derivatives `T` of the functions of a run of spans, with their scalar products.
+/// Derivatives `T` of the functions of a run of spans, with their scalar products.
 ///
-/// A function whose integrals with all of `T` are known is known up to what is orthogonal to `T`: its projection `Π f`, of order `p` for smooth
-/// functions, up to the ends of the run.
+/// The integrals of a function with all of `T` determine its projection `Π f`, of order `p` for smooth functions, up to the ends of the run.
 #[derive(Debug, Clone)]
 pub struct LowerSplines {
     basis: Basis,
     run: Vec<Span>,
     count: usize,
-    /// `∫ T_t T_u dξ` in the form `L D Lᵀ`: in row t the pivot and the factors of the following rows, one for each.
+    /// Factors `L D Lᵀ` of `∫ T_t T_u dξ`: row t holds the pivot and the factors of the following rows.
     factors: Vec<Vec<f64>>,
 }
 
-/// A place of a run, as a function that weighs: `ρ` of `T` with `∫ ρ t dξ = t(ξ)` for all t of `T` (the reproducing kernel), and a spline
-/// `v` with `v' = ρ`.
+/// Reproducing kernel of a place of a run: `ρ` in `T` with `∫ ρ t dξ = t(ξ)` for all t in `T`, and a spline `v` with `v' = ρ`.
 #[derive(Debug, Clone)]
 pub struct Reproduction<'a> {
     splines: &'a LowerSplines,
     kernel: Vec<f64>,
-    /// Of `v`, one for each function of the run.
+    /// Coefficients of `v`, one per function of the run.
     integral: Vec<f64>,
-    /// Of `Π v`.
+    /// Coefficients of `Π v`.
     projected: Vec<f64>,
 }
 
 impl LowerSplines {
-    /// The derivatives of the functions of spans that follow each other and are joined at least C¹.
+    /// Creates the derivatives of consecutive spans that are joined at least C¹.
     ///
     /// # Errors
-    /// When there is no Gauss rule of this degree.
+    /// Fails if there is no Gauss rule for the degree.
     pub fn of(basis: &Basis, run: &[Span]) -> Result<Self, GeometryError> {
         let count = lower_count(basis, run).unwrap_or(0);
         let mut splines =
@@ -49,8 +47,8 @@ impl LowerSplines {
         Ok(splines)
     }
 
-    /// Calls for every point of a rule that is exact for products of a function and a derivative: the number of the first derivative there, the
-    /// weight, the derivatives and the functions.
+    /// Calls `add` for every point of a rule that is exact for products of a function and a derivative: index of the first derivative, weight,
+    /// derivatives and functions.
     fn integrate(
         &self,
         mut add: impl FnMut(usize, f64, &[f64], &BasisValues),
@@ -66,7 +64,7 @@ impl LowerSplines {
         Ok(())
     }
 
-    /// The first function of a span, counted from the first of the run.
+    /// First function of a span, relative to the first of the run.
     fn first(&self, span: &Span) -> usize {
         span.first - self.run[0].first
     }
@@ -87,10 +85,10 @@ impl LowerSplines {
         values
     }
 
-    /// The reproduction of a place on one of the spans of the run.
+    /// Reproducing kernel of a place on a span of the run.
     ///
     /// # Errors
-    /// When there is no Gauss rule of this degree.
+    /// Fails if there is no Gauss rule for the degree.
     pub fn at(&self, span: &Span, xi: f64) -> Result<Reproduction<'_>, GeometryError> {
         let mut here = vec![0.0; self.count];
         let values = self.basis.evaluate_in(span, xi);
@@ -98,7 +96,7 @@ impl LowerSplines {
             *value = lower;
         }
         let kernel = self.solve(here);
-        // N_a' = T_(a-1) - T_a, so that v' = Σ (v_(t+1) - v_t) T_t.
+        // N_a' = T_(a-1) - T_a, so v' = Σ (v_(t+1) - v_t) T_t.
         let steps = kernel.iter().scan(0.0, |sum, step| {
             *sum += step;
             Some(*sum)
@@ -116,12 +114,12 @@ impl LowerSplines {
 }
 
 impl Reproduction<'_> {
-    /// The kernel `ρ` of the place at a parameter of a span.
+    /// Kernel `ρ` at a parameter of a span.
     pub fn kernel(&self, span: &Span, xi: f64) -> f64 {
         self.combine(&self.kernel, span, &self.splines.basis.evaluate_in(span, xi))
     }
 
-    /// The difference `Π v - v` at a parameter of a span: what is missed of the integral of the kernel `ρ`.
+    /// Difference `Π v - v` at a parameter of a span: the projection error of the integral of the kernel `ρ`.
     pub fn missed(&self, span: &Span, xi: f64) -> f64 {
         let values = self.splines.basis.evaluate_in(span, xi);
         let functions = values.values().iter().zip(&self.integral[self.splines.first(span)..]);
@@ -135,7 +133,7 @@ impl Reproduction<'_> {
     }
 }
 
-/// `L D Lᵀ` of a symmetric positive matrix, by its rows from the diagonal on.
+/// Factors `L D Lᵀ` of a symmetric positive matrix given by rows from the diagonal on.
 fn factorised(mut rows: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     for t in 0..rows.len() {
         let (done, rest) = rows.split_at_mut(t + 1);
@@ -168,7 +166,6 @@ mod tests {
             .to_vec()
     }
 
-    /// `∫ f dξ` over a run.
     fn integral(basis: &Basis, run: &[Span], f: impl Fn(&Span, f64) -> f64) -> f64 {
         let gauss = GaussRule::new(basis.degree() + 2).unwrap();
         let of_span = |span: &Span| -> f64 {
@@ -194,11 +191,11 @@ mod tests {
                         integral(&basis, &run, |on, at| place.kernel(on, at) * slope(on, at));
                     let expected = slope(span, xi);
                     assert!((found - expected).abs() < 1e-9 * (1.0 + expected.abs()));
-                    // What is missed is orthogonal to the derivatives.
+                    // The projection error is orthogonal to the derivatives.
                     let missed =
                         integral(&basis, &run, |on, at| place.missed(on, at) * slope(on, at));
                     assert!(missed.abs() < 1e-10, "{missed:e}");
-                    // v' = ρ, so that v(end) - v(start) = ∫ ρ dξ = 1.
+                    // v' = ρ, so v(end) - v(start) = ∫ ρ dξ = 1.
                     let ends = [place.integral[0], place.integral[basis.functions() - 1]];
                     assert!((ends[1] - ends[0] - 1.0).abs() < 1e-10);
                 }

@@ -1,9 +1,9 @@
-//! Random knot vectors, bases and curves for the tests of this layer.
+//! Random knot vectors, bases and curves for tests.
 
 use super::{Basis, KnotVector, LagrangeBasis, MAX_DEGREE, SplineCurve, Vec2};
 use proptest::prelude::*;
 
-/// Random knot vectors for tests: of any degree on any interval, with one to five spans and repeated knots.
+/// Knot vectors of any degree on any interval, with one to five spans and repeated knots.
 pub fn knot_vectors() -> impl Strategy<Value = KnotVector> {
     (1..=MAX_DEGREE)
         .prop_flat_map(|degree| {
@@ -22,7 +22,7 @@ pub fn knot_vectors() -> impl Strategy<Value = KnotVector> {
         })
 }
 
-/// Random bases for tests, of B-splines or of Lagrange elements.
+/// B-spline or Lagrange bases.
 pub fn bases() -> impl Strategy<Value = Basis> {
     let lagrange = (1..=3usize, -2.0..2.0f64, prop::collection::vec(0.1..1.0f64, 1..5));
     prop_oneof![
@@ -38,7 +38,7 @@ pub fn bases() -> impl Strategy<Value = Basis> {
     ]
 }
 
-/// Random spline curves for tests, with control points in the square `[-1, 1]²`.
+/// Spline curves with control points in the square `[-1, 1]²`.
 pub fn spline_curves() -> impl Strategy<Value = SplineCurve> {
     knot_vectors().prop_flat_map(|knots| {
         let points = prop::collection::vec((-1.0..1.0f64, -1.0..1.0f64), knots.functions());

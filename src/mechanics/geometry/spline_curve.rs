@@ -6,10 +6,10 @@ use super::arc_length::{integrate, invert};
 use super::error::{finite, finite_point};
 use super::{BasisValues, GeometryError, KnotVector, Span, Vec2, bspline};
 
-/// Arc lengths are integrated to this fraction of the length of the control polygon.
+/// Accuracy of arc lengths relative to the control polygon.
 const LENGTH_ACCURACY: f64 = 1e-14;
 
-/// The curve `x(ξ) = Σ_i N_i(ξ) P_i` (The NURBS Book, section 3.2), with its arc length at the knots.
+/// B-spline curve `x(ξ) = Σ_i N_i(ξ) P_i` (The NURBS Book, section 3.2), with its arc length at the knots.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "(KnotVector, Vec<Vec2>)")]
 pub struct SplineCurve {
@@ -17,14 +17,13 @@ pub struct SplineCurve {
     control_points: Vec<Vec2>,
     #[serde(skip)]
     spans: Vec<Span>,
-    /// Arc length up to the start of each span, and to the end of the last.
+    /// Arc lengths at the starts of the spans, and at the end of the last.
     #[serde(skip)]
     lengths: Vec<f64>,
     #[serde(skip)]
     tolerance: f64,
 }
 
-/// From knots and control points, as stored.
 impl TryFrom<(KnotVector, Vec<Vec2>)> for SplineCurve {
     type Error = GeometryError;
 
@@ -34,11 +33,10 @@ impl TryFrom<(KnotVector, Vec<Vec2>)> for SplineCurve {
 }
 
 impl SplineCurve {
-    /// The curve with one of `control_points` [length] for each basis function of `knots`.
+    /// Creates the curve with one of `control_points` [length] per basis function of `knots`.
     ///
     /// # Errors
-    /// Another number of control points than basis functions; coordinates that are not finite; all
-    /// control points the same.
+    /// Fails if the numbers of control points and basis functions differ, coordinates are not finite, or all control points coincide.
     pub fn new(knots: KnotVector, control_points: Vec<Vec2>) -> Result<Self, GeometryError> {
         let (points, functions) = (control_points.len(), knots.functions());
         if points != functions {
@@ -62,21 +60,20 @@ impl SplineCurve {
         Ok(curve)
     }
 
-    /// The knot vector of the spline curve.
+    /// Knot vector.
     pub fn knots(&self) -> &KnotVector {
         &self.knots
     }
 
-    /// The control points of the spline curve [length], one for each basis function.
+    /// Control points [length], one per basis function.
     pub fn control_points(&self) -> &[Vec2] {
         &self.control_points
     }
 
-    /// The same spline curve with the knot `xi` repeated `times` more (Boehm 1980; The NURBS Book, section
-    /// 5.2, equation 5.15, knot by knot).
+    /// Returns the same curve with the knot `xi` inserted `times` times (Boehm 1980; The NURBS Book, section 5.2, equation 5.15).
     ///
     /// # Errors
-    /// As [`KnotVector::insert`].
+    /// Errors of [`KnotVector::insert`].
     pub fn insert(&self, xi: f64, times: usize) -> Result<Self, GeometryError> {
         let finer = self.knots.insert(xi, times)?;
         let mut control_points = self.control_points.clone();
@@ -107,7 +104,7 @@ impl SplineCurve {
         Ok((self.lengths[number] + within).min(self.lengths[number + 1]))
     }
 
-    /// The parameter of the spline curve [-] at `arc_length` [length], which the caller knows to be in `[0, length]`.
+    /// Parameter [-] at `arc_length` [length], which must be in `[0, length]`.
     pub(super) fn parameter_at(&self, arc_length: f64) -> f64 {
         let behind = self.lengths.partition_point(|&length| length <= arc_length);
         if behind == self.lengths.len() {
@@ -140,8 +137,8 @@ impl SplineCurve {
     }
 }
 
-/// The control points after `xi` has been inserted once: of those that `xi` moves, each divides a side
-/// of the old control polygon as `xi` divides the support of a spline of one degree less.
+/// Control points after a single insertion of `xi`: each changed one divides a side of the old control polygon as `xi` divides the support of a
+/// spline of one degree less.
 fn insert_once(knots: &KnotVector, points: &[Vec2], xi: f64) -> Result<Vec<Vec2>, GeometryError> {
     let (span, degree, multiplicity) = (knots.span_at(xi)?, knots.degree(), knots.multiplicity(xi));
     let divide = |i: usize| {

@@ -1,33 +1,27 @@
-//! Gauss's quadrature for splines: as few points as determine a derivative, where they leave no error that matters.
+//! Gauss quadrature for splines with the fewest points that determine derivatives.
 
 use super::collocation::{CollocationRow, solve};
 use super::{Basis, BasisValues, GaussRule, Span};
 
-/// The quadrature points of each span of a run of spans, in order, with their weights: `∫ f dξ ≈ Σ weight · f(point)`.
+/// Quadrature points of each span of a run with their weights: `∫ f dξ ≈ Σ weight · f(point)`.
 pub type RunRule = Vec<Vec<(f64, f64)>>;
 
-/// Lengths of spans that differ by less than this, as a part of them, are equal.
+/// Relative tolerance for equal span lengths.
 const EQUAL: f64 = 1e-9;
 
-/// The patch rule: one point for each derivative of a function of a run of spans, with the weights that integrate all these derivatives
-/// exactly.
+/// Patch rule: one point per derivative of a function of a run of spans, with weights that integrate all these derivatives exactly.
 ///
-/// The spans follow each other and are joined at least C¹: their `F` functions of degree `p` have derivatives that span the `P = F - 1` splines `T` of degree
-/// `p - 1`. The points are Gauss's points of these splines: the zeros of the one spline of degree `p` that is orthogonal to all of `T`, as the points of
-/// Gauss are
-/// those of the one polynomial of degree `p` that is orthogonal to all of lower degree, which is what they are for a single span. On equal spans of full
-/// continuity, far
-/// from the ends, that spline is the alternating one: its zeros are the middles of spans for odd degrees and the knots for even ones, just where the
-/// alternating spline's derivative is largest.
+/// The spans are consecutive and joined at least C¹. The derivatives of their `F` functions of degree `p` span the `P = F - 1` splines `T` of degree
+/// `p - 1`. The points are Gauss points of these splines: the zeros of the one spline of degree `p` that is orthogonal to all of `T`, in analogy to
+/// Gauss points of polynomials, which they are for a single span. On equal spans of full continuity, far from the ends, that spline alternates. Its
+/// zeros are the middles of spans for odd degrees and the knots for even ones, where the derivative of the alternating spline is largest.
 ///
-/// For cubics of full continuity on three or more equal spans, the common mesh, the points are two of Gauss in the first and the last span and the middles of
-/// the others: there, and
-/// only there, these are better, by a factor of two in the error (docs/theory.md, section 4).
+/// For cubics of full continuity on three or more equal spans, the common mesh, the points are two Gauss points in the first and last spans and the
+/// middles of the others. Only there these are better, by a factor of two in the error (docs/theory.md, section 4).
 ///
-/// That the orthogonal spline has `P` zeros follows from total positivity (de Boor, A Practical Guide to Splines, rev. ed. 2001, chapter XI); that the
-/// weights are positive and that `T`
-/// is seen as it is, `Σ w T² ≥ 0.79 ∫ T² dξ`, is not proven but tested for every degree and continuity. None where rounding leaves fewer
-/// zeros or a weight that is not positive; no such spans are known.
+/// The orthogonal spline has `P` zeros because of total positivity (de Boor, A Practical Guide to Splines, rev. ed. 2001, chapter XI). That the
+/// weights are positive, and that `Σ w T² ≥ 0.79 ∫ T² dξ`, is not proven but tested for every degree and continuity. Returns `None` if rounding
+/// leaves fewer zeros or a weight that is not positive; no such spans are known.
 pub fn patch_rule(basis: &Basis, run: &[Span]) -> Option<RunRule> {
     if let [span] = run {
         return gauss_points(basis.degree(), span).map(|rule| vec![rule]);
@@ -47,7 +41,7 @@ fn gauss_points(count: usize, span: &Span) -> Option<Vec<(f64, f64)>> {
     Some(GaussRule::new(count).ok()?.iter_on(span.start, span.end).collect())
 }
 
-/// Whether a run consists of three or more equal spans of cubics with full continuity.
+/// Returns true for three or more equal spans of cubics with full continuity.
 fn is_equal_and_cubic(basis: &Basis, run: &[Span]) -> bool {
     let length = |span: &Span| span.end - span.start;
     let is_like_the_first =
@@ -58,7 +52,7 @@ fn is_equal_and_cubic(basis: &Basis, run: &[Span]) -> bool {
         && run.windows(2).all(|pair| pair[1].first == pair[0].first + 1)
 }
 
-/// Two points of Gauss in the first and the last span, and the middles of the others.
+/// Two Gauss points in the first and the last span, and the middles of the others.
 fn middles(run: &[Span]) -> Option<Vec<Vec<f64>>> {
     let last = run.len() - 1;
     let of = |(at, span): (usize, &Span)| {
@@ -68,9 +62,8 @@ fn middles(run: &[Span]) -> Option<Vec<Vec<f64>>> {
     run.iter().enumerate().map(of).collect()
 }
 
-/// The splines of one degree less, as sums of derivatives: `T_t = -Σ_(a ≤ t) N'_a` is a positive multiple of a B-spline, of integral one. Those that are not
-/// zero
-/// on a span have the numbers of its functions but the last.
+/// Splines of one degree less as sums of derivatives: `T_t = -Σ_(a ≤ t) N'_a` is a positive multiple of a B-spline, with integral one. Those that are
+/// nonzero on a span have the indices of its functions except the last.
 pub fn lower_splines(values: &BasisValues) -> impl Iterator<Item = f64> + '_ {
     let partial = values.slopes().iter().scan(0.0, |sum, slope| {
         *sum -= slope;
@@ -79,20 +72,19 @@ pub fn lower_splines(values: &BasisValues) -> impl Iterator<Item = f64> + '_ {
     partial.take(values.slopes().len() - 1)
 }
 
-/// The number of lower splines of a run, one fewer than its functions.
+/// Number of lower splines of a run, one less than its functions.
 pub(super) fn lower_count(basis: &Basis, run: &[Span]) -> Option<usize> {
     Some(run.last()?.first + basis.degree() - run.first()?.first)
 }
 
-/// Rows without entries, for the equations of lower splines.
 fn empty_rows(count: usize, room: usize) -> Vec<CollocationRow<f64>> {
     let row = || CollocationRow { first: 0, entries: Vec::with_capacity(room), right_side: 0.0 };
     std::iter::repeat_with(row).take(count).collect()
 }
 
-/// The coefficients of the spline of the run that is orthogonal to all lower splines; the last of them is one.
+/// Coefficients of the spline of the run that is orthogonal to all lower splines, normalised to a last coefficient of one.
 ///
-/// Its equations `Σ_s ∫ T_t N_s dξ q_s = 0` have a totally positive matrix with one column more than rows.
+/// Its equations `Σ_s ∫ T_t N_s dξ q_s = 0` have a totally positive matrix with one more column than rows.
 fn orthogonal_spline(basis: &Basis, run: &[Span]) -> Option<Vec<f64>> {
     let (degree, offset) = (basis.degree(), run.first()?.first);
     let unknowns = lower_count(basis, run)?;
@@ -125,7 +117,7 @@ fn orthogonal_spline(basis: &Basis, run: &[Span]) -> Option<Vec<f64>> {
     coefficients.iter().all(|coefficient| coefficient.is_finite()).then_some(coefficients)
 }
 
-/// Places of a span, from -1 to 1 and denser towards its ends, where Gauss's points are: between two of them lies at most one zero.
+/// Places of a span, from -1 to 1 and denser towards its ends like Gauss points. Between two of them lies at most one zero.
 fn places(degree: usize) -> Vec<f64> {
     let count = 8 * (degree + 1);
     let place = |at: usize| {
@@ -135,7 +127,7 @@ fn places(degree: usize) -> Vec<f64> {
     (0..count).map(place).collect()
 }
 
-/// The zeros of a spline of the run on each span; none if they are not as many as there are lower splines.
+/// Zeros of a spline of the run on each span; `None` if their number differs from that of the lower splines.
 fn zeros(basis: &Basis, run: &[Span], coefficients: &[f64]) -> Option<Vec<Vec<f64>>> {
     let (degree, offset) = (basis.degree(), run.first()?.first);
     let places = places(degree);
@@ -145,7 +137,7 @@ fn zeros(basis: &Basis, run: &[Span], coefficients: &[f64]) -> Option<Vec<Vec<f6
         .collect();
     let mut found = Vec::with_capacity(run.len());
     for (at, (span, piece)) in run.iter().zip(&pieces).enumerate() {
-        // What a span ends with, the next one begins with: a zero at a knot is neither missed nor counted twice.
+        // The end value of a span is the start value of the next, so that zeros at knots are counted exactly once.
         let end = pieces.get(at + 1).map_or_else(|| piece.value(1.0), |next| next.value(-1.0));
         let starts = places.iter().map(|t| (*t, piece.value(*t)));
         let values: Vec<(f64, f64)> = starts.chain([(1.0, end)]).collect();
@@ -160,11 +152,11 @@ fn zeros(basis: &Basis, run: &[Span], coefficients: &[f64]) -> Option<Vec<Vec<f6
     (found.iter().map(Vec::len).sum::<usize>() == lower_count(basis, run)?).then_some(found)
 }
 
-/// A polynomial of a span, `Σ c_k t^k` with t from -1 to 1.
+/// Polynomial of a span, `Σ c_k t^k` with t from -1 to 1.
 struct Polynomial(Vec<f64>);
 
 impl Polynomial {
-    /// What the first of the coefficients make of the functions of a span.
+    /// Polynomial of the functions of a span with the given leading coefficients.
     fn of(basis: &Basis, span: &Span, coefficients: &[f64]) -> Self {
         let (middle, half) = (0.5 * (span.start + span.end), 0.5 * (span.end - span.start));
         let values = basis.evaluate_in(span, middle);
@@ -183,7 +175,7 @@ impl Polynomial {
         self.0.iter().rev().fold(0.0, |sum, coefficient| sum * t + coefficient)
     }
 
-    /// The zero between two places where the sign changes, by bisection; `low` is the value at the left one.
+    /// Zero between two places of opposite sign, by bisection; `low` is the value at the left one.
     fn zero_between(&self, mut left: f64, mut right: f64, low: f64) -> f64 {
         if low == 0.0 {
             return left;
@@ -202,14 +194,13 @@ impl Polynomial {
     }
 }
 
-/// The weights with which points integrate the derivative of every function of a run of spans exactly.
+/// Weights with which points integrate the derivative of every function of a run of spans exactly.
 ///
-/// `points` holds those of each span, from its start on, and all together
-/// must be one fewer than the run has functions. None if they lie where no such weights exist, or a weight is not finite.
+/// `points` holds those of each span, in all one less than the functions of the run. Returns `None` if no such weights exist or a weight is not
+/// finite.
 ///
-/// The collocation matrix of the lower splines is totally
-/// positive. (Auricchio, Calabrò, Hughes, Reali & Sangalli, A simple algorithm for obtaining nearly optimal quadrature rules for NURBS-based
-/// isogeometric analysis, Comput. Methods Appl. Mech. Eng. 249-252 (2012) 15-27, choose the weights likewise.)
+/// The collocation matrix of the lower splines is totally positive. (Weights as in Auricchio, Calabrò, Hughes, Reali & Sangalli, A simple algorithm
+/// for obtaining nearly optimal quadrature rules for NURBS-based isogeometric analysis, Comput. Methods Appl. Mech. Eng. 249-252 (2012) 15-27.)
 fn derivative_weights(basis: &Basis, run: &[Span], points: &[Vec<f64>]) -> Option<Vec<f64>> {
     let (first, last) = (run.first()?, run.last()?);
     let unknowns = lower_count(basis, run)?;
@@ -228,7 +219,7 @@ fn derivative_weights(basis: &Basis, run: &[Span], points: &[Vec<f64>]) -> Optio
             number += 1;
         }
     }
-    // Every point must lie where its own spline is not zero (Schoenberg & Whitney 1953).
+    // Every point must lie in the support of its own spline (Schoenberg & Whitney 1953).
     let has_own = |(at, row): (usize, &CollocationRow<f64>)| {
         (row.first..row.first + row.entries.len()).contains(&at)
     };

@@ -1,21 +1,20 @@
-//! The basis functions that are non-zero at one parameter, with all their derivatives.
+//! Nonzero basis functions at one parameter, with all their derivatives.
 
 use super::{MAX_DEGREE, Vec2};
 
-/// Room for the functions of one span, and for their derivatives of order 0 to the degree.
+/// Capacity for the functions of one span, and for their derivatives of order 0 to the degree.
 const WIDTH: usize = MAX_DEGREE + 1;
 
-/// One number for each function that is non-zero on a span; only the first `degree + 1` count.
+/// One number for each nonzero function of a span; only the first `degree + 1` are used.
 pub(super) type FunctionRow = [f64; WIDTH];
 
 const ZERO: FunctionRow = [0.0; WIDTH];
 
-/// The `degree + 1` basis functions `N_first … N_{first+degree}` of one span and their derivatives
-/// with respect to ξ, of every order, at one parameter. All other functions are zero there.
-/// Values are dimensionless; nothing lives on the heap.
+/// The `degree + 1` basis functions `N_first … N_{first+degree}` of one span and their derivatives with respect to ξ, of every order, at one
+/// parameter. All other functions are zero there. Values are dimensionless, and stored without heap allocation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BasisValues {
-    /// The index, in the basis, of the first function that is not zero on the span.
+    /// Index in the basis of the first nonzero function.
     pub first: usize,
     degree: usize,
     /// Derivatives of order `k` in row `k`.
@@ -23,46 +22,45 @@ pub struct BasisValues {
 }
 
 impl BasisValues {
-    /// Values and derivatives that are all zero, to be filled by the basis.
+    /// Zero values and derivatives, to be filled by the basis.
     pub(super) fn zeros(first: usize, degree: usize) -> Self {
         Self { first, degree, rows: [ZERO; WIDTH] }
     }
 
-    /// The derivatives of the functions by ξ, of order 0 to `degree`, one row for each order.
+    /// Derivatives with respect to ξ, of order 0 to `degree`, one row for each order.
     pub(super) fn rows_mut(&mut self) -> &mut [FunctionRow] {
         &mut self.rows[..=self.degree]
     }
 
-    /// The values `N_first(ξ) …` of the functions that are not zero on the span, `degree + 1` of them. They sum to one.
+    /// Values `N_first(ξ) …`, `degree + 1` of them. They sum to one.
     pub fn values(&self) -> &[f64] {
         self.derivatives(0)
     }
 
-    /// The first derivatives `N'_first(ξ) …` of the functions with respect to ξ, `degree + 1` of them. They sum to zero.
+    /// First derivatives `N'_first(ξ) …` with respect to ξ, `degree + 1` of them. They sum to zero.
     pub fn slopes(&self) -> &[f64] {
         self.derivatives(1)
     }
 
-    /// The derivatives of the functions of the given `order` with respect to ξ, `degree + 1` of them; zeros above the degree.
+    /// Derivatives of the given `order` with respect to ξ, `degree + 1` of them; zeros above the degree.
     pub fn derivatives(&self, order: usize) -> &[f64] {
         let row = if order <= self.degree { &self.rows[order] } else { &ZERO };
         &row[..=self.degree]
     }
 
-    /// The derivative of `order` of `Σ_i N_i(ξ) P_i`, with one point `P_i` for each basis function,
-    /// in the unit of the points.
+    /// Derivative of `order` of `Σ_i N_i(ξ) P_i`, with one point `P_i` per basis function, in the unit of the points.
     ///
     /// # Panics
-    /// If there are fewer points than basis functions.
+    /// Panics if there are fewer points than basis functions.
     pub fn combine(&self, order: usize, points: &[Vec2]) -> Vec2 {
         let points = &points[self.first..=self.first + self.degree];
-        // Derivatives sum to zero, so an origin amid the points changes nothing but the rounding.
+        // Derivatives sum to zero, so a nearby origin only reduces rounding.
         let origin = if order == 0 { Vec2::zeros() } else { points[0] };
         self.derivatives(order).iter().zip(points).map(|(n, point)| *n * (point - origin)).sum()
     }
 }
 
-/// The basis functions that are non-zero at one parameter, of a degree less than `WIDTH`, with their first and second derivatives.
+/// Nonzero basis functions of a degree below `WIDTH` at one parameter, with first and second derivatives.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LowDerivatives<const WIDTH: usize> {
     pub first: usize,

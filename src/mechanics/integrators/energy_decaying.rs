@@ -1,20 +1,19 @@
-//! The energy-decaying, momentum-conserving method.
+//! Energy-decaying, momentum-conserving integrator.
 
 use super::balance::{BalanceCoefficients, StepSolver};
 use super::{Integrator, Interval, Mechanism, Stage, StepError};
 use crate::newton::{NewtonReport, Tolerance};
 
-/// The energy–momentum method with section forces of a later strain: damps what vibrates fast, and keeps linear and angular
-/// momentum to rounding, for any step.
+/// Energy–momentum method with section forces at a later strain. It damps high frequencies, and conserves linear and angular momentum to rounding for
+/// any step size.
 ///
 /// `M (v1 - v0)/Δt + F(damped midpoint) = 0`, `(v0 + v1)/2 = Δq/Δt`, with
 /// `N̄ = C (½(Γ0 + Γ1) + χ/2 ΔΓ)`, `M̄ = EI (½(κ0 + κ1) + χ/2 Δκ)`, `χ ≥ 0`.
 ///
-/// A step loses exactly the energy `χ/2 ∫ ΔΓ·C ΔΓ + EI Δκ² dX`. First order; second where `χ = 0`, which is the
-/// energy–momentum method itself.
+/// A step dissipates exactly the energy `χ/2 ∫ ΔΓ·C ΔΓ + EI Δκ² dX`. The order is one, or two for `χ = 0`, the energy–momentum method.
 ///
-/// After F. Armero & I. Romero, Comput. Methods Appl. Mech. Eng. 190 (2001) 2603–2649, who add dissipation to the averaged
-/// stresses of a conserving method; here by the share that is linear in the strain.
+/// After F. Armero & I. Romero, Comput. Methods Appl. Mech. Eng. 190 (2001) 2603–2649, who add dissipation to the averaged stresses of a conserving
+/// method; here with the term that is linear in the strain.
 #[derive(Debug, Clone)]
 pub struct EnergyDecaying {
     solver: StepSolver,
@@ -22,10 +21,10 @@ pub struct EnergyDecaying {
 }
 
 impl EnergyDecaying {
-    /// The stages of a step at which the method takes loads.
+    /// Stages at which loads are evaluated.
     pub const STAGES: &[Stage] = &[Stage::Midpoint];
 
-    /// The energy-decaying method with dissipation `chi` [-] and work space for a mechanism.
+    /// Creates the method with dissipation `chi` [-] and work space for a mechanism.
     pub fn new(chi: f64, mechanism: &dyn Mechanism, tolerance: Tolerance) -> Self {
         Self { solver: StepSolver::new(mechanism, tolerance), chi }
     }

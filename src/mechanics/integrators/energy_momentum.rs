@@ -1,11 +1,11 @@
-//! The energy–momentum method.
+//! Energy–momentum integrator.
 
 use super::balance::{BalanceCoefficients, StepSolver};
 use super::{Integrator, Interval, Mechanism, Stage, StepError};
 use crate::newton::{NewtonReport, Tolerance};
 
-/// The energy–momentum method: keeps energy, linear and angular momentum to rounding, for any step: midpoint kinematics on tangent-scaled
-/// rotations, averaged section forces.
+/// Energy–momentum method: conserves energy, linear and angular momentum to rounding for any step size, by midpoint kinematics with tangent-scaled
+/// rotations and averaged section forces.
 ///
 /// `M (v1 - v0)/Δt + F(midpoint) = 0`, `(v0 + v1)/2 = Δq/Δt`. Second order.
 ///
@@ -17,10 +17,10 @@ pub struct EnergyMomentum {
 }
 
 impl EnergyMomentum {
-    /// The stages of a step at which the method takes forces.
+    /// Stages at which forces are evaluated.
     pub const STAGES: &[Stage] = &[Stage::Midpoint];
 
-    /// The energy–momentum method with work space for a mechanism.
+    /// Creates the method with work space for a mechanism.
     pub fn new(mechanism: &dyn Mechanism, tolerance: Tolerance) -> Self {
         Self { solver: StepSolver::new(mechanism, tolerance) }
     }

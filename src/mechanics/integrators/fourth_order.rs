@@ -1,51 +1,50 @@
-//! A composition of energy–momentum steps.
+//! Fourth-order composition of energy–momentum steps.
 
 use super::{EnergyMomentum, Integrator, Interval, Mechanism, Stage, StepError};
 use crate::newton::{NewtonReport, Tolerance};
 
-/// How long the first three parts of a step are, as shares of it; the last three are the same, backwards.
+/// Lengths of the first three substeps as fractions of the step. The last three mirror them.
 ///
-/// The roots of five equations: order four, and no answer to slow loads where a vibration turns by 2π or 4π in a step (theory.md 8.3).
+/// Roots of five equations: order four, and no response to slow loads of vibrations with a phase of 2π or 4π per step (theory.md 8.3).
 const SHARES: [f64; 3] =
     [0.161_052_153_814_088_86, 0.193_890_122_365_726_64, 0.426_192_546_250_769_94];
 
-/// Where the parts of a step end, as shares of it: the fourth one goes back in time.
+/// Ends of the substeps as fractions of the step. The fourth one runs back in time.
 const ENDS: [f64; 7] = {
     let [a, b, c] = SHARES;
     [a, a + b, a + b + c, 1.0 - (a + b + c), 1.0 - (a + b), 1.0 - a, 1.0]
 };
 
-/// Seven energy–momentum steps over the parts `a, b, c, 1 - 2(a + b + c), c, b, a` of a step, the fourth one backwards in time.
-/// Each keeps energy, linear and angular momentum to rounding, and so does the whole.
+/// Seven energy–momentum steps of relative lengths `a, b, c, 1 - 2(a + b + c), c, b, a`, the fourth one backwards in time. Each conserves energy,
+/// linear and angular momentum to rounding, and so does the whole.
 ///
-/// The error of a symmetric method of second order has no even terms but the first, `Δt³` in a step; it cancels as the cubes of
-/// the parts sum up to zero. Fourth order. The parts are short, so that the error is small, and such that slow loads do not
-/// shake up vibrations that a step does not resolve.
+/// The leading error `Δt³` per step of a symmetric second-order method cancels because the cubes of the lengths sum to zero, which gives order four.
+/// The lengths are small, which keeps the error small, and chosen such that slow loads do not excite unresolved vibrations.
 ///
-/// The kind of composition is that of R. I. McLachlan, On the numerical integration of ordinary differential equations by symmetric
-/// composition methods, SIAM J. Sci. Comput. 16 (1995) 151–168; the coefficients are this project's.
+/// Compositions of this kind: R. I. McLachlan, On the numerical integration of ordinary differential equations by symmetric composition methods, SIAM
+/// J. Sci. Comput. 16 (1995) 151–168. The coefficients are original.
 #[derive(Debug, Clone)]
 pub struct FourthOrder {
     part: EnergyMomentum,
 }
 
 impl FourthOrder {
-    /// The stages of a step at which the method takes forces: one in each part.
+    /// Stages at which forces are evaluated, one per substep.
     pub const STAGES: &[Stage] = &[Stage::Midpoint; ENDS.len()];
 
-    /// The longest parts as shares of a step: of those that go on in time, and the one that goes back.
+    /// Longest forward substep and the backward substep, as fractions of a step.
     pub const LONGEST: [f64; 2] = [SHARES[2], ENDS[3] - ENDS[2]];
 
-    /// The method of fourth order with work space for a mechanism.
+    /// Creates the method with work space for a mechanism.
     pub fn new(mechanism: &mut dyn Mechanism, tolerance: Tolerance) -> Self {
-        // Here is time to make room for it.
+        // Allocates the checkpoint outside of the steps.
         mechanism.checkpoint().keep();
         Self { part: EnergyMomentum::new(mechanism, tolerance) }
     }
 }
 
 impl Integrator for FourthOrder {
-    /// Iterations are those of all parts.
+    /// Iterations are summed over all substeps.
     fn step(
         &mut self,
         mechanism: &mut dyn Mechanism,
@@ -55,7 +54,7 @@ impl Integrator for FourthOrder {
     }
 }
 
-/// Takes the parts of a step one after the other; a mechanism that fails in one of them goes back to the start of the step.
+/// Takes the substeps in sequence. If one fails, the mechanism is restored to the start of the step.
 pub(super) fn in_parts(
     mechanism: &mut dyn Mechanism,
     interval: Interval,
@@ -82,7 +81,7 @@ mod tests {
     use super::*;
     use std::f64::consts::TAU;
 
-    /// What M. Suzuki (1990) composes a step of.
+    /// Composition of M. Suzuki (1990).
     const SUZUKI: [f64; 5] = [
         0.414_490_771_794_375_7,
         0.828_981_543_588_751_4,
@@ -91,18 +90,18 @@ mod tests {
         1.0,
     ];
 
-    /// How long the parts are that end there, as shares of a step.
+    /// Lengths of substeps from their ends.
     fn parts(ends: &[f64]) -> Vec<f64> {
         let starts = std::iter::once(&0.0).chain(ends);
         starts.zip(ends).map(|(start, end)| end - start).collect()
     }
 
-    /// By what angle a step turns a vibration with that `ω Δt`.
+    /// Phase of a vibration with this `ω Δt` per step.
     fn turn(parts: &[f64], frequency: f64) -> f64 {
         parts.iter().map(|part| 2.0 * (0.5 * part * frequency).atan()).sum()
     }
 
-    /// Where the turn passes an angle upwards, if it does.
+    /// Frequency at which the phase exceeds an angle.
     fn passage(parts: &[f64], angle: f64) -> Option<f64> {
         let (mut low, mut high) = (1.0, 1e4);
         if turn(parts, high) < angle {
@@ -115,8 +114,8 @@ mod tests {
         Some(low)
     }
 
-    /// The largest amplitude in 3000 steps of a vibration under a sine load that turns by `load` in a step, from its
-    /// response to the load at rest; as multiples of that response.
+    /// Largest amplitude in 3000 steps of a vibration under a sine load with phase `load` per step, started from its static response and relative to
+    /// it.
     fn amplitude(parts: &[f64], frequency: f64, load: f64) -> f64 {
         let (mut place, mut rate, mut largest) = (0.0_f64, load, 0.0_f64);
         for step in 0..3000 {
@@ -124,7 +123,7 @@ mod tests {
             for part in parts {
                 let ended = begun + part;
                 let mean = ((load * begun).cos() - (load * ended).cos()) / (load * part);
-                // With stiffness and static response of one: rate' = ω² (mean - place), both taken in the middle.
+                // With unit stiffness and static response: rate' = ω² (mean - place), both at the midpoint.
                 let stiffness = (0.5 * part * frequency).powi(2);
                 let moved = (part * rate + 2.0 * stiffness * (mean - place)) / (1.0 + stiffness);
                 (place, rate, begun) = (place + moved, 2.0 * moved / part - rate, ended);

@@ -1,4 +1,4 @@
-//! The generalized-α method.
+//! Generalized-α integrator.
 
 use super::balance::{BalanceCoefficients, StepSolver};
 use super::prescribed::BalancedAt;
@@ -6,8 +6,8 @@ use super::{Integrator, Interval, Mechanism, Stage, StepError};
 use crate::elementary::square;
 use crate::newton::{NewtonReport, Tolerance};
 
-/// Newmark's formulas with the balance taken at different places for inertia and forces. It damps what vibrates fast, by the
-/// factor `ρ∞` a step at the most, and what is slow hardly. It keeps neither energy nor momenta.
+/// Newmark's formulas with inertia and forces balanced at different times. High frequencies are damped by up to the factor `ρ∞` per step, low ones
+/// hardly. Neither energy nor momenta are conserved.
 ///
 /// ```text
 /// M ((1-αm) a1 + αm a0) + (1-αf) F(end) + αf F(start) = 0
@@ -15,25 +15,24 @@ use crate::newton::{NewtonReport, Tolerance};
 /// αm = (2ρ∞ - 1)/(ρ∞ + 1)     αf = ρ∞/(ρ∞ + 1)     γ = ½ - αm + αf     β = ¼ (1 - αm + αf)²
 /// ```
 ///
-/// Rotation increments are those of the angle. Accelerations `a` are a state of their own; where there are none yet, at the
-/// start, after an impact and where a load jumps, a step of the trapezoidal rule finds them as `(v1 - v0)/Δt`. With `ρ∞ = 1` all steps are such.
-/// Second order.
+/// Rotation increments are those of the angle. Accelerations `a` are part of the state. If they are unknown (at the start, after an impact, at a jump
+/// of a load), a step of the trapezoidal rule determines them as `(v1 - v0)/Δt`. With `ρ∞ = 1` all steps are of this kind. Second order.
 ///
 /// J. Chung & G. M. Hulbert, J. Appl. Mech. 60 (1993) 371–375.
 #[derive(Debug, Clone)]
 pub struct GeneralizedAlpha {
     solver: StepSolver,
     weights: Weights,
-    /// `a`, of the start of the step and then of its end.
+    /// Accelerations `a` at the start of the step, then at its end.
     accelerations: Vec<f64>,
 }
 
-/// The numbers of the method.
+/// Coefficients of the method.
 #[derive(Debug, Clone, Copy)]
 struct Weights {
-    /// `αm`
+    /// `αm`.
     inertia_before: f64,
-    /// `αf`
+    /// `αf`.
     forces_before: f64,
     gamma: f64,
     beta: f64,
@@ -48,17 +47,17 @@ impl Weights {
         Self { inertia_before, forces_before, gamma, beta }
     }
 
-    /// `½/β - 1`: what `a0` takes off `a1`.
+    /// Coefficient `½/β - 1` of `a0` in `a1`.
     fn carried(&self) -> f64 {
         0.5 / self.beta - 1.0
     }
 }
 
 impl GeneralizedAlpha {
-    /// The stages of a step at which the method takes forces.
+    /// Stages at which forces are evaluated.
     pub const STAGES: &[Stage] = &[Stage::Start, Stage::End];
 
-    /// The generalised-α method with `ρ∞` [-] and work space for a mechanism, which it makes keep accelerations.
+    /// Creates the method with `ρ∞` [-] and work space for a mechanism, which keeps accelerations from here on.
     pub fn new(rho_infinity: f64, mechanism: &mut dyn Mechanism, tolerance: Tolerance) -> Self {
         mechanism.accelerated().keep_accelerations();
         Self {
@@ -68,7 +67,7 @@ impl GeneralizedAlpha {
         }
     }
 
-    /// A step that needs no acceleration at its start.
+    /// Step without initial accelerations.
     fn step_without(
         &mut self,
         mechanism: &mut dyn Mechanism,
@@ -105,7 +104,7 @@ impl GeneralizedAlpha {
             inertia: (1.0 - inertia_before) / beta,
             stage: Stage::End,
             weight: 1.0 - forces_before,
-            // Where the forces are: those of unknown movements are as late.
+            // At the time of the forces, as for unknown movements.
             prescribed: BalancedAt::Share(1.0 - forces_before),
         };
         let report = solver.solve(mechanism, interval, rule)?;

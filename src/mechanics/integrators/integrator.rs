@@ -1,15 +1,15 @@
-//! What every method offers.
+//! Interface of integrators.
 
 use super::{Interval, Mechanism, StepError};
 use crate::newton::NewtonReport;
 
-/// A time integrator: one way to take a step of a mechanism.
+/// Time integrator: takes steps of a mechanism.
 pub trait Integrator {
-    /// Advances the mechanism over the interval; on an error it is left as it was.
+    /// Advances the mechanism over the interval. On an error it is unchanged.
     ///
     /// # Errors
-    /// When no solution is found, the rotation increment is too large, a constraint ends within the interval, or a load
-    /// cannot be evaluated.
+    /// Fails without a solution, with too large a rotation increment, at a constraint limit within the interval, or with a load that cannot be
+    /// evaluated.
     fn step(
         &mut self,
         mechanism: &mut dyn Mechanism,

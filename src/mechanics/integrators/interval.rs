@@ -1,38 +1,38 @@
-//! The span of time of one step.
+//! Time interval of a step.
 
-/// The interval of one step or of a part of it [time].
+/// Interval of a step or a part of it [time].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
-    /// The time at which the interval begins [time].
+    /// Start [time].
     pub start: f64,
-    /// The time at which the interval ends [time].
+    /// End [time].
     pub end: f64,
-    /// Known to more digits than the difference of two late times.
+    /// More accurate than the difference of two large times.
     duration: f64,
     ending: IntervalEnd,
 }
 
-/// What ends at the end of an interval: a whole step, or a part of one.
+/// Meaning of the end of an interval.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum IntervalEnd {
-    /// The interval ends only a part of a step, which goes on from there: what happens at the end of a step waits.
+    /// End of a part of a step. Actions at the end of a step are postponed.
     OfPart,
-    /// The interval ends a step.
+    /// End of a step.
     OfStep,
 }
 
 impl Interval {
-    /// The interval from one time to another [time].
+    /// Interval between two times [time].
     pub const fn between(start: f64, end: f64) -> Self {
         Self { start, end, duration: end - start, ending: IntervalEnd::OfStep }
     }
 
-    /// The interval of a duration from a time on [time]; its end is rounded, its duration is not.
+    /// Interval of an exact duration; only its end is rounded [time].
     pub fn lasting(start: f64, duration: f64) -> Self {
         Self { start, end: start + duration, duration, ending: IntervalEnd::OfStep }
     }
 
-    /// The part of the interval between two shares of its duration [-], backwards in time if the second one is smaller.
+    /// Part between two fractions of the duration [-]; backwards in time if the second is smaller.
     pub fn part(&self, from: f64, to: f64) -> Self {
         let duration = (to - from) * self.duration;
         let start = self.start + from * self.duration;
@@ -42,12 +42,12 @@ impl Interval {
         Self { start, end: self.start + to * self.duration, duration, ending: IntervalEnd::OfPart }
     }
 
-    /// The duration `Δt` of the interval, negative if it leads backwards in time [time].
+    /// Duration `Δt`, negative for backward intervals [time].
     pub fn duration(&self) -> f64 {
         self.duration
     }
 
-    /// Whether the interval ends a step or a part of one.
+    /// Kind of the end.
     pub fn ending(&self) -> IntervalEnd {
         self.ending
     }

@@ -1,4 +1,4 @@
-//! Time steps over an abstract mechanism: predict, solve, correct. No integrator mentions a beam.
+//! Time integrators for an abstract mechanism: predict, solve, correct. They do not depend on beams.
 
 mod balance;
 mod energy_decaying;

@@ -1,30 +1,30 @@
-//! Movements that are prescribed and not solved for.
+//! Prescribed movements, which are not solved for.
 
-/// What the prescribed movements of a mechanism do in the present step. They stand behind the unknown movements and the unknowns of constraints; where
-/// nothing is prescribed, all are empty.
+/// Prescribed movements of a mechanism in the present step, numbered after the unknown movements and constraint multipliers. All vectors are empty if
+/// nothing is prescribed.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PrescribedKinematics {
-    /// The increments in the step, behind zeros for the unknowns of constraints [length, rad].
+    /// Increments in the step, after zeros for constraint multipliers [length, rad].
     pub increments: Vec<f64>,
-    /// The rates at the end of the step, behind zeros for the unknowns of constraints [length/time, 1/time].
+    /// Rates at the end of the step, after zeros for constraint multipliers [length/time, 1/time].
     pub rates: Vec<f64>,
-    /// The mean accelerations `(v1 - v0)/Δt`, behind zeros for the unknowns of constraints [length/time², 1/time²].
+    /// Mean accelerations `(v1 - v0)/Δt`, after zeros for constraint multipliers [length/time², 1/time²].
     pub mean_accelerations: Vec<f64>,
-    /// The accelerations just after the start and just before the end of the step, behind zeros for the unknowns of constraints [length/time², 1/time²].
+    /// Accelerations just after the start and just before the end of the step, after zeros for constraint multipliers [length/time², 1/time²].
     pub accelerations: [Vec<f64>; 2],
 }
 
-/// Which acceleration of prescribed movements a method balances.
+/// Acceleration of prescribed movements in the balance of a method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum BalancedAt {
-    /// The mean acceleration of the step.
+    /// Mean acceleration of the step.
     Mean,
-    /// The acceleration at a time, as a share of the step from its start on.
+    /// Acceleration at a fraction of the step.
     Share(f64),
 }
 
 impl PrescribedKinematics {
-    /// Nothing that is prescribed, with room for `count` movements behind `constraints` unknowns of constraints.
+    /// Creates zeros for `count` movements after `constraints` multipliers.
     pub fn new(constraints: usize, count: usize) -> Self {
         let zeros = vec![0.0; if count > 0 { constraints + count } else { 0 }];
         Self {
@@ -35,12 +35,12 @@ impl PrescribedKinematics {
         }
     }
 
-    /// The number of entries that stand behind the unknown movements.
+    /// Number of entries after the unknown movements.
     pub fn width(&self) -> usize {
         self.increments.len()
     }
 
-    /// The accelerations that a method balances, entry by entry.
+    /// Accelerations in the balance of a method, by entry.
     pub(super) fn balanced(&self, at: BalancedAt) -> impl Iterator<Item = f64> {
         let [start, end] = &self.accelerations;
         let all = self.mean_accelerations.iter().zip(start.iter().zip(end));

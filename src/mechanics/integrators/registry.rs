@@ -1,4 +1,4 @@
-//! The methods by name, with what each of them claims. Tests and help read this list.
+//! Registry of the integrators with their claims, used by tests and help.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,54 +8,54 @@ use super::{
 };
 use crate::newton::Tolerance;
 
-/// A choice of time integrator, before there is a mechanism to apply it to.
+/// Selection of a time integrator.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub enum Method {
-    /// The method [`EnergyMomentum`], the default.
+    /// [`EnergyMomentum`], the default.
     #[default]
     EnergyMomentum,
-    /// The method [`Trapezoidal`]: Newmark with β = 1/4, γ = 1/2.
+    /// [`Trapezoidal`]: Newmark with β = 1/4, γ = 1/2.
     Trapezoidal,
-    /// The method [`EnergyDecaying`]: momenta are kept, vibration is damped.
+    /// [`EnergyDecaying`]: momenta are conserved, vibrations are damped.
     EnergyDecaying {
-        /// The dissipation `χ` of the energy-decaying method: by how much of the change of strain its section forces are late [-].
+        /// Dissipation `χ`: shift of the section forces in units of the change of strain [-].
         chi: f64,
     },
-    /// The method [`FourthOrder`]: seven energy–momentum steps in one.
+    /// [`FourthOrder`]: a composition of seven energy–momentum steps.
     FourthOrder,
-    /// The method [`GeneralizedAlpha`] of Chung & Hulbert.
+    /// [`GeneralizedAlpha`] of Chung & Hulbert.
     GeneralizedAlpha {
-        /// The spectral radius `ρ∞` of the generalised-α method: by what the fastest vibration is multiplied in a step [-].
+        /// Spectral radius `ρ∞`: amplification of the highest frequency per step [-].
         rho_infinity: f64,
     },
 }
 
-/// What a method promises about the energy.
+/// Claim of a method about the energy.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EnergyClaim {
-    /// The method keeps the energy to rounding.
+    /// Energy is conserved to rounding.
     Kept,
-    /// With the method the energy never grows, but for rounding.
+    /// Energy never grows beyond rounding.
     Decays,
-    /// The method promises nothing about the energy.
+    /// No claim.
     Nothing,
 }
 
-/// What a method promises in nonlinear problems, loads and supports accounted for.
+/// Claims of a method for nonlinear problems, with loads and supports accounted for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Claims {
-    /// The order of convergence of the method in time.
+    /// Order of convergence in time.
     pub order: u32,
-    /// What becomes of the energy with the method.
+    /// Claim about the energy.
     pub energy: EnergyClaim,
-    /// Whether the method keeps the linear momentum to rounding.
+    /// True if linear momentum is conserved to rounding.
     pub momentum: bool,
-    /// Whether the method keeps the angular momentum to rounding.
+    /// True if angular momentum is conserved to rounding.
     pub angular_momentum: bool,
 }
 
 impl Claims {
-    /// The quantities that the method keeps to rounding, in words.
+    /// Names of the conserved quantities.
     pub fn kept(&self) -> impl Iterator<Item = &'static str> {
         let claims = [
             (self.energy == EnergyClaim::Kept, "energy"),
@@ -66,23 +66,23 @@ impl Claims {
     }
 }
 
-/// The number that a family of methods is tuned by.
+/// Parameter of a family of methods.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MethodParameter {
-    /// The name of the method's parameter in scripts.
+    /// Name in scripts.
     pub name: &'static str,
-    /// What the method's parameter does, in a sentence.
+    /// Description in a sentence.
     pub meaning: &'static str,
-    /// The smallest value that the method's parameter may have [-].
+    /// Smallest value [-].
     pub least: f64,
-    /// The largest value that the method's parameter may have [-]; may be infinite.
+    /// Largest value [-]; may be infinite.
     pub most: f64,
-    /// The value of the method's parameter where none is given [-].
+    /// Default value [-].
     pub default: f64,
 }
 
 impl MethodParameter {
-    /// The range of the method's parameter in words, such as `from 0 to 1`.
+    /// Description of the range, such as `from 0 to 1`.
     pub fn range(&self) -> String {
         match self.most {
             f64::INFINITY => format!("{} or greater", self.least),
@@ -91,7 +91,7 @@ impl MethodParameter {
     }
 }
 
-/// A method whose parameter is out of its range.
+/// Method parameter outside its range.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{method}: {name} is {value}, but must be a finite number, {allowed}")]
 pub struct MethodError {
@@ -101,20 +101,20 @@ pub struct MethodError {
     allowed: String,
 }
 
-/// A time integrator in the list [`INTEGRATORS`].
+/// Entry of [`INTEGRATORS`].
 #[derive(Debug, Clone, Copy)]
 pub struct IntegratorEntry {
-    /// The method that this row describes, with the default of its parameter.
+    /// Method with the default of its parameter.
     pub method: Method,
-    /// The name of the method in scripts and reports.
+    /// Name in scripts and reports.
     pub name: &'static str,
-    /// What the method is good for, in a sentence.
+    /// Recommended use in a sentence.
     pub summary: &'static str,
-    /// What the method promises.
+    /// Claims of the method.
     pub claims: Claims,
-    /// The parameter that the method is tuned by, if it has one.
+    /// Parameter, if the method has one.
     pub parameter: Option<MethodParameter>,
-    /// The source of the method in the literature.
+    /// Reference.
     pub source: &'static str,
 }
 
@@ -199,7 +199,7 @@ const RHO_INFINITY: MethodParameter = MethodParameter {
 };
 
 impl Method {
-    /// The row of this method in [`INTEGRATORS`].
+    /// Entry of this method in [`INTEGRATORS`].
     pub fn entry(&self) -> &'static IntegratorEntry {
         match self {
             Self::EnergyMomentum => &ENERGY_MOMENTUM,
@@ -210,7 +210,7 @@ impl Method {
         }
     }
 
-    /// The step whose longest part, of those that go the same way in time, is so long [time].
+    /// Step size whose longest substep of the same time direction has this duration [time].
     pub fn step_with_part(&self, duration: f64) -> f64 {
         let [onwards, back] = match self {
             Self::FourthOrder => FourthOrder::LONGEST,
@@ -219,7 +219,7 @@ impl Method {
         duration / if duration < 0.0 { back } else { onwards }
     }
 
-    /// The value of the method's parameter [-], if it has one.
+    /// Value of the parameter [-], if the method has one.
     pub fn parameter(&self) -> Option<f64> {
         match *self {
             Self::EnergyMomentum | Self::Trapezoidal | Self::FourthOrder => None,
@@ -228,10 +228,10 @@ impl Method {
         }
     }
 
-    /// Checks the parameter of the method.
+    /// Checks the parameter.
     ///
     /// # Errors
-    /// When it is out of its range or not finite.
+    /// Fails if the parameter is out of range or not finite.
     pub fn check(&self) -> Result<(), MethodError> {
         let entry = self.entry();
         let Some((parameter, value)) = entry.parameter.zip(self.parameter()) else { return Ok(()) };
@@ -242,7 +242,7 @@ impl Method {
         Err(MethodError { method: entry.name, name, value, allowed })
     }
 
-    /// The stages of a step at which the method asks loads for their values.
+    /// Stages at which loads are evaluated.
     pub fn stages(&self) -> &'static [Stage] {
         match self {
             Self::EnergyMomentum => EnergyMomentum::STAGES,
@@ -253,7 +253,7 @@ impl Method {
         }
     }
 
-    /// The method with work space for a mechanism, which from here on keeps what the method needs.
+    /// Creates the integrator with work space for a mechanism, which keeps the state needed by the method from here on.
     pub fn build(
         &self,
         mechanism: &mut dyn Mechanism,

@@ -1,4 +1,4 @@
-//! Mechanisms that take the same steps as another one, with the factors of its equations.
+//! Steps of several similar mechanisms with the factors of one of them.
 
 use super::balance::{BalanceCoefficients, StepSolver};
 use super::fourth_order::in_parts;
@@ -6,11 +6,11 @@ use super::{EnergyMomentum, Interval, Mechanism, Method, Stage, StepError};
 use crate::linalg::BorderedLu;
 use crate::newton::{NewtonReport, Tolerance};
 
-/// A method whose steps take companions along: mechanisms of the same form, with parameters and states that differ little from those of the one that
-/// leads.
+/// Method that also advances companions: mechanisms of the same structure whose parameters and states differ little from those of the leader.
 ///
-/// The balance of a companion, `R(u; p + δ) = 0`, is solved from the solution of the leader with the factors of the leader's last Newton iteration: each
-/// correction leaves a part of the error that is as small as `δ` and that iteration's step, so that a few lead to rounding. Nothing is factorised for it.
+/// The balance of a companion, `R(u; p + δ) = 0`, is solved from the solution of the leader with the factors of its last Newton iteration. Each
+/// correction reduces the error by a factor of the order of `δ` and of that iteration's step, so a few corrections reach rounding without
+/// factorisation.
 #[derive(Debug, Clone)]
 pub struct SharedFactorStepper {
     leader: StepSolver,
@@ -18,24 +18,24 @@ pub struct SharedFactorStepper {
     parts: SubstepCount,
 }
 
-/// Of how many energy–momentum steps a step is made.
+/// Number of energy–momentum substeps of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum SubstepCount {
     One,
     OfFourthOrder,
 }
 
-/// The work of a step in company.
+/// Work of a step with companions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SharedFactorWork {
-    /// The work for the mechanism that leads, as without company.
+    /// Work of the leader, the same as without companions.
     pub leader: NewtonReport,
-    /// The work for all companions together, or why one could not follow; iterations are those in which the factors of the leader did not do.
+    /// Total work of all companions, or the reason why one failed. Iterations count those for which the factors of the leader were insufficient.
     pub companions: Result<NewtonReport, StepError>,
 }
 
 impl SharedFactorStepper {
-    /// A method with work space for a mechanism and companions of its form, if steps of the method can be taken in company.
+    /// Creates the method with work space for a mechanism and its companions; `None` if the method does not support companions.
     pub fn of(method: Method, leader: &mut dyn Mechanism, tolerance: Tolerance) -> Option<Self> {
         let parts = match method {
             Method::EnergyMomentum => SubstepCount::One,
@@ -47,11 +47,11 @@ impl SharedFactorStepper {
         Some(Self { leader, follower, parts })
     }
 
-    /// Advances the mechanism that leads over the interval, bit for bit as without company, and the companions with it. Where one of these cannot
-    /// follow, all of them are left anywhere, and the one that leads goes on.
+    /// Advances the leader over the interval, bit for bit as without companions, and the companions with it. If a companion fails, the states of all
+    /// companions are undefined and the leader continues.
     ///
     /// # Errors
-    /// As those of a step of the mechanism that leads, which is then left as it was, and companions anywhere.
+    /// Errors of the step of the leader, which is then unchanged; the states of companions are undefined.
     pub fn step(
         &mut self,
         leader: &mut dyn Mechanism,
@@ -95,7 +95,7 @@ impl SharedFactorStepper {
     }
 }
 
-/// Takes a step of all companions from the solution of the one that leads, with its factors.
+/// Solves a step of all companions from the solution and factors of the leader.
 fn follow(
     solver: &mut StepSolver,
     companions: &mut [&mut dyn Mechanism],

@@ -1,14 +1,14 @@
-//! The trapezoidal rule.
+//! Trapezoidal rule.
 
 use super::balance::{BalanceCoefficients, StepSolver};
 use super::{Integrator, Interval, Mechanism, Stage, StepError};
 use crate::newton::{NewtonReport, Tolerance};
 
-/// Newmark's method with β = 1/4, γ = 1/2 on the increments of a step. It keeps linear momentum; energy and angular
-/// momentum only for linear problems.
+/// Newmark's method with β = 1/4, γ = 1/2 in increments of a step. It conserves linear momentum; energy and angular momentum only for linear
+/// problems.
 ///
-/// `M (v1 - v0)/Δt + ½ F(start) + ½ F(end) = 0`, `(v0 + v1)/2 = Δq/Δt`: the accelerations of Newmark's form are
-/// those of the balance at both ends, loads taken from inside the step. Second order.
+/// `M (v1 - v0)/Δt + ½ F(start) + ½ F(end) = 0`, `(v0 + v1)/2 = Δq/Δt`: Newmark's accelerations are those of the balance at both ends, with loads as
+/// one-sided limits inside the step. Second order.
 ///
 /// N. M. Newmark, A method of computation for structural dynamics, J. Eng. Mech. Div. ASCE 85 (1959) 67–94.
 #[derive(Debug, Clone)]
@@ -17,10 +17,10 @@ pub struct Trapezoidal {
 }
 
 impl Trapezoidal {
-    /// The stages of a step at which the method takes forces.
+    /// Stages at which forces are evaluated.
     pub const STAGES: &[Stage] = &[Stage::Start, Stage::End];
 
-    /// The trapezoidal method with work space for a mechanism.
+    /// Creates the method with work space for a mechanism.
     pub fn new(mechanism: &dyn Mechanism, tolerance: Tolerance) -> Self {
         Self { solver: StepSolver::new(mechanism, tolerance) }
     }

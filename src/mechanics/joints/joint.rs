@@ -1,29 +1,28 @@
-//! Joints that tie whole components of movement, so that the tied ones share an unknown.
+//! Joints that tie components of movement, which then share an unknown.
 //!
-//! Both partners then have the same increments at every step, whatever the method: the joint has no gap, does no
-//! work, and passes on force and moment unchanged.
+//! Both partners have the same increments in every step of any method. The joint has no gap, does no work, and transmits force and moment unchanged.
 
 use serde::{Deserialize, Serialize};
 
 use crate::beams::Station;
 use crate::geometry::Vec2;
 
-/// A component of the movement of a section.
+/// Component of the movement of a section.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Component {
-    /// The movement of a section along the first axis [length].
+    /// Displacement along the first axis [length].
     X,
-    /// The movement of a section along the second axis [length].
+    /// Displacement along the second axis [length].
     Y,
-    /// The rotation of a section about the third axis [rad].
+    /// Rotation about the third axis [rad].
     Rotation,
 }
 
 impl Component {
-    /// All components of the movement of a section, in the order of a movement.
+    /// All components, in the order of a movement.
     pub const ALL: [Self; 3] = [Self::X, Self::Y, Self::Rotation];
 
-    /// The component in messages, such as `x`.
+    /// Name in messages, such as `x`.
     pub fn name(self) -> &'static str {
         match self {
             Self::X => "x",
@@ -33,27 +32,27 @@ impl Component {
     }
 }
 
-/// Some of the components of the movement of a section: at least one.
+/// Nonempty set of components of the movement of a section.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Components {
-    /// The first axis alone.
+    /// First axis.
     X,
-    /// The second axis alone.
+    /// Second axis.
     Y,
-    /// The rotation alone.
+    /// Rotation.
     Rotation,
     /// Both axes.
     Position,
-    /// The first axis and the rotation.
+    /// First axis and rotation.
     XRotation,
-    /// The second axis and the rotation.
+    /// Second axis and rotation.
     YRotation,
-    /// Everything.
+    /// All components.
     All,
 }
 
 impl Components {
-    /// The set in which a component is that is named; none if there is none.
+    /// Set of the components that satisfy a predicate; `None` if it is empty.
     pub fn among(is_in: impl Fn(Component) -> bool) -> Option<Self> {
         match Component::ALL.map(is_in) {
             [false, false, false] => None,
@@ -67,7 +66,7 @@ impl Components {
         }
     }
 
-    /// The components of the set, in the order of a movement.
+    /// Components of the set, in the order of a movement.
     pub fn list(self) -> &'static [Component] {
         match self {
             Self::X => &Component::ALL[..1],
@@ -81,44 +80,43 @@ impl Components {
     }
 }
 
-/// Which components of movement a joint ties.
+/// Components of movement that a joint ties.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum JointKind {
-    /// A hinge ties positions; sections turn freely against each other.
+    /// Hinge: ties positions, leaves rotations free.
     Hinge,
-    /// A rigid joint ties positions and rotations; the angle between the sections stays as drawn. With the ground: a clamp.
+    /// Rigid joint: ties positions and rotations, so that the angle between the sections stays as drawn. With the ground it is a clamp.
     Rigid,
-    /// A support holds some components of a station on the ground, and leaves the others free.
+    /// Support: fixes some components of a station, leaves the others free.
     Support(Components),
-    /// An inclined roller lets a station move along a direction that is no axis, a unit vector, and holds it across; sections turn freely.
+    /// Inclined roller: a station moves along a unit vector that is not an axis, is fixed across it, and rotates freely.
     InclinedRoller(Vec2),
-    /// An inclined guide is an inclined roller that holds the angle besides.
+    /// Inclined guide: an inclined roller with fixed rotation.
     InclinedGuide(Vec2),
 }
 
-/// What a joint ties a station to.
+/// Partner of the station of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Partner {
-    /// The joint ties to the ground, at the place of the station as drawn.
+    /// Ground, at the place of the station as drawn.
     Ground,
-    /// The joint ties to a station at the same place, of another beam or of the same one.
+    /// Station at the same place, of another beam or the same one.
     Station(Station),
 }
 
-/// A joint of a scene: what it ties, and to what.
+/// Joint of a scene.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Joint {
-    /// The name of the joint, for messages.
+    /// Name in messages.
     pub name: String,
-    /// Which components of movement the joint ties.
+    /// Tied components.
     pub kind: JointKind,
-    /// The station that the joint ties.
+    /// Station of the joint.
     pub station: Station,
-    /// What the joint ties its station to.
+    /// Partner of the station.
     pub partner: Partner,
 }
 
-/// The line on which something may move.
 enum MotionLine {
     Horizontal,
     Vertical,
@@ -127,20 +125,20 @@ enum MotionLine {
 }
 
 impl MotionLine {
-    /// The line along a direction of any length; none where it is zero.
+    /// Line along a vector of any length; `None` for zero.
     fn along(direction: Vec2) -> Option<Self> {
         match (direction.x == 0.0, direction.y == 0.0) {
             (true, true) => None,
             (false, true) => Some(Self::Horizontal),
             (true, false) => Some(Self::Vertical),
-            // Of numbers that are very large or small the squares are not.
+            // Scaled first, because the squares of very large or small numbers overflow or vanish.
             (false, false) => Some(Self::Inclined((direction / direction.amax()).normalize())),
         }
     }
 }
 
 impl JointKind {
-    /// A roller that lets a station move along a direction and turn: a support where the direction is an axis. None where it is zero.
+    /// Roller along a direction with free rotation; a support if the direction is an axis. `None` for zero.
     pub fn roller(along: Vec2) -> Option<Self> {
         Some(match MotionLine::along(along)? {
             MotionLine::Horizontal => Self::Support(Components::Y),
@@ -149,7 +147,7 @@ impl JointKind {
         })
     }
 
-    /// A guide that lets a station move along a direction, and not turn: a support where the direction is an axis. None where it is zero.
+    /// Guide along a direction with fixed rotation; a support if the direction is an axis. `None` for zero.
     pub fn guide(along: Vec2) -> Option<Self> {
         Some(match MotionLine::along(along)? {
             MotionLine::Horizontal => Self::Support(Components::YRotation),
@@ -158,7 +156,7 @@ impl JointKind {
         })
     }
 
-    /// The components of movement that a joint of this kind ties; that across an inclined roller is none of them.
+    /// Components tied by this kind, without the direction across an inclined roller.
     pub fn components(self) -> &'static [Component] {
         match self {
             Self::Hinge => &Component::ALL[..2],
@@ -169,7 +167,7 @@ impl JointKind {
         }
     }
 
-    /// The only direction in which a joint of this kind lets its station move, a unit vector, if that is no axis [-].
+    /// Unit vector of the free direction, for inclined kinds [-].
     pub fn inclined(self) -> Option<Vec2> {
         match self {
             Self::InclinedRoller(along) | Self::InclinedGuide(along) => Some(along),
@@ -177,12 +175,12 @@ impl JointKind {
         }
     }
 
-    /// Whether a joint of this kind ties rotations, so that it transmits moments.
+    /// Returns true if rotations are tied, so that moments are transmitted.
     pub fn ties_rotation(self) -> bool {
         self.components().contains(&Component::Rotation)
     }
 
-    /// The kind of joint in words, with what it ties to, such as `clamp`.
+    /// Description of the kind with its partner, such as `clamp`.
     pub fn describe(self, partner: &Partner) -> &'static str {
         match (self, partner) {
             (Self::Hinge, _) => "hinge",

@@ -1,4 +1,4 @@
-//! Joints: which movements are tied, to what, and where; and the laws of joints that slide.
+//! Joints, and the laws of sliding joints.
 
 mod joint;
 mod release;

@@ -1,34 +1,34 @@
-//! Joints, sliders, springs and drives that let go in the course of a run.
+//! Releases of joints, sliders, springs and drives during a run.
 
 use serde::{Deserialize, Serialize};
 
-/// What holds something in a scene and may let go of it, by its index among those of its kind.
+/// Object that can be released, by its index among those of its kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Releasable {
-    /// A joint: a hinge, a rigid joint, a clamp, a support.
+    /// Joint: a hinge, a rigid joint, a clamp, a support.
     Joint(usize),
-    /// A slider.
+    /// Slider.
     Slider(usize),
-    /// A spring, a damper or a tendon.
+    /// Spring, damper or tendon.
     Spring(usize),
-    /// A motion that is given.
+    /// Prescribed motion.
     Drive(usize),
 }
 
-/// When something lets go.
+/// Trigger of a release.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Trigger {
-    /// At a time after the start, where a step ends [time].
+    /// Time after the start, at which a step ends [time].
     Time(f64),
-    /// When somebody outside says so, between two steps.
+    /// Call by the user of the simulation, between two steps.
     Outside,
 }
 
-/// What lets go in the course of a run, and when.
+/// Release during a run.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Release {
-    /// What lets go.
+    /// Object to be released.
     pub hold: Releasable,
-    /// When it does.
+    /// Trigger of the release.
     pub trigger: Trigger,
 }

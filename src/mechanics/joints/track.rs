@@ -1,28 +1,28 @@
-//! Tracks: several beams, one after the other, along which something slides.
+//! Tracks: consecutive beams along which a slider moves.
 
 use serde::{Deserialize, Serialize};
 
-/// Beams that meet end to end, along which a slider passes from one to the next, and round and round where the last one leads to the first.
+/// Beams that meet end to end, along which a slider passes from one to the next, repeatedly on closed tracks.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Track {
-    /// The name of the track, for messages.
+    /// Name in messages.
     pub name: String,
-    /// The beams of the track in the order in which it leads along them; at least one.
+    /// Beams in the order of the track; at least one.
     pub legs: Vec<TrackBeam>,
-    /// What becomes of the track behind its last beam.
+    /// Continuation behind the last beam.
     pub course: TrackEnd,
 }
 
-/// A beam of a track.
+/// Beam of a track.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TrackBeam {
-    /// The index of the beam.
+    /// Index of the beam.
     pub beam: usize,
-    /// How the track leads along the beam.
+    /// Direction of the track along the beam.
     pub heading: TrackDirection,
 }
 
-/// How a track leads along one of its beams.
+/// Direction of a track along one of its beams.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum TrackDirection {
     /// From the start of the beam to its end.
@@ -31,24 +31,24 @@ pub enum TrackDirection {
     Backward,
 }
 
-/// What becomes of a track behind its last beam.
+/// Continuation of a track behind its last beam.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum TrackEnd {
-    /// The track ends there.
+    /// The track ends.
     Open,
-    /// The track goes on along its first beam.
+    /// The track continues along its first beam.
     Closed,
 }
 
 impl Track {
-    /// The indices of the beams of the track, in its order.
+    /// Indices of the beams in the order of the track.
     pub fn beams(&self) -> impl Iterator<Item = usize> + '_ {
         self.legs.iter().map(|leg| leg.beam)
     }
 }
 
 impl TrackDirection {
-    /// The other way along a beam.
+    /// Opposite direction.
     pub fn reversed(self) -> Self {
         match self {
             Self::Forward => Self::Backward,
@@ -56,7 +56,7 @@ impl TrackDirection {
         }
     }
 
-    /// Arc length from the start of a beam of such a length, for arc length counted from where the track enters it; its own inverse [length].
+    /// Converts arc length from the entry of the track to arc length from the start of the beam; its own inverse [length].
     pub fn along(self, length: f64, arc_length: f64) -> f64 {
         match self {
             Self::Forward => arc_length,
@@ -64,7 +64,7 @@ impl TrackDirection {
         }
     }
 
-    /// The sign of a movement along the track that leads towards the end of the beam [-].
+    /// Sign of movements along the track that lead towards the end of the beam [-].
     pub fn sign(self) -> f64 {
         match self {
             Self::Forward => 1.0,

@@ -1,36 +1,36 @@
-//! In which order the unknowns of a band are eliminated, with those of blocks that are delayed, and where the entries end then.
+//! Elimination order of the unknowns of a band together with the delayed unknowns of blocks, and the resulting profile.
 
 use super::block::{Block, MOST_DELAYED, NOWHERE};
 use super::{BlockLayout, reverse_cuthill_mckee};
 
-/// The order of the band is kept where elimination in it takes at most so many times the work without blocks.
+/// Work ratio, relative to the band without blocks, up to which the order of the band is kept.
 const LARGEST_WORK: usize = 4;
 
-/// An order of the unknowns of a band that are not eliminated in blocks, with delayed ones between, and the profile of the matrix in it.
+/// Order of the unknowns of a band that are not eliminated in blocks, with delayed ones inserted, and the profile of the matrix.
 ///
-/// It depends on nothing but what the blocks touch. Delayed unknowns stand behind the last one that their block touches: there they have a pivot.
+/// It depends only on the unknowns that the blocks touch. Delayed unknowns follow the last one that their block touches, where they have a pivot.
 #[derive(Debug, Clone)]
 pub(super) struct Arrangement {
     layout: BlockLayout,
-    /// The place of each unknown of the band; nowhere if it is eliminated in a block.
+    /// Place of each unknown of the band; `NOWHERE` if it is eliminated in a block.
     pub(super) position: Vec<usize>,
-    /// The unknown up to which places follow one another from each unknown of the band on.
+    /// End of the run of consecutive places that contains each unknown of the band.
     pub(super) runs_to: Vec<usize>,
-    /// The first place of the delayed unknowns of each block; nowhere if it delays none.
+    /// First place of the delayed unknowns of each block; `NOWHERE` if it delays none.
     pub(super) delayed: Vec<usize>,
-    /// Where the entries end, for each place.
+    /// Profile: last entry of each place.
     pub(super) ends: Vec<usize>,
-    /// The same without what blocks touch that delay nothing.
+    /// Profile without the blocks that delay nothing.
     own_ends: Vec<usize>,
-    /// How many delayed unknowns of blocks stand behind each unknown of the order.
+    /// Number of delayed unknowns behind each unknown of the order.
     behind: Vec<usize>,
-    /// What the blocks touched for which it was made.
+    /// Touched unknowns of the blocks for which the order was made.
     made_for: Vec<usize>,
     touched: Vec<usize>,
 }
 
 impl Arrangement {
-    /// The order of the band, for blocks that touch nothing yet.
+    /// Creates the order of the band, for blocks that touch nothing yet.
     pub(super) fn new(size: usize, layout: BlockLayout) -> Self {
         let blocks = layout.own.len();
         let mut new = Self {
@@ -49,12 +49,12 @@ impl Arrangement {
         new
     }
 
-    /// The number of places.
+    /// Number of places.
     pub(super) fn size(&self) -> usize {
         self.ends.len()
     }
 
-    /// Makes the order, if blocks touch others than those for which it was made, and the profile.
+    /// Updates the order, if blocks touch other unknowns than before, and the profile.
     pub(super) fn fit(&mut self, blocks: &[Block]) {
         self.touched.clear();
         for block in blocks.iter().filter(|block| block.may_delay()) {
@@ -78,7 +78,7 @@ impl Arrangement {
         }
     }
 
-    /// Puts the unknowns of the band into its own order.
+    /// Uses the natural order of the band.
     fn follow_the_band(&mut self) {
         self.position.fill(0);
         for &at in self.layout.own.iter().flatten() {
@@ -88,7 +88,7 @@ impl Arrangement {
         of_band.enumerate().for_each(|(next, position)| *position = next);
     }
 
-    /// Puts the unknowns of the band, which are in its own order, into one that is narrow with what blocks touch.
+    /// Uses a bandwidth-reducing order of the band including the unknowns touched by blocks.
     fn follow_levels(&mut self, blocks: &[Block]) {
         self.follow_the_band();
         let position = |&at: &usize| Some(self.position[at]).filter(|&place| place != NOWHERE);
@@ -105,7 +105,7 @@ impl Arrangement {
         }
     }
 
-    /// Lets delayed unknowns in behind what their blocks touch, and finds where the entries end.
+    /// Inserts delayed unknowns behind the unknowns touched by their blocks, and computes the profile.
     fn number(&mut self, blocks: &[Block]) {
         let delaying = |block: &&Block| block.may_delay() && !block.touched.is_empty();
         self.behind.fill(0);
@@ -115,7 +115,7 @@ impl Arrangement {
         for block in blocks.iter().filter(delaying) {
             self.behind[last(block, &self.position)] += MOST_DELAYED;
         }
-        // From how many there are to where they begin.
+        // Converts counts to starts.
         let mut shift = 0;
         for (place, behind) in self.behind.iter_mut().enumerate() {
             shift += std::mem::replace(behind, place + 1 + shift);
@@ -130,7 +130,7 @@ impl Arrangement {
                 size += MOST_DELAYED;
             }
         }
-        // Where delayed unknowns behind a place end, the next place begins.
+        // The next place starts after the delayed unknowns of the previous one.
         for position in self.position.iter_mut().filter(|position| **position != NOWHERE) {
             *position = position.checked_sub(1).map_or(0, |before| self.behind[before]);
         }
@@ -163,13 +163,13 @@ impl Arrangement {
     }
 }
 
-/// Lets the entries of some places reach to the last of them.
+/// Extends the profile of some places to the last of them.
 fn couple(ends: &mut [usize], places: impl Iterator<Item = usize> + Clone) {
     let last = places.clone().max().unwrap_or(0);
     places.for_each(|place| ends[place] = ends[place].max(last));
 }
 
-/// About the number of multiplications that elimination takes in a profile.
+/// Approximate number of multiplications for a profile.
 fn work(ends: &[usize]) -> usize {
     ends.iter().enumerate().map(|(at, end)| (end - at) * (end - at)).sum()
 }

@@ -1,23 +1,23 @@
-//! Rows of a banded matrix to which entries are added: all of them, or some, so that threads may have their own.
+//! Row views of a banded matrix for the assembly of entries, splittable for threads.
 
 use std::ops::Range;
 
 use pulp::{Arch, Simd, WithSimd};
 
-/// Consecutive rows of a [`BandedMatrix`](super::BandedMatrix), to which entries are added.
+/// Consecutive rows of a [`BandedMatrix`](super::BandedMatrix) for the assembly of entries.
 #[derive(Debug)]
 pub struct BandRows<'a> {
     pub(super) rows: Range<usize>,
-    /// The stored entries of the matrix from the beginning of the first of these rows on, row after row.
+    /// Stored entries from the first of these rows on, row by row.
     pub(super) entries: &'a mut [f64],
-    /// The number of stored entries of a row of the banded matrix.
+    /// Number of stored entries per row.
     pub(super) stride: usize,
-    /// The place of the diagonal entry among the stored entries of a row.
+    /// Index of the diagonal entry among the stored entries of a row.
     pub(super) centre: usize,
     pub(super) half_bandwidth: usize,
 }
 
-/// One row of a banded matrix, to which entries are added.
+/// Row of a banded matrix for the assembly of entries.
 pub struct BandRow<'a> {
     entries: &'a mut [f64],
     row: usize,
@@ -35,17 +35,17 @@ impl BandRow<'_> {
 }
 
 impl BandRows<'_> {
-    /// The indices, in the whole matrix, of the rows to which entries can be added here.
+    /// Indices of the rows in the whole matrix.
     pub fn rows(&self) -> Range<usize> {
         self.rows.clone()
     }
 
-    /// The same rows, lent for a while.
+    /// Reborrows the same rows.
     pub fn reborrow(&mut self) -> BandRows<'_> {
         BandRows { rows: self.rows.clone(), entries: self.entries, ..*self }
     }
 
-    /// These rows of a banded matrix in two parts: those before `row`, and those from it on.
+    /// Splits the rows into those before `row` and those from it on.
     pub fn split_at(self, row: usize) -> (Self, Self) {
         let Self { rows, entries, stride, centre, half_bandwidth } = self;
         let (before, behind) = entries.split_at_mut((row - rows.start) * stride);
@@ -69,7 +69,7 @@ impl BandRows<'_> {
         self.entries[at] += value;
     }
 
-    /// A row to which several entries are added.
+    /// View of a single row.
     #[inline]
     pub fn row(&mut self, row: usize) -> BandRow<'_> {
         let first = (row - self.rows.start) * self.stride;
@@ -77,7 +77,7 @@ impl BandRows<'_> {
         BandRow { entries, row, centre: self.centre, half_bandwidth: self.half_bandwidth }
     }
 
-    /// Adds `values` to the entries of `row` that begin at `first_column`.
+    /// Adds `values` to the entries of `row` from `first_column` on.
     #[inline]
     pub fn add_to_row(&mut self, row: usize, first_column: usize, values: &[f64]) {
         let at = self.offset(row, first_column);
@@ -86,9 +86,9 @@ impl BandRows<'_> {
         }
     }
 
-    /// Adds a square block of `width` by `width` values, row after row, to the rows and columns from `first` on.
+    /// Adds a `width` by `width` block, row by row, to the rows and columns from `first` on.
     pub fn add_block(&mut self, first: usize, width: usize, values: &[f64]) {
-        // The widths of spans of degree 1 to 3 are known to the compiler.
+        // The widths of spans of degree 1 to 3 are compile-time constants.
         match width {
             6 => self.add_fixed_block::<6>(first, values),
             9 => self.add_fixed_block::<9>(first, values),
@@ -106,7 +106,7 @@ impl BandRows<'_> {
         Arch::new().dispatch(AddBlock::<WIDTH> { entries: self.entries, at, stride, values });
     }
 
-    /// Adds values to entries one below the other, `offset` columns behind the diagonal (before it if negative), from `row` on.
+    /// Adds values to the diagonal with an `offset` of columns (negative below the main diagonal), from `row` on.
     #[inline]
     pub fn add_to_diagonal(&mut self, row: usize, offset: isize, values: &[f64]) {
         if !values.is_empty() {
@@ -117,8 +117,8 @@ impl BandRows<'_> {
     }
 }
 
-/// Adds a block to square entries of rows of so many stored entries: those of the block's first row begin at `at`, those of each other one to the left of the
-/// ones above.
+/// Adds a block to rows with a fixed number of stored entries. The first row of the block starts at `at`, and each further row one entry to the left
+/// of the previous one.
 struct AddBlock<'a, const WIDTH: usize> {
     entries: &'a mut [f64],
     at: usize,

@@ -1,29 +1,31 @@
-//! Small linear complementarity problems: what several contacts give that strike at once.
+//! Small linear complementarity problems, for simultaneous impacts of several contacts.
 
 use super::{BandedMatrix, LinearError};
 
-/// How an unknown and what answers to it belong together.
+/// Condition on an unknown and its response.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pairing {
-    /// The answer vanishes, whatever the unknown is.
+    /// Equality: the response vanishes for any value of the unknown.
     Tied,
-    /// Neither unknown nor answer is negative, and one of them vanishes.
+    /// Complementarity: unknown and response are nonnegative, and one of them vanishes.
     Pushing,
 }
 
-/// Exchanges of all that is wrong at once are given up after so many that made no progress.
+/// Number of block exchanges without progress before single exchanges are used.
 const PATIENCE: usize = 3;
 
-/// An unknown or an answer that is negative by less than this part of the largest is none.
+/// Relative size below which negative unknowns and responses count as zero.
 const NOTHING: f64 = 1e-13;
 
-/// The unknowns `z` with the answers `w = A z + q` of a linear complementarity problem: `w = 0` where they are tied, `0 ≤ z ⟂ w ≥ 0` where they push.
+/// Solves a linear complementarity problem for the unknowns `z` with the responses `w = A z + q`: `w = 0` for tied pairs, `0 ≤ z ⟂ w ≥ 0` for pushing
+/// ones.
 ///
-/// For a positive definite `A`, given by its rows, symmetric or not, there is one solution; likewise where `A` is that once what is tied is eliminated. It is found by block principal pivoting: which unknowns vanish is guessed, and
-/// all that are wrong are exchanged at once (Júdice & Pires 1994), so that nothing depends on their order; where that goes round in circles, one by one (Murty 1974).
+/// For a positive definite `A`, given by rows and not necessarily symmetric, the solution is unique; likewise if `A` is positive definite after the
+/// elimination of the tied unknowns. The method is block principal pivoting: all violating pairs are exchanged at once (Júdice & Pires 1994), so that
+/// the result does not depend on their order. If this cycles, pairs are exchanged one by one (Murty 1974).
 ///
 /// # Errors
-/// When the matrix of the unknowns that do not vanish is singular.
+/// Fails if the matrix of the nonzero unknowns is singular.
 pub fn complementary(
     matrix: &[Vec<f64>],
     q: &[f64],
@@ -86,7 +88,7 @@ mod tests {
     fn what_is_taken_along_by_another_is_not_pushed() {
         let matrix = [vec![2.0, 1.9], vec![1.9, 2.0]];
         let pairings = [Pairing::Pushing; 2];
-        // The first alone gives the second more than it lacks.
+        // The response of the second to the first alone is sufficient.
         assert_eq!(complementary(&matrix, &[-2.0, -0.1], &pairings).unwrap(), [1.0, 0.0]);
         let tied = [Pairing::Pushing, Pairing::Tied];
         let both = complementary(&matrix, &[-2.0, -0.1], &tied).unwrap();
@@ -116,7 +118,7 @@ mod tests {
                     }
                 }
             }
-            // The same in the opposite order.
+            // The same in reverse order.
             let turned: Vec<Vec<f64>> = matrix.iter().rev().map(|row| row.iter().rev().copied().collect()).collect();
             let q: Vec<f64> = q.into_iter().rev().collect();
             let pairings: Vec<Pairing> = pairings.into_iter().rev().collect();

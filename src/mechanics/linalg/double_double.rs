@@ -1,14 +1,14 @@
-//! Numbers of twice the precision, as sums of two that are not carried out.
+//! Double-double arithmetic.
 //!
-//! T. J. Dekker, Numer. Math. 18 (1971) 224–242; Y. Hida, X. S. Li & D. H. Bailey, Algorithms for quad-double precision floating
-//! point arithmetic, ARITH-15 (2001) 155–162. Products are split by fused multiplication and addition, which is exact on every machine.
+//! T. J. Dekker, Numer. Math. 18 (1971) 224–242; Y. Hida, X. S. Li & D. H. Bailey, Algorithms for quad-double precision floating point arithmetic,
+//! ARITH-15 (2001) 155–162. Products are split by fused multiply–add.
 //!
-//! The fused product and sum is rounded once, as IEEE 754 says, by whatever computes it: the same bits on every machine.
+//! Fused multiply–add is rounded once according to IEEE 754, in hardware or software, so results are identical on every machine.
 #![allow(clippy::disallowed_methods)]
 
 use pulp::Simd;
 
-/// A number of about 32 decimal digits: the sum `high + low` of two floating-point numbers.
+/// Number of about 32 decimal digits: the unevaluated sum `high + low`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct DoubleDouble {
     pub(super) high: f64,
@@ -16,14 +16,14 @@ pub(super) struct DoubleDouble {
 }
 
 impl DoubleDouble {
-    /// The product `a b` of two floating-point numbers, exactly, as a number of 32 digits.
+    /// Exact product `a b`.
     #[inline(always)]
     pub(super) fn product(a: f64, b: f64) -> Self {
         let high = a * b;
         Self { high, low: a.mul_add(b, -high) }
     }
 
-    /// The sum `self + other` of two numbers of 32 digits.
+    /// Sum `self + other`.
     #[inline(always)]
     pub(super) fn plus(self, other: Self) -> Self {
         let sum = self.high + other.high;
@@ -32,14 +32,14 @@ impl DoubleDouble {
         Self::renormalised(sum, lost + (self.low + other.low))
     }
 
-    /// The product `self · factor` of a number of 32 digits with one of 16.
+    /// Product `self · factor` with a number of 16 digits.
     #[inline(always)]
     pub(super) fn times(self, factor: f64) -> Self {
         let Self { high, low } = Self::product(self.high, factor);
         Self::renormalised(high, self.low.mul_add(factor, low))
     }
 
-    /// The product `self · other` of two numbers of 32 digits.
+    /// Product `self · other`.
     #[inline(always)]
     pub(super) fn times_twofold(self, other: Self) -> Self {
         let Self { high, low } = Self::product(self.high, other.high);
@@ -47,11 +47,11 @@ impl DoubleDouble {
         Self::renormalised(high, self.low.mul_add(other.high, low))
     }
 
-    /// The inverse `1/self` of a number of 32 digits.
+    /// Inverse `1/self`.
     #[inline(always)]
     pub(super) fn inverse(self) -> Self {
         let guess = 1.0 / self.high;
-        // 1 - guess · self is small, and known to all digits.
+        // 1 - guess · self is small and exactly known.
         let rest = (-guess).mul_add(self.low, (-guess).mul_add(self.high, 1.0));
         Self::renormalised(guess, guess * rest)
     }
@@ -63,21 +63,21 @@ impl DoubleDouble {
     }
 }
 
-/// A row of numbers of 32 digits, their high and their low parts apart, for vector instructions.
+/// Row of double-double numbers with separate high and low parts, for vector instructions.
 #[derive(Debug)]
 pub(super) struct DoubleDoubles<'a> {
     pub(super) high: &'a [f64],
     pub(super) low: &'a [f64],
 }
 
-/// A row of numbers of 32 digits to be changed, their high and their low parts apart, for vector instructions.
+/// Mutable row of double-double numbers with separate high and low parts, for vector instructions.
 #[derive(Debug)]
 pub(super) struct DoubleDoublesMut<'a> {
     pub(super) high: &'a mut [f64],
     pub(super) low: &'a mut [f64],
 }
 
-/// Subtracts `factor` times some numbers of 32 digits from as many others.
+/// Subtracts `factor` times a row from another, both of 32 digits.
 #[inline(always)]
 pub(super) fn subtract_multiple<S: Simd>(
     simd: S,
@@ -115,7 +115,7 @@ pub(super) fn subtract_multiple<S: Simd>(
     }
 }
 
-/// Adds `factor` times some numbers of 16 digits to as many of 32 digits.
+/// Adds `factor` times a row of 16 digits to one of 32 digits.
 #[inline(always)]
 pub(super) fn add_multiple<S: Simd>(
     simd: S,

@@ -1,32 +1,30 @@
-//! Gaussian elimination of a banded matrix, several columns at a time.
+//! Blocked Gaussian elimination of a banded matrix.
 //!
-//! A panel of columns is eliminated without row exchanges where no multiplier is large, which a pass over the panel alone
-//! finds out (threshold pivoting: Duff, Erisman & Reid, Direct Methods for Sparse Matrices, 2nd ed., section 5.2). The rows
-//! below are then updated once for the whole panel, and nothing fills in. Where a multiplier is large, the columns of the
-//! panel are eliminated one by one with partial pivoting.
+//! A panel of columns is eliminated without row exchanges if no multiplier is large, which a pass over the panel alone decides (threshold pivoting:
+//! Duff, Erisman & Reid, Direct Methods for Sparse Matrices, 2nd ed., section 5.2). The rows below are then updated once for the whole panel, without
+//! fill-in. Otherwise the columns of the panel are eliminated one by one with partial pivoting.
 //!
-//! Where the entries of a matrix end at a profile of their own, column by column, rows and columns beyond it are left out: row exchanges
-//! and fill-in stay inside a profile that never falls.
+//! For a matrix with a profile, rows and columns beyond it are skipped. Row exchanges and fill-in stay inside a profile that never decreases.
 
 use pulp::{Simd, WithSimd};
 
 use super::storage::ActiveRows;
 use super::{LinearError, fixed_band};
 
-/// Numbers that vector instructions treat at once.
+/// Vector length.
 const LANES: usize = 4;
 
-/// The number of columns of a banded matrix that are eliminated together: those of a vector. What one panel leaves behind in vectors is then
-/// met by the next one in the same vectors; where it reads across two that have just been written, the processor waits for both.
+/// Number of columns eliminated together, one vector. The vectors written by one panel are then aligned with those read by the next. Reads across two
+/// recently written vectors would stall the processor.
 pub(super) const PANEL: usize = LANES;
 
-/// The smallest half-bandwidth for which a row of a banded matrix has room for a panel, and for whole vectors behind it.
+/// Smallest half-bandwidth for which a row has space for a panel followed by whole vectors.
 pub(super) const SMALLEST_REACH: usize = PANEL + LANES - 2;
 
-/// The largest multiplier for which rows are not exchanged.
+/// Largest multiplier without row exchange.
 pub(super) const LARGEST_MULTIPLIER: f64 = 8.0;
 
-/// Gauss's elimination with row exchanges, which replaces a banded matrix by its factors, panel by panel.
+/// Gaussian elimination with row exchanges, which replaces a banded matrix by its factors, panel by panel.
 pub(super) struct Elimination<'a>(pub(super) ActiveRows<'a>);
 
 impl WithSimd for Elimination<'_> {
@@ -34,12 +32,12 @@ impl WithSimd for Elimination<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(mut self, simd: S) -> Self::Output {
-        // The half-bandwidths of beams of degree 2 and 3 are known to the compiler; that of degree 1 gains nothing.
+        // The half-bandwidths of beams of degree 2 and 3 are compile-time constants. Degree 1 gains nothing.
         match self.0.reach {
             8 => eliminate(simd, &mut self.0, 8, eliminate_fixed::<S, 8, 8, 28>),
             11 => eliminate(simd, &mut self.0, 11, eliminate_fixed::<S, 11, 12, 37>),
             reach => {
-                // Behind the last column with an entry there are zeros.
+                // Columns behind the last entry are zero.
                 let width = reach.next_multiple_of(LANES);
                 eliminate(simd, &mut self.0, reach, |simd, storage, first| {
                     eliminate_panel(simd, storage, first, [reach, reach], width)
@@ -49,8 +47,8 @@ impl WithSimd for Elimination<'_> {
     }
 }
 
-/// The same where the entries of a matrix end at a profile: for each index the last row with an entry in the column, which is the last column with
-/// one in the row. It never falls, and goes on for a panel behind the last row.
+/// The same for a matrix with a profile: for each index the last row with an entry in the column, and the last column with an entry in the row. The
+/// profile never decreases, and is extended by a panel behind the last row.
 pub(super) struct ProfileElimination<'a>(pub(super) ActiveRows<'a>, pub(super) &'a [usize]);
 
 impl WithSimd for ProfileElimination<'_> {
@@ -72,7 +70,7 @@ fn eliminate_fixed<S: Simd, const REACH: usize, const WIDTH: usize, const STRIDE
     fixed_band::eliminate_panel::<S, REACH, WIDTH, STRIDE>(simd, &mut rows[first..])
 }
 
-/// `reach` is that of the storage; `eliminate_plain` eliminates a panel where nothing was filled in, as [`eliminate_panel`] does.
+/// `reach` is that of the storage; `eliminate_plain` eliminates a panel without previous fill-in, as [`eliminate_panel`] does.
 #[inline(always)]
 fn eliminate<S: Simd>(
     simd: S,
@@ -80,7 +78,7 @@ fn eliminate<S: Simd>(
     reach: usize,
     eliminate_plain: impl Fn(S, &mut ActiveRows<'_>, usize) -> bool,
 ) -> Result<(), LinearError> {
-    // The last column in which a row above has an entry.
+    // Last column with an entry in the rows above.
     let mut filled = 0;
     for first in (0..storage.columns).step_by(PANEL) {
         let next = first + PANEL;
@@ -118,8 +116,8 @@ fn eliminate_in_profile<S: Simd>(
         let next = first + PANEL;
         let below = ends[next - 1] + 1 - next;
         let width = filled.max(ends[next - 1]) + 1 - next;
-        // Zeros stand behind the last column, and below the last row, with an entry; those of cubic beams and of a point that slides from one
-        // span to the next are known to the compiler.
+        // Entries are zero behind the last column and below the last row. The sizes of cubic beams, and of a point that slides from one span to the
+        // next, are compile-time constants.
         let is_eliminated = match below.max(width) {
             ..=9 if reach > 10 => eliminate_panel(simd, storage, first, [reach, 9], 12),
             ..=11 if reach > 10 => eliminate_panel(simd, storage, first, [reach, 11], 12),
@@ -143,13 +141,13 @@ fn eliminate_in_profile<S: Simd>(
     Ok(())
 }
 
-/// The factors of the rows and columns of a panel among themselves.
+/// Factors of the diagonal block of a panel.
 pub(super) struct PanelFactors {
     /// Multipliers left of the diagonal, the upper factor from there on.
     pub(super) factors: [[f64; PANEL]; PANEL],
-    /// Those of the pivots.
+    /// Inverse pivots.
     pub(super) inverses: [f64; PANEL],
-    /// Whether no multiplier is large, and all numbers are finite.
+    /// True if no multiplier is large and all numbers are finite.
     pub(super) is_stable: bool,
 }
 
@@ -176,8 +174,8 @@ impl PanelFactors {
     }
 }
 
-/// Eliminates the columns of a panel from so many rows below it, in so many columns behind it; false, with nothing changed,
-/// when rows should be exchanged. The first of the `reach`es is that of the storage.
+/// Eliminates the columns of a panel from the given rows below it and columns behind it. Returns false, with nothing changed, if rows should be
+/// exchanged. The first entry of `reach` is that of the storage.
 #[inline(always)]
 fn eliminate_panel<S: Simd>(
     simd: S,
@@ -237,7 +235,7 @@ fn eliminate_panel<S: Simd>(
     true
 }
 
-/// Subtracts multiples of rows from a row of the same length, one after another.
+/// Subtracts multiples of rows from a row of the same length, in sequence.
 #[inline(always)]
 pub(super) fn subtract<S: Simd, const COUNT: usize>(
     simd: S,
@@ -245,7 +243,7 @@ pub(super) fn subtract<S: Simd, const COUNT: usize>(
     rows: [&[f64]; COUNT],
     from: &mut [f64],
 ) {
-    // By loops: a closure that the compiler leaves outside has no vector instructions.
+    // Loops, because a closure that is not inlined would lose the vector instructions.
     let mut splat = [simd.splat_f64s(0.0); COUNT];
     let (mut heads, mut tails): ([&[S::f64s]; COUNT], [&[f64]; COUNT]) =
         ([&[]; COUNT], [&[]; COUNT]);
@@ -255,7 +253,7 @@ pub(super) fn subtract<S: Simd, const COUNT: usize>(
     }
     let (vectors, rest) = S::as_mut_simd_f64s(from);
     for (at, vector) in vectors.iter_mut().enumerate() {
-        // Not in its place, which could be one of the rows as far as the compiler knows.
+        // A copy, because the compiler cannot exclude that the target aliases one of the rows.
         let mut left = *vector;
         for (multiplier, row) in splat.iter().zip(&heads) {
             left = simd.sub_f64s(left, simd.mul_f64s(*multiplier, row[at]));
@@ -269,8 +267,7 @@ pub(super) fn subtract<S: Simd, const COUNT: usize>(
     }
 }
 
-/// Eliminates one column with the largest of its entries as pivot; returns the last column in which a row has an entry now. Entries of a column, and
-/// of a row, end where `end` has it.
+/// Eliminates one column with partial pivoting. Returns the last column with an entry. Columns and rows end at `end`.
 fn eliminate_column(
     storage: &mut ActiveRows<'_>,
     column: usize,
@@ -282,7 +279,7 @@ fn eliminate_column(
     let last_row = end(column).min(size - 1);
     let diagonal = column * stride + reach + PANEL - 1;
     let (mut pivot_row, mut magnitude) = (column, rows[diagonal].abs());
-    // One row down, the entry of the same column lies `stride - 1` further on.
+    // One row down, the entry of the same column is `stride - 1` further on.
     for row in column + 1..=last_row {
         let candidate = rows[diagonal + (row - column) * (stride - 1)].abs();
         if candidate > magnitude {

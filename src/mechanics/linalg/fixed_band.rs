@@ -1,16 +1,14 @@
-//! A banded matrix whose half-bandwidth the compiler knows, as those of beams: a panel of columns, and substitution, without row exchanges.
+//! Elimination and substitution without row exchanges for compile-time half-bandwidths, those of beams.
 //!
-//! Every entry is the result of the same operations in the same order as with a half-bandwidth that is known in a run only; but loops have
-//! their lengths at hand, so that nothing is asked twice.
+//! Every entry results from the same operations in the same order as for run-time half-bandwidths, but all loop lengths are constants.
 
 use pulp::Simd;
 
 use super::elimination::{LARGEST_MULTIPLIER, PANEL, PanelFactors, subtract};
 
-/// Eliminates the columns of a panel from the rows below it, where nothing was filled in so far; false, with nothing changed, when rows should
-/// be exchanged.
+/// Eliminates the columns of a panel without previous fill-in from the rows below. Returns false, with nothing changed, if rows should be exchanged.
 ///
-/// `rows` are those of the panel and `REACH` below it, of `STRIDE` stored entries each; `WIDTH` is the half-bandwidth in whole vectors.
+/// `rows` are those of the panel and `REACH` below it, with `STRIDE` stored entries each; `WIDTH` is the half-bandwidth in whole vectors.
 #[inline(always)]
 pub(super) fn eliminate_panel<
     S: Simd,
@@ -44,7 +42,7 @@ pub(super) fn eliminate_panel<
         let l1 = (head[1] - l0 * u01) * inverses[1];
         let l2 = (head[2] - l0 * u02 - l1 * u12) * inverses[2];
         let l3 = (head[3] - l0 * u03 - l1 * u13 - l2 * u23) * inverses[3];
-        // Each number is read again as it is written here: what was written in parts and is read as a whole makes the processor wait.
+        // Numbers are written individually, as they are read. Reading a vector written in parts would stall the processor.
         (head[0], head[1], head[2], head[3]) = (l0, l1, l2, l3);
         is_small &= [l0, l1, l2, l3].iter().all(|l| l.abs() <= LARGEST_MULTIPLIER);
     }
@@ -76,7 +74,7 @@ pub(super) fn eliminate_panel<
     true
 }
 
-/// Forward substitution with a panel of columns: the unknowns of the panel, and those of the rows below, less what they contribute.
+/// Forward substitution with a panel of columns.
 #[inline(always)]
 pub(super) fn substitute_forward<const REACH: usize, const STRIDE: usize>(
     panel: &[[f64; STRIDE]; PANEL],
@@ -97,7 +95,7 @@ pub(super) fn substitute_forward<const REACH: usize, const STRIDE: usize>(
     }
 }
 
-/// Backward substitution: the unknown of a row, from the right-hand side there and the unknowns behind it.
+/// Backward substitution of one row.
 #[inline(always)]
 pub(super) fn substitute_backward<const REACH: usize, const STRIDE: usize>(
     row: &[f64; STRIDE],

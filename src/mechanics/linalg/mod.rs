@@ -1,5 +1,5 @@
-//! Matrices of one step: banded storage with a pivoted LU, a border for what reaches further, and the ordering that
-//! keeps the band narrow. For vibration: symmetric matrices, some of them with 32 digits.
+//! Matrices of a time step: banded storage with pivoted LU, a border for distant couplings, and bandwidth-reducing orderings. For vibration:
+//! symmetric matrices, some of them with 32 digits.
 
 mod arrangement;
 mod band_rows;

@@ -1,19 +1,19 @@
-//! Numbering of unknowns that keeps the band narrow: reverse Cuthill–McKee (George & Liu 1981).
+//! Bandwidth-reducing numbering: reverse Cuthill–McKee (George & Liu 1981).
 
 use std::collections::VecDeque;
 
-/// A new numbering of unknowns that are coupled in groups, for a narrow band.
+/// Numbering of unknowns that are coupled in groups.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Ordering {
-    /// The new number of each unknown: `position[old]`.
+    /// New number of each unknown: `position[old]`.
     pub position: Vec<usize>,
-    /// The largest difference of new numbers inside a group: the half-bandwidth of the matrix in the new numbering.
+    /// Half-bandwidth: largest difference of new numbers in a group.
     pub half_bandwidth: usize,
 }
 
-/// Orders `count` unknowns of which those in one group are coupled with each other.
+/// Orders `count` unknowns; those in a group are coupled with each other.
 ///
-/// The given numbering is kept where the reverse Cuthill–McKee one is not narrower.
+/// The given numbering is kept unless the reverse Cuthill–McKee numbering is narrower.
 pub fn reverse_cuthill_mckee(count: usize, groups: &[Vec<usize>]) -> Ordering {
     let given: Vec<usize> = (0..count).collect();
     let reordered = order_by_levels(count, groups);
@@ -42,7 +42,7 @@ fn order_by_levels(count: usize, groups: &[Vec<usize>]) -> Vec<usize> {
     }
     let neighbours =
         |node: usize| groups_of[node].iter().flat_map(|&group| groups[group].iter().copied());
-    // Fewer groups means nearer to a free end, which is where levels should begin.
+    // Nodes with fewer couplings are closer to a free end, where levels should start.
     let degree =
         |node: usize| groups_of[node].iter().map(|&group| groups[group].len()).sum::<usize>();
 
@@ -77,7 +77,7 @@ fn order_by_levels(count: usize, groups: &[Vec<usize>]) -> Vec<usize> {
     position
 }
 
-/// A node at the end of the component of `seed`, by two sweeps over the levels.
+/// Node at the end of the component of `seed`, by two sweeps over the levels.
 fn farthest<I: Iterator<Item = usize>>(
     seed: usize,
     count: usize,

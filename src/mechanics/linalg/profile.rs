@@ -1,7 +1,7 @@
-//! A matrix whose entries end at a profile of their own in each row and column, with its pivoted LU.
+//! Profile matrix with pivoted LU factorisation.
 //!
-//! The profile is made anew with the entries, in the same memory: so what is coupled may wander. See [`BandedMatrix`](super::BandedMatrix) for
-//! how its rows are stored and eliminated.
+//! The profile is rebuilt with the entries in the same memory, so that couplings may change. Storage and elimination of rows are those of
+//! [`BandedMatrix`](super::BandedMatrix).
 
 use pulp::Arch;
 
@@ -10,15 +10,15 @@ use super::elimination::{PANEL, ProfileElimination};
 use super::storage::{Factors, Storage};
 use super::substitution::ProfileSubstitution;
 
-/// A square matrix with a profile: for each index the last row with an entry in the column, and the last column with one in the row.
+/// Square matrix with a profile: for each index the last row with an entry in the column, and the last column with one in the row.
 #[derive(Debug, Clone)]
 pub(super) struct ProfileMatrix {
     storage: Storage,
-    /// For each index; it never falls, and goes on for a panel behind the last row.
+    /// Profile by index. It never decreases, and is extended by a panel behind the last row.
     ends: Vec<usize>,
 }
 
-/// The factors `P A = L U` of a [`ProfileMatrix`], kept in its storage.
+/// Factors `P A = L U` of a [`ProfileMatrix`], kept in its storage.
 #[derive(Debug)]
 pub(super) struct ProfileLu<'a> {
     factors: Factors<'a>,
@@ -26,13 +26,13 @@ pub(super) struct ProfileLu<'a> {
 }
 
 impl ProfileMatrix {
-    /// A matrix without rows, with room for so many, and for entries so far off the diagonal.
+    /// Creates an empty matrix with capacity for a size and a half-bandwidth.
     pub(super) fn with_capacity(size: usize, half_bandwidth: usize) -> Self {
         let ends = Vec::with_capacity(size + PANEL);
         Self { storage: Storage::zeros(size, half_bandwidth), ends }
     }
 
-    /// Makes the matrix one of zeros with the least profile that covers the given ends and never falls; entries so far off the diagonal can be added
+    /// Resets the matrix to zero with the smallest nondecreasing profile that covers the given ends. Entries within the half-bandwidth can be added
     /// as long as they are zero.
     pub(super) fn remake(&mut self, ends: &[usize], half_bandwidth: usize) {
         self.ends.clear();
@@ -46,7 +46,7 @@ impl ProfileMatrix {
         self.storage.remake(ends.len(), reach);
     }
 
-    /// Adds `value` to the entry at `(row, column)` of the matrix, which must lie in the profile.
+    /// Adds `value` to the entry at `(row, column)`, which must lie in the profile.
     #[inline]
     pub(super) fn add(&mut self, row: usize, column: usize, value: f64) {
         debug_assert!(self.ends[row.min(column)] >= row.max(column), "({row}, {column})");
@@ -54,17 +54,17 @@ impl ProfileMatrix {
         self.storage.rows[at] += value;
     }
 
-    /// Copies entries of a row to the columns from `first` on; beyond the profile these must be zero.
+    /// Copies entries of a row to the columns from `first` on. Entries beyond the profile must be zero.
     #[inline]
     pub(super) fn copy_to_row(&mut self, row: usize, first: usize, values: &[f64]) {
         let at = row * self.storage.stride() + first + self.storage.centre() - row;
         self.storage.rows[at..at + values.len()].copy_from_slice(values);
     }
 
-    /// Replaces the entries of the matrix by its factors.
+    /// Replaces the entries by the factors.
     ///
     /// # Errors
-    /// When a column has no non-zero or no finite pivot; the entries are then lost.
+    /// Fails if a column has no nonzero finite pivot. The entries are then lost.
     pub(super) fn factorise(&mut self) -> Result<ProfileLu<'_>, LinearError> {
         Arch::new().dispatch(ProfileElimination(self.storage.rows_mut(), &self.ends))?;
         Ok(ProfileLu { factors: self.storage.factors(), ends: &self.ends })
@@ -72,7 +72,7 @@ impl ProfileMatrix {
 }
 
 impl ProfileLu<'_> {
-    /// Replaces the right-hand side `x`, one number a row, by the solution of `A x = b`.
+    /// Replaces the right-hand side `x` by the solution of `A x = b`.
     pub(super) fn solve(&self, x: &mut [f64]) {
         Arch::new().dispatch(ProfileSubstitution { factors: self.factors, ends: self.ends, x });
     }
@@ -91,7 +91,7 @@ mod tests {
             diagonal in prop::sample::select(vec![0.0, 0.5, 3.0, 30.0]),
         ) {
             let mut matrix = ProfileMatrix::with_capacity(1, 0);
-            // The second time in another profile.
+            // The second pass uses another profile.
             for shift in [0, 7] {
                 let size = reaches.len();
                 let ends: Vec<usize> =

@@ -1,25 +1,25 @@
-//! A symmetric matrix with few entries in a row.
+//! Sparse symmetric matrices.
 
 use pulp::{Arch, Simd, WithSimd};
 
 use super::strips::VectorStrip;
 
-/// A symmetric matrix of which only the entries are kept that are not zero, row by row.
+/// Symmetric matrix in compressed row storage.
 #[derive(Debug, Clone)]
 pub struct SymmetricSparse {
-    /// Where each row begins among the entries, and where the last ends.
+    /// Start of each row among the entries, and the end of the last.
     starts: Vec<usize>,
-    /// From left to right in each row.
+    /// Sorted by column in each row.
     columns: Vec<u32>,
     values: Vec<f64>,
 }
 
 impl SymmetricSparse {
-    /// The symmetric matrix of entries (row, column, value) of both triangles, in any order; several of one place add up.
-    /// `give` gives the entries twice, to be counted and to be kept.
+    /// Creates the matrix from entries (row, column, value) of both triangles, in any order. Entries of the same place add up. `give` is called
+    /// twice, to count and to store the entries.
     ///
     /// # Panics
-    /// When it has more than 2³² rows.
+    /// Panics if there are more than 2³² rows.
     pub fn new(size: usize, give: impl Fn(&mut dyn FnMut(usize, usize, f64))) -> Self {
         assert!(u32::try_from(size).is_ok(), "{size} rows");
         let mut starts = vec![0; size + 1];
@@ -28,7 +28,7 @@ impl SymmetricSparse {
         let mut next = starts.clone();
         let (mut columns, mut values) = (vec![0_u32; starts[size]], vec![0.0; starts[size]]);
         give(&mut |row, column, value| {
-            // From left to right; most come so.
+            // Sorted insertion; most entries arrive in order.
             let (first, mut at) = (starts[row], next[row]);
             while at > first && columns[at - 1] as usize > column {
                 (columns[at], values[at]) = (columns[at - 1], values[at - 1]);
@@ -42,7 +42,7 @@ impl SymmetricSparse {
         matrix
     }
 
-    /// Adds up entries that stand at one place.
+    /// Adds up entries of the same place.
     fn close_up(&mut self) {
         let Self { starts, columns, values } = self;
         let (mut kept, mut first) = (0, 0);
@@ -63,12 +63,12 @@ impl SymmetricSparse {
         values.truncate(kept);
     }
 
-    /// The number of rows of the matrix, and of its columns.
+    /// Number of rows.
     pub fn size(&self) -> usize {
         self.starts.len() - 1
     }
 
-    /// The entries of a row of the matrix: column and value, from left to right.
+    /// Entries of a row as column and value, sorted by column.
     pub fn row(&self, row: usize) -> impl Iterator<Item = (usize, f64)> {
         let entries = self.starts[row]..self.starts[row + 1];
         self.columns[entries.clone()]
@@ -77,12 +77,12 @@ impl SymmetricSparse {
             .zip(self.values[entries].iter().copied())
     }
 
-    /// The diagonal entry of a row of the matrix.
+    /// Diagonal entry of a row.
     pub fn diagonal(&self, row: usize) -> f64 {
         self.row(row).find(|(column, _)| *column == row).map_or(0.0, |(_, value)| value)
     }
 
-    /// Writes the product `M x` of this matrix with four vectors over `product`, and zeros behind it.
+    /// Writes the product `M x` with four vectors to `product`, followed by zeros.
     pub fn times(&self, x: &VectorStrip, product: &mut VectorStrip) {
         Arch::new().dispatch(SparseProduct { matrix: self, x, product });
     }

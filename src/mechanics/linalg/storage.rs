@@ -1,34 +1,33 @@
-//! The rows of a banded matrix as elimination and substitution know them.
+//! Row storage of a banded matrix for elimination and substitution.
 
 use std::ops::Range;
 
 use super::elimination::{PANEL, SMALLEST_REACH};
 
-/// The rows of a banded matrix, and what elimination notes about them.
+/// Rows of a banded matrix, with data of the elimination.
 ///
-/// Behind the last row stand rows of the identity, so that the last panel is whole, and behind these rows of zeros, which elimination may touch.
+/// The rows are followed by identity rows that complete the last panel, and by zero rows that elimination may access.
 #[derive(Debug, Clone)]
 pub(super) struct Storage {
     pub(super) size: usize,
-    /// The half-bandwidth `b`, at least [`SMALLEST_REACH`].
+    /// Half-bandwidth `b`, at least [`SMALLEST_REACH`].
     pub(super) reach: usize,
-    /// Row `i` holds the columns `i - b - (PANEL - 1) ..= i + 2 b`. In factors, the multipliers stand left of the diagonal,
-    /// on the diagonal the inverse of the pivot.
+    /// Row `i` holds the columns `i - b - (PANEL - 1) ..= i + 2 b`. Factors hold multipliers left of the diagonal and the inverse pivot on it.
     pub(super) rows: Vec<f64>,
-    /// The row that the pivot of each column came from, by column.
+    /// Original row of the pivot of each column.
     pub(super) pivots: Vec<usize>,
-    /// The last column with an entry in each row of the upper factor, by row.
+    /// Last column with an entry in each row of the upper factor.
     pub(super) last_columns: Vec<usize>,
-    /// The multipliers of the rows below a panel, until the panel is accepted.
+    /// Multipliers of the rows below a panel, until the panel is accepted.
     pub(super) multipliers: Vec<[f64; PANEL]>,
 }
 
-/// Rows of a banded matrix of which the first columns are eliminated, as [`Storage`] has them.
+/// Rows of a banded matrix during elimination, stored as in [`Storage`].
 #[derive(Debug)]
 pub(super) struct ActiveRows<'a> {
-    /// The number of rows without those of the identity.
+    /// Number of rows without those of the identity.
     pub(super) size: usize,
-    /// The number of columns to eliminate: all, or a multiple of the panel with as many rows behind it as a column reaches.
+    /// Number of columns to eliminate: all, or a multiple of the panel followed by as many rows as a column reaches.
     pub(super) columns: usize,
     pub(super) reach: usize,
     pub(super) rows: &'a mut [f64],
@@ -37,7 +36,7 @@ pub(super) struct ActiveRows<'a> {
     pub(super) multipliers: &'a mut [[f64; PANEL]],
 }
 
-/// The same when they are eliminated.
+/// Eliminated rows.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Factors<'a> {
     pub(super) size: usize,
@@ -62,7 +61,7 @@ impl Storage {
         storage
     }
 
-    /// Makes room for the rows of another matrix, all zero; takes more memory only where there never were as many.
+    /// Resets the storage to zero for another size. Memory is allocated only for a new maximum.
     pub(super) fn remake(&mut self, size: usize, half_bandwidth: usize) {
         (self.size, self.reach) = (size, half_bandwidth.max(SMALLEST_REACH));
         self.pivots.resize(size, 0);
@@ -73,26 +72,24 @@ impl Storage {
         self.end_with_the_identity();
     }
 
-    /// The place of the diagonal entry among the stored entries of a row.
+    /// Index of the diagonal entry among the stored entries of a row.
     #[inline(always)]
     pub(super) fn centre(&self) -> usize {
         self.reach + PANEL - 1
     }
 
-    /// The number of stored entries of a row.
+    /// Number of stored entries per row.
     #[inline(always)]
     pub(super) fn stride(&self) -> usize {
         3 * self.reach + PANEL
     }
 
-    /// All rows, to be eliminated.
     pub(super) fn rows_mut(&mut self) -> ActiveRows<'_> {
         let Self { size, reach, .. } = *self;
         let Self { rows, pivots, last_columns, multipliers, .. } = self;
         ActiveRows { size, columns: size, reach, rows, pivots, last_columns, multipliers }
     }
 
-    /// The factors, where all rows are eliminated.
     pub(super) fn factors(&self) -> Factors<'_> {
         let Self { size, reach, rows, pivots, last_columns, .. } = self;
         Factors { size: *size, columns: *size, reach: *reach, rows, pivots, last_columns }
@@ -112,7 +109,7 @@ impl Storage {
 }
 
 impl Factors<'_> {
-    /// Whether the pivot of one of these columns came from another row.
+    /// Returns true if the pivot of one of these columns came from another row.
     #[inline(always)]
     pub(super) fn is_exchanged(&self, mut columns: Range<usize>) -> bool {
         columns.any(|column| self.pivots[column] != column)

@@ -1,27 +1,27 @@
-//! Four vectors side by side, which vector instructions treat at once.
+//! Strips of four vectors for vector instructions.
 
 use pulp::{Arch, Simd, WithSimd};
 
-/// The number of vectors that are worked on side by side, as a strip.
+/// Number of vectors in a strip.
 pub const STRIP_WIDTH: usize = 4;
 
-/// Four vectors side by side: the entries `i` of all of them, then the entries `i + 1`.
+/// Four interleaved vectors: the entries `i` of all of them, then the entries `i + 1`.
 pub type VectorStrip = [[f64; STRIP_WIDTH]];
 
-/// A matrix of four by four numbers, row by row: the products of the vectors of two strips.
+/// Four by four matrix, row by row, for products of two strips.
 pub type Square4 = [[f64; STRIP_WIDTH]; STRIP_WIDTH];
 
-/// The products `Xᵀ Y` of the vectors of two strips: entry `(i, j)` is that of vector `i` of `x` with vector `j` of `y`.
+/// Products `Xᵀ Y` of two strips: entry `(i, j)` belongs to vector `i` of `x` and vector `j` of `y`.
 pub fn products(x: &VectorStrip, y: &VectorStrip) -> Square4 {
     Arch::new().dispatch(Products { x, y })
 }
 
-/// Subtracts combinations of the vectors of the strip `x` from those of the strip `from`: `Y ← Y - X G`.
+/// Subtracts linear combinations of the vectors of `x` from those of `from`: `Y ← Y - X G`.
 pub fn subtract_combination(x: &VectorStrip, by: &Square4, from: &mut VectorStrip) {
     Arch::new().dispatch(LinearCombination { x, by, from });
 }
 
-/// Replaces the vectors of a strip by combinations of them: `X ← X G`.
+/// Replaces the vectors of a strip by linear combinations of them: `X ← X G`.
 pub fn combine(x: &mut VectorStrip, by: &Square4) {
     Arch::new().dispatch(Replacement { x, by });
 }

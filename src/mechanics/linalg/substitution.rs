@@ -1,6 +1,6 @@
-//! Solving with the factors of a banded matrix.
+//! Substitution with the factors of a banded matrix.
 //!
-//! What was found last enters a sum last: the sums of several rows are then under way at the same time.
+//! The most recent result enters a sum last, so that the sums of several rows overlap.
 
 use pulp::{Simd, WithSimd};
 
@@ -8,7 +8,7 @@ use super::elimination::PANEL;
 use super::fixed_band;
 use super::storage::Factors;
 
-/// Forward and backward substitution with the factors of a banded matrix: replaces a right-hand side by the solution.
+/// Forward and backward substitution, which replaces a right-hand side by the solution.
 pub(super) struct Substitution<'a> {
     pub(super) factors: Factors<'a>,
     pub(super) x: &'a mut [f64],
@@ -25,7 +25,7 @@ impl WithSimd for Substitution<'_> {
     }
 }
 
-/// Forward substitution with the columns that are eliminated: what is left of the right-hand side of the other rows follows.
+/// Forward substitution with the eliminated columns, which also reduces the right-hand side of the other rows.
 pub(super) struct Forward<'a> {
     pub(super) factors: Factors<'a>,
     pub(super) x: &'a mut [f64],
@@ -37,7 +37,7 @@ impl WithSimd for Forward<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let Self { factors, x } = self;
-        // The half-bandwidths of beams of degree 1 to 3 are known to the compiler.
+        // The half-bandwidths of beams of degree 1 to 3 are compile-time constants.
         match factors.reach {
             6 => substitute_forward_fixed::<6, 22>(&factors, x),
             8 => substitute_forward_fixed::<8, 28>(&factors, x),
@@ -47,7 +47,7 @@ impl WithSimd for Forward<'_> {
     }
 }
 
-/// Backward substitution in the rows that are eliminated, where the unknowns behind them are known.
+/// Backward substitution in the eliminated rows, after the unknowns behind them are known.
 pub(super) struct Backward<'a> {
     pub(super) factors: Factors<'a>,
     pub(super) x: &'a mut [f64],
@@ -68,7 +68,7 @@ impl WithSimd for Backward<'_> {
     }
 }
 
-/// The same with the factors of a matrix whose entries end at a profile.
+/// Substitution for a profile matrix.
 pub(super) struct ProfileSubstitution<'a> {
     pub(super) factors: Factors<'a>,
     pub(super) ends: &'a [usize],
@@ -86,7 +86,7 @@ impl WithSimd for ProfileSubstitution<'_> {
     }
 }
 
-/// Substitution with the factors of a banded matrix for several right-hand sides, the entries of a row side by side; rows before `first` must be zero.
+/// Substitution for several right-hand sides with interleaved entries. Rows before `first` must be zero.
 pub(super) struct StripSubstitution<'a, const W: usize> {
     pub(super) factors: Factors<'a>,
     pub(super) x: &'a mut [[f64; W]],
@@ -102,7 +102,7 @@ impl<const W: usize> WithSimd for StripSubstitution<'_, W> {
     }
 }
 
-/// `reach` is that of the factors; the multipliers of a column end in the row that `end` tells.
+/// `reach` is that of the factors; the multipliers of a column end at the row given by `end`.
 #[inline(always)]
 fn substitute_forward(
     factors: &Factors<'_>,
@@ -122,7 +122,7 @@ fn substitute_backward(factors: &Factors<'_>, reach: usize, x: &mut [f64]) {
     }
 }
 
-/// The same where the half-bandwidth is known to the compiler.
+/// The same for compile-time half-bandwidths.
 #[inline(always)]
 fn substitute_forward_fixed<const REACH: usize, const STRIDE: usize>(
     factors: &Factors<'_>,
@@ -210,7 +210,7 @@ fn substitute_panel(
     }
 }
 
-/// Backward substitution: the unknown of a row.
+/// Backward substitution of one row.
 #[inline(always)]
 fn substitute_row(factors: &Factors<'_>, reach: usize, x: &mut [f64], row: usize) {
     let (stride, centre) = (3 * reach + PANEL, reach + PANEL - 1);
@@ -224,7 +224,7 @@ fn substitute_row(factors: &Factors<'_>, reach: usize, x: &mut [f64], row: usize
     };
 }
 
-/// The unknown of a row, the first of those that stand in it.
+/// First unknown of a row, from those behind it.
 #[inline(always)]
 fn back_substitute(row: &[f64], x: &[f64]) -> f64 {
     let known = row[1..].iter().zip(&x[1..]).rev();

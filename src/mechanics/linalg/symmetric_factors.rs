@@ -1,8 +1,7 @@
-//! `L D Lᵀ` of a symmetric banded matrix: eliminated with 32 digits, kept and solved with 16.
+//! `L D Lᵀ` factorisation of a symmetric band matrix: eliminated with 32 digits, stored and solved with 16.
 //!
-//! Of a definite matrix that is a sum of squares of very different weight the pivots are graded, and the columns of `L` are not: rounding `L`
-//! and `D` at the end changes the squares by a relative amount each, which is as harmless as rounding the entries of `B` (theory,
-//! section 15).
+//! For a definite sum of squares of very different magnitudes, the pivots are graded but the columns of `L` are not. Rounding `L` and `D` at the end
+//! changes each square by a relative amount, which is as harmless as rounding the entries of `B` (theory, section 15).
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -11,23 +10,23 @@ use super::precise_band::{MARGIN, PreciseBand};
 use super::strips::VectorStrip;
 use super::{LinearError, SymmetricSparse};
 
-/// What the pivots of an elimination `L D Lᵀ` without row exchanges say about a symmetric matrix.
+/// Properties of a symmetric matrix from the pivots of `L D Lᵀ` without row exchanges.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pivots {
-    /// The number of negative pivots: as many eigenvalues are negative (Sylvester's law of inertia; Golub & Van Loan, Matrix Computations,
-    /// 4th ed., section 4.4).
+    /// Number of negative pivots, which equals that of negative eigenvalues (Sylvester's law of inertia; Golub & Van Loan, Matrix Computations, 4th
+    /// ed., section 4.4).
     pub negative: usize,
-    /// The most that elimination took off a diagonal entry, relative to it [-]; 1 or less for a definite matrix. So many times more
-    /// than by its own rounding the matrix may be wrong.
+    /// Largest reduction of a diagonal entry in the elimination, relative to the entry [-]; at most 1 for a definite matrix. It multiplies the
+    /// rounding error of the matrix.
     pub growth: f64,
 }
 
-/// The factors `L D Lᵀ` of a symmetric banded matrix, with about 32 digits.
+/// Factors `L D Lᵀ` of a symmetric band matrix.
 #[derive(Debug, Clone)]
 pub struct SymmetricFactors {
     size: usize,
     reach: usize,
-    /// By columns of `L`, below the diagonal.
+    /// Columns of `L` below the diagonal.
     multipliers: Vec<f64>,
     inverse_pivots: Vec<f64>,
     pivots: Pivots,
@@ -45,27 +44,27 @@ impl SymmetricFactors {
         Ok(Self { size, reach, multipliers, inverse_pivots, pivots })
     }
 
-    /// The number of negative pivots of the factors, and how much was taken off diagonal entries.
+    /// Number of negative pivots and growth.
     pub fn pivots(&self) -> Pivots {
         self.pivots
     }
 
-    /// The multipliers below the diagonal in a column of the factor `L`, and the inverse of the pivot of that column.
+    /// Multipliers below the diagonal in a column of `L`, and its inverse pivot.
     pub fn column(&self, column: usize) -> (&[f64], f64) {
         (&self.multipliers[column * self.reach..][..self.reach], self.inverse_pivots[column])
     }
 
-    /// Replaces four right-hand sides by their solutions. Behind them there must be zeros, as many as the half-bandwidth.
+    /// Replaces four right-hand sides by their solutions. They must be followed by as many zeros as the half-bandwidth.
     pub fn solve(&self, x: &mut VectorStrip) {
         assert!(x.len() >= self.size + self.reach, "a strip has a margin");
         Arch::new().dispatch(SymmetricSubstitution { factors: self, x });
     }
 }
 
-/// Multipliers and inverse pivots, to be filled.
+/// Storage of multipliers and inverse pivots.
 type Kept<'a> = (&'a mut [f64], &'a mut [f64]);
 
-/// Eliminates the symmetric matrix `A + σ M`, column by column, and tells each column and pivot to the caller.
+/// Eliminates the symmetric matrix `A + σ M` column by column, and stores columns and pivots if requested.
 pub(super) fn eliminate(
     band: &PreciseBand,
     shift: f64,
@@ -87,7 +86,7 @@ impl WithSimd for SymmetricElimination<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        // The half-bandwidths of beams of degree 1 to 3 are known to the compiler.
+        // The half-bandwidths of beams of degree 1 to 3 are compile-time constants.
         match self.band.half_bandwidth {
             5 => self.run(simd, 5),
             8 => self.run(simd, 8),
@@ -97,7 +96,7 @@ impl WithSimd for SymmetricElimination<'_> {
     }
 }
 
-/// Numbers that vector instructions treat at once.
+/// Vector length.
 const LANES: usize = MARGIN + 1;
 
 impl SymmetricElimination<'_> {
@@ -105,10 +104,10 @@ impl SymmetricElimination<'_> {
     fn run<S: Simd>(self, simd: S, reach: usize) -> Result<Pivots, LinearError> {
         let Self { band, shift, other, mut kept } = self;
         let (size, stride) = (band.size, reach + 1 + MARGIN);
-        // Only so many rows are under way at a time; row `i` stands at `i` modulo their number.
+        // Circular buffer of active rows: row `i` is at `i` modulo their number.
         let rows = reach + 1;
         let (mut high, mut low) = (vec![0.0; rows * stride], vec![0.0; rows * stride]);
-        // What the diagonal was, and how much was taken off it in all.
+        // Original diagonal entries and their total reduction.
         let (mut start, mut taken) = (vec![0.0_f64; rows], vec![0.0_f64; rows]);
         let mut pivots = Pivots { negative: 0, growth: 0.0 };
         let mut loaded = 0;
@@ -137,7 +136,7 @@ impl SymmetricElimination<'_> {
             if pivot.high == 0.0 {
                 let is_alone = pivot_high.iter().all(|entry| *entry == 0.0);
                 if kept.is_none() && is_alone {
-                    // A row of nothing but zeros has a sign of its own: none.
+                    // Zero rows have no sign.
                     continue;
                 }
                 return Err(LinearError::Singular { unknown: at, size });
@@ -215,7 +214,7 @@ fn substitute(factors: &SymmetricFactors, reach: usize, x: &mut VectorStrip) {
     for column in (0..factors.size).rev() {
         let multipliers = &factors.multipliers[column * reach..][..reach];
         let (value, known) = x[column..].split_at_mut(1);
-        // Two sums are under way at the same time.
+        // Two sums overlap.
         let mut sums = [[0.0; 4]; 2];
         for (at, (multiplier, known)) in multipliers.iter().zip(&known[..reach]).enumerate() {
             for (sum, known) in sums[at % 2].iter_mut().zip(known) {
@@ -227,7 +226,7 @@ fn substitute(factors: &SymmetricFactors, reach: usize, x: &mut VectorStrip) {
             *value = *value * inverse - (even + odd);
         }
     }
-    // What forward elimination has left behind the end.
+    // Clears the entries that forward elimination has left behind the end.
     x[factors.size..].fill([0.0; 4]);
 }
 
@@ -237,7 +236,7 @@ mod tests {
     use nalgebra::{DMatrix, DVector};
     use proptest::prelude::*;
 
-    /// The sum of squares that these numbers make, and the same as a dense matrix.
+    /// Sum of squares of these numbers, and the same as a dense matrix.
     fn squares(
         size: usize,
         width: usize,
@@ -294,7 +293,7 @@ mod tests {
         #[test]
         fn entries_of_unknowns_in_any_order_add_up(entries in prop::collection::vec(-1.0..1.0_f64, 8)) {
             let (mut band, mut dense) = (PreciseBand::zeros(5, 4), DMatrix::<f64>::zeros(5, 5));
-            // One unknown comes twice, one is not there.
+            // One unknown is repeated, one is outside.
             let unknowns = [3, 1, 3, 7];
             let (p, q) = entries.split_at(4);
             band.add_square(&unknowns, 2.0, p);

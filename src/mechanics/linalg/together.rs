@@ -1,43 +1,43 @@
-//! A band and its border eliminated together, so that the band alone may be singular: what only contacts hold has no stiffness of its own.
+//! Joint elimination of a band and its border, for bands that may be singular, as in mechanisms that only contacts restrain.
 //!
-//! The rows of a border that couple little find a place among those of the band that keeps the whole narrow (reverse Cuthill–McKee), and rows are
-//! exchanged as in any banded matrix. Rows and columns are scaled first, as forces and lengths meet here (Ruiz, A scaling algorithm to equilibrate
-//! both rows and columns norms in matrices, RAL-TR-2001-034).
+//! Border rows with few couplings are inserted into the band by reverse Cuthill–McKee ordering, and rows are exchanged as in any banded matrix. Rows
+//! and columns are scaled first because forces and lengths are mixed (Ruiz, A scaling algorithm to equilibrate both rows and columns norms in
+//! matrices, RAL-TR-2001-034).
 
 use super::ordering::reverse_cuthill_mckee;
 use super::{BandedLu, BandedMatrix, LinearError};
 
-/// How often rows and columns are scaled.
+/// Number of scaling passes.
 const SCALINGS: usize = 4;
 
-/// An entry of a matrix: row, column, value.
+/// Matrix entry: row, column, value.
 type MatrixEntry = (usize, usize, f64);
 
-/// A square sparse matrix that is eliminated in an order of its own, but for its last rows and columns, which are full.
+/// Square sparse matrix with its own elimination order, followed by dense rows and columns.
 #[derive(Debug, Clone)]
 pub(super) struct Together {
-    /// The number of rows that are not full.
+    /// Number of sparse rows.
     size: usize,
     band: BandedMatrix,
-    /// Where each of them stands in the band.
+    /// Place of each sparse row in the band.
     position: Vec<usize>,
     scales: Equilibration,
-    /// The columns that are full; after factorising, solved with the band.
+    /// Dense columns; after factorisation solved with the band.
     columns: Vec<Vec<f64>>,
-    /// The entries of the rows that are full, numbered from the first of these.
+    /// Entries of the dense rows, numbered from the first of these.
     rows: Vec<MatrixEntry>,
-    /// What the band leaves of the corner of full rows and columns.
+    /// Schur complement of the dense rows and columns.
     complement: BandedMatrix,
 }
 
-/// What rows and columns are multiplied with.
+/// Scaling factors of rows and columns.
 #[derive(Debug, Clone, Default)]
 struct Equilibration {
     rows: Vec<f64>,
     columns: Vec<f64>,
 }
 
-/// The factors of a [`Together`].
+/// Factors of a [`Together`].
 #[derive(Debug)]
 pub(super) struct TogetherLu<'a> {
     others: Ordered<'a>,
@@ -46,7 +46,7 @@ pub(super) struct TogetherLu<'a> {
     complement: BandedLu<'a>,
 }
 
-/// The factors of the rows that are not full.
+/// Factors of the sparse rows.
 #[derive(Debug)]
 struct Ordered<'a> {
     band: BandedLu<'a>,
@@ -55,7 +55,7 @@ struct Ordered<'a> {
 }
 
 impl Together {
-    /// A matrix of `size` rows, of which the last `full` couple with all others.
+    /// Creates a matrix of `size` rows, of which the last `full` are dense.
     pub(super) fn new(size: usize, full: usize) -> Self {
         Self {
             size: size - full,
@@ -68,10 +68,10 @@ impl Together {
         }
     }
 
-    /// The factors of the matrix with these entries, of which those of one place add up.
+    /// Factorises the matrix with these entries. Entries of the same place add up.
     ///
     /// # Errors
-    /// When a column has no non-zero or no finite pivot.
+    /// Fails if a column has no nonzero finite pivot.
     pub(super) fn factorise(
         &mut self,
         entries: &[MatrixEntry],
@@ -102,7 +102,7 @@ impl Together {
         Ok(TogetherLu { others, columns, rows, complement })
     }
 
-    /// Puts the entries of rows that are not full into a narrow band.
+    /// Orders the sparse rows into a narrow band.
     fn order(&mut self, entries: &[MatrixEntry]) {
         let scales = Equilibration::of(self.size, entries);
         let pairs = entries.iter().filter(|(row, column, _)| row != column);
@@ -146,7 +146,7 @@ impl Ordered<'_> {
 }
 
 impl Equilibration {
-    /// What makes the largest entries of rows and columns about one.
+    /// Scaling factors that make the largest entries of rows and columns about one.
     fn of(size: usize, entries: &[MatrixEntry]) -> Self {
         let (mut rows, mut columns) = (vec![1.0; size], vec![1.0; size]);
         for _ in 0..SCALINGS {

@@ -1,8 +1,8 @@
-//! Elimination of a long band from both ends towards the middle, at once where there are two threads.
+//! Elimination of a long band from both ends, concurrently with two threads.
 //!
-//! The rows behind the middle are turned around in their place: last row first, last column first. They are then eliminated as those before it are, and
-//! what both leave in the middle is a small full matrix (the twisted or "burn at both ends" factorisation: Golub & Van Loan, Matrix Computations,
-//! 4th ed., section 4.3; van der Vorst, Parallel Computing 5 (1987) 45–54). The order of operations, and so every bit, is the same with one thread.
+//! The rows behind the middle are reversed in place (last row and last column first) and eliminated like the others. The remainder in the middle is a
+//! small dense matrix (twisted or "burn at both ends" factorisation: Golub & Van Loan, Matrix Computations, 4th ed., section 4.3; van der Vorst,
+//! Parallel Computing 5 (1987) 45–54). The order of operations, and so every bit, is the same with one thread.
 
 use pulp::Arch;
 
@@ -12,35 +12,35 @@ use super::substitution::{Backward, Forward};
 use super::{BandedLu, BandedMatrix, LinearError};
 use crate::threads::both;
 
-/// Bands of so many rows are eliminated from both ends: fewer gain little by a second thread, and keep the bits of elimination from one end.
+/// Number of rows from which elimination from both ends is used. Shorter bands gain little from a second thread.
 const FEWEST_ROWS: usize = 6000;
 
-/// What a band that is eliminated from both ends needs besides its own rows.
+/// Work space of the elimination from both ends.
 #[derive(Debug, Clone)]
 pub(super) struct TwoEnded {
     cut: BandCut,
     threads: usize,
-    /// Those of elimination from the last row on.
+    /// Multipliers of the elimination from the last row on.
     multipliers: Vec<[f64; PANEL]>,
-    /// What is left in the middle.
+    /// Remainder in the middle.
     middle: BandedMatrix,
     right: Vec<f64>,
-    /// The unknowns behind the middle and in it, last one first.
+    /// Unknowns in and behind the middle in reverse order.
     turned: Vec<f64>,
 }
 
-/// Where a band of so many rows is cut.
+/// Partition of a band.
 #[derive(Debug, Clone, Copy)]
 struct BandCut {
     size: usize,
     reach: usize,
-    /// The number of columns that are eliminated from the first one on, in whole panels.
+    /// Number of columns eliminated from the first one on, in whole panels.
     upper: usize,
-    /// The number of columns that are eliminated from the last one back, in whole panels.
+    /// Number of columns eliminated from the last one back, in whole panels.
     lower: usize,
 }
 
-/// The factors of a band that was eliminated from both ends.
+/// Factors of a band eliminated from both ends.
 #[derive(Debug)]
 pub(super) struct TwoEndedLu<'a> {
     cut: BandCut,
@@ -59,24 +59,24 @@ impl BandCut {
         Self { size, reach, upper, lower: (both - upper) / PANEL * PANEL }
     }
 
-    /// The number of unknowns that are eliminated last.
+    /// Number of unknowns that are eliminated last.
     fn middle(&self) -> usize {
         self.size - self.upper - self.lower
     }
 
-    /// The number of rows that elimination from the first one on touches.
+    /// Number of rows involved in the elimination from the first one on.
     fn upper_rows(&self) -> usize {
         self.upper + self.reach
     }
 
-    /// The number of rows that are turned around: all but those, and one between.
+    /// Number of reversed rows: all others except one between.
     fn lower_rows(&self) -> usize {
         self.size - self.upper_rows() - 1
     }
 }
 
 impl TwoEnded {
-    /// Room to eliminate a band from both ends, if it is long enough for that.
+    /// Creates the work space if the band is long enough.
     pub(super) fn worthwhile(size: usize, half_bandwidth: usize) -> Option<Self> {
         (size >= FEWEST_ROWS && size > 16 * half_bandwidth).then(|| Self::new(size, half_bandwidth))
     }
@@ -95,12 +95,11 @@ impl TwoEnded {
         }
     }
 
-    /// Lets so many threads work from here on, with the same results.
+    /// Sets the number of threads, with unchanged results.
     pub(super) fn use_threads(&mut self, threads: usize) {
         self.threads = threads;
     }
 
-    /// Sets every entry of a matrix to zero.
     pub(super) fn clear(&self, band: &mut BandedMatrix) {
         let storage = band.storage_mut();
         let middle = self.cut.size / 2 * storage.stride();
@@ -112,7 +111,7 @@ impl TwoEnded {
     /// Replaces the entries of a matrix by its factors.
     ///
     /// # Errors
-    /// When a column has no non-zero or no finite pivot; the entries are then lost.
+    /// Fails if a column has no nonzero finite pivot. The entries are then lost.
     pub(super) fn factorise<'a>(
         &'a mut self,
         band: &'a mut BandedMatrix,
@@ -123,7 +122,7 @@ impl TwoEnded {
         let storage = band.storage_mut();
         let (stride, centre) = (storage.stride(), storage.centre());
         let (before, behind) = (cut.upper_rows(), size - cut.lower_rows());
-        // A row that is turned around has its diagonal elsewhere; at the end of the row between there are zeros for that, which nothing fills.
+        // The diagonal of a reversed row is at another index. Zeros at the end of the row between serve as padding that is never filled.
         let shift = 2 * reach - centre;
         let (rows, lower) = storage.rows[..size * stride].split_at_mut(behind * stride - shift);
         let (pivots, lower_pivots) = storage.pivots.split_at_mut(behind);
@@ -163,7 +162,7 @@ impl TwoEnded {
                 true => (0, row, column),
                 false => (behind, size - 1 - row, size - 1 - column),
             };
-            // Elimination fills in as far as twice the half-bandwidth.
+            // Fill-in extends to twice the half-bandwidth.
             let is_stored = column <= row + 2 * reach;
             if is_stored {
                 storage.rows[(first + row) * stride + column + centre - row]
@@ -204,7 +203,7 @@ impl TwoEnded {
 }
 
 impl TwoEndedLu<'_> {
-    /// Replaces the right-hand side `x`, one number a row, by the solution of `A x = b`.
+    /// Replaces the right-hand side `x` by the solution of `A x = b`.
     pub(super) fn solve(&mut self, x: &mut [f64]) {
         let Self { cut, threads, upper, lower, middle, right, turned } = self;
         let (cut, upper, lower) = (*cut, *upper, *lower);
@@ -254,7 +253,7 @@ mod tests {
         let mut x = right.to_vec();
         let mut factors = ends.factorise(&mut band).unwrap();
         factors.solve(&mut x);
-        // Again, as with factors that are used again.
+        // Repeats the solution with the same factors.
         x.copy_from_slice(right);
         factors.solve(&mut x);
         x
@@ -265,7 +264,7 @@ mod tests {
         fn the_solution_from_both_ends_is_that_from_one_and_the_same_on_two_threads(
             size in 60_usize..200, half_bandwidth in prop::sample::select(vec![1_usize, 5, 6, 8, 11, 14]),
             entries in prop::collection::vec(-1.0..1.0_f64, 2000),
-            // Rows are exchanged, or not, or only here and there.
+            // Diagonals with no, some or many row exchanges.
             diagonal in prop::sample::select(vec![0.0, 0.5, 3.0, 30.0]),
         ) {
             let mut matrix = BandedMatrix::zeros(size, half_bandwidth);

@@ -1,43 +1,43 @@
-//! Whether a motion that is a function from outside is continuous: what jumps goes a way in no time.
+//! Continuity check of prescribed motions that are script functions.
 //!
-//! Functions are known at points only. Near the start they are asked ever closer to it: `√t`, with an infinite rate, lies between what is smooth and
-//! what jumps. In a step, where one of its values is farther from the next than all others are together, the larger half of that way is followed
-//! through thirty halvings: a jump stays what it is, all else gets small.
+//! Functions are known at points only. Near the start they are sampled at decreasing times; `√t`, with an infinite rate, is between smooth functions
+//! and jumps. Within a step, if one difference of consecutive values exceeds the sum of all others, the half with the larger difference is followed
+//! through thirty bisections. A jump persists; all other differences vanish.
 
 use super::{LimitSide, LoadError, Schedule};
 use crate::elementary::whole_power;
 
-/// A difference counts from so many roundings of the values on.
+/// Rounding units of the values above which a difference is significant.
 const ROUNDINGS: f64 = 1e3;
 
-/// Close to the start is where `8⁻ⁱ` units of time have passed, for these `i`.
+/// Exponents `i` of the sampling times `8⁻ⁱ` close to the start.
 const CLOSE: [i32; 2] = [12, 13];
 
-/// What is left of a distance from the start at the second of these times: of a jump all, of `√t` 0.35, of what is smooth 0.125.
+/// Ratio of the distances from the start at these times: 1 for a jump, 0.35 for `√t`, 0.125 for smooth functions.
 const LEFT_OF_A_JUMP_AT_START: f64 = 0.7;
 const LEFT_OF_A_POWER_AT_START: f64 = 0.16;
 
-/// How often the way between two values is halved, before a difference is looked at and after that.
+/// Number of bisections, before a difference is recorded and after that.
 const HALVINGS: usize = 15;
 
-/// What is left of a difference after the second halvings: of a jump all, of `√t` 6e-3 at most, of what is smooth 3e-5.
+/// Remaining fraction of a difference after the second bisections: 1 for a jump, at most 6e-3 for `√t`, 3e-5 for smooth functions.
 const LEFT_OF_A_JUMP: f64 = 0.5;
 
-/// A difference that is larger than so many times all others in a step together is looked into.
+/// Ratio of a difference to the sum of all others in a step above which it is examined.
 const OUTSTANDING: f64 = 1.05;
 
-/// A place where a function jumps.
+/// Jump of a function.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Jump {
     pub(super) time: f64,
     pub(super) before: f64,
     pub(super) after: f64,
-    /// Whether it jumps indeed, and is not only infinitely steep.
+    /// True for a jump, false for an infinite slope.
     pub(super) is_whole: bool,
 }
 
 impl Jump {
-    /// The error of a place that jumps.
+    /// Returns the error of the jump.
     pub(super) fn refused(self) -> LoadError {
         let Self { time, before, after, is_whole } = self;
         let [time, before, after] = [time, before, after].map(rounded);
@@ -48,16 +48,15 @@ impl Jump {
     }
 }
 
-/// A number of seven digits, for messages.
+/// Rounds a number to seven digits.
 fn rounded(number: f64) -> f64 {
     format!("{number:.6e}").parse().unwrap_or(number)
 }
 
-/// Whether a schedule jumps, or has an infinite rate, just after t = 0; none where it has no function, or where its values are too near to each other
-/// to tell.
+/// Jump or infinite rate of a schedule just after t = 0; `None` without a script function, or if its values are too close to decide.
 ///
 /// # Errors
-/// When the function fails or a value is not finite.
+/// Fails if the function fails or a value is not finite.
 pub(super) fn jump_at_start(schedule: &Schedule) -> Result<Option<Jump>, LoadError> {
     if !may_jump(schedule) {
         return Ok(None);
@@ -73,10 +72,10 @@ pub(super) fn jump_at_start(schedule: &Schedule) -> Result<Option<Jump>, LoadErr
     Ok(is_steep.then_some(Jump { time: 0.0, before, after, is_whole }))
 }
 
-/// Where a schedule jumps between times of a step at which it has these values; none where nothing looks like that.
+/// Jump of a schedule between the times of a step with the given values; `None` if there is no sign of one.
 ///
 /// # Errors
-/// When the function fails or a value is not finite.
+/// Fails if the function fails or a value is not finite.
 pub(super) fn jump_between(
     schedule: &Schedule,
     times: &[f64],
@@ -105,7 +104,7 @@ pub(super) fn jump_between(
     Ok(jumps.then_some(Jump { time, before, after, is_whole: true }))
 }
 
-/// Follows the larger half of a way through some halvings.
+/// Follows the half with the larger difference through several bisections.
 fn halve(schedule: &Schedule, ends: &mut [(f64, f64); 2]) -> Result<(), LoadError> {
     for _ in 0..HALVINGS {
         let [(t0, v0), (t1, v1)] = *ends;
@@ -117,7 +116,7 @@ fn halve(schedule: &Schedule, ends: &mut [(f64, f64); 2]) -> Result<(), LoadErro
     Ok(())
 }
 
-/// Schedules that are no functions from outside tell where they jump, and what a controller says holds for a step.
+/// Other schedules declare their jumps, and the values of controllers are constant in a step.
 fn may_jump(schedule: &Schedule) -> bool {
     schedule.functions() > 0 && !schedule.is_sampled()
 }

@@ -1,4 +1,4 @@
-//! What acts on a beam, and where.
+//! Loads and their places.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,48 +6,48 @@ use super::Schedule;
 use crate::beams::Station;
 use crate::geometry::Vec2;
 
-/// What the direction of a load is tied to.
+/// Frame of the direction of a load.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum LoadFrame {
-    /// The load is tied to space: it keeps its direction.
+    /// Fixed direction in space.
     #[default]
     Dead,
-    /// The load is tied to the section and turns with it. Components are along the axis as drawn and across it.
+    /// Rotates with the section. Components are along the axis as drawn and across it.
     Follower,
 }
 
-/// What a load is and where it acts.
+/// Kind and place of a load.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum LoadKind {
-    /// A force at a station [force].
+    /// Force at a station [force].
     Force {
-        /// The station at which the force acts.
+        /// Station of the force.
         station: Station,
-        /// The force while the schedule is 1 [force].
+        /// Force at a schedule factor of 1 [force].
         force: Vec2,
-        /// What the direction of the force is tied to.
+        /// Frame of its direction.
         frame: LoadFrame,
     },
-    /// A moment at a station [force·length].
+    /// Moment at a station [force·length].
     Moment {
-        /// The station at which the moment acts.
+        /// Station of the moment.
         station: Station,
-        /// The moment while the schedule is 1, counter-clockwise [force·length].
+        /// Moment at a schedule factor of 1, counter-clockwise [force·length].
         moment: f64,
     },
-    /// A force per length of a whole beam as drawn [force/length].
+    /// Force per length along a whole beam as drawn [force/length].
     Line {
-        /// The index, in its scene, of the beam with the line load.
+        /// Index of the beam in its scene.
         beam: usize,
-        /// The force per length of the axis as drawn while the schedule is 1 [force/length].
+        /// Force per length of the axis as drawn at a schedule factor of 1 [force/length].
         force: Vec2,
-        /// What the direction of the line load is tied to.
+        /// Frame of its direction.
         frame: LoadFrame,
     },
 }
 
 impl LoadKind {
-    /// What is told of the load in columns: what it is, its dimension, and its size while the schedule is 1.
+    /// Quantity, dimension and magnitude at a schedule factor of 1, for columns.
     pub fn measure(&self) -> (&'static str, &'static str, f64) {
         match self {
             Self::Force { force, .. } => ("force", "force", force.norm()),
@@ -57,15 +57,15 @@ impl LoadKind {
     }
 }
 
-/// A load of a scene.
+/// Load of a scene.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Load {
-    /// The name of the load, for messages.
+    /// Name in messages.
     pub name: String,
-    /// What the load is and where it acts.
+    /// Kind and place.
     pub kind: LoadKind,
-    /// The schedule of the load: a factor over time.
+    /// Factor over time.
     pub schedule: Schedule,
-    /// What the load is called in columns of histories, which have its work then.
+    /// Name in columns of histories, which then include its work.
     pub title: Option<String>,
 }

@@ -1,4 +1,4 @@
-//! Loads and how they change with time, and motions that are given.
+//! Loads as functions of time, and prescribed motions.
 
 mod continuity;
 mod error;

@@ -1,9 +1,10 @@
-//! Multiples of a time, as people write them.
+//! Multiples of a time as decimal numbers.
 
-/// So near to one, times the time, is a whole number of them in a unit of time.
+/// Relative tolerance within which a time is one over a whole number.
 const WHOLE: f64 = 1e-15;
 
-/// `n` times a time. One that is one over a whole number is taken as such: n/10 is the number people write, n · 0.1 is often its neighbour [time].
+/// `n` times a time. If the time is one over a whole number, the result is the rounded quotient: n/10 is the decimal number, n · 0.1 often its
+/// neighbour [time].
 pub fn multiple(time: f64, n: u64) -> f64 {
     let rate = (1.0 / time).round();
     let is_whole = (rate * time - 1.0).abs() < WHOLE;

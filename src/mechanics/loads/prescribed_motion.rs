@@ -1,4 +1,4 @@
-//! A motion that is given as a function of time: how far it leads in a step, and with which rates.
+//! Motion prescribed as a function of time: increments and rates in a step.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,78 +6,78 @@ use super::continuity::{jump_at_start, jump_between};
 use super::{LimitSide, LoadError, Schedule};
 use crate::geometry::larger;
 
-/// A motion that is given: by its place or by its rate.
+/// Prescribed motion, by displacement or rate.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub enum PrescribedMotion {
-    /// The displacement from the start, as a function of time [length, rad].
+    /// Displacement from the start as a function of time [length, rad].
     Place(Schedule),
-    /// The rate, as a function of time [length/time, rad/time].
+    /// Rate as a function of time [length/time, rad/time].
     Rate(Schedule),
 }
 
-/// What a motion does in a step.
+/// Prescribed motion in a step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MotionInStep {
-    /// How far it leads in the step [length, rad].
+    /// Increment in the step [length, rad].
     pub moved: f64,
-    /// The rate of the motion at the start of the step, from inside the step [length/time, rad/time].
+    /// Right limit of the rate at the start of the step [length/time, rad/time].
     pub first_rate: f64,
-    /// What rounding makes of that [length/time, rad/time].
+    /// Rounding error of that rate [length/time, rad/time].
     pub rounding: f64,
-    /// The rate of the motion at the end of the step, from inside the step [length/time, rad/time].
+    /// Left limit of the rate at the end of the step [length/time, rad/time].
     pub rate: f64,
-    /// The derivative of the rate at the start and at the end, from inside the step [length/time², rad/time²].
+    /// One-sided derivatives of the rate at the start and the end, from inside the step [length/time², rad/time²].
     pub accelerations: [f64; 2],
 }
 
-/// How a motion begins.
+/// Initial values of a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MotionAtStart {
-    /// The rate of the motion just after the start [length/time, rad/time].
+    /// Rate just after the start [length/time, rad/time].
     pub rate: f64,
-    /// The derivative of that [length/time², rad/time²].
+    /// Derivative of the rate [length/time², rad/time²].
     pub acceleration: f64,
 }
 
 /// `cos(π/4)`: with the ends and the middle of a step these are the extremes of the Chebyshev polynomial of degree four.
 const INNER: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
-/// The places of a step at which a place is asked for, from its start on, on [-1, 1].
+/// Sampling places of a displacement in a step, on [-1, 1].
 const NODES: [f64; 5] = [-1.0, -INNER, 0.0, INNER, 1.0];
 
-/// The derivative, at the end of [-1, 1], of the polynomial through values at these places (Trefethen, Spectral Methods in MATLAB, 2000, chapter 6).
+/// Weights of the derivative at the end of [-1, 1] of the interpolation polynomial (Trefethen, Spectral Methods in MATLAB, 2000, chapter 6).
 const RATE_AT_END: [f64; 5] = [0.5, 2.0 / (-1.0 - INNER), 2.0, 2.0 / (INNER - 1.0), 5.5];
 
-/// Its second derivative there.
+/// Weights of its second derivative there.
 const BENT_AT_END: [f64; 5] = [5.0, 12.0 * INNER - 20.0, 18.0, -12.0 * INNER - 20.0, 17.0];
 
-/// Rates that miss each other by less than this part of them, at a time at which a function may bend, are those of a smooth motion.
+/// Relative jump of rates at a declared break below which the motion is smooth there.
 const SMOOTH: f64 = 1e-6;
 
-/// How many roundings of its values a rate is off by at most, in parts of a step.
+/// Bound of the rounding error of a rate, in rounding units of its values per step.
 const ROUNDINGS: f64 = 1e3;
 
-/// The beginning of a motion is looked for in spans of time from one unit of time on, each of which is this part of the one before.
+/// Ratio of consecutive time spans in the search for initial derivatives, starting with one unit of time.
 const SHRINKS: f64 = 0.125;
 
-/// In how many spans of time the beginning of a motion is looked for.
+/// Number of these time spans.
 const SPANS: usize = 14;
 
 impl PrescribedMotion {
-    /// The function of time that the motion is given by.
+    /// Function of time that defines the motion.
     pub fn schedule(&self) -> &Schedule {
         match self {
             Self::Place(schedule) | Self::Rate(schedule) => schedule,
         }
     }
 
-    /// What the motion does from one time to another that is `duration` later, or earlier where that is negative [time].
+    /// Evaluates the motion between two times with the difference `duration`, which may be negative [time].
     ///
-    /// A rate is integrated by three Gauss points, exact for polynomials of degree five. The rate of a place is that of the polynomial of
-    /// degree four through five of its values in the step, so that no kink at its ends is seen through.
+    /// A rate is integrated by three Gauss points, exact for polynomials of degree five. The rate of a displacement is that of the polynomial of
+    /// degree four through five values inside the step, so that it does not depend on values beyond kinks at the ends.
     ///
     /// # Errors
-    /// When the function fails, a value is not finite, or a place jumps or has an infinite rate.
+    /// Fails if the function fails, a value is not finite, or a displacement jumps or has an infinite rate.
     pub fn over(&self, start: f64, end: f64, duration: f64) -> Result<MotionInStep, LoadError> {
         match self {
             Self::Place(schedule) => {
@@ -112,7 +112,7 @@ impl PrescribedMotion {
                     &[start, 0.5 * (start + end), end],
                     &[first, middle, last],
                 )?;
-                // A rate that jumps is a motion that bends: it would have begun as it ends.
+                // A jump of the rate within the step is a kink of the motion. The rate after it then replaces that at the start.
                 let first_rate = jump.map_or(first, |_| last);
                 let rounding = ROUNDINGS * f64::EPSILON * size_of(&[first, middle, last]);
                 Ok(MotionInStep { moved, first_rate, rounding, rate: last, accelerations })
@@ -120,11 +120,11 @@ impl PrescribedMotion {
         }
     }
 
-    /// By how much the rate jumps at the start of a step, where it was `before` in the last one [length/time, rad/time]: at times at which the function
-    /// is said to bend, and wherever a controller speaks; none where it goes on.
+    /// Jump of the rate at the start of a step, relative to the rate `before` at the end of the last one [length/time, rad/time]. It is evaluated at
+    /// declared breaks and for controllers; `None` if the rate is continuous.
     ///
     /// # Errors
-    /// When the function fails, or a value is not finite.
+    /// Fails if the function fails or a value is not finite.
     pub fn jump_of_rate(
         &self,
         start: f64,
@@ -146,10 +146,10 @@ impl PrescribedMotion {
         Ok(Some(after - before).filter(|jump| jump.abs() > negligible))
     }
 
-    /// Refuses a motion whose place, or whose rate where that is given, jumps just after the start.
+    /// Rejects a motion whose displacement, or prescribed rate, jumps just after the start.
     ///
     /// # Errors
-    /// Then; also when the function fails or a value is not finite.
+    /// The jump; also fails if the function fails or a value is not finite.
     pub fn check_start(&self) -> Result<(), LoadError> {
         match jump_at_start(self.schedule())? {
             Some(jump) if matches!(self, Self::Place(_)) || jump.is_whole => Err(jump.refused()),
@@ -157,13 +157,13 @@ impl PrescribedMotion {
         }
     }
 
-    /// How the motion begins for who comes to it at a time.
+    /// Initial rate and acceleration of the motion from a time on.
     ///
-    /// The derivatives of a place are looked for in ever shorter spans of time, and taken where two spans that follow each other agree best: the
-    /// time scale of a function is its own affair.
+    /// The derivatives of a displacement are computed over decreasing time spans, and taken where two consecutive spans agree best, because the time
+    /// scale of the function is unknown.
     ///
     /// # Errors
-    /// When the function fails or a value is not finite just after the start.
+    /// Fails if the function fails or a value is not finite just after the start.
     pub fn beginning(&self, time: f64) -> Result<MotionAtStart, LoadError> {
         let spans = (0..SPANS).scan(1.0, |span, _| Some(std::mem::replace(span, *span * SHRINKS)));
         match self {
@@ -188,7 +188,7 @@ impl PrescribedMotion {
                     let both = [&mut found.rate, &mut found.acceleration];
                     for (at, number) in both.into_iter().enumerate() {
                         let miss: f64 = now[at] - before[at];
-                        // Of spans that agree as well the shortest counts.
+                        // Among equally good spans the shortest counts.
                         if miss.abs() <= least[at] {
                             (least[at], *number) = (miss.abs(), now[at]);
                         }
@@ -225,7 +225,7 @@ fn size_of(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |size, value| size.max(value.abs()))
 }
 
-/// The times of a step at which a place is asked for.
+/// Sampling times of a displacement in a step.
 fn nodes(start: f64, end: f64) -> [f64; 5] {
     let (middle, half) = (0.5 * (start + end), 0.5 * (end - start));
     NODES.map(|node| middle + half * node)
@@ -248,7 +248,7 @@ fn reversed(mut values: [f64; 5]) -> [f64; 5] {
     values
 }
 
-/// A weighted sum of differences from the last value, which cancels less than that of the values.
+/// Weighted sum of differences from the last value, which has less cancellation than that of the values.
 fn sum(weights: &[f64; 5], values: &[f64; 5]) -> f64 {
     weights.iter().zip(values).map(|(weight, value)| weight * (value - values[4])).sum()
 }
@@ -299,7 +299,7 @@ mod tests {
                 |t| if t < 1e-3 { (t * 4e3).sin() } else { (4.0_f64).sin() },
             ));
         assert!((soon.beginning(0.0).unwrap().rate - 4e3).abs() < 1e-5);
-        // Who comes to it later finds what it does from there on.
+        // A later start gives the values from there on.
         assert_eq!(soon.beginning(2.0).unwrap(), MotionAtStart::default());
         let square = PrescribedMotion::Place(of(|t| t * t));
         assert!((square.beginning(1.5).unwrap().rate - 3.0).abs() < 1e-9);

@@ -1,22 +1,22 @@
-//! When a digital controller is asked, and when what it says acts.
+//! Sampling and action times of digital controllers.
 
 use super::{LoadError, multiple};
 
-/// The beat of a digital controller: it is asked at `n T`, `n = 0, 1, …`, and what it says acts from `n T + delay` on, until the next command does.
+/// Clock of a digital controller. It samples at `n T`, `n = 0, 1, …`, and its command acts from `n T + delay` until the next one does.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SampleClock {
     period: f64,
     delay: f64,
 }
 
-/// How near to a time, as a part of the period, another one is the same.
+/// Relative tolerance for equal times, in periods.
 const SAME: f64 = 1e-9;
 
 impl SampleClock {
-    /// The beat with a sampling period `T` and a dead time [time].
+    /// Creates a clock with a sampling period `T` and a dead time [time].
     ///
     /// # Errors
-    /// When the period is not positive, the delay is negative, or one of them is not finite.
+    /// Fails if the period is not positive, the delay is negative, or either is not finite.
     pub fn new(period: f64, delay: f64) -> Result<Self, LoadError> {
         let wrong = |name, value, allowed| {
             Err(LoadError::Value { schedule: "controller", name, value, allowed })
@@ -30,27 +30,27 @@ impl SampleClock {
         Ok(Self { period, delay })
     }
 
-    /// The sampling period [time].
+    /// Sampling period [time].
     pub fn period(&self) -> f64 {
         self.period
     }
 
-    /// How much later than it is said a command acts [time].
+    /// Dead time between sample and action [time].
     pub fn delay(&self) -> f64 {
         self.delay
     }
 
-    /// The time of a sample, by its number [time].
+    /// Time of a sample, by its index [time].
     pub fn sample(&self, number: u64) -> f64 {
         multiple(self.period, number)
     }
 
-    /// The number of the last sample that is not after a time; times closer than `slack` are one [time]. None before the first.
+    /// Index of the last sample at or before a time; times closer than `slack` are equal [time]. `None` before the first.
     fn last_by(&self, time: f64, slack: f64) -> Option<u64> {
         if time < -slack {
             return None;
         }
-        // Rounding may take it to the neighbour, and no further.
+        // Rounding may give a neighbour, but not more.
         let number = ((time + slack).max(0.0) / self.period) as u64;
         if number > 0 && self.sample(number) > time + slack {
             return Some(number - 1);
@@ -59,22 +59,22 @@ impl SampleClock {
         Some(if self.sample(next) <= time + slack { next } else { number })
     }
 
-    /// The number of the sample at a time, if there is one; times closer than `slack` are one [time].
+    /// Index of the sample at a time, if there is one; times closer than `slack` are equal [time].
     pub fn sample_at(&self, time: f64, slack: f64) -> Option<u64> {
         self.last_by(time, slack).filter(|number| time - self.sample(*number) <= slack)
     }
 
-    /// The number of the sample whose command acts just after a time; none before the first does [time].
+    /// Index of the sample whose command acts just after a time; `None` before the first acts [time].
     pub fn acting_after(&self, time: f64, slack: f64) -> Option<u64> {
         self.last_by(time - self.delay, slack)
     }
 
-    /// Whether a command begins to act at a time.
+    /// Returns true if a command starts to act at a time.
     pub fn acts_at(&self, time: f64) -> bool {
         self.sample_at(time - self.delay, SAME * self.period).is_some()
     }
 
-    /// The next time after one at which the controller is asked or a command begins to act [time].
+    /// Next time of a sample or of a starting command after `now` [time].
     pub fn next(&self, now: f64, slack: f64) -> f64 {
         let after = |time: f64| {
             self.sample(self.last_by(time, slack).map_or(0, |last| last.saturating_add(1)))
@@ -83,7 +83,7 @@ impl SampleClock {
     }
 }
 
-/// A time as people write it: with a power of ten where it has many zeros.
+/// Formats a time, with a power of ten for very small or large values.
 fn in_words(time: f64) -> String {
     if (1e-4..1e7).contains(&time) { time.to_string() } else { format!("{time:e}") }
 }

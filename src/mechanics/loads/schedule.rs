@@ -1,4 +1,4 @@
-//! A factor over time.
+//! Factors of loads over time.
 
 mod breaks;
 
@@ -12,78 +12,77 @@ use super::stored_schedule::StoredTerm;
 use super::{FunctionError, LoadError, SampleClock};
 use crate::elementary::{sin, whole_power};
 
-/// A function of time from outside, such as a closure of a script.
+/// Function of time provided by the caller, such as a closure of a script.
 pub type ScheduleFunction = Rc<dyn Fn(f64) -> Result<f64, FunctionError>>;
 
-/// The side from which a time is approached: a schedule that jumps there has two values.
+/// Side of a limit in time, for schedules that jump.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LimitSide {
-    /// A time is approached from earlier times.
+    /// Limit from earlier times.
     Before,
-    /// A time is approached from later times.
+    /// Limit from later times.
     After,
 }
 
-/// A factor [-] by which a load is multiplied, as a function of time.
+/// Factor [-] of a load as a function of time.
 #[derive(Clone, Deserialize)]
 #[serde(try_from = "Vec<StoredTerm>")]
 pub enum Schedule {
-    /// The same factor at all times [-].
+    /// Constant factor [-].
     Constant(f64),
-    /// Straight lines between (time, factor) points, constant before the first and after the last; a time that is
-    /// given twice is a jump.
+    /// Linear interpolation of (time, factor) points, constant before the first and after the last. A repeated time is a jump.
     Table(Vec<(f64, f64)>),
-    /// The factor `amplitude · sin(rate · t + phase)`.
+    /// Factor `amplitude · sin(rate · t + phase)`.
     Sine {
-        /// The amplitude of the sine [-].
+        /// Amplitude [-].
         amplitude: f64,
-        /// The angular frequency of the sine [rad/time].
+        /// Angular frequency [rad/time].
         rate: f64,
-        /// The phase of the sine at time zero [rad].
+        /// Phase at time zero [rad].
         phase: f64,
     },
-    /// The pulse `16/5 sin⁶(π t/duration)` for 0 < t < duration, else 0: unit mean, five continuous derivatives.
+    /// Pulse `16/5 sin⁶(π t/duration)` for 0 < t < duration, else 0: unit mean, five continuous derivatives.
     SmoothPulse {
-        /// The duration of the smooth pulse [time].
+        /// Duration of the pulse [time].
         duration: f64,
     },
-    /// Any function of time, with the times at which it jumps or bends.
+    /// Arbitrary function of time with declared breaks.
     Function {
-        /// The function that gives the factor at a time.
+        /// Function of time.
         function: ScheduleFunction,
-        /// The times at which the function jumps or bends [time].
+        /// Times of jumps and kinks [time].
         breaks: Vec<f64>,
     },
-    /// What a sampled controller says: a value that somebody outside sets at the start of every step, and that holds for it.
+    /// Command of a controller that is sampled at every step: a value that the caller sets at the start of the step, constant within it.
     Sampled(Rc<Cell<f64>>),
-    /// What a digital controller says: a value that somebody outside sets where a command of it begins to act, and that holds until the next does.
+    /// Command of a digital controller: a value that the caller sets when the command starts to act, constant until the next one.
     Clocked {
-        /// Where the value is set.
+        /// Cell of the value.
         value: Rc<Cell<f64>>,
-        /// When the controller is asked, and when what it says acts.
+        /// Clock of the controller.
         beat: SampleClock,
     },
-    /// A schedule that is the sum or the product of two others.
+    /// Sum or product of two schedules.
     Combined {
-        /// Whether the two schedules are added or multiplied.
+        /// Operation.
         operation: Operation,
-        /// The two schedules that are combined.
+        /// Operands.
         parts: Rc<(Schedule, Schedule)>,
-        /// The number of schedules that the combined one is made of.
+        /// Number of elementary schedules.
         size: usize,
     },
 }
 
-/// How two schedules are combined.
+/// Operation on two schedules.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Operation {
-    /// The sum `a + b` of two schedules.
+    /// Sum `a + b`.
     Sum,
-    /// The product `a · b` of two schedules.
+    /// Product `a · b`.
     Product,
 }
 
-/// The largest number of parts of a combined schedule.
+/// Largest number of parts of a combined schedule.
 pub(super) const MOST_PARTS: usize = 1000;
 
 impl std::fmt::Debug for Schedule {
@@ -92,10 +91,10 @@ impl std::fmt::Debug for Schedule {
     }
 }
 
-/// How often a [mean](Schedule::mean) asks a schedule that is not constant for a value.
+/// Number of evaluations of a nonconstant schedule per [mean](Schedule::mean).
 pub const VALUES_OF_A_MEAN: usize = GAUSS.len();
 
-/// Points and weights of the three-point Gauss rule on [-1, 1].
+/// Three-point Gauss rule on [-1, 1].
 const GAUSS: [(f64, f64); 3] =
     [(-0.774_596_669_241_483_4, 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.774_596_669_241_483_4, 5.0 / 9.0)];
 
@@ -124,55 +123,55 @@ fn check_times(schedule: &'static str, from: f64, to: f64) -> Result<(), LoadErr
 }
 
 impl Schedule {
-    /// The schedule with the same factor [-] at all times.
+    /// Returns a constant schedule [-].
     ///
     /// # Errors
-    /// When it is not finite.
+    /// Fails if the factor is not finite.
     pub fn constant(factor: f64) -> Result<Self, LoadError> {
         check_finite("constant", "the factor", factor)?;
         Ok(Self::Constant(factor))
     }
 
-    /// The schedule that is 1 up to `time`, then 0.
+    /// Returns a schedule that is 1 up to `time`, then 0.
     ///
     /// # Errors
-    /// When the time is not positive and finite.
+    /// Fails if the time is not positive and finite.
     pub fn hold_for(time: f64) -> Result<Self, LoadError> {
         check_positive("hold_for", "the time", time)?;
         Ok(Self::Table(vec![(time, 1.0), (time, 0.0)]))
     }
 
-    /// The schedule that is 0 before the time `from`, 1 after the time `to`, and a straight line between.
+    /// Returns a schedule that is 0 before `from`, 1 after `to`, and linear between.
     ///
     /// # Errors
-    /// When the times are not finite, or `to` is not later than `from`.
+    /// Fails if the times are not finite, or `to` is not later than `from`.
     pub fn ramp(from: f64, to: f64) -> Result<Self, LoadError> {
         check_times("ramp", from, to)?;
         Ok(Self::Table(vec![(from, 0.0), (to, 1.0)]))
     }
 
-    /// The schedule that is 1 between two times, else 0.
+    /// Returns a schedule that is 1 between two times, else 0.
     ///
     /// # Errors
-    /// When the times are not finite, or `to` is not later than `from`.
+    /// Fails if the times are not finite, or `to` is not later than `from`.
     pub fn pulse(from: f64, to: f64) -> Result<Self, LoadError> {
         check_times("pulse", from, to)?;
         Ok(Self::Table(vec![(from, 0.0), (from, 1.0), (to, 1.0), (to, 0.0)]))
     }
 
-    /// The schedule `16/5 sin⁶(π t/duration)` up to `duration` [time], then 0: a smooth pulse of unit mean.
+    /// Returns the schedule `16/5 sin⁶(π t/duration)` up to `duration` [time], then 0: a smooth pulse of unit mean.
     ///
     /// # Errors
-    /// When the duration is not positive and finite.
+    /// Fails if the duration is not positive and finite.
     pub fn smooth_pulse(duration: f64) -> Result<Self, LoadError> {
         check_positive("smooth_pulse", "the duration", duration)?;
         Ok(Self::SmoothPulse { duration })
     }
 
-    /// The schedule `amplitude · sin(rate · t + phase)` [-; rad/time, rad].
+    /// Returns the schedule `amplitude · sin(rate · t + phase)` [-; rad/time, rad].
     ///
     /// # Errors
-    /// When a number is not finite.
+    /// Fails if a number is not finite.
     pub fn sine(amplitude: f64, rate: f64, phase: f64) -> Result<Self, LoadError> {
         check_finite("sine", "the amplitude", amplitude)?;
         check_finite("sine", "the rate", rate)?;
@@ -180,10 +179,10 @@ impl Schedule {
         Ok(Self::Sine { amplitude, rate, phase })
     }
 
-    /// The schedule of straight lines between (time, factor) points.
+    /// Returns the linear interpolation of (time, factor) points.
     ///
     /// # Errors
-    /// When there are fewer than two rows, a number is not finite, or times decrease.
+    /// Fails if there are fewer than two rows, a number is not finite, or times decrease.
     pub fn table(rows: Vec<(f64, f64)>) -> Result<Self, LoadError> {
         if rows.len() < 2 {
             return Err(LoadError::ShortTable { rows: rows.len() });
@@ -202,10 +201,10 @@ impl Schedule {
         }
     }
 
-    /// The schedule that is the sum or the product of two others.
+    /// Returns the sum or product of two schedules.
     ///
     /// # Errors
-    /// When they are made of very many parts.
+    /// Fails if there are too many parts.
     pub fn combined(operation: Operation, a: Self, b: Self) -> Result<Self, LoadError> {
         let size = a.size().saturating_add(b.size());
         if size > MOST_PARTS {
@@ -214,7 +213,7 @@ impl Schedule {
         Ok(Self::Combined { operation, parts: Rc::new((a, b)), size })
     }
 
-    /// The number of functions from outside that the schedule is made of; [`value`](Self::value) calls each of them once.
+    /// Number of script functions in the schedule. [`value`](Self::value) calls each of them once.
     pub fn functions(&self) -> usize {
         match self {
             Self::Function { .. } | Self::Sampled(_) | Self::Clocked { .. } => 1,
@@ -223,7 +222,7 @@ impl Schedule {
         }
     }
 
-    /// Whether a part of the schedule is what a sampled controller says.
+    /// Returns true if the schedule contains the command of a controller.
     pub fn is_sampled(&self) -> bool {
         match self {
             Self::Sampled(_) | Self::Clocked { .. } => true,
@@ -232,7 +231,7 @@ impl Schedule {
         }
     }
 
-    /// Whether a part of the schedule is what a controller says that is asked at every step.
+    /// Returns true if the schedule contains a controller that is sampled at every step.
     pub fn is_asked_every_step(&self) -> bool {
         match self {
             Self::Sampled(_) => true,
@@ -247,10 +246,10 @@ impl Schedule {
         if let Self::Combined { size, .. } = self { *size } else { 1 }
     }
 
-    /// The factor of the schedule [-] at a time, approached from a side.
+    /// Factor [-] at a time, as a limit from one side.
     ///
     /// # Errors
-    /// When a function fails or the value is not finite.
+    /// Fails if a function fails or the value is not finite.
     pub fn value(&self, time: f64, side: LimitSide) -> Result<f64, LoadError> {
         let value = match self {
             Self::Constant(factor) => *factor,
@@ -280,10 +279,10 @@ impl Schedule {
         if value.is_finite() { Ok(value) } else { Err(LoadError::NotFinite { time, value }) }
     }
 
-    /// The mean factor of the schedule [-] over an interval without a jump inside, by three Gauss points: exact up to degree five.
+    /// Mean factor [-] over an interval without an interior jump, by three Gauss points: exact up to degree five.
     ///
     /// # Errors
-    /// When a function fails or a value is not finite.
+    /// Fails if a function fails or a value is not finite.
     pub fn mean(&self, start: f64, end: f64) -> Result<f64, LoadError> {
         if let Self::Constant(factor) = self {
             return Ok(*factor);
@@ -296,7 +295,7 @@ impl Schedule {
         Ok(sum)
     }
 
-    /// The schedule in the words of the language.
+    /// Description in the syntax of the scripting language.
     pub fn describe(&self) -> String {
         match self {
             Self::Constant(factor) => format!("constant({factor})"),

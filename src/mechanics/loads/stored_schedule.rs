@@ -1,4 +1,4 @@
-//! Schedules as they are stored: a list of terms in reverse Polish order, which needs no recursion to be read.
+//! Stored schedules: terms in reverse Polish notation, which can be read without recursion.
 
 use serde::ser::Error;
 use serde::{Deserialize, Serialize, Serializer};
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize, Serializer};
 use super::schedule::MOST_PARTS;
 use super::{LoadError, Operation, Schedule};
 
-/// A term of a stored schedule: a schedule without parts, or what is done with the two terms before it.
+/// Term of a stored schedule: an elementary schedule, or an operation on the two preceding terms.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) enum StoredTerm {
     Constant(f64),
@@ -17,7 +17,7 @@ pub(super) enum StoredTerm {
 }
 
 impl Schedule {
-    /// Whether the schedule can be stored: it is a formula or a table, and no function from outside.
+    /// Returns true if the schedule can be stored, that is, if it contains no script function.
     pub fn can_be_stored(&self) -> bool {
         self.append_terms(&mut Vec::new()).is_some()
     }

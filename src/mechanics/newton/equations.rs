@@ -1,25 +1,25 @@
-//! What the Newton solver asks of a set of equations.
+//! Interface between the Newton solver and a set of equations.
 
 use crate::linalg::BorderedMatrix;
 
-/// How far a set of equations is from being satisfied.
+/// Relative residual norms of a set of equations.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ResidualNorms {
-    /// The largest unbalanced force, relative to the forces that should balance [-].
+    /// Largest residual force, relative to the forces to be balanced [-].
     pub force: f64,
-    /// The largest mismatch between the strain of the section forces and that of the configuration [-].
+    /// Largest mismatch between the strains of section forces and configuration [-].
     pub strain: f64,
-    /// The largest violation of a constraint, relative to its size [-].
+    /// Largest constraint violation, relative to its scale [-].
     pub constraint: f64,
 }
 
 impl ResidualNorms {
-    /// Whether all parts of the imbalance are finite numbers.
+    /// Returns true if all norms are finite.
     pub fn is_finite(&self) -> bool {
         [self.force, self.strain, self.constraint].iter().all(|part| part.is_finite())
     }
 
-    /// Which part of the imbalance is the largest, or no number.
+    /// Part with the largest norm, or with NaN.
     pub fn worst(&self) -> ResidualPart {
         let others =
             [(ResidualPart::Strain, self.strain), (ResidualPart::Constraint, self.constraint)];
@@ -29,7 +29,7 @@ impl ResidualNorms {
         others.into_iter().fold((ResidualPart::Force, self.force), worst).0
     }
 
-    /// The largest part of the imbalance [-]; NaN if one of them is not a number.
+    /// Largest norm [-]; NaN if one is NaN.
     pub fn largest(&self) -> f64 {
         [self.strain, self.constraint].into_iter().fold(self.force, |largest, part| {
             if part > largest || part.is_nan() { part } else { largest }
@@ -37,33 +37,32 @@ impl ResidualNorms {
     }
 }
 
-/// A part of an imbalance.
+/// Part of the residual.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ResidualPart {
-    /// Forces that are not balanced.
+    /// Force balance.
     Force,
-    /// Strains that do not match.
+    /// Strain mismatch.
     Strain,
-    /// Constraints that are violated.
+    /// Constraint violation.
     Constraint,
 }
 
-/// Nonlinear equations `R(u) = 0` in which unknowns of the integration points may hide.
+/// Nonlinear equations `R(u) = 0` with optional internal unknowns at integration points.
 ///
-/// The hidden ones (section forces) are condensed: they enter the linear system through
-/// [`linearise`](Equations::linearise) and are updated by [`correct`](Equations::correct)
-/// (Magisano, Leonetti & Garcea 2017, "mixed integration point" Newton).
+/// The internal unknowns (section forces) are condensed. They enter the linear system through [`linearise`](Equations::linearise) and are updated by
+/// [`correct`](Equations::correct) (Magisano, Leonetti & Garcea 2017, "mixed integration point" Newton).
 pub trait Equations {
-    /// Fills the condensed residual and tangent at `u`; both come zeroed.
+    /// Fills the condensed residual and tangent at `u`, which are zeroed on entry.
     fn linearise(&mut self, u: &[f64], residual: &mut [f64], tangent: &mut BorderedMatrix);
 
-    /// Condenses a residual that [`imbalance`](Equations::imbalance) has just filled in the manner of the last
-    /// linearisation, whose factors can then correct it once more.
+    /// Condenses a residual that [`imbalance`](Equations::imbalance) has just filled, with the last linearisation, for a further correction with its
+    /// factors.
     fn condense(&mut self, residual: &mut [f64]);
 
-    /// Carries a correction of `u`, found from the last linearisation, over to the hidden unknowns.
+    /// Updates the internal unknowns for a correction of `u` from the last linearisation.
     fn correct(&mut self, correction: &[f64]);
 
-    /// Fills the residual at `u` with the hidden unknowns as they are, and measures the imbalance.
+    /// Fills the residual at `u` with the current internal unknowns, and returns its norms.
     fn imbalance(&mut self, u: &[f64], residual: &mut [f64]) -> ResidualNorms;
 }

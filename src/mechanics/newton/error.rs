@@ -1,40 +1,40 @@
-//! Why a Newton solve gave up.
+//! Errors of a Newton solve.
 
 use super::ResidualNorms;
 use crate::linalg::LinearError;
 
-/// A Newton solve that found no solution.
+/// Failed Newton solve.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NewtonError {
-    /// The iteration limit of a Newton solve was reached.
+    /// Iteration limit reached.
     #[error("Newton's method did not converge in {} iterations ({})", history.len(), describe(history))]
     NotConverged {
-        /// The imbalance after each iteration of the solve that did not converge, oldest first.
+        /// Residual norms after each iteration.
         history: Vec<ResidualNorms>,
     },
-    /// The iteration of a Newton solve left the finite numbers.
+    /// Value that is not finite.
     #[error("Newton's method met a number that is not finite after {} iterations ({})", history.len(), describe(history))]
     NotFinite {
-        /// The imbalance after each iteration of the solve that left the finite numbers, oldest first.
+        /// Residual norms after each iteration.
         history: Vec<ResidualNorms>,
     },
-    /// The tangent of a Newton solve could not be factorised.
+    /// Tangent that could not be factorised.
     #[error("{source} (after {} Newton iterations)", history.len())]
     Linear {
-        /// The linear solver's reason why the tangent has no factors.
+        /// Reason.
         source: LinearError,
-        /// The imbalance after each iteration before the tangent could not be factorised, oldest first.
+        /// Residual norms after each iteration.
         history: Vec<ResidualNorms>,
     },
 }
 
 impl NewtonError {
-    /// The number of tangents that the failed solve has factorised, or tried to.
+    /// Number of tangents that were factorised, including failures.
     pub fn factorisations(&self) -> usize {
         self.history().len() + usize::from(matches!(self, Self::Linear { .. }))
     }
 
-    /// The imbalance after each iteration of the failed solve, oldest first.
+    /// Residual norms after each iteration.
     pub fn history(&self) -> &[ResidualNorms] {
         match self {
             Self::NotConverged { history }
@@ -44,10 +44,9 @@ impl NewtonError {
     }
 }
 
-/// A part of an imbalance, and its name.
 type NamedResidualPart = (&'static str, fn(&ResidualNorms) -> f64);
 
-/// The part that is left at the end, iteration by iteration.
+/// History of the part that is largest at the end.
 fn describe(history: &[ResidualNorms]) -> String {
     let last = history.last().copied().unwrap_or_default();
     let parts: [NamedResidualPart; 3] = [

@@ -1,4 +1,4 @@
-//! The nonlinear solve. It knows no time and no beam: equations offer a residual and a tangent.
+//! Newton solver, independent of time integration and beams: equations provide a residual and a tangent.
 
 mod equations;
 mod error;

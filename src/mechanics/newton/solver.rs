@@ -1,4 +1,4 @@
-//! Newton's method with a full tangent at every iteration, and corrections with old factors where these do as well.
+//! Newton's method with a new tangent at every iteration, and corrections with existing factors where these suffice.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,33 +6,33 @@ use super::{Equations, NewtonError, ResidualNorms};
 use crate::elementary::whole_power;
 use crate::linalg::{BorderShape, BorderedLu, BorderedMatrix};
 
-/// Imbalances below this are corrected with the factors at hand, as long as that gets on.
+/// Residual norm below which existing factors are used, as long as they reduce it.
 const NEAR: f64 = 1e-4;
 
-/// So many corrections cost about as much as an iteration with new factors, which squares the imbalance.
+/// Number of corrections that costs as much as an iteration with new factors, which squares the residual.
 const MOST_CORRECTIONS: i32 = 5;
 
-/// With the factors of equations near by so many corrections are tried; each should gain some digits.
+/// Largest number of corrections with the factors of similar equations. Each should gain some digits.
 const MOST_FOLLOWING: usize = 12;
 
-/// Imbalances [-] below this are small enough beside equations near by: what is left of them is a billionth of the change that is looked for.
+/// Residual norm [-] at which a solution from similar equations is accepted: a billionth of the change of interest.
 const FOLLOWED: f64 = 1e-14;
 
-/// A correction that leaves more than this part of an imbalance has met rounding.
+/// Reduction factor above which a correction has reached rounding.
 const STANDSTILL: f64 = 0.1;
 
-/// The tolerance of Newton's method: when a solution is good enough, and when to give up.
+/// Convergence tolerances and iteration limit of Newton's method.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Tolerance {
-    /// The largest relative force imbalance [-] at which iteration ends.
+    /// Tolerance of the relative residual force [-].
     pub force: f64,
-    /// The largest strain mismatch [-] at which iteration ends.
+    /// Tolerance of the strain mismatch [-].
     pub strain: f64,
-    /// The largest relative violation of a constraint [-] at which iteration ends.
+    /// Tolerance of the relative constraint violation [-].
     pub constraint: f64,
-    /// The imbalance [-] above which a solution is corrected with the last factors, which takes it to rounding.
+    /// Residual norm [-] above which a converged solution is corrected once more with the last factors, down to rounding.
     pub polish: f64,
-    /// The largest number of iterations of a solve.
+    /// Largest number of iterations.
     pub iterations: usize,
 }
 
@@ -43,8 +43,8 @@ impl Default for Tolerance {
 }
 
 impl Tolerance {
-    /// Whether to correct once more with the factors at hand, when the last correction has reduced the imbalance by a factor
-    /// and so many may follow.
+    /// Returns true if a further correction with existing factors is worthwhile, given the reduction by the last one and the number of corrections
+    /// left.
     fn is_worth_correcting(
         &self,
         imbalance: &ResidualNorms,
@@ -65,19 +65,19 @@ impl Tolerance {
     }
 }
 
-/// The work of a Newton solve, and what was left of its equations.
+/// Work of a Newton solve with its final residual norms.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct NewtonReport {
-    /// The number of iterations of the solve, each with one factorisation.
+    /// Number of iterations, each with one factorisation.
     pub iterations: usize,
-    /// The number of corrections of the solve with factors at hand, about a third of the work of an iteration each.
+    /// Number of corrections with existing factors, each about a third of the work of an iteration.
     pub corrections: usize,
-    /// The imbalance that the solve has left.
+    /// Final residual norms.
     pub imbalance: ResidualNorms,
 }
 
 impl NewtonReport {
-    /// The report of two solves together, one after the other: work adds up, the imbalance is that of the second.
+    /// Report of two consecutive solves: the total work, and the residual norms of the second.
     pub fn then(self, next: Self) -> Self {
         Self {
             iterations: self.iterations + next.iterations,
@@ -87,18 +87,18 @@ impl NewtonReport {
     }
 }
 
-/// Newton's method with its work space; solving allocates nothing unless it fails.
+/// Newton's method with its work space. Solving allocates nothing unless it fails.
 #[derive(Debug, Clone)]
 pub struct Newton {
     tolerance: Tolerance,
     tangent: BorderedMatrix,
     correction: Vec<f64>,
-    /// After each iteration and the corrections that followed it.
+    /// Residual norms after each iteration, including its corrections.
     history: Vec<ResidualNorms>,
 }
 
 impl Newton {
-    /// A solver for `unknowns` unknowns whose tangent has the given half-bandwidth, and those of a border behind them.
+    /// Creates a solver for `unknowns` unknowns with a tangent of the given half-bandwidth and a border behind it.
     pub fn new(
         unknowns: usize,
         half_bandwidth: usize,
@@ -108,7 +108,7 @@ impl Newton {
         Self::of(BorderedMatrix::zeros(unknowns, half_bandwidth, border), tolerance)
     }
 
-    /// A solver with room for a tangent, which says how it is eliminated.
+    /// Creates a solver with the given tangent storage, which determines the elimination.
     pub fn of(tangent: BorderedMatrix, tolerance: Tolerance) -> Self {
         Self {
             correction: Vec::with_capacity(tangent.size()),
@@ -118,12 +118,12 @@ impl Newton {
         }
     }
 
-    /// Improves `u` until the equations hold; `residual` is left as it was found last.
+    /// Iterates `u` until the equations converge; `residual` holds the last residual.
     ///
-    /// `residual` may be longer than the unknowns: what follows them (reactions) is not solved for.
+    /// `residual` may be longer than the unknowns. Additional entries (reactions) are not solved for.
     ///
     /// # Errors
-    /// When the iteration limit is reached, the tangent is singular, or a number is no longer finite.
+    /// Fails if the iteration limit is reached, the tangent is singular, or a number is not finite.
     pub fn solve(
         &mut self,
         equations: &mut impl Equations,
@@ -133,10 +133,10 @@ impl Newton {
         self.solve_and(equations, u, residual, |_, _| ())
     }
 
-    /// Improves `u` as [`solve`](Self::solve) does, and hands on the solution and the factors that it was last corrected with, before these are lost.
+    /// Solves as [`solve`](Self::solve) does, and passes the solution and the last factors to a callback.
     ///
     /// # Errors
-    /// As those of [`solve`](Self::solve); then nothing is handed on.
+    /// Errors of [`solve`](Self::solve); then the callback is not called.
     pub fn solve_and(
         &mut self,
         equations: &mut impl Equations,
@@ -168,7 +168,7 @@ impl Newton {
                 factor = imbalance.largest() / before;
                 corrections += 1;
             }
-            // What is not finite is not worth correcting, so that no correction hides it.
+            // Residuals that are not finite are not corrected, so that no correction hides them.
             self.history.push(imbalance);
             if !imbalance.is_finite() {
                 return Err(NewtonError::NotFinite { history: self.history.clone() });
@@ -182,11 +182,11 @@ impl Newton {
         Err(NewtonError::NotConverged { history: self.history.clone() })
     }
 
-    /// Improves `u`, which solves equations near by, with the factors of these, nearly to rounding; where that does not get on, as [`solve`](Self::solve)
-    /// does.
+    /// Solves with the factors of similar equations, starting from their solution, almost to rounding. If this does not converge, continues as
+    /// [`solve`](Self::solve).
     ///
     /// # Errors
-    /// As those of [`solve`](Self::solve).
+    /// Errors of [`solve`](Self::solve).
     pub fn follow(
         &mut self,
         equations: &mut impl Equations,
@@ -196,7 +196,7 @@ impl Newton {
     ) -> Result<NewtonReport, NewtonError> {
         self.tangent.clear();
         residual.fill(0.0);
-        // The tangent is not needed; what hidden unknowns are condensed by is.
+        // Only the condensation of internal unknowns is needed, not the tangent.
         equations.linearise(u, residual, &mut self.tangent);
         let mut before = f64::INFINITY;
         for corrections in 1..=MOST_FOLLOWING {
@@ -216,7 +216,7 @@ impl Newton {
     }
 }
 
-/// Corrects `u` and the hidden unknowns for a condensed residual; leaves the residual and the imbalance after it.
+/// Corrects `u` and the internal unknowns for a condensed residual. Leaves the new residual and returns its norms.
 fn correct(
     equations: &mut impl Equations,
     factors: &mut BorderedLu<'_>,
@@ -237,7 +237,7 @@ fn correct(
 mod tests {
     use super::*;
 
-    /// `x² = 2` and `x y = 1`, with no hidden unknowns.
+    /// `x² = 2` and `x y = 1`, without internal unknowns.
     struct SquareRoot;
 
     impl Equations for SquareRoot {
@@ -277,7 +277,7 @@ mod tests {
         assert!((u[0] - 2.0_f64.sqrt()).abs() < 1e-15 && (u[1] - 0.5_f64.sqrt()).abs() < 1e-15);
     }
 
-    /// `x = 0`, with imbalances that come from a list.
+    /// `x = 0`, with residual norms from a list.
     struct SpoiltByCorrections {
         imbalances: std::vec::IntoIter<ResidualNorms>,
     }

@@ -1,4 +1,4 @@
-//! What finds steps as long as a tolerance allows.
+//! Step selection by a tolerance.
 
 use super::StepControl;
 use super::controller::{StepController, StepSizeState};
@@ -9,34 +9,34 @@ use crate::elementary::power;
 use crate::integrators::{Interval, Method};
 use crate::system::{Scene, System};
 
-/// The smallest step where none is given, as a part of the first one.
+/// Default smallest step, relative to the first one.
 const SMALLEST: f64 = 1e-6;
 
-/// The largest one where none is given, as a multiple of the first: a scene at rest sets no other bound.
+/// Default largest step, relative to the first one. A scene at rest sets no other bound.
 const LARGEST: f64 = 1e6;
 
-/// No step is shorter than so many times what rounds a time.
+/// Smallest step in units of the rounding of the time.
 const ROUNDINGS: f64 = 64.0;
 
-/// How a run finds steps of varying size: what does not change from step to step.
+/// Constant data of the step selection in a run.
 pub(super) struct Adaptive {
     pub(super) controller: StepController,
     pub(super) doubling: StepDoubling,
-    /// Where controllers are asked.
+    /// Estimate of the sampling error of controllers.
     pub(super) resampling: Option<Resampling>,
     pub(super) tolerance: f64,
 }
 
-/// Where the next step of varying size is to end.
+/// Planned next step.
 pub(super) struct StepPlan {
     pub(super) interval: Interval,
-    /// Whether the step would be longer if something else, such as a jump of a load, did not cut it.
+    /// True if the step was shortened to end at an event such as a jump of a load.
     pub(super) is_cut: bool,
-    /// Whether the step is the shortest one allowed.
+    /// True if the step is the shortest one allowed.
     pub(super) is_least: bool,
 }
 
-/// The order of a method in a scene. What damps vibration by strains is of second order where nothing strains: it damps nothing there.
+/// Order of a method in a scene. Numerically damped methods are of second order where nothing strains.
 fn order_of(method: Method, scene: &Scene) -> u32 {
     let strains = !scene.beams.is_empty() || scene.springs().next().is_some();
     match method {
@@ -46,7 +46,7 @@ fn order_of(method: Method, scene: &Scene) -> u32 {
 }
 
 impl Adaptive {
-    /// The control of steps of varying size for a scene at its start.
+    /// Creates the step control for a scene at its start.
     pub(super) fn new(
         control: &StepControl,
         method: Method,
@@ -67,7 +67,7 @@ impl Adaptive {
         Self { controller, doubling, resampling, tolerance: control.tolerance }
     }
 
-    /// The next step from `now` on, when something stops it at the time `stop` at the latest [time].
+    /// Plans the next step from `now`, ending at `stop` at the latest [time].
     pub(super) fn plan(&self, pace: &StepSizeState, now: f64, stop: f64) -> StepPlan {
         let least = self.controller.smallest.max(ROUNDINGS * f64::EPSILON * now);
         let wish = pace.wish.max(least);
@@ -75,13 +75,13 @@ impl Adaptive {
         let (end, is_cut) = if stop <= now + wish {
             (stop, stop < now + wish)
         } else if left < 2.0 * wish {
-            // Two equal ones, and not a long and a short one.
+            // Two equal steps instead of a long and a short one.
             (now + 0.5 * left, true)
         } else {
             (now + wish, false)
         };
         let interval = Interval::between(now, end);
-        // The duration is rounded as times are, the wish is not.
+        // The duration is rounded to the spacing of times; the wished size is not.
         let is_least = wish <= least || interval.duration() <= least;
         StepPlan { interval, is_cut, is_least }
     }

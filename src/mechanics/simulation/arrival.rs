@@ -1,42 +1,42 @@
-//! Sliders that reach the end of their masters.
+//! Arrivals of sliders at the ends of their masters.
 
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::Vec2;
 use crate::system::MasterLimit;
 
-/// What happened to a slider at the end of its master.
+/// Outcome of an arrival.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum ArrivalKind {
-    /// The slider reached the end of its master, and the run ended.
+    /// The run ended.
     Stopped,
-    /// The slider bounced off the end of its master.
+    /// The slider bounced.
     Bounced,
-    /// The slider came to rest against the stop at the end of its master.
+    /// The slider is held at the stop.
     Rested,
-    /// The slider left its master at the end.
+    /// The slider was released.
     Released,
-    /// The slider passed a seam of its track, from one beam to the next.
+    /// The slider passed a seam of its track.
     Passed,
 }
 
-/// The arrival of a slider at the end of its master.
+/// Arrival of a slider at an end of its master.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Arrival {
-    /// The time of the arrival [time].
+    /// Time of the arrival [time].
     pub time: f64,
-    /// The slider that arrived, and the end of its master.
+    /// Slider and end of its master.
     pub limit: MasterLimit,
-    /// The beam of that end, by its index, for a slider on a track.
+    /// Index of the beam, for a slider on a track.
     pub beam: Option<usize>,
-    /// What happened to the slider at the end.
+    /// Outcome of the arrival.
     pub kind: ArrivalKind,
-    /// What the slider gave its master in the impact there, that is no part of contact forces [mass·length/time].
+    /// Impulse on the master in the impact, which is not part of the contact forces [mass·length/time].
     pub impulse: Vec2,
 }
 
 impl ArrivalKind {
-    /// The kind of arrival in a word for scripts, such as `bounced`.
+    /// Word for scripts, such as `bounced`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Stopped => "stopped",
@@ -49,7 +49,7 @@ impl ArrivalKind {
 }
 
 impl Arrival {
-    /// The arrival in words: `slider 'ring' bounced off the end of its beam at t = 1.5`; the beam is named where the slider is on a track.
+    /// Description such as `slider 'ring' bounced off the end of its beam at t = 1.5`, with the name of the beam on tracks.
     pub fn describe(&self, slider: &str, beam: Option<&str>) -> String {
         let end = self.limit.end.name();
         let beam = beam.map_or_else(|| "its beam".to_owned(), |name| format!("beam '{name}'"));

@@ -1,40 +1,40 @@
-//! How the axes of beams are deformed, as far as their control points tell.
+//! Deformation of beam axes, computed from their control points.
 
 use super::Outline;
 use crate::beams::Station;
 use crate::geometry::{BasisValues, GeometryError, Vec2, cross};
 use crate::system::{Scene, System, SystemError};
 
-/// The axes of the beams of a scene, as drawn.
+/// Beam axes of a scene as drawn.
 pub struct Axes<'a> {
     scene: &'a Scene,
     drawn: System,
 }
 
-/// A station of a beam with what its axis is like as drawn.
+/// Station of a beam, with the geometry of its axis as drawn.
 #[derive(Debug, Clone)]
 pub struct AxisStation {
     values: BasisValues,
     degree: usize,
-    /// `r0'`, with respect to the parameter of the mesh [length].
+    /// Derivative `r0'` with respect to the parameter of the mesh, as drawn [length].
     drawn_slope: Vec2,
-    /// The curvature as drawn, along the axis as drawn [1/length].
+    /// Curvature as drawn [1/length].
     drawn_curvature: f64,
 }
 
 impl<'a> Axes<'a> {
-    /// The axes of the beams of a scene, as drawn.
+    /// Beam axes of a scene as drawn.
     ///
     /// # Errors
-    /// When the scene cannot be built.
+    /// Fails if the scene cannot be built.
     pub fn of(scene: &'a Scene) -> Result<Self, SystemError> {
         Ok(Self { scene, drawn: System::assemble(scene)? })
     }
 
-    /// Stations along each beam. Station `k` of a beam is at the place `k · Outline::places_a_station(degree)` of its outline.
+    /// Stations along each beam. Station `k` of a beam is the place `k · Outline::places_a_station(degree)` of its outline.
     ///
     /// # Errors
-    /// When one lies outside its mesh, which would be a mistake of ours.
+    /// Fails if a station lies outside its mesh (internal error).
     pub fn stations(&self) -> Result<Vec<Vec<AxisStation>>, SystemError> {
         let of_beam = |(beam, mesh): (usize, &crate::beams::Mesh)| {
             let every = Outline::places_a_station(mesh.basis().degree());
@@ -44,10 +44,10 @@ impl<'a> Axes<'a> {
         self.drawn.meshes().iter().enumerate().map(of_beam).collect()
     }
 
-    /// A station of a beam; none on a particle.
+    /// Station of a beam; `None` on a particle.
     ///
     /// # Errors
-    /// When it lies outside its beam.
+    /// Fails if the station lies outside its beam.
     pub fn at(&self, station: &Station) -> Result<Option<AxisStation>, SystemError> {
         let Some(beam) = station.beam() else { return Ok(None) };
         let xi = station.parameter(&self.scene.beams[beam].axis, &self.drawn.meshes()[beam]);
@@ -68,7 +68,7 @@ impl<'a> Axes<'a> {
 }
 
 impl AxisStation {
-    /// The station where a mesh has these values, given the control points of its beam as drawn [length].
+    /// Creates a station from basis values and the control points as drawn [length].
     fn new(values: BasisValues, degree: usize, drawn: &[Vec2]) -> Self {
         let drawn_slope = values.combine(1, drawn);
         let mut station = Self { values, degree, drawn_slope, drawn_curvature: 0.0 };
@@ -76,18 +76,18 @@ impl AxisStation {
         station
     }
 
-    /// The place of the station when its beam has these control points [length].
+    /// Position for given control points of the beam [length].
     pub fn position(&self, points: &[Vec2]) -> Vec2 {
         self.values.combine(0, points)
     }
 
-    /// By how much the axis is longer here than as drawn: `|r'| / |r0'| - 1` [-]. What remains of the strain Γ where shear is small.
+    /// Elongation of the axis, `|r'| / |r0'| - 1` [-]. It equals the axial strain if shear is small.
     pub fn stretch(&self, points: &[Vec2]) -> f64 {
         self.values.combine(1, points).norm() / self.drawn_slope.norm() - 1.0
     }
 
-    /// By how much more the axis turns along a length as drawn than it did as drawn, positive counter-clockwise [1/length]. It is the
-    /// bending strain κ but for the change of shear along the axis. Straight elements have none: not a number.
+    /// Change of the axis curvature per length as drawn, positive counter-clockwise [1/length]. It equals the bending strain κ except for the
+    /// gradient of shear. NaN for elements of degree one.
     pub fn curvature(&self, points: &[Vec2]) -> f64 {
         match self.degree {
             ..=1 => f64::NAN,
@@ -95,12 +95,12 @@ impl AxisStation {
         }
     }
 
-    /// The direction of the axis, a unit vector from the start of the beam to its end.
+    /// Unit tangent of the axis, towards the end of the beam.
     pub fn direction(&self, points: &[Vec2]) -> Vec2 {
         self.values.combine(1, points).normalize()
     }
 
-    /// `θ' / |r0'|` with the angle θ of the axis [1/length].
+    /// Derivative `θ' / |r0'|` of the axis angle θ [1/length].
     fn turning(&self, points: &[Vec2]) -> f64 {
         let (slope, second) = (self.values.combine(1, points), self.values.combine(2, points));
         cross(slope, second) / slope.norm_squared() / self.drawn_slope.norm()
@@ -113,7 +113,7 @@ mod tests {
     use crate::elementary::{cos, sin};
     use crate::geometry::{Basis, KnotVector, LagrangeBasis};
 
-    /// Control points of a basis, each at the place that belongs to its abscissa on an axis of length 2.
+    /// Control points of a basis, each placed by its abscissa on an axis of length 2.
     fn along(basis: &Basis, place: impl Fn(f64) -> Vec2) -> Vec<Vec2> {
         basis.abscissae().into_iter().map(|xi| place(2.0 * xi)).collect()
     }

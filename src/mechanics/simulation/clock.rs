@@ -1,28 +1,27 @@
-//! When the steps of a run end.
+//! End times of the steps of a run.
 
 use super::TimeGrid;
 use super::controller::StepSizeState;
 use super::step_retry::StepRetry;
 
-/// When the steps of a run end: its grid, and how far the present step and the present run have got.
+/// Time grid with the progress of the present step and run.
 #[derive(Debug, Clone)]
 pub(super) struct StepClock {
     pub(super) grid: TimeGrid,
-    /// How long the next step is to be, where steps vary in size.
+    /// Size of the next step, for variable steps.
     pub(super) pace: Option<StepSizeState>,
-    /// The step of the grid that is covered in part, if there is one.
+    /// Partially covered step of the grid.
     pub(super) under_way: Option<StepRetry>,
-    /// The time at which the present run ends; infinite for single steps [time].
+    /// End time of the present run; infinite for single steps [time].
     pub(super) goal: f64,
 }
 
 impl StepClock {
-    /// The clock of a run at the start of its grid.
     pub(super) fn new(grid: TimeGrid, pace: Option<StepSizeState>) -> Self {
         Self { grid, pace, under_way: None, goal: f64::INFINITY }
     }
 
-    /// The size that the next step has if nothing cuts it [time].
+    /// Planned size of the next step [time].
     pub(super) fn dt(&self) -> f64 {
         self.pace.map_or(self.grid.dt(), |pace| pace.wish)
     }

@@ -1,31 +1,31 @@
-//! The columns of a history: those that every history has, and those that a scene adds.
+//! Columns of a history: standard columns, and columns of the scene.
 
 use super::Sample;
 use crate::joints::{Component, Slider};
 use crate::loads::Load;
 use crate::system::{Drive, DriveKind, DriveState, Scene, Spring, SpringKind, SpringState, System};
 
-/// A column that the history of every run has.
+/// Standard column of every history.
 #[derive(Debug, Clone, Copy)]
 pub struct Column {
-    /// The name of the column.
+    /// Name of the column.
     pub name: &'static str,
-    /// The dimension of the column's values, in words.
+    /// Dimension of the values.
     pub dimension: &'static str,
-    /// The value of the column in a row of the history.
+    /// Accessor of the value in a row.
     pub value: fn(&Sample) -> f64,
 }
 
-/// A column that a history has because of its scene.
+/// Column that depends on the scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ExtraColumn {
-    /// The name of the column: a thing of the scene and a quantity of it, such as `slider1.force`.
+    /// Name: object and quantity, such as `slider1.force`.
     pub name: String,
-    /// The dimension of the column's values, in words.
+    /// Dimension of the values.
     pub dimension: &'static str,
 }
 
-/// The columns that every history has, in their order.
+/// Standard columns, in their order.
 pub(super) const FIXED: &[Column] = &[
     fixed("t", "time", |row| row.measures.time),
     fixed("kinetic", "energy", |row| row.measures.energy.kinetic),
@@ -49,7 +49,7 @@ const fn fixed(name: &'static str, dimension: &'static str, value: fn(&Sample) -
     Column { name, dimension, value }
 }
 
-/// The columns that each slider of a scene adds: what is measured, and its dimension.
+/// Columns of each slider: quantity and dimension.
 const OF_SLIDER: [(&str, &str); 5] = [
     ("position", "-"),
     ("speed", "length/time"),
@@ -58,13 +58,13 @@ const OF_SLIDER: [(&str, &str); 5] = [
     ("force_y", "force"),
 ];
 
-/// What a scene with springs stores.
+/// Column of the energy stored in springs.
 const STORED: &str = "stored";
 
-/// What a scene dissipates in springs with dampers, in damped materials and by drag.
+/// Column of the energy dissipated by dampers, damped materials and drag.
 const DISSIPATED: &str = "dissipated";
 
-/// The columns that a scene adds to those that every history has.
+/// Columns that a scene adds to the standard ones.
 pub(super) fn extra_columns(scene: &Scene) -> Vec<ExtraColumn> {
     let of_slider = |slider: &Slider| {
         let name = slider.name.clone();
@@ -129,7 +129,7 @@ pub(super) fn extra_columns(scene: &Scene) -> Vec<ExtraColumn> {
         .collect()
 }
 
-/// What the column of a component of a drive is called.
+/// Column name of a component of a drive.
 fn told_of(kind: DriveKind, component: Component) -> &'static str {
     match kind {
         DriveKind::Move => component.name(),
@@ -137,7 +137,7 @@ fn told_of(kind: DriveKind, component: Component) -> &'static str {
     }
 }
 
-/// The values of those of the sliders at the present state of the model, in the same order.
+/// Values of the additional columns in the present state, except sensors.
 pub(super) fn extra_values(model: &System) -> impl Iterator<Item = f64> {
     let of_sliders = (0..model.slider_names().count()).flat_map(|slider| {
         let force = model.contact_force(slider);

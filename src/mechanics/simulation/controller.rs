@@ -1,4 +1,4 @@
-//! The size of the next step, from the errors of the last ones: a PI controller.
+//! PI controller of the step size.
 //!
 //! K. Gustafsson, Control theoretic techniques for stepsize selection in explicit Runge–Kutta methods, ACM Trans. Math. Softw. 17
 //! (1991) 533–554; E. Hairer & G. Wanner, Solving Ordinary Differential Equations II (1996), section IV.2.
@@ -7,64 +7,64 @@ use serde::{Deserialize, Serialize};
 
 use crate::elementary::power;
 
-/// The part that steps are meant to be of the longest ones that would be accepted.
+/// Safety factor relative to the longest step that would be accepted.
 const SAFETY: f64 = 0.9;
 
-/// A step is at most so many times the last one,
+/// Largest step-growth factor.
 const MOST_GROWTH: f64 = 5.0;
 
-/// and at least this part of it.
+/// Smallest step-growth factor.
 const LEAST_GROWTH: f64 = 0.2;
 
-/// A step that is rejected twice is divided at least by two.
+/// Largest factor after a second rejection.
 const AGAIN: f64 = 0.5;
 
-/// How much counts what the last step had room for,
+/// Exponent of the last error.
 const NOW: f64 = 0.7;
 
-/// and how much what the one before had.
+/// Exponent of the previous error.
 const BEFORE: f64 = 0.4;
 
-/// Errors below this part of what is allowed tell nothing about the next one.
+/// Errors below this fraction of the allowed one are raised to it.
 const LEAST_ERROR: f64 = 1e-4;
 
-/// How the size of the next step follows from errors: what does not change in a run, such as bounds [time].
+/// Constant parameters of the step controller, with its bounds [time].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct StepController {
-    /// The power of the step size that the error of a step is proportional to [-].
+    /// Order of the error of a step in its size [-].
     pub(super) order: f64,
     pub(super) first: f64,
     pub(super) smallest: f64,
     pub(super) largest: f64,
 }
 
-/// How long the next step is to be, and what that follows from; it is a part of the state of a simulation.
+/// Size of the next step with the controller state; part of the state of a simulation.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct StepSizeState {
-    /// The size of the next step, if nothing cuts it [time].
+    /// Size of the next step if no event shortens it [time].
     pub(super) wish: f64,
-    /// The error of the last step that was not cut, over that allowed [-]; none where nothing is known.
+    /// Error of the last uncut step, relative to the allowed one [-]; `None` if unknown.
     pub(super) error: Option<f64>,
-    /// The number of tries of the next step that were rejected or failed.
+    /// Number of rejected or failed tries of the next step.
     pub(super) tries: usize,
 }
 
-/// A step that was tried, with its error.
+/// Tried step with its error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct TriedStep {
-    /// The duration of the step that was tried [time].
+    /// Duration [time].
     pub(super) duration: f64,
-    /// The error of the step that was tried, over that allowed [-].
+    /// Error relative to the allowed one [-].
     pub(super) error: f64,
 }
 
 impl StepController {
-    /// The pace before the first step.
+    /// Initial controller state.
     pub(super) fn start(&self) -> StepSizeState {
         StepSizeState { wish: self.first, error: None, tries: 0 }
     }
 
-    /// Whether the next step may be as short as the pace wishes.
+    /// Returns true if the next step may be as short as the state requests.
     pub(super) fn allows(&self, pace: &StepSizeState) -> bool {
         let is_error = pace.error.is_none_or(|error| error >= LEAST_ERROR && error.is_finite());
         (self.smallest..=self.largest).contains(&pace.wish)
@@ -73,52 +73,52 @@ impl StepController {
             && pace.tries < usize::MAX / 2
     }
 
-    /// Begins anew where what comes is not as what was: with a step as at the start, if that is shorter.
+    /// Restarts the controller after an event, with the initial step size if it is smaller.
     pub(super) fn restart(&self, pace: &mut StepSizeState) {
         *pace = StepSizeState { wish: pace.wish.min(self.first), ..self.start() };
     }
 
-    /// Takes in that a step was accepted that was as long as was wished.
+    /// Updates the state after an accepted step of the requested size.
     pub(super) fn accept(&self, pace: &mut StepSizeState, trial: TriedStep) {
         let error = trial.error.max(LEAST_ERROR);
         let growth = match pace.error {
             None => self.room(error),
             Some(last) => power(self.room(error), NOW) / power(self.room(last), BEFORE),
         };
-        // What has just failed is not tried again at once.
+        // A size that has just failed is not repeated immediately.
         let most = if pace.tries > 0 { 1.0 } else { MOST_GROWTH };
         let wish = trial.duration * growth.clamp(LEAST_GROWTH, most);
         *pace = StepSizeState { wish: self.bounded(wish), error: Some(error), tries: 0 };
     }
 
-    /// Takes in that a step was accepted that was cut short: it may let the next ones grow, and cannot shrink them.
+    /// Updates the state after an accepted, shortened step. It may increase the step size but not decrease it.
     pub(super) fn accept_cut(&self, pace: &mut StepSizeState, trial: TriedStep) {
         let mut alone = StepSizeState { error: None, ..*pace };
         self.accept(&mut alone, trial);
         *pace = StepSizeState { wish: alone.wish.max(pace.wish), error: pace.error, tries: 0 };
     }
 
-    /// Takes in that a step erred by too much: the next try is shorter.
+    /// Updates the state after a step with too large an error.
     pub(super) fn reject(&self, pace: &mut StepSizeState, trial: TriedStep) {
         let most = if pace.tries > 0 { AGAIN } else { SAFETY };
-        // An error that is not a number is a large one.
+        // A NaN error counts as infinite.
         let error = if trial.error.is_nan() { f64::INFINITY } else { trial.error };
         self.shorten(pace, trial.duration, self.room(error).clamp(LEAST_GROWTH, most));
     }
 
-    /// Takes in that a step of such a duration [time] was not solved: the next try is shorter.
+    /// Updates the state after a step of a duration [time] that was not solved.
     pub(super) fn fail(&self, pace: &mut StepSizeState, duration: f64) {
         self.shorten(pace, duration, AGAIN);
     }
 
-    /// By how much a step with such an error might have been longer.
+    /// Factor by which a step with this error could have been longer.
     fn room(&self, error: f64) -> f64 {
         SAFETY * power(error, -1.0 / self.order)
     }
 
     fn shorten(&self, pace: &mut StepSizeState, duration: f64, part: f64) {
         pace.tries += 1;
-        // The end of a step may lie beyond all numbers, and its duration with it.
+        // The end of a step, and so its duration, may overflow.
         pace.wish = self.bounded(duration.min(pace.wish) * part);
     }
 
@@ -134,7 +134,7 @@ mod tests {
     const CONTROLLER: StepController =
         StepController { order: 3.0, first: 0.1, smallest: 1e-3, largest: 10.0 };
 
-    /// Steps with an error of `(size/right)³`, until 1.
+    /// Accepted sizes up to t = 1 for an error of `(size/right)³`.
     fn sizes(first: f64, right: impl Fn(usize) -> f64) -> (Vec<f64>, usize) {
         let mut pace = StepSizeState { wish: first, ..CONTROLLER.start() };
         let (mut sizes, mut rejected) = (Vec::new(), 0);

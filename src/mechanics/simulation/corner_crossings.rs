@@ -1,13 +1,12 @@
-//! When springs are struck, seen by two half steps and by a whole one.
+//! Impact times of springs in half steps and whole steps.
 
 use crate::geometry::larger;
 use crate::system::{Along, Branch, System};
 
-/// The branches of laws with sharp corners along a step that is taken as a whole and in halves.
+/// Branches of laws with sharp corners along a whole step and its two halves.
 ///
-/// A step that ends just within a stiff bumper ends at its face, whenever it got there: places tell nothing of how late the blow is. Rates do, as what
-/// strikes has been turned round or has not. Where a spring changes its branch in a step, the difference of rates counts as the way that it
-/// makes in one more step.
+/// A step that ends just after contact with a stiff bumper ends at its face, so positions do not show errors of the impact time. Rates do, because
+/// they are reversed or not. If a spring changes its branch within a step, the difference of rates times the step duration counts as an error.
 #[derive(Default)]
 pub(super) struct CornerCrossings {
     start: Vec<Branch>,
@@ -17,27 +16,27 @@ pub(super) struct CornerCrossings {
 }
 
 impl CornerCrossings {
-    /// Looks at a model at the start of a step.
+    /// Records the start of a step.
     pub(super) fn look_at_start(&mut self, model: &System) {
         model.write_branches(&mut self.start);
     }
 
-    /// Looks at it at the end of the whole step.
+    /// Records the end of the whole step.
     pub(super) fn look_at_whole(&mut self, model: &System) {
         model.write_branches(&mut self.whole);
     }
 
-    /// Looks at it between the half steps.
+    /// Records the middle of the half steps.
     pub(super) fn look_at_middle(&mut self, model: &System) {
         model.write_branches(&mut self.middle);
     }
 
-    /// Looks at it at the end of both half steps.
+    /// Records the end of both half steps.
     pub(super) fn look_at_halves(&mut self, model: &System) {
         model.write_branches(&mut self.halves);
     }
 
-    /// How far whole step and halves of some duration [time] are apart by what has been struck in them, relative to a length, or in rad [-].
+    /// Difference between the whole step and its halves of a duration [time], relative to a length or in rad [-].
     pub(super) fn apart(&self, duration: f64, length: f64) -> f64 {
         let ends = self.whole.iter().zip(&self.halves);
         let all = self.start.iter().zip(&self.middle).zip(ends);

@@ -1,64 +1,64 @@
-//! Why a run could not start or go on.
+//! Errors of a run.
 
 use super::{DerivativeError, StepSizeError};
 use crate::integrators::{MethodError, StepError};
 use crate::system::SystemError;
 
-/// A run that could not start or go on; its history up to the last good step is kept.
+/// Run that could not start or continue. Its history up to the last successful step is kept.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SimulationError {
-    /// The scene of a run cannot be built.
+    /// Scene that cannot be built.
     #[error(transparent)]
     Model(#[from] SystemError),
-    /// The integrator of a run does not exist with its parameter.
+    /// Invalid integrator or parameter.
     #[error(transparent)]
     Method(#[from] MethodError),
-    /// The step size of a run is not positive, or its tolerance cannot be kept.
+    /// Invalid step size or tolerance.
     #[error(transparent)]
     StepSize(#[from] StepSizeError),
-    /// A run has no derivatives by parameters of its scene.
+    /// Derivatives with respect to parameters are unavailable.
     #[error(transparent)]
     Derivative(#[from] DerivativeError),
-    /// The mean of a step of a method that balances accelerations of its own.
+    /// Mean value over a step, with a method that balances accelerations instead of momenta.
     #[error(
         "'{sensor}' is the mean over a step, by which momenta change, and {method} balances accelerations of its own instead: it has none; record the force at the present moment, or take another method"
     )]
     NoMean {
-        /// The column that cannot be had.
+        /// Name of the column.
         sensor: String,
-        /// The method that has no such mean.
+        /// Name of the method.
         method: &'static str,
     },
-    /// A controller that is asked so often that a step would never end.
+    /// Controller with too many samples per step.
     #[error("a controller is asked every {period:e}, more than {most} times in a step of {dt:e}")]
     ManySamples {
-        /// The sampling period of the controller [time].
+        /// Sampling period of the controller [time].
         period: f64,
-        /// The size of a step [time].
+        /// Step size [time].
         dt: f64,
-        /// How often a controller may be asked in a step.
+        /// Largest number of samples per step.
         most: f64,
     },
-    /// A drive that an equilibrium has moved to where it is at no time.
+    /// Equilibrium that holds a drive at a position different from its function.
     #[error(
         "the equilibrium holds what '{drive}' moves at {rests}, and at t = {time} its function has it at {wanted}: moved on from there it would be where no function has it"
     )]
     BeginsElsewhere {
-        /// The name of the drive that rests elsewhere than where its function is.
+        /// Name of the drive.
         drive: String,
-        /// Where the drive rests [length, rad].
+        /// Position in the equilibrium [length, rad].
         rests: f64,
-        /// Where its function is [length, rad].
+        /// Value of the function [length, rad].
         wanted: f64,
-        /// The time at which its function is there [time].
+        /// Time of that value [time].
         time: f64,
     },
-    /// An end of a run that has passed.
+    /// End of a run in the past.
     #[error("the simulation is at t = {now} and cannot run to t = {end}")]
     End {
-        /// The present time of the run that should end in its past [time].
+        /// Present time [time].
         now: f64,
-        /// The end asked for, which has passed [time].
+        /// Requested end [time].
         end: f64,
     },
     /// No step of any size was solved.
@@ -66,142 +66,142 @@ pub enum SimulationError {
         "no step from t = {time} works, down to dt/{divisions} (dt = {dt:e}): {source}{plight}"
     )]
     Step {
-        /// The end of the last good step before the one that was not solved [time].
+        /// End of the last successful step [time].
         time: f64,
-        /// The step of the grid that was not solved [time].
+        /// Size of the failed step of the grid [time].
         dt: f64,
-        /// The number of parts into which the step that was not solved was divided at last.
+        /// Largest number of parts into which the step was divided.
         divisions: u64,
-        /// The reason why the last try of the step failed.
+        /// Reason of the last failure.
         source: Box<StepError>,
-        /// What is extreme in the configuration before the step, as the end of a sentence; empty where nothing is.
+        /// Extreme conditions before the step, appended to the message; may be empty.
         plight: String,
     },
-    /// A tolerance asks for steps that are too short.
+    /// Tolerance that requires too small steps.
     #[error(
         "the tolerance {tolerance} asks for steps below the smallest one, {smallest:e}, at t = {time}: one of dt = {dt:e} errs {error:.3} times as much as is allowed"
     )]
     Tolerance {
-        /// The end of the last good step before steps became too short [time].
+        /// End of the last successful step [time].
         time: f64,
-        /// The tolerance that asks for too short steps [-].
+        /// Tolerance [-].
         tolerance: f64,
-        /// The step that was tried last under the tolerance [time].
+        /// Last tried step [time].
         dt: f64,
-        /// The error of the step that was tried last, over that allowed [-].
+        /// Error of that step relative to the allowed one [-].
         error: f64,
-        /// The smallest step that the run allows [time].
+        /// Smallest allowed step [time].
         smallest: f64,
     },
-    /// No step of varying size down to the smallest was solved.
+    /// No variable step down to the smallest one was solved.
     #[error(
         "no step from t = {time} works, down to the smallest one, {smallest:e} (dt = {dt:e}): {source}{plight}"
     )]
     Smallest {
-        /// The end of the last good step before none was solved [time].
+        /// End of the last successful step [time].
         time: f64,
-        /// The step that was tried last and not solved [time].
+        /// Last tried step [time].
         dt: f64,
-        /// The smallest step that the run allows [time].
+        /// Smallest allowed step [time].
         smallest: f64,
-        /// The reason why the last try of a step failed.
+        /// Reason of the last failure.
         source: Box<StepError>,
-        /// What is extreme in the configuration before the step, as the end of a sentence; empty where nothing is.
+        /// Extreme conditions before the step, appended to the message; may be empty.
         plight: String,
     },
-    /// No step that ends with the arrival of a slider was found.
+    /// No step that ends at the arrival of a slider was found.
     #[error(
         "slider '{slider}' arrives at the {end} of its beam soon after t = {time}, but no step that ends there was found, down to dt/{divisions} (dt = {dt:e}); try a smaller dt or a finer mesh{plight}"
     )]
     Landing {
-        /// The name of the slider whose arrival was not found.
+        /// Name of the slider.
         slider: String,
-        /// The end of its master at which the slider should arrive: `start` or `end`.
+        /// End of its master: `start` or `end`.
         end: &'static str,
-        /// The end of the last good step before the arrival [time].
+        /// End of the last successful step [time].
         time: f64,
-        /// The step of the grid in which the slider arrives [time].
+        /// Size of the step of the grid [time].
         dt: f64,
-        /// The number of parts into which the step with the arrival was divided at last.
+        /// Largest number of parts into which the step was divided.
         divisions: u64,
-        /// What is extreme in the configuration before the step, as the end of a sentence; empty where nothing is.
+        /// Extreme conditions before the step, appended to the message; may be empty.
         plight: String,
     },
-    /// A load has no finite value, or a slider is too fast for its rule; no smaller step helps.
+    /// Load without a finite value, or slider too fast for its rule. Smaller steps do not help.
     #[error("{source}")]
     Load {
-        /// The load without a value or the slider, the step and the reason.
+        /// Load or slider, step and reason.
         source: StepError,
     },
-    /// A slider has reached an end of its master at which the run ends.
+    /// Run ended by the arrival of a slider.
     #[error("the run has ended: {ending}")]
     Ended {
-        /// The arrival that ended the run, in words.
+        /// Description of the arrival.
         ending: String,
     },
-    /// A slider that does not get away from an end of its master.
+    /// Slider that bounces too often within one step.
     #[error("{arrival}, {most} times within one step of the grid")]
     Rattles {
-        /// The last arrival of the slider, in words.
+        /// Description of the last arrival.
         arrival: String,
-        /// How often the slider arrived within one step.
+        /// Number of arrivals within one step.
         most: usize,
     },
-    /// A way back that is longer than the way that was gone.
+    /// Rewind by more steps than were taken.
     #[error("cannot go back {steps} steps: only {taken} were taken")]
     FewerSteps {
-        /// The number of steps to go back.
+        /// Requested number of steps.
         steps: usize,
-        /// The number of steps that the run has taken.
+        /// Number of steps taken.
         taken: usize,
     },
-    /// A way back to a time that is not behind.
+    /// Rewind to a time outside the run.
     #[error("cannot go back to t = {time}: the simulation has been from t = {begun} to {now}")]
     NotBehind {
-        /// The time to go back to, which is not behind [time].
+        /// Requested time [time].
         time: f64,
-        /// The time at which the run began [time].
+        /// Start of the run [time].
         begun: f64,
-        /// The present time of the run [time].
+        /// Present time [time].
         now: f64,
     },
-    /// No state of the run is kept to go back to.
+    /// Rewind without stored states.
     #[error(
         "there is no way back: no states are kept{}",
         if *limit > 0.0 { format!(", one alone takes more than the limit of {limit} MB") } else { String::new() }
     )]
     NoSnapshots {
-        /// The memory that snapshots may take [10⁶ bytes].
+        /// Memory limit of snapshots [10⁶ bytes].
         limit: f64,
     },
-    /// States were not kept yet.
+    /// Rewind to a time before snapshots were enabled.
     #[error("cannot go back to {target}: states are kept from t = {first} on")]
     BeforeFirst {
-        /// The state to go back to, in words.
+        /// Description of the requested state.
         target: String,
-        /// The time of the first state that was kept [time].
+        /// Time of the first snapshot [time].
         first: f64,
     },
-    /// Going back to a state that was forgotten for want of memory.
+    /// Rewind to a snapshot that was discarded by the memory limit.
     #[error(
         "cannot go back to {target}: with a limit of {limit} MB for snapshots only the last {steps} steps are kept, back to t = {oldest}, and the state at t = {first}"
     )]
     Forgotten {
-        /// The forgotten state to go back to, in words.
+        /// Description of the requested state.
         target: String,
-        /// The number of steps that one can go back.
+        /// Number of steps that can be undone.
         steps: usize,
-        /// The time of the oldest state that is kept [time].
+        /// Time of the oldest recent snapshot [time].
         oldest: f64,
-        /// The time of the first state that was kept [time].
+        /// Time of the first snapshot [time].
         first: f64,
-        /// The memory that snapshots may take [10⁶ bytes].
+        /// Memory limit of snapshots [10⁶ bytes].
         limit: f64,
     },
-    /// The monitor of a run asked to stop it.
+    /// Run stopped by its monitor.
     #[error("interrupted at t = {time}; the history up to there is kept")]
     Interrupted {
-        /// The end of the last step before the run was stopped [time].
+        /// End of the last step [time].
         time: f64,
     },
 }

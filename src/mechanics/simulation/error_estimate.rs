@@ -1,4 +1,4 @@
-//! The error of two steps of a method, seen by the side of a single one over the same time.
+//! Error estimate by step doubling.
 
 use super::controller::TriedStep;
 use super::corner_crossings::CornerCrossings;
@@ -8,60 +8,60 @@ use crate::integrators::{Integrator, Interval, StepError};
 use crate::newton::NewtonReport;
 use crate::system::{Placement, System, SystemState};
 
-/// Takes two steps, each one half of an interval, and compares them with one over all of it, which is thrown away.
+/// Takes two half steps, and compares them with a discarded whole step.
 ///
-/// Where a method has order `p`, the two err by `1/(2^p - 1)` of the difference (Richardson). They are kept as they are: what
-/// extrapolation would give is more accurate, but no step of the method, and has lost what steps of it keep.
+/// For a method of order `p`, the error of the half steps is `1/(2^p - 1)` times the difference (Richardson). The half steps are kept without
+/// extrapolation, which would be more accurate but would lose the conservation properties of the method.
 #[derive(Default)]
 pub(super) struct StepDoubling {
     start: SystemState,
     whole: Placement,
     halves: Placement,
     blows: CornerCrossings,
-    /// What errors of places are relative to [length].
+    /// Length scale of position errors [length].
     length: f64,
-    /// `2^p - 1` times the error that is allowed [-].
+    /// Allowed error times `2^p - 1` [-].
     allowed: f64,
 }
 
-/// Two half steps that were taken, with their error.
+/// Two accepted half steps with their error.
 pub(super) struct DoubledStep {
-    /// The work of all three solves: of the two half steps and of the whole one.
+    /// Total work of the half steps and the whole step.
     pub(super) report: NewtonReport,
     pub(super) trial: TriedStep,
-    /// The error that places show alone, over that allowed [-].
+    /// Error of positions alone, relative to the allowed one [-].
     of_places: f64,
 }
 
 impl DoubledStep {
-    /// The same step, where none can be shorter: that a blow falls somewhere in it is no reason to refuse it.
+    /// Returns the step with the error of positions only. It is used for the smallest step, where an unresolved impact is no reason for rejection.
     pub(super) fn judged_by_places(self) -> Self {
         let trial = TriedStep { error: self.of_places, ..self.trial };
         Self { trial, ..self }
     }
 
-    /// The same step with its second half taken anew, by the work of all and an error beside that of the method, over that allowed.
+    /// Returns the step after a repeated second half, with the total work and an additional error relative to the allowed one.
     pub(super) fn resampled(self, report: NewtonReport, error: f64) -> Self {
         let trial = TriedStep { error: larger(self.trial.error, error), ..self.trial };
         Self { report, trial, of_places: larger(self.of_places, error) }
     }
 }
 
-/// A step of which a half or the whole failed, the mechanism being where it was, and what was solved before that.
+/// Step with a failed part. The mechanism is back at the start of that part.
 pub(super) struct FailedStep {
     pub(super) source: StepError,
-    /// The number of Newton iterations that were made before the part that failed.
+    /// Newton iterations before the failed part.
     pub(super) before: usize,
 }
 
 impl StepDoubling {
-    /// The comparison of half steps with whole ones for methods of an order `p`, with a length to compare errors with and the error allowed.
+    /// Creates the estimate for order `p`, a length scale and an allowed error.
     pub(super) fn new(order: u32, length: f64, allowed: f64) -> Self {
         let allowed = (whole_power(2.0, order as i32) - 1.0) * allowed;
         Self { length, allowed, ..Self::default() }
     }
 
-    /// Takes two half steps over an interval, and tells their error; the state between them is written down for who asks for it.
+    /// Takes two half steps over an interval and returns their error. The intermediate state is stored if a buffer is given.
     pub(super) fn step(
         &mut self,
         integrator: &mut dyn Integrator,
@@ -94,7 +94,7 @@ impl StepDoubling {
         Ok(DoubledStep { report, trial, of_places })
     }
 
-    /// Takes a step after others that were solved; where it fails, the model is back where the first of them began.
+    /// Takes a step after successful ones. On failure, the model is restored to the start of the first one.
     pub(super) fn take_or_go_back(
         &self,
         integrator: &mut dyn Integrator,
@@ -105,13 +105,13 @@ impl StepDoubling {
         take(integrator, model, step, before).inspect_err(|_| self.take_back(model))
     }
 
-    /// Takes the model back to where the last pair of half steps began.
+    /// Restores the start of the last pair of half steps.
     pub(super) fn take_back(&self, model: &mut System) {
         model.restore(&self.start);
     }
 }
 
-/// Takes a step, others having been solved before.
+/// Takes a step after others with the given work.
 fn take(
     integrator: &mut dyn Integrator,
     model: &mut System,

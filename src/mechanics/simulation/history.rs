@@ -1,4 +1,4 @@
-//! What a run was like, step by step.
+//! History of a run, step by step.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,29 +6,29 @@ use super::columns::{self, Column, ExtraColumn};
 use crate::geometry::{Vec2, larger, smaller};
 use crate::system::Measures;
 
-/// A row of the history: what was measured at the end of a step, and what the step took.
+/// Row of the history: measures at the end of a step, and its solver statistics.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Sample {
-    /// Energy, momenta and what was exchanged, measured at the end of the step.
+    /// Energies, momenta and exchanged work and impulses at the end of the step.
     pub measures: Measures,
-    /// The length of the step that led to this row; zero in the first row [time].
+    /// Length of the step; zero in the first row [time].
     pub dt: f64,
-    /// Newton iterations of the step that led to this row; where steps vary in size those of its three solves together.
+    /// Newton iterations of the step; for variable steps the total of its three solves.
     pub newton_iterations: usize,
-    /// The number of failed tries before the step that led to this row.
+    /// Number of failed tries before the step.
     pub retries: usize,
 }
 
-/// A quantity that should not change, loads and supports accounted for.
+/// Quantity that is constant when loads and supports are accounted for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Invariant {
-    /// `E - W + D`
+    /// Energy balance `E - W + D` [energy].
     Energy,
-    /// The momentum without impulses, `p - ∫ F dt` [mass·length/time].
+    /// Momentum minus impulses, `p - ∫ F dt` [mass·length/time].
     Momentum,
-    /// The angular momentum without angular impulses, `L - ∫ M dt` [mass·length²/time].
+    /// Angular momentum minus angular impulses, `L - ∫ M dt` [mass·length²/time].
     AngularMomentum,
-    /// The largest distance between the partners of a joint [length].
+    /// Largest distance between the partners of a joint [length].
     Gap,
 }
 
@@ -41,7 +41,7 @@ impl Invariant {
         ("gap", Self::Gap),
     ];
 
-    /// The value of the invariant in a row: a vector for the momentum, else in the first component.
+    /// Value of the invariant in a row: a vector for the momentum, otherwise in the first component.
     pub fn value(self, row: &Measures) -> Vec2 {
         match self {
             Self::Energy => Vec2::new(row.energy.total() - row.work + row.dissipated, 0.0),
@@ -51,7 +51,7 @@ impl Invariant {
         }
     }
 
-    /// The invariant in words and symbols.
+    /// Description in words and symbols.
     pub fn describe(self) -> &'static str {
         match self {
             Self::Energy => "energy E - W + D",
@@ -62,46 +62,46 @@ impl Invariant {
     }
 }
 
-/// What the drift of a quantity is relative to when the rows themselves give no scale.
+/// Lower bounds of the scales of drifts.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DriftScales {
-    /// The mass of the whole scene [mass].
+    /// Mass of the whole scene [mass].
     pub mass: f64,
-    /// A length of the scene [length]; zero when it has none, such as a lone particle at the origin.
+    /// Length scale of the scene [length]; zero without one, as for a single particle at the origin.
     pub length: f64,
-    /// The energy that rounding of the strains stands for [energy]: no drift is relative to less.
+    /// Rounding error of the strain energy [energy], the smallest scale of a drift.
     pub rounding_energy: f64,
 }
 
-/// The history of a run: rows of what was measured, in the order of time.
+/// History of a run: rows of measures in the order of time.
 #[derive(Debug, Clone, Default)]
 pub struct History {
     samples: Vec<Sample>,
     extra_columns: Vec<ExtraColumn>,
-    /// The values of the extra columns, row after row.
+    /// Values of the additional columns, row by row.
     extra: Vec<f64>,
     scales: DriftScales,
 }
 
 impl History {
-    /// The columns that every history has.
+    /// Standard columns.
     pub const COLUMNS: &'static [Column] = columns::FIXED;
 
-    /// An empty history with columns of its own besides [`COLUMNS`](Self::COLUMNS).
+    /// Creates an empty history with columns in addition to [`COLUMNS`](Self::COLUMNS).
     pub fn new(scales: DriftScales, extra_columns: Vec<ExtraColumn>) -> Self {
         Self { samples: Vec::new(), extra_columns, extra: Vec::new(), scales }
     }
 
-    /// Makes room for `rows` rows of the history to come.
+    /// Reserves memory for further rows.
     pub fn reserve(&mut self, rows: usize) {
         self.samples.reserve(rows);
         self.extra.reserve(rows * self.extra_columns.len());
     }
 
-    /// Appends a row to the history: the sample, and a value for each of the extra columns in their order.
+    /// Appends a row: the sample, and the values of the additional columns in their order.
     ///
     /// # Panics
-    /// When there are more or fewer values than extra columns.
+    /// Panics if the number of values differs from that of the additional columns.
     pub fn push(&mut self, sample: Sample, extra: impl Iterator<Item = f64>) {
         self.samples.push(sample);
         self.extra.extend(extra);
@@ -109,42 +109,41 @@ impl History {
         assert_eq!(self.extra.len(), expected, "a row has one value for each extra column");
     }
 
-    /// Forgets all but the first `rows` rows of the history.
+    /// Keeps only the first `rows` rows.
     pub fn truncate(&mut self, rows: usize) {
         self.samples.truncate(rows);
         self.extra.truncate(rows * self.extra_columns.len());
     }
 
-    /// How many columns it has besides those of every history.
+    /// Number of additional columns.
     pub(super) fn extra_width(&self) -> usize {
         self.extra_columns.len()
     }
 
-    /// Fills in one of the extra columns of the last row, by its number among these.
+    /// Sets one of the additional columns in the last row.
     pub(super) fn fill_in(&mut self, column: usize, value: f64) {
         if let Some(first) = self.extra.len().checked_sub(self.extra_columns.len()) {
             self.extra[first + column] = value;
         }
     }
 
-    /// The values of the extra columns of the history, row after row.
     pub(super) fn extra_values(&self) -> &[f64] {
         &self.extra
     }
 
-    /// A history with the same columns and other rows; none when these do not have a value for each extra column.
+    /// Returns a history with the same columns and the given rows; `None` if the number of values does not fit.
     pub(super) fn with_rows(&self, samples: Vec<Sample>, extra: Vec<f64>) -> Option<Self> {
         let fits = samples.len().checked_mul(self.extra_columns.len()) == Some(extra.len());
         let extra_columns = self.extra_columns.clone();
         fits.then_some(Self { samples, extra_columns, extra, scales: self.scales })
     }
 
-    /// The rows of the history, without their extra columns.
+    /// Rows of the history, without additional columns.
     pub fn samples(&self) -> &[Sample] {
         &self.samples
     }
 
-    /// The rows of the history between two times, ends included.
+    /// Rows between two times, ends included.
     pub fn between(&self, from: f64, to: f64) -> Self {
         let steps = self.samples.iter().map(|row| row.dt).filter(|dt| *dt > 0.0);
         let slack = 1e-9 * steps.reduce(f64::min).unwrap_or(0.0);
@@ -158,19 +157,19 @@ impl History {
         inside
     }
 
-    /// Name and dimension of each column of the history, the extra ones last.
+    /// Name and dimension of each column, the additional ones last.
     pub fn columns(&self) -> impl Iterator<Item = (&str, &'static str)> {
         let fixed = Self::COLUMNS.iter().map(|column| (column.name, column.dimension));
         let extra = self.extra_columns.iter().map(|column| (&*column.name, column.dimension));
         fixed.chain(extra)
     }
 
-    /// The dimension of a column of the history by its name; none where there is no such column.
+    /// Dimension of a column; `None` for an unknown name.
     pub fn dimension(&self, name: &str) -> Option<&'static str> {
         self.columns().find(|(other, _)| *other == name).map(|(_, dimension)| dimension)
     }
 
-    /// The values of a column of the history by its name, one for each row; none where there is no such column.
+    /// Values of a column; `None` for an unknown name.
     pub fn column(&self, name: &str) -> Option<Vec<f64>> {
         if let Some(column) = Self::COLUMNS.iter().find(|column| column.name == name) {
             return Some(self.samples.iter().map(column.value).collect());
@@ -180,10 +179,10 @@ impl History {
         Some(rows.map(|row| row[index]).collect())
     }
 
-    /// The values of a column by its name, each replaced by the mean of it and the value in the row before. The first value stays, and
-    /// the first after the start: what belongs to a step, such as a contact force, has no value at the start.
+    /// Values of a column, each averaged with that of the previous row. The first two values are kept, because quantities of a step, such as contact
+    /// forces, have no value at the start.
     ///
-    /// This removes a sawtooth, an alternation from step to step. A mean belongs to the middle of its step.
+    /// The average removes oscillations from step to step. It belongs to the middle of the step.
     pub fn averaged(&self, name: &str) -> Option<Vec<f64>> {
         let mut column = self.column(name)?;
         for row in (1..column.len()).rev().filter(|row| self.samples[row - 1].dt > 0.0) {
@@ -192,11 +191,10 @@ impl History {
         Some(column)
     }
 
-    /// How far an invariant is from its value in the first row, row by row: relative to the largest energy, momentum or
-    /// angular momentum of these rows; the gap as a length.
+    /// Deviation of an invariant from its value in the first row, relative to the largest energy, momentum or angular momentum of all rows; absolute
+    /// for the gap.
     ///
-    /// The scale of the momenta includes `sqrt(2 m K)`, so that a body whose momentum is zero has one too, and all
-    /// impulses exchanged, also those of loads and supports that balance.
+    /// The scale of momenta includes `sqrt(2 m K)`, which covers bodies of zero momentum, and all exchanged impulses, including those that cancel.
     pub fn drifts(&self, invariant: Invariant) -> Vec<f64> {
         let Some(first) = self.samples.first().map(|row| row.measures) else { return Vec::new() };
         let scale = self.scale(invariant, &first);
@@ -211,7 +209,7 @@ impl History {
         self.samples.iter().map(relative).collect()
     }
 
-    /// What a change of an invariant is relative to.
+    /// Scale of the drift of an invariant.
     fn scale(&self, invariant: Invariant, first: &Measures) -> f64 {
         let largest = |value: &dyn Fn(&Measures) -> f64| {
             self.samples.iter().map(|row| value(&row.measures).abs()).fold(0.0, f64::max)
@@ -237,8 +235,8 @@ impl History {
         }
     }
 
-    /// The largest rise of `E - W + D` above an earlier value, relative as the [`drifts`](Self::drifts) are; NaN when an energy is
-    /// NaN or there is no row.
+    /// Largest increase of `E - W + D` over an earlier value, relative to the scale of [`drifts`](Self::drifts); NaN for NaN energies or without
+    /// rows.
     pub fn energy_growth(&self) -> f64 {
         let Some(first) = self.samples.first().map(|row| row.measures) else { return f64::NAN };
         let mut least = f64::INFINITY;
@@ -253,8 +251,7 @@ impl History {
         }
     }
 
-    /// The largest drift of an invariant over all rows of the history, relative as the [`drifts`](Self::drifts) are; NaN when one is NaN or
-    /// there is no row.
+    /// Largest of the [`drifts`](Self::drifts) of an invariant; NaN if one is NaN or there are no rows.
     pub fn drift(&self, invariant: Invariant) -> f64 {
         if self.samples.is_empty() {
             return f64::NAN;
@@ -272,7 +269,7 @@ mod tests {
         history_with(vec![], energies)
     }
 
-    /// The extra columns hold 10, 20, … in the first row, 11, 21, … in the second.
+    /// The additional columns contain 10, 20, … in the first row, 11, 21, … in the second.
     fn history_with(extra: Vec<ExtraColumn>, energies: &[f64]) -> History {
         let width = extra.len();
         let scales = DriftScales { mass: 1.0, length: 1.0, rounding_energy: 0.0 };

@@ -1,11 +1,11 @@
-//! What is found of a scene as drawn, once, when it is first asked for.
+//! Cached properties of a scene as drawn.
 
 use std::cell::OnceCell;
 
 use super::Outline;
 use crate::system::SystemError;
 
-/// What is found once of a scene as drawn: outlines of its beams, its lowest period.
+/// Cached properties of a scene as drawn: outlines of its beams, and its lowest period.
 #[derive(Debug, Default)]
 pub(super) struct InitialGeometry {
     outlines: OnceCell<Vec<Outline>>,
@@ -13,7 +13,6 @@ pub(super) struct InitialGeometry {
 }
 
 impl InitialGeometry {
-    /// The outlines of the beams of the scene as drawn.
     pub(super) fn outlines(
         &self,
         draw: impl FnOnce() -> Result<Vec<Outline>, SystemError>,
@@ -25,7 +24,7 @@ impl InitialGeometry {
         Ok(self.outlines.get_or_init(|| outlines))
     }
 
-    /// The lowest period of the scene as drawn, where it has one [time].
+    /// Lowest period of the scene as drawn, if it has one [time].
     pub(super) fn lowest_period(&self, find: impl FnOnce() -> Option<f64>) -> Option<f64> {
         *self.lowest_period.get_or_init(find)
     }

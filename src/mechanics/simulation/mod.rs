@@ -1,4 +1,4 @@
-//! Running a scene and remembering what happened.
+//! Simulation runs and their records.
 
 mod adaptive;
 mod archive;

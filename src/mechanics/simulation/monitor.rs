@@ -1,12 +1,12 @@
-//! Watching a run.
+//! Monitors of runs.
 
-/// A monitor: what watches a run after every step, and may stop it.
+/// Observer of a run that may stop it.
 pub trait Monitor {
-    /// Asked after every step and every failed try of a run, with the present time; `false` stops the run there.
+    /// Called after every step and every failed try with the present time. Returns `false` to stop the run.
     fn goes_on(&mut self, time: f64) -> bool;
 }
 
-/// A monitor that never stops a run.
+/// Monitor that never stops a run.
 #[derive(Debug, Clone, Copy)]
 pub struct NoMonitor;
 

@@ -1,47 +1,46 @@
-//! How beams, particles and rigid bodies look: lines to draw, and marks at knots or nodes.
+//! Drawing geometry of beams, particles and rigid bodies: lines, and marks at knots or nodes.
 
 use crate::beams::{BodyPoint, Mesh};
 use crate::elementary::atan2;
 use crate::geometry::{Vec2, cross, perpendicular};
 use crate::system::{BeamDefinition, RigidBodyDefinition, Scene, SystemError};
 
-/// Points along each span of a beam of higher degree.
+/// Points per span for degrees above one.
 const POINTS_A_SPAN: usize = 8;
 
-/// Points along a span of a beam of some degree.
 fn pieces(degree: usize) -> usize {
     if degree == 1 { 1 } else { POINTS_A_SPAN }
 }
 
-/// The places of a beam that a picture needs: points of its axis, and its knots or nodes; or those of a rigid body: its points, around it.
+/// Places of a body that a picture needs: points of a beam axis and its knots or nodes, or points of a rigid body.
 #[derive(Debug, Clone)]
 pub struct Outline {
     line: Vec<BodyPoint>,
     marks: Vec<BodyPoint>,
-    /// Of a rigid body with a polygon of its own: its corners, along and to the left of the line from the centre to one of its points, in lengths of that.
+    /// Polygon corners of a rigid body, in coordinates along and left of the line from the centre to one of its points, in units of its length.
     corners: Vec<Vec2>,
 }
 
-/// A configuration of a scene as it is drawn, in plain points [length].
+/// Configuration of a scene for drawing, in plain points [length].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Configuration {
-    /// The time of the configuration [time].
+    /// Time [time].
     pub time: f64,
-    /// A line of points for each beam [length].
+    /// Polyline of each beam [length].
     pub lines: Vec<Vec<Vec2>>,
-    /// A line of points around each rigid body that has points [length].
+    /// Polyline around each rigid body with points [length].
     pub bodies: Vec<Vec<Vec2>>,
-    /// The knots or nodes of all beams [length].
+    /// Knots or nodes of all beams [length].
     pub marks: Vec<Vec2>,
-    /// The places of the particles, then of the centres of rigid bodies [length].
+    /// Particles, then the centres of rigid bodies [length].
     pub particles: Vec<Vec2>,
 }
 
 impl Outline {
-    /// The outlines of the beams of a scene on their meshes, then those of its rigid bodies with points.
+    /// Outlines of the beams of a scene on their meshes, then of rigid bodies with points.
     ///
     /// # Errors
-    /// When an axis has a point without a tangent.
+    /// Fails if an axis has a point without a tangent.
     pub fn of_scene(scene: &Scene, meshes: &[Mesh]) -> Result<Vec<Self>, SystemError> {
         let of_beam = |(index, (beam, mesh)): (usize, (&BeamDefinition, &Mesh))| {
             let place = |xi: f64| {
@@ -63,7 +62,7 @@ impl Outline {
         scene.beams.iter().zip(meshes).enumerate().map(of_beam).chain(bodies).collect()
     }
 
-    /// One point is a line from the centre, two are a line over it, and more go around it.
+    /// One point gives a line from the centre, two points a line through it, more points a polygon around it.
     fn of_rigid_body(index: usize, body: &RigidBodyDefinition) -> Self {
         if !body.outline.is_empty() {
             return Self::polygon(index, body);
@@ -84,7 +83,7 @@ impl Outline {
         Self { line, marks: Vec::new(), corners: Vec::new() }
     }
 
-    /// A polygon is seen by the centre and the point that is farthest from it.
+    /// A polygon is located by the centre and the farthest point.
     fn polygon(index: usize, body: &RigidBodyDefinition) -> Self {
         let at = |point: &usize| body.points[point - 1].1;
         let farther = |a: &usize, b: &usize| at(a).norm().total_cmp(&at(b).norm());
@@ -97,13 +96,13 @@ impl Outline {
         Self { line: line.into(), marks: Vec::new(), corners }
     }
 
-    /// The corners of a rigid body with a polygon of its own, the first one again at the end: along and to the left of the line between the two places of
-    /// its [line](Self::line), in lengths of that.
+    /// Polygon corners of a rigid body, closed, in coordinates along and left of the line between both places of its [line](Self::line), in units of
+    /// its length.
     pub fn corners(&self) -> &[Vec2] {
         &self.corners
     }
 
-    /// The points of its line in a configuration, or of its polygon.
+    /// Points of the line or polygon in a configuration.
     fn points(&self, at: impl Fn(&BodyPoint) -> Vec2) -> Vec<Vec2> {
         let line: Vec<Vec2> = self.line.iter().map(at).collect();
         let ([centre, point], false) = (line.as_slice(), self.corners.is_empty()) else {
@@ -114,12 +113,12 @@ impl Outline {
         self.corners.iter().map(corner).collect()
     }
 
-    /// Whether it is that of a beam, which has knots.
+    /// Returns true for beams, which have knots.
     fn is_of_beam(&self) -> bool {
         !self.marks.is_empty()
     }
 
-    /// The parameters of a mesh at the places of its line: the breaks, and evenly between them.
+    /// Parameters of the line: the breaks of the mesh, and uniform points between them.
     pub(super) fn parameters(mesh: &Mesh) -> Vec<f64> {
         let pieces = pieces(mesh.basis().degree());
         let within = |pair: &[f64]| {
@@ -130,27 +129,27 @@ impl Outline {
         breaks.windows(2).flat_map(within).chain(breaks.last().copied()).collect()
     }
 
-    /// How many places of the line further the next station of the axis is: there are two a span, and one where spans are straight.
+    /// Number of line places between stations of the axis: there are two stations per span, or one for straight spans.
     pub fn places_a_station(degree: usize) -> usize {
         pieces(degree).div_ceil(2)
     }
 
-    /// Stations of the axis between two knots.
+    /// Number of axis stations between two knots.
     pub fn stations_within_a_span(degree: usize) -> usize {
         pieces(degree) / Self::places_a_station(degree) - 1
     }
 
-    /// The places of the centre line, from its start to its end.
+    /// Places of the centre line, from start to end.
     pub fn line(&self) -> &[BodyPoint] {
         &self.line
     }
 
-    /// The knots or nodes.
+    /// Knots or nodes.
     pub fn marks(&self) -> &[BodyPoint] {
         &self.marks
     }
 
-    /// The configuration as drawn from the control points of all bodies [length]: one beam after another, then particles, then rigid bodies.
+    /// Draws a configuration from the control points of all bodies [length]: beams, then particles, then rigid bodies.
     pub fn draw(outlines: &[Self], time: f64, control_points: &[&[Vec2]]) -> Configuration {
         let at = |place: &BodyPoint| place.interpolate(control_points[place.body]);
         let beams = outlines.partition_point(Self::is_of_beam);

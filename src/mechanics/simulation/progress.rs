@@ -1,4 +1,4 @@
-//! What a run has done so far: its work, its last step, and arrivals of sliders.
+//! Progress of a run: work, last step, and arrivals of sliders.
 
 use std::rc::Rc;
 use std::time::Duration;
@@ -9,59 +9,58 @@ use super::{Arrival, ArrivalKind, ReleaseEvent, Sample};
 use crate::integrators::Interval;
 use crate::newton::NewtonReport;
 
-/// The work of a run so far.
+/// Work counters of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct WorkCounts {
-    /// The number of steps that succeeded; two halves that are compared with a whole one count as one.
+    /// Successful steps; a compared pair of half steps counts as one.
     pub steps: usize,
-    /// The number of Newton iterations of the steps that succeeded, each with new factors; for steps of varying size those of all three
-    /// solves that a pair of half steps takes.
+    /// Newton iterations of successful steps, each with a new factorisation; for variable steps of all three solves.
     pub newton_iterations: usize,
-    /// The number of corrections of the steps that succeeded, with factors at hand.
+    /// Corrections of successful steps with existing factors.
     pub corrections: usize,
-    /// The most Newton iterations of one step: of one solve where steps are fixed, of its three solves together where they vary.
+    /// Largest number of Newton iterations of a step; for variable steps the total of its three solves.
     pub newton_max: usize,
-    /// The number of factorised matrices of the run, failed tries included.
+    /// Factorisations, including those of failed tries.
     pub factorisations: usize,
-    /// The number of failed tries of steps.
+    /// Failed tries.
     pub retries: usize,
-    /// The number of steps that erred by more than a tolerance allowed.
+    /// Steps rejected by the tolerance.
     pub rejected: usize,
-    /// The number of steps that were tried to find when a slider arrives at the end of its master.
+    /// Tried steps in the search for arrivals of sliders.
     pub arrival_tries: usize,
-    /// The time that this program spent in steps: it is not in files, which would differ from run to run.
+    /// Wall time in steps. It is not stored in files, which would differ from run to run.
     #[serde(skip)]
     pub wall: Duration,
 }
 
-/// What the last step of a run took.
+/// Statistics of the last step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct StepTaken {
-    /// The length of the last step; zero before there is one [time].
+    /// Length of the last step; zero before the first [time].
     pub(super) dt: f64,
     pub(super) newton_iterations: usize,
     pub(super) retries: usize,
 }
 
 impl StepTaken {
-    /// What the step that led to a row of the history took.
+    /// Statistics from a row of the history.
     pub(super) fn of(row: &Sample) -> Self {
         Self { dt: row.dt, newton_iterations: row.newton_iterations, retries: row.retries }
     }
 }
 
-/// What a run has done so far: its work, its last step, its arrivals, its releases.
+/// Progress of a run: work, last step, arrivals and releases.
 #[derive(Debug, Clone, Default)]
 pub(super) struct RunProgress {
     pub(super) counts: WorkCounts,
     pub(super) last_step: StepTaken,
     pub(super) arrivals: Vec<Arrival>,
-    /// In the order in which it let go; shared with the states to go back to.
+    /// Releases in their order, shared with snapshots.
     pub(super) let_go: Rc<[ReleaseEvent]>,
 }
 
 impl RunProgress {
-    /// Counts a step that succeeded after some failed tries.
+    /// Counts a successful step after some failed tries.
     pub(super) fn count_step(&mut self, interval: Interval, report: NewtonReport, retries: usize) {
         let NewtonReport { iterations, corrections, .. } = report;
         let counts = &mut self.counts;
@@ -74,31 +73,31 @@ impl RunProgress {
             StepTaken { dt: interval.duration(), newton_iterations: iterations, retries };
     }
 
-    /// Counts a step that passes without being solved.
+    /// Counts a step of a dry run.
     pub(super) fn count_pretended(&mut self, dt: f64) {
         self.counts.steps += 1;
         self.last_step = StepTaken { dt, ..StepTaken::default() };
     }
 
-    /// Counts a step that was tried to find when a slider arrives.
+    /// Counts a tried step in the search for an arrival.
     pub(super) fn count_try(&mut self, iterations: usize) {
         self.counts.arrival_tries += 1;
         self.counts.factorisations += iterations;
     }
 
-    /// Counts a step that failed.
+    /// Counts a failed step.
     pub(super) fn count_failure(&mut self, factorisations: usize) {
         self.counts.retries += 1;
         self.counts.factorisations += factorisations;
     }
 
-    /// Counts a step that erred by more than a tolerance allows.
+    /// Counts a step rejected by the tolerance.
     pub(super) fn count_rejection(&mut self, iterations: usize) {
         self.counts.rejected += 1;
         self.counts.factorisations += iterations;
     }
 
-    /// The arrival of a slider that ended the run, if there was one: nothing happens after it.
+    /// Arrival that ended the run, if any.
     pub(super) fn stopped(&self) -> Option<&Arrival> {
         self.arrivals.last().filter(|last| last.kind == ArrivalKind::Stopped)
     }

@@ -1,4 +1,4 @@
-//! What is kept of a run: rows of its history, configurations of its trajectory.
+//! Records of a run: history and trajectory.
 
 use std::collections::HashSet;
 
@@ -8,22 +8,22 @@ use super::{DriftScales, History, Recording, Sample, Trajectory};
 use crate::geometry::Vec2;
 use crate::system::{Scene, SensorReader, System, SystemError};
 
-/// What is kept of a run, and which of its states are recorded.
+/// Records of a run, and the selection of recorded states.
 #[derive(Debug, Clone)]
 pub(super) struct RunRecord {
     pub(super) history: History,
     pub(super) trajectory: Trajectory,
     pub(super) recording: Recording,
-    /// The number of rows of the history that stay; a further one belongs to the present.
+    /// Number of permanent rows. A further row belongs to the present.
     pub(super) rows_kept: usize,
     sensing: SensorReader,
 }
 
 impl RunRecord {
-    /// The record of a run whose first row is the start of a scene.
+    /// Creates a record whose first row is the start of a scene.
     ///
     /// # Errors
-    /// When a sensor has nothing to read, or a name is that of two columns.
+    /// Fails if a sensor cannot be located, or two columns share a name.
     pub(super) fn new(scene: &Scene, model: &mut System) -> Result<Self, SystemError> {
         let columns = extra_columns(scene);
         check_names(&columns)?;
@@ -42,29 +42,29 @@ impl RunRecord {
         Ok(record)
     }
 
-    /// Finds what sensors read in a model again, of which something has let go or has not.
+    /// Locates the sensors again after a release or its undoing.
     ///
     /// # Errors
-    /// When a sensor has nothing to read, which it had before.
+    /// Fails if a sensor can no longer be located.
     pub(super) fn look_again(&mut self, scene: &Scene, model: &System) -> Result<(), SystemError> {
         self.sensing = SensorReader::of(scene, model)?;
         Ok(())
     }
 
-    /// Makes room in the record for so many steps.
+    /// Reserves memory for further steps.
     pub(super) fn reserve(&mut self, steps: usize) {
         let rows = self.recording.rows_of(steps);
         self.history.reserve(rows);
         self.trajectory.reserve(rows);
     }
 
-    /// Gives the present state a row of the history that stays.
+    /// Adds a permanent row for the present state.
     pub(super) fn keep_row(&mut self, model: &mut System, last_step: StepTaken) {
         self.add_row(model, last_step);
         self.rows_kept = self.history.samples().len();
     }
 
-    /// Gives the present state a row of the history until it is past, unless it has one.
+    /// Adds a temporary row for the present state, unless it has one.
     pub(super) fn show_present(&mut self, model: &mut System, last_step: StepTaken) {
         let last = self.history.samples().last().map(|row| row.measures.time);
         if last != Some(model.time()) {
@@ -81,7 +81,7 @@ impl RunRecord {
         self.trajectory.push(model.time(), coordinates(model));
     }
 
-    /// Takes the record back to the first rows of the history alone.
+    /// Truncates the record to the first rows.
     pub(super) fn go_back(&mut self, rows: usize) {
         self.rows_kept = rows;
         self.history.truncate(rows);
@@ -89,7 +89,7 @@ impl RunRecord {
     }
 }
 
-/// Refuses two columns of one name: what is recorded may be called as something is that a scene adds by itself, before or later.
+/// Rejects duplicate column names, because a recorded quantity may be named like a column of the scene.
 fn check_names(columns: &[ExtraColumn]) -> Result<(), SystemError> {
     let mut names: HashSet<&str> = FIXED.iter().map(|column| column.name).collect();
     match columns.iter().find(|column| !names.insert(&column.name)) {
@@ -104,13 +104,13 @@ fn coordinates(model: &System) -> impl Iterator<Item = f64> + '_ {
     model.control_points().flatten().flat_map(|point| [point.x, point.y])
 }
 
-/// What a change of an invariant is measured by when the motion itself is small.
+/// Lower bounds of the scales of drifts.
 fn scales(scene: &Scene, model: &System) -> DriftScales {
     let longest = scene.longest_beam().unwrap_or(0.0);
     let distances = model.control_points().flatten().map(|point| point.norm());
     DriftScales {
         mass: model.total_mass(),
-        // The radius of gyration of the longest beam, or how far the scene is from the origin.
+        // Radius of gyration of the longest beam, or a large distance from the origin.
         length: distances.fold(longest / 12_f64.sqrt(), |length, distance| {
             if distance > 10.0 * longest { length.max(distance) } else { length }
         }),

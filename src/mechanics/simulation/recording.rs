@@ -1,17 +1,17 @@
-//! Which states of a run are recorded: a row in its history, a configuration in its trajectory.
+//! Selection of the recorded states of a run.
 
 use std::num::NonZeroUsize;
 
 use serde::{Deserialize, Serialize};
 
-/// Which states of a run are recorded besides its start, the ends of its runs and the arrivals of sliders, which always are.
+/// Recorded states in addition to the start, the ends of runs and the arrivals of sliders, which are always recorded.
 ///
-/// What is not recorded is not measured either. The present has a row as long as it is the present.
+/// Other states are not measured. The present has a temporary row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Recording {
-    /// The states after every so many steps are recorded.
+    /// Every n-th step.
     Every(NonZeroUsize),
-    /// No states are recorded besides those that always are.
+    /// No additional states.
     Nothing,
 }
 
@@ -22,7 +22,7 @@ impl Default for Recording {
 }
 
 impl Recording {
-    /// Whether the state after so many steps of a run is recorded.
+    /// Returns true if the state after this number of steps is recorded.
     pub fn is_due(self, steps: usize) -> bool {
         match self {
             Self::Every(count) => steps.is_multiple_of(count.get()),
@@ -30,12 +30,12 @@ impl Recording {
         }
     }
 
-    /// Whether the state after every step is recorded.
+    /// Returns true if every step is recorded.
     pub fn is_complete(self) -> bool {
         self == Self::default()
     }
 
-    /// Which states are recorded, in words: `every 100 steps`.
+    /// Description such as `every 100 steps`.
     pub fn describe(self) -> String {
         match self {
             Self::Every(count) if count == NonZeroUsize::MIN => "every step".to_owned(),
@@ -44,7 +44,7 @@ impl Recording {
         }
     }
 
-    /// The most rows that so many steps add to the history.
+    /// Largest number of rows added by so many steps.
     pub(super) fn rows_of(self, steps: usize) -> usize {
         match self {
             Self::Every(count) => steps / count.get() + 2,

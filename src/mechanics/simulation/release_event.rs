@@ -1,12 +1,12 @@
-//! What has let go in a run.
+//! Releases during a run.
 
 use serde::{Deserialize, Serialize};
 
-/// A release that has happened.
+/// Executed release.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ReleaseEvent {
-    /// The index of the release in the scene.
+    /// Index of the release in the scene.
     pub release: usize,
-    /// When something let go: the end of a step, and the start of the next one [time].
+    /// Time of the release, between two steps [time].
     pub time: f64,
 }

@@ -1,4 +1,4 @@
-//! What it does to a step of varying size that controllers are asked only at its start.
+//! Error of variable steps due to controllers that are sampled at the start of a step only.
 
 use super::adaptive::StepPlan;
 use super::error_estimate::{DoubledStep, FailedStep, StepDoubling};
@@ -7,18 +7,18 @@ use crate::geometry::larger;
 use crate::integrators::{Integrator, Interval};
 use crate::system::{Drive, Placement, Scene, System, SystemState};
 
-/// How far the second halves may be apart, as a multiple of the length of the scene times a power of the tolerance: as measured, by this number the
-/// error that gathers in the time scale of a motion is about half the tolerance (theory.md, section 13.1).
+/// Allowed distance of the repeated second halves, in units of the length scale times a power of the tolerance. With this value, the measured
+/// accumulated error in the time scale of a motion is about half the tolerance (theory.md, section 13.1).
 const SHARE: f64 = 4.0;
 
-/// Steps of which each half asks the controllers as a step of its own.
+/// Steps with a controller sample in each half.
 ///
-/// Whole step and half steps are compared under the values of the start, which shows the error of the method. Then the run pauses in the middle,
-/// controllers are asked there, and the second half is taken again. A held force is late by half a step in the mean, which moves places by a third
-/// power of the step size at first, and in the long run by the first; of a held rate it is the second power. So the difference between both second
-/// halves may be that power of the tolerance.
+/// The whole step and its halves are compared with the values of the start, which gives the error of the method. Then the run pauses in the middle,
+/// the controllers are sampled there, and the second half is repeated. A held force is late by half a step on average, which changes positions by the
+/// third power of the step size locally and by the first power globally; for a held rate it is the second power. The difference between both second
+/// halves may therefore be that power of the tolerance.
 pub(super) struct Resampling {
-    /// The power of the step size with which places differ [-].
+    /// Power of the step size in the position difference [-].
     order: i32,
     allowed: f64,
     length: f64,
@@ -28,14 +28,14 @@ pub(super) struct Resampling {
     under_way: Option<HalfStep>,
 }
 
-/// A step that has been taken as far as its middle, where controllers are asked.
+/// Step that is paused in its middle to sample controllers.
 struct HalfStep {
     plan: StepPlan,
     doubled: DoubledStep,
 }
 
 impl Resampling {
-    /// The comparison for a scene of such a length; none where none is asked at every step.
+    /// Creates the estimate for a scene with a length scale; `None` without controllers that are sampled at every step.
     pub(super) fn of(scene: &Scene, length: f64, tolerance: f64) -> Option<Self> {
         let all = scene.schedules().filter(|(_, schedule)| schedule.is_asked_every_step()).count();
         let of_drives = scene.drives.iter().flat_map(Drive::schedules);
@@ -52,17 +52,17 @@ impl Resampling {
         })
     }
 
-    /// Room for the state in the middle of the step.
+    /// Buffer for the state in the middle of the step.
     pub(super) fn middle_mut(&mut self) -> &mut SystemState {
         &mut self.middle
     }
 
-    /// Whether a step waits in its middle.
+    /// Returns true if a step is paused in its middle.
     pub(super) fn is_half_way(&self) -> bool {
         self.under_way.is_some()
     }
 
-    /// Goes back to the middle of a step that was taken to its end.
+    /// Restores the middle of a completed step and pauses there.
     pub(super) fn wait_half_way(
         &mut self,
         model: &mut System,
@@ -74,7 +74,7 @@ impl Resampling {
         self.under_way = Some(HalfStep { plan, doubled });
     }
 
-    /// Takes the second half of the step that waits, if one does, with the values that controllers have now; the step is the worse of both comparisons.
+    /// Repeats the second half of a paused step with new controller values. The larger of both errors counts.
     pub(super) fn go_on(
         &mut self,
         doubling: &mut StepDoubling,
@@ -95,7 +95,7 @@ impl Resampling {
         Some((plan, taken))
     }
 
-    /// Forgets a step that waits in its middle; gives whether there was one.
+    /// Discards a paused step. Returns true if there was one.
     pub(super) fn abandon(&mut self) -> bool {
         self.under_way.take().is_some()
     }

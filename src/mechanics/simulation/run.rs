@@ -1,4 +1,4 @@
-//! The time loop: steps on the grid, halved and tried again where they fail.
+//! Time loop: steps on the grid, halved and repeated on failure.
 
 mod adapting;
 mod back;
@@ -36,20 +36,20 @@ use crate::newton::Tolerance;
 use crate::statics::Equilibrium;
 use crate::system::{Scene, System};
 
-/// Most steps that a pretended run has.
+/// Largest number of steps of a dry run.
 const MOST_PRETENDED: usize = 10_000;
 
-/// A controller is asked at most so often in a step.
+/// Largest number of controller samples per step.
 const MOST_SAMPLES: f64 = 1e4;
 
-/// How a scene is simulated: integrator, step size, tolerance.
+/// Integrator, step size and tolerance of a simulation.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct SimulationSettings {
-    /// The integrator of the simulation.
+    /// Integrator.
     pub method: Method,
-    /// The step size of the simulation, or what it is found by.
+    /// Step size, or its control.
     pub dt: StepSize,
-    /// The tolerance of the Newton solver.
+    /// Tolerance of the Newton solver.
     pub tolerance: Tolerance,
 }
 
@@ -60,13 +60,13 @@ impl SimulationSettings {
     }
 }
 
-/// A simulation: a scene in motion, with its history.
+/// Simulation of a scene with its history.
 pub struct Simulation {
     scene: Scene,
     settings: SimulationSettings,
     model: System,
     stepper: Stepper,
-    /// What finds the size of steps, where it varies.
+    /// Step selection, for variable steps.
     adaptive: Option<Box<Adaptive>>,
     clock: StepClock,
     progress: RunProgress,
@@ -76,20 +76,20 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// Builds a scene and puts the simulation at its start, t = 0.
+    /// Builds a scene and starts the simulation at t = 0.
     ///
     /// # Errors
-    /// When the step size or the parameter of the method is out of its range, or the scene cannot be built.
+    /// Fails if the step size or a method parameter is out of range, or the scene cannot be built.
     pub fn start(scene: Scene, settings: SimulationSettings) -> Result<Self, SimulationError> {
         let model = System::assemble(&scene)?;
         Self::of(scene, model, settings)
     }
 
-    /// A simulation that starts from the scene of an equilibrium, at rest as it was found: at t = 0; or, if a drive has moved it, at the time of the
-    /// equilibrium, from which on the functions of drives lead further.
+    /// Starts a simulation at rest from an equilibrium, at t = 0. If the equilibrium applied prescribed positions, the simulation starts at the time
+    /// of the equilibrium instead.
     ///
     /// # Errors
-    /// When the step size or the parameter of the method is out of its range, or a drive rests elsewhere than where its function is.
+    /// Fails if the step size or a method parameter is out of range, or a drive of the equilibrium is not at the value of its function.
     pub fn start_at_rest(
         rest: &Equilibrium,
         settings: SimulationSettings,
@@ -151,75 +151,75 @@ impl Simulation {
         })
     }
 
-    /// Lets up to `most` threads work on a large beam, at first as many as there are cores; results are the same.
+    /// Sets the largest number of threads for large scenes, by default the number of cores. Results do not depend on it.
     pub fn use_threads(&mut self, most: usize) {
         self.model.divide(most);
     }
 
-    /// The present time of the simulation [time].
+    /// Present time [time].
     pub fn time(&self) -> f64 {
         self.model.time()
     }
 
-    /// The scene that is simulated.
+    /// Simulated scene.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
 
-    /// How the scene is simulated.
+    /// Settings of the simulation.
     pub fn settings(&self) -> &SimulationSettings {
         &self.settings
     }
 
-    /// The mechanism of the simulation at its present state.
+    /// Mechanism in its present state.
     pub fn model(&self) -> &System {
         &self.model
     }
 
-    /// The history of the simulation: all rows so far.
+    /// History so far.
     pub fn history(&self) -> &History {
         &self.record.history
     }
 
-    /// The trajectory of the simulation: configurations so far.
+    /// Trajectory so far.
     pub fn trajectory(&self) -> &Trajectory {
         &self.record.trajectory
     }
 
-    /// The work of the simulation so far.
+    /// Work counters.
     pub fn counts(&self) -> &WorkCounts {
         &self.progress.counts
     }
 
-    /// The number of unknowns of a step of the simulation, those of contacts included.
+    /// Number of unknowns of a step, including contact multipliers.
     pub fn unknowns(&self) -> usize {
         self.model.unknowns() + self.model.constraint_shape().width
     }
 
-    /// The half-bandwidth of the matrix of a step: how far from the diagonal it has entries.
+    /// Half-bandwidth of the matrix of a step.
     pub fn half_bandwidth(&self) -> usize {
         self.model.half_bandwidth()
     }
 
-    /// Whether the simulation has reached a time, but for rounding.
+    /// Returns true if a time is reached, within rounding.
     pub fn has_reached(&self, time: f64) -> bool {
         self.clock.grid.has_reached(self.time(), time)
     }
 
-    /// By how much a time may be missed and still count as reached [time].
+    /// Tolerance within which a time counts as reached [time].
     pub fn slack(&self) -> f64 {
         self.clock.grid.slack(self.time())
     }
 
-    /// Makes a step of the simulation end at a time to come.
+    /// Makes a step end at a future time.
     pub fn cut_at(&mut self, time: f64) {
         self.clock.grid.cut_at(time);
     }
 
-    /// Takes one step of the simulation: to the next point of the grid, or to the next cut of it.
+    /// Takes one step, to the next point or cut of the time grid.
     ///
     /// # Errors
-    /// When no step works, the run has ended at the end of a master, or the monitor stops it.
+    /// Fails if no step is solved, an arrival has ended the run, or the monitor stops it.
     pub fn step(&mut self, monitor: &mut dyn Monitor) -> Result<(), SimulationError> {
         if let Some(ending) = self.ending() {
             return Err(SimulationError::Ended { ending });
@@ -230,10 +230,10 @@ impl Simulation {
         stepped
     }
 
-    /// Takes steps of the simulation until a time, which ends the last step, or until a slider ends the run.
+    /// Runs until a time, which ends the last step, or until a slider ends the run.
     ///
     /// # Errors
-    /// When the time has passed, no step works, or the monitor stops the run.
+    /// Fails if the time has passed, no step is solved, or the monitor stops the run.
     pub fn run_to(&mut self, end: f64, monitor: &mut dyn Monitor) -> Result<(), SimulationError> {
         self.check_end(end)?;
         let now = self.time();
@@ -259,12 +259,12 @@ impl Simulation {
         }
     }
 
-    /// Lets time pass as steps would, without solving anything: the history gets rows in which nothing happens.
+    /// Advances the time without solving (dry run). The history gets rows of a resting scene.
     ///
-    /// For checking scripts; of very many steps only the first and the last are pretended.
+    /// It serves to check scripts. If there are very many steps, only the first and the last are recorded.
     ///
     /// # Errors
-    /// When the time has passed or is not finite, or the monitor stops the run.
+    /// Fails if the time has passed or is not finite, or the monitor stops the run.
     pub fn pretend_to(
         &mut self,
         end: f64,
@@ -272,7 +272,7 @@ impl Simulation {
     ) -> Result<(), SimulationError> {
         self.check_end(end)?;
         self.clock.goal = end;
-        // What runs beside makes rows of its own.
+        // Perturbed runs add their own rows.
         let mut beside = self.stepper.sensitivities.take();
         let pretended = self.pretend_alone_to(end, monitor);
         if let Some(sensitivities) = &mut beside {
@@ -286,7 +286,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// How many rows were pretended.
+    /// Number of rows of the dry run.
     fn pretend_alone_to(
         &mut self,
         end: f64,
@@ -331,7 +331,7 @@ impl Simulation {
                 stepped
             }
         };
-        // What was interrupted goes on where it was, with steps of the same size.
+        // An interrupted step continues later with the same size.
         if !matches!(stepped, Err(SimulationError::Interrupted { .. })) {
             self.clock.under_way = None;
         }

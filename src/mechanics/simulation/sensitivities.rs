@@ -1,4 +1,4 @@
-//! Derivatives of a run by parameters of its scene, found beside the run by the tangent-linear steps.
+//! Derivatives of a run with respect to parameters, computed by tangent-linear steps.
 
 mod error;
 mod perturbed_runs;
@@ -15,51 +15,51 @@ use crate::integrators::{
 use crate::newton::NewtonReport;
 use crate::system::{Scene, System, SystemState};
 
-/// How a scene varies with a parameter: the scene at the parameter plus and minus a distance.
+/// Scenes at a parameter plus and minus a perturbation.
 #[derive(Debug, Clone)]
 pub struct Variation {
-    /// The name of the parameter.
+    /// Name of the parameter.
     pub name: String,
-    /// The distance between the parameter of the scene and those of the scenes beside it, in the units of the parameter.
+    /// Perturbation in the units of the parameter.
     pub distance: f64,
-    /// The scenes at the parameter plus the distance, and minus it.
+    /// Scenes at the parameter plus and minus the perturbation.
     pub scenes: [Scene; 2],
 }
 
-/// A scene beside that of a run.
+/// Sign of a perturbation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PerturbedSide {
-    /// The scene at the parameter plus a distance.
+    /// Parameter plus the perturbation.
     Plus,
-    /// The scene at the parameter minus a distance.
+    /// Parameter minus the perturbation.
     Minus,
 }
 
-/// The work for the derivatives of a run so far.
+/// Work counters of the derivatives of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct DerivativeCounts {
-    /// The number of solves with the factors of the run.
+    /// Solves with the factors of the run.
     pub solves: usize,
-    /// The number of factorisations where those did not do.
+    /// Factorisations where these were not sufficient.
     pub factorisations: usize,
 }
 
-/// The derivatives of a run: the state `s` of a step solves `R(s₁; s₀, p) = 0`, and so its derivative solves `∂R/∂s₁ s₁' = -∂R/∂s₀ s₀' - ∂R/∂p`, with the
-/// matrix that the step has factorised. The right-hand side is the difference of two balances, at `p ± δ` from the states `s₀ ± δ s₀'`.
+/// Derivatives of a run. The state `s` of a step solves `R(s₁; s₀, p) = 0`, so its derivative solves `∂R/∂s₁ s₁' = -∂R/∂s₀ s₀' - ∂R/∂p` with the
+/// factorised matrix of the step. The right-hand side is the difference of two balances, at `p ± δ` from the states `s₀ ± δ s₀'`.
 pub(super) struct Sensitivities {
     company: SharedFactorStepper,
     parameters: Vec<PerturbedRuns>,
-    /// The state of the run at the start of the present step.
+    /// State of the run at the start of the present step.
     start: SystemState,
     counts: DerivativeCounts,
     lost: Option<DerivativeError>,
 }
 
 impl Sensitivities {
-    /// The derivatives of a run at its start.
+    /// Creates the derivatives of a run at its start.
     ///
     /// # Errors
-    /// When steps of the method cannot be taken in company, or a scene beside that of the run cannot be built or has another form.
+    /// Fails if the method has no derivatives, or a perturbed scene cannot be built or has another structure.
     pub(super) fn new(
         run: &mut Simulation,
         variations: Vec<Variation>,
@@ -84,10 +84,10 @@ impl Sensitivities {
         Ok(Self { company, parameters, start, counts: DerivativeCounts::default(), lost: None })
     }
 
-    /// Takes a step of the run, and of the runs beside it.
+    /// Takes a step of the run and its perturbed runs.
     ///
     /// # Errors
-    /// Those of the step of the run.
+    /// Errors of the step of the run.
     pub(super) fn step(
         &mut self,
         model: &mut System,
@@ -120,7 +120,7 @@ impl Sensitivities {
         Ok(leader)
     }
 
-    /// Lets what is tied to drives follow jumps of their rates beside the run too.
+    /// Applies jumps of prescribed rates to the perturbed runs.
     pub(super) fn follow_jumps_of_drives(&mut self, way: Interval) {
         for twins in &mut self.parameters {
             for model in twins.models() {
@@ -130,30 +130,28 @@ impl Sensitivities {
         }
     }
 
-    /// Counts a step that succeeded.
     pub(super) fn count_step(&mut self, interval: Interval, report: NewtonReport) {
         self.each(|twin| twin.count_step(interval, report, 0));
     }
 
-    /// Gives the present states beside the run rows of their histories that stay.
+    /// Adds permanent rows for the perturbed runs.
     pub(super) fn keep_row(&mut self) {
         self.each(Simulation::keep_row);
     }
 
-    /// Gives the present states beside the run rows of their histories until they are past.
+    /// Adds temporary rows for the perturbed runs.
     pub(super) fn show_present(&mut self) {
         self.each(Simulation::show_present);
     }
 
-    /// Lets time pass beside the run as steps would.
+    /// Advances the perturbed runs in a dry run.
     pub(super) fn pretend_to(&mut self, end: f64) {
         self.each(|twin| {
-            // What would stop it stops the run itself.
+            // Errors would stop the run itself.
             let _: Result<(), super::SimulationError> = twin.pretend_to(end, &mut NoMonitor);
         });
     }
 
-    /// Records the runs beside as the run is recorded.
     pub(super) fn record(&mut self, recording: Recording) {
         self.each(|twin| twin.record(recording));
     }
@@ -164,7 +162,7 @@ impl Sensitivities {
         }
     }
 
-    /// There are no derivatives from here on; the first reason is kept.
+    /// Ends the derivatives. The first reason is kept.
     pub(super) fn lose(&mut self, reason: DerivativeError) {
         let _: &mut DerivativeError = self.lost.get_or_insert(reason);
     }
@@ -177,15 +175,15 @@ impl fmt::Debug for Sensitivities {
 }
 
 impl Sensitivities {
-    /// The names of the parameters, with the distances of the runs beside.
+    /// Names of the parameters with their perturbations.
     pub(super) fn parameters(&self) -> impl Iterator<Item = (&str, f64)> {
         self.parameters.iter().map(|twins| (twins.name.as_str(), twins.distance))
     }
 
-    /// The run beside at a parameter, by its index.
+    /// Perturbed run of a parameter.
     ///
     /// # Errors
-    /// When there are no derivatives (any more).
+    /// Fails if there are no derivatives.
     pub(super) fn beside(
         &self,
         parameter: usize,
@@ -200,10 +198,10 @@ impl Sensitivities {
         }
     }
 
-    /// The run beside at a parameter, by its index, as far as it came: its history has the rows from before derivatives ended.
+    /// Perturbed run of a parameter with its history up to the end of the derivatives.
     ///
     /// # Errors
-    /// When there are none of the run as it is now.
+    /// Fails if the run itself was changed since.
     pub(super) fn beside_so_far(
         &self,
         parameter: usize,
@@ -232,7 +230,6 @@ impl Sensitivities {
         }
     }
 
-    /// The work so far.
     pub(super) fn counts(&self) -> DerivativeCounts {
         self.counts
     }

@@ -1,4 +1,4 @@
-//! States that a simulation can go back to, as many as a limit of memory has room for.
+//! Snapshots of a simulation within a memory limit.
 
 use std::collections::VecDeque;
 use std::rc::Rc;
@@ -9,29 +9,29 @@ use super::step_retry::StepRetry;
 use super::{ReleaseEvent, WorkCounts};
 use crate::system::SystemState;
 
-/// A snapshot: what a simulation needs to be where it was, bit for bit.
+/// State of a simulation, sufficient to continue bit for bit.
 #[derive(Debug, Clone)]
 pub(super) struct Snapshot {
     pub(super) state: SystemState,
-    /// The time of the snapshot [time].
+    /// Time of the snapshot [time].
     pub(super) time: f64,
-    /// The number of rows of the history that stay when the simulation goes back to the snapshot.
+    /// Number of history rows to keep on restoring the snapshot.
     pub(super) rows: usize,
     pub(super) last_step: StepTaken,
     pub(super) arrivals: usize,
-    /// What had let go.
+    /// Releases so far.
     pub(super) let_go: Rc<[ReleaseEvent]>,
     pub(super) counts: WorkCounts,
-    /// The number of grid points that were passed.
+    /// Number of passed grid points.
     pub(super) passed: u64,
-    /// The step of the grid that was covered in part, if there was one.
+    /// Partially covered step of the grid.
     pub(super) under_way: Option<StepRetry>,
-    /// How long the next step was to be, where steps are of varying size.
+    /// Size of the next step, for variable steps.
     pub(super) pace: Option<StepSizeState>,
 }
 
 impl Snapshot {
-    /// The number of steps taken until the snapshot; it tells snapshots apart.
+    /// Number of steps so far; identifies the snapshot.
     pub(super) fn steps(&self) -> usize {
         self.counts.steps
     }
@@ -41,20 +41,20 @@ impl Snapshot {
     }
 }
 
-/// The states that a simulation can go back to: the first one, and the last ones, within a limit of memory.
+/// Snapshots of a simulation: the first one, and the most recent ones within a memory limit.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Snapshots {
     /// [bytes]
     limit: usize,
     first: Option<Snapshot>,
-    /// In the order of time, one for each step.
+    /// In the order of time, one per step.
     recent: VecDeque<Snapshot>,
-    /// Most recent ones that there is room for.
+    /// Largest number of recent snapshots.
     most: usize,
 }
 
 impl Snapshots {
-    /// Changes the limit of memory [bytes]; `present` is the first state when none was kept before.
+    /// Changes the memory limit [bytes]; `present` becomes the first snapshot if there was none.
     pub(super) fn set_limit(&mut self, limit: usize, present: impl FnOnce() -> Snapshot) {
         let kept = std::mem::take(self);
         let first = if limit == 0 { None } else { Some(kept.first.unwrap_or_else(present)) };
@@ -67,12 +67,11 @@ impl Snapshots {
         *self = Self { limit, first: Some(first), recent, most };
     }
 
-    /// The limit of memory for snapshots [bytes].
     pub(super) fn limit(&self) -> usize {
         self.limit
     }
 
-    /// The memory that snapshots take now [bytes].
+    /// Present memory of the snapshots [bytes].
     pub(super) fn bytes(&self) -> usize {
         let states: usize = self.all().map(|snapshot| snapshot.state.bytes()).sum();
         states
@@ -83,7 +82,7 @@ impl Snapshots {
         self.first.as_ref()
     }
 
-    /// Steps and times of the states that are kept, in order.
+    /// Steps and times of the snapshots, in order.
     pub(super) fn places(&self) -> impl Iterator<Item = (usize, f64)> {
         self.all().map(|snapshot| (snapshot.steps(), snapshot.time))
     }
@@ -92,19 +91,18 @@ impl Snapshots {
         self.first.iter().chain(&self.recent)
     }
 
-    /// The number of states that are kept.
     pub(super) fn count(&self) -> usize {
         self.all().count()
     }
 
-    /// The fewest steps after which all states are kept, when the run has taken `now` steps.
+    /// First step from which all snapshots up to step `now` are kept.
     pub(super) fn unbroken_from(&self, now: usize) -> Option<usize> {
         let first = self.first.as_ref()?.steps();
         let oldest = self.recent.front().map_or(now, Snapshot::steps);
         Some(if oldest == first + 1 { first } else { oldest })
     }
 
-    /// The state after so many steps, if it is kept.
+    /// Snapshot after a number of steps, if kept.
     pub(super) fn find(&self, steps: usize) -> Option<&Snapshot> {
         if let Some(first) = self.first.as_ref().filter(|first| first.steps() == steps) {
             return Some(first);
@@ -113,19 +111,19 @@ impl Snapshots {
         self.recent.get(at)
     }
 
-    /// The last state at or before a time, if no step that is not kept may lie between; the run has taken `now` steps.
+    /// Last snapshot at or before a time, if no missing step may lie in between; the run has taken `now` steps.
     pub(super) fn last_until(&self, time: f64, now: usize) -> Option<&Snapshot> {
         let unbroken = self.unbroken_from(now)?;
         let last = self.all().take_while(|snapshot| snapshot.time <= time).last()?;
         (last.steps() >= unbroken).then_some(last)
     }
 
-    /// Forgets the states after more than `steps` steps.
+    /// Removes snapshots after more than `steps` steps.
     pub(super) fn truncate(&mut self, steps: usize) {
         self.recent.truncate(self.recent.partition_point(|snapshot| snapshot.steps() <= steps));
     }
 
-    /// A state to write the next one into: that of the oldest snapshot when the store is full; none when no state is to be kept.
+    /// Returns a state to overwrite with the next snapshot, recycled from the oldest one if the store is full; `None` if disabled.
     pub(super) fn blank(&mut self) -> Option<SystemState> {
         let first = self.first.as_ref().filter(|_| self.most > 0)?;
         let is_full = self.recent.len() >= self.most;
@@ -133,11 +131,11 @@ impl Snapshots {
         Some(oldest.map_or_else(|| first.state.blank(), |oldest| oldest.state))
     }
 
-    /// Keeps a snapshot whose state was written into a [`blank`](Self::blank).
+    /// Stores a snapshot whose state was written into a [`blank`](Self::blank).
     pub(super) fn push(&mut self, snapshot: Snapshot) {
         let count = self.recent.len();
         if count == self.recent.capacity() {
-            // As a vector grows, but never beyond the limit.
+            // Grows geometrically, but never beyond the limit.
             self.recent.reserve_exact(count.max(4).min(self.most.saturating_sub(count)));
         }
         self.recent.push_back(snapshot);

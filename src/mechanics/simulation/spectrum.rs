@@ -1,84 +1,83 @@
-//! The frequencies in a column over time.
+//! Spectrum of a column over time.
 //!
-//! The mean is taken off, the rows are weighted with a window of Blackman and Harris (F. J. Harris, Proc. IEEE 66 (1978) 51-83: side lobes of -92 dB), zeros
-//! are
-//! appended, and a parabola through the logarithms of the three values about each maximum gives its place and height. The Fourier transform is that of Cooley
-//! and Tukey (1965) with sines of our own, so that its bits are the same on every machine.
+//! The mean is subtracted, the rows are weighted with a Blackman–Harris window (F. J. Harris, Proc. IEEE 66 (1978) 51-83: side lobes of -92 dB), and
+//! zeros are appended. A parabola through the logarithms of the three values around each maximum gives its frequency and amplitude. The Fourier
+//! transform is that of Cooley and Tukey (1965) with the sines of this crate, so that results are identical on all machines.
 
 use std::f64::consts::TAU;
 
 use super::TimeSeries;
 use crate::elementary::{cos, exp, ln, sin_cos};
 
-/// Durations of rows that differ by less, as a part of them, are equal.
+/// Relative tolerance of equal row spacing.
 const EVEN: f64 = 1e-6;
 
-/// The fewest rows: the window needs some.
+/// Smallest number of rows for the window.
 const FEWEST: usize = 16;
 
-/// Zeros are appended to this many times the rows at least.
+/// Smallest zero-padding factor.
 const PADDING: usize = 4;
 
-/// Maxima below this part of the highest may be of the window.
+/// Relative height below which maxima may be side lobes of the window.
 const SIDE_LOBES: f64 = 5e-5;
 
-/// Of the window of Blackman and Harris.
+/// Coefficients of the Blackman–Harris window.
 const WINDOW: [f64; 4] = [0.35875, -0.48829, 0.14128, -0.01168];
 
-/// Half the width of the main lobe of the window, in frequencies of one period over all rows: what is nearer to nothing is the mean.
+/// Half width of the main lobe, in units of one period over all rows. Frequencies below it belong to the mean.
 const LOBE: f64 = 4.0;
 
-/// A vibration in a column.
+/// Vibration in a column.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpectrumPeak {
-    /// The frequency of the sine [1/time].
+    /// Frequency [1/time].
     pub frequency: f64,
-    /// Half of the way from its least to its largest value, in the dimension of the column.
+    /// Half the peak-to-peak value, in the dimension of the column.
     pub amplitude: f64,
 }
 
-/// Why a column has no spectrum.
+/// Reason why a column has no spectrum.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum SpectrumError {
-    /// Rows at other distances than most.
+    /// Rows that are not evenly spaced.
     #[error(
         "a spectrum needs evenly spaced rows, but that at t = {} comes {} after the one before, most others {}",
         six_digits(*.time), six_digits(*.found), six_digits(*.expected)
     )]
     Uneven {
-        /// When.
+        /// Time of the row.
         time: f64,
-        /// The duration there.
+        /// Spacing before this row.
         found: f64,
-        /// That between most rows: the median.
+        /// Median spacing.
         expected: f64,
     },
     /// Too few rows.
     #[error("a spectrum needs at least {FEWEST} rows, there are {rows}")]
     Few {
-        /// How many there are.
+        /// Number of rows.
         rows: usize,
     },
-    /// A value that is not a number.
+    /// Value that is not a number.
     #[error("the value at t = {time} is no number")]
     NoNumber {
-        /// When.
+        /// Time of the row.
         time: f64,
     },
 }
 
-/// A number as it is told.
+/// Rounds a number to six digits.
 fn six_digits(number: f64) -> f64 {
     format!("{number:.5e}").parse().unwrap_or(number)
 }
 
 impl TimeSeries {
-    /// The strongest vibrations of the column, at most so many, the strongest first.
+    /// Strongest vibrations of the column, at most `most`, in decreasing order.
     ///
-    /// Two that are nearer to each other than about four periods over all rows are not told apart, and slower ones than that are not seen.
+    /// Vibrations closer than about four periods over all rows are not separated, and slower ones are not detected.
     ///
     /// # Errors
-    /// When rows are few or not evenly spaced, or a value is not a number.
+    /// Fails if there are too few or unevenly spaced rows, or a value is NaN.
     pub fn spectrum(&self, most: usize) -> Result<Vec<SpectrumPeak>, SpectrumError> {
         let count = self.values.len();
         if count < FEWEST {
@@ -90,7 +89,7 @@ impl TimeSeries {
         let dt = self.spacing()?;
         let magnitudes = self.windowed_magnitudes();
         let highest = magnitudes.iter().copied().fold(0.0, f64::max);
-        // In units of the transform with zeros.
+        // In units of the padded transform.
         let size = 2 * (magnitudes.len() - 1);
         let lobe = (LOBE * size as f64 / count as f64) as usize;
         let is_peak = |at: &usize| {
@@ -111,7 +110,7 @@ impl TimeSeries {
         Ok(peaks)
     }
 
-    /// The time between two rows, which must be the same everywhere.
+    /// Uniform time between rows.
     fn spacing(&self) -> Result<f64, SpectrumError> {
         let mut durations: Vec<f64> = self.times.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let middle = durations.len() / 2;
@@ -126,7 +125,7 @@ impl TimeSeries {
         Ok((self.times[count - 1] - self.times[0]) / (count - 1) as f64)
     }
 
-    /// The amplitudes at multiples of one frequency, from zero to half of that of the rows.
+    /// Amplitudes at multiples of a frequency, from zero to half the sampling rate.
     fn windowed_magnitudes(&self) -> Vec<f64> {
         let count = self.values.len();
         let weights: Vec<f64> = (0..count)
@@ -136,7 +135,7 @@ impl TimeSeries {
             })
             .collect();
         let whole: f64 = weights.iter().sum();
-        // With the weights of the window nothing is left at frequency zero.
+        // The window-weighted mean vanishes at frequency zero.
         let sum: f64 = weights.iter().zip(&self.values).map(|(weight, value)| weight * value).sum();
         let mean = sum / whole;
         let size = (PADDING * count).next_power_of_two();
@@ -149,7 +148,7 @@ impl TimeSeries {
     }
 }
 
-/// The Fourier transform of as many complex numbers as a power of two, in place.
+/// In-place Fourier transform; the length is a power of two.
 fn transform(numbers: &mut [(f64, f64)]) {
     let size = numbers.len();
     let bits = size.trailing_zeros();
@@ -230,7 +229,7 @@ mod tests {
         of.values[3] = 0.0;
         of.times[39] += 0.05;
         assert!(matches!(of.spectrum(1), Err(SpectrumError::Uneven { .. })));
-        // Nothing vibrates in a constant.
+        // A constant has no vibration.
         assert_eq!(sampled(64, 0.1, |_| 2.0).spectrum(3).unwrap().len(), 0);
     }
 }

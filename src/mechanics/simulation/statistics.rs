@@ -1,37 +1,37 @@
-//! What a column over time tells: extremes, means, derivatives, crossings.
+//! Statistics of a column over time: extremes, means, derivatives and crossings.
 //!
-//! Between rows a column is taken as straight: integrals are those of the polygon, and exact for it.
+//! Columns are piecewise linear between rows. Integrals are exact for this interpolation.
 
-/// A quantity over time: as many values as times, which do not decrease.
+/// Quantity over time, with nondecreasing times.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TimeSeries {
-    /// When [time].
+    /// Times [time].
     pub times: Vec<f64>,
-    /// The values.
+    /// Values, as many as times.
     pub values: Vec<f64>,
 }
 
-/// The numbers that sum up a quantity over time.
+/// Summary statistics of a quantity over time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Summary {
-    /// The smallest value.
+    /// Smallest value.
     pub min: f64,
-    /// When it is taken first [time].
+    /// Time of its first occurrence [time].
     pub min_at: f64,
-    /// The largest value.
+    /// Largest value.
     pub max: f64,
-    /// When it is taken first [time].
+    /// Time of its first occurrence [time].
     pub max_at: f64,
-    /// Over time: `∫ f dt / T`.
+    /// Time average `∫ f dt / T`.
     pub mean: f64,
-    /// `√(∫ f² dt / T)`
+    /// Root mean square `√(∫ f² dt / T)`.
     pub rms: f64,
-    /// `∫ f dt`
+    /// Integral `∫ f dt`.
     pub integral: f64,
 }
 
 impl TimeSeries {
-    /// The extremes, means and integral of the column; none of nothing. What is not a number makes all of them none.
+    /// Extremes, means and integral of the column; `None` if it is empty. A NaN value makes all of them NaN.
     pub fn summary(&self) -> Option<Summary> {
         let first = (*self.values.first()?, *self.times.first()?);
         let rows = || self.values.iter().copied().zip(self.times.iter().copied());
@@ -61,9 +61,8 @@ impl TimeSeries {
         pairs.map(|(times, values)| (times[1] - times[0], values[0], values[1]))
     }
 
-    /// The derivative by time at every row: that of the parabola through it and its neighbours, of second order also where rows are not
-    /// evenly spaced; at the ends that of the parabola through the next two. Where two rows have one time, at a jump, the quotient on its own
-    /// side.
+    /// Time derivative at every row, from the parabola through the row and its neighbours (second order for uneven spacing), one-sided at the ends.
+    /// Rows of equal time, at a jump, use the quotient of their own side.
     pub fn derivative(&self) -> Vec<f64> {
         let count = self.values.len();
         let slope = |a: usize, b: usize| {
@@ -95,10 +94,10 @@ impl TimeSeries {
         (0..count).map(at).collect()
     }
 
-    /// The times at which it passes a level, up or down; where it only touches the level, it does not pass.
+    /// Times of crossings of a level in either direction. Touching the level is no crossing.
     pub fn crossings(&self, level: f64) -> Vec<f64> {
         let mut found = Vec::new();
-        // The side on which it was last, and since when it is on the level itself.
+        // Side of the last value, and the time since which the value is on the level.
         let (mut side, mut on_level) = (0.0, None);
         let mut before: Option<(f64, f64)> = None;
         for (&time, &value) in self.times.iter().zip(&self.values) {

@@ -1,41 +1,40 @@
-//! A step of the time grid that is halved where it fails.
+//! Step of the time grid with halving on failure.
 
 use crate::integrators::Interval;
 
-/// A step is divided by two at most so often.
+/// Largest number of halvings.
 const MOST_HALVINGS: u32 = 12;
 
-/// The finest parts of a step.
+/// Number of finest parts of a step.
 const PARTS: u64 = 1 << MOST_HALVINGS;
 
-/// A step that is halved where it fails and grows again after success, as far as it has got.
+/// Partially covered step that is halved on failure and grows again after success.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct StepRetry {
     pub(super) whole: Interval,
-    /// Finest parts that are behind.
+    /// Number of covered finest parts.
     covered: u64,
     halvings: u32,
-    /// The number of failed tries since the last success.
+    /// Failed tries since the last success.
     pub(super) retries: usize,
 }
 
 impl StepRetry {
-    /// A step of which nothing is covered yet.
     pub(super) fn new(whole: Interval) -> Self {
         Self { whole, covered: 0, halvings: 0, retries: 0 }
     }
 
-    /// The end of the whole step [time].
+    /// End of the whole step [time].
     pub(super) fn end(&self) -> f64 {
         self.whole.end
     }
 
-    /// The parts of the halved step: start and end of the whole, the finest parts covered, halvings and retries.
+    /// Components for storage: start and end of the whole, covered parts, halvings and retries.
     pub(super) fn to_parts(self) -> ((f64, f64), u64, u32, usize) {
         ((self.whole.start, self.whole.end), self.covered, self.halvings, self.retries)
     }
 
-    /// A halved step that has got to `now`, from its parts; none when they make no sense.
+    /// Restores a partially covered step at time `now`; `None` if the components are inconsistent.
     pub(super) fn from_parts(
         now: f64,
         ((start, end), covered, halvings, retries): ((f64, f64), u64, u32, usize),
@@ -59,27 +58,26 @@ impl StepRetry {
         PARTS >> self.halvings
     }
 
-    /// The number by which the whole step is divided in what is tried.
+    /// Present number of parts of the whole step.
     pub(super) fn divisions(&self) -> u64 {
         1 << self.halvings
     }
 
-    /// Whether the whole step is covered.
     pub(super) fn is_done(&self) -> bool {
         self.covered == PARTS
     }
 
-    /// The halved step itself, unless it is covered.
+    /// Returns the step unless it is fully covered.
     pub(super) fn rest(self) -> Option<Self> {
         (!self.is_done()).then_some(self)
     }
 
-    /// The part of the step to try next.
+    /// Part of the step to be tried next.
     pub(super) fn next(&self) -> Interval {
         Interval::between(self.time(self.covered), self.time(self.covered + self.width()))
     }
 
-    /// Goes on behind the part of the step that was tried.
+    /// Marks the tried part covered.
     pub(super) fn succeed(&mut self) {
         let width = self.width();
         self.covered += width;
@@ -89,7 +87,7 @@ impl StepRetry {
         }
     }
 
-    /// Halves the part of the step that is to be tried; false when it cannot be smaller.
+    /// Halves the next part. Returns false if it is the smallest.
     pub(super) fn fail(&mut self) -> bool {
         self.retries += 1;
         let can_be_halved = self.halvings < MOST_HALVINGS;

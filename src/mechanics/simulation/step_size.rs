@@ -1,61 +1,61 @@
-//! How long steps are: always the same, or as a tolerance allows.
+//! Step size: fixed, or controlled by a tolerance.
 
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// How long the steps of a run are.
+/// Step size of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum StepSize {
-    /// All steps of the run are equally long [time].
+    /// Fixed step size [time].
     Fixed(f64),
-    /// Steps are as long as a tolerance of the local error allows.
+    /// Variable steps controlled by a tolerance of the local error.
     Adaptive(StepControl),
 }
 
-/// The tolerance that steps of varying size keep to, and their bounds.
+/// Tolerance and bounds of variable steps.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct StepControl {
-    /// The error that may gather while the scene moves about as far as it is long, as a part of that length, and in rad [-].
+    /// Allowed accumulated error while the scene moves by about its length, relative to that length, and in rad [-].
     ///
-    /// A step with a method of order `p` may err by its power `(p + 1)/p`: then the step size goes with its power `1/p`, and what
-    /// gathers over many steps goes with itself.
+    /// A step of a method of order `p` may err by the power `(p + 1)/p` of the tolerance. Then the step size scales with its power `1/p`, and the
+    /// accumulated error with the tolerance itself.
     pub tolerance: f64,
-    /// The size of the first step, and of the first one after a jump of a load [time]; found from the scene where it is not given.
+    /// Size of the first step, and of the first one after a jump of a load [time]; by default derived from the scene.
     pub first: Option<f64>,
-    /// The size below which no step is that a tolerance asks for [time]; a millionth of the first where it is not given.
+    /// Smallest step size [time]; by default a millionth of the first.
     pub smallest: Option<f64>,
-    /// The size above which no step is [time]; a million times the first where it is not given.
+    /// Largest step size [time]; by default a million times the first.
     pub largest: Option<f64>,
 }
 
-/// A number of a [`StepSize`] that is out of its range.
+/// Number of a [`StepSize`] outside its range.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StepSizeError {
-    /// A fixed step size that is not positive.
+    /// Fixed step size that is not positive.
     #[error("the step size dt is {dt}, but must be a positive finite number [time]")]
     Fixed {
-        /// The value of the fixed step size [time].
+        /// Rejected step size [time].
         dt: f64,
     },
-    /// A tolerance that no steps can keep, or that says nothing.
+    /// Tolerance outside its range.
     #[error(
         "the tolerance of adaptive steps is {tolerance}, but must be from {} to {}; 1e-4 is a good start",
         StepControl::LEAST_TOLERANCE,
         StepControl::MOST_TOLERANCE
     )]
     Tolerance {
-        /// The value of the refused tolerance [-].
+        /// Rejected tolerance [-].
         tolerance: f64,
     },
-    /// A bound of step sizes that is not positive.
+    /// Bound of step sizes that is not positive.
     #[error(
         "the {name} step of adaptive steps is {value}, but must be a positive finite number [time]"
     )]
     Bound {
-        /// The name of the refused bound: smallest, first or largest.
+        /// Name of the bound: smallest, first or largest.
         name: &'static str,
-        /// The value of the refused bound [time].
+        /// Rejected value [time].
         value: f64,
     },
     /// Bounds of step sizes in the wrong order.
@@ -63,13 +63,13 @@ pub enum StepSizeError {
         "the {name} step of adaptive steps is {value}, but the {next} one is {limit}: they must increase from smallest to first to largest"
     )]
     Order {
-        /// The name of the bound that should be smaller.
+        /// Name of the bound that should be smaller.
         name: &'static str,
-        /// The value of the bound that should be smaller [time].
+        /// Its value [time].
         value: f64,
-        /// The name of the bound that should be larger.
+        /// Name of the bound that should be larger.
         next: &'static str,
-        /// The value of the bound that should be larger [time].
+        /// Its value [time].
         limit: f64,
     },
 }
@@ -90,7 +90,7 @@ impl StepSize {
     /// Checks the numbers of the step size.
     ///
     /// # Errors
-    /// When one is out of its range.
+    /// Fails if a number is out of range.
     pub fn check(&self) -> Result<(), StepSizeError> {
         match *self {
             Self::Fixed(dt) if dt.is_finite() && dt > 0.0 => Ok(()),
@@ -122,13 +122,13 @@ impl fmt::Display for StepControl {
 }
 
 impl StepControl {
-    /// The smallest tolerance of steps of varying size [-]: below it the rounding of places counts.
+    /// Smallest tolerance of variable steps [-], limited by the rounding of positions.
     pub const LEAST_TOLERANCE: f64 = 1e-9;
 
-    /// The largest tolerance of steps of varying size [-]: beyond it an error is no longer small.
+    /// Largest tolerance of variable steps [-]. Larger errors are not small.
     pub const MOST_TOLERANCE: f64 = 0.1;
 
-    /// The control of steps that keep a tolerance [-], with bounds from the scene.
+    /// Returns the control for a tolerance [-] with default bounds.
     pub fn to(tolerance: f64) -> Self {
         Self { tolerance, first: None, smallest: None, largest: None }
     }

@@ -1,26 +1,25 @@
-//! What takes the steps of a run.
+//! Stepping of a run, with optional derivatives.
 
 use super::sensitivities::Sensitivities;
 use crate::integrators::{Integrator, Interval, StepError};
 use crate::newton::NewtonReport;
 use crate::system::System;
 
-/// What takes the steps of a run: its method, and what finds derivatives with them, if that is asked for.
+/// Integrator of a run, with its optional derivatives.
 pub(super) struct Stepper {
     pub(super) integrator: Box<dyn Integrator>,
     pub(super) sensitivities: Option<Box<Sensitivities>>,
 }
 
 impl Stepper {
-    /// Steps of a method and nothing else.
     pub(super) fn of(integrator: Box<dyn Integrator>) -> Self {
         Self { integrator, sensitivities: None }
     }
 
-    /// Takes one step over an interval, with those that derivatives are found by.
+    /// Takes one step over an interval, including derivatives.
     ///
     /// # Errors
-    /// Those of the step of the run.
+    /// Errors of the step of the run.
     pub(super) fn step(
         &mut self,
         model: &mut System,

@@ -1,46 +1,46 @@
-//! The times at which steps end.
+//! End times of steps.
 
 use crate::loads::{SampleClock, multiple};
 
-/// Times closer than this part of a step are one,
+/// Times closer than this fraction of a step are equal,
 const SAME: f64 = 1e-9;
 
-/// and so are those that differ by so many roundings of a time.
+/// as are times within this number of roundings.
 const ROUNDINGS: f64 = 4.0;
 
-/// Nobody counts further than that.
+/// Largest index of a grid point.
 const MOST_POINTS: u64 = 1 << 60;
 
-/// The times at which steps end: `t_n = t_0 + n dt`, cut where schedules jump or bend, and where digital controllers are asked or act. Times are never accumulated. For steps of varying size there are
-/// only cuts.
+/// End times of steps: `t_n = t_0 + n dt`, with cuts at jumps and kinks of schedules and at samples and actions of digital controllers. Times are
+/// never accumulated. For variable steps there are only cuts.
 #[derive(Debug, Clone, Default)]
 pub struct TimeGrid {
     start: f64,
-    /// Infinite where there are only cuts.
+    /// Infinite if there are only cuts.
     dt: f64,
-    /// Times closer than this are one, unless their rounding is larger.
+    /// Tolerance of equal times, unless rounding is larger.
     slack: f64,
     /// In increasing order.
     cuts: Vec<f64>,
-    /// Those of digital controllers.
+    /// Clocks of digital controllers.
     beats: Vec<SampleClock>,
-    /// The number of grid points passed.
+    /// Number of passed grid points.
     passed: u64,
 }
 
 impl TimeGrid {
-    /// A grid of times from `start` on, with steps of `dt` [time]; `cuts` in any order.
+    /// Creates a grid from `start` with steps of `dt` [time]; `cuts` may be unsorted.
     pub fn new(start: f64, dt: f64, cuts: Vec<f64>) -> Self {
         let slack = SAME * dt;
         Self { start, dt, slack, cuts: Vec::new(), beats: Vec::new(), passed: 0 }.with_cuts(cuts)
     }
 
-    /// A grid of cuts alone, for steps that begin with the size `first` [time] and then vary.
+    /// Creates a grid of cuts only, for variable steps that start with the size `first` [time].
     pub fn of_cuts(start: f64, first: f64, cuts: Vec<f64>) -> Self {
         Self { dt: f64::INFINITY, ..Self::new(start, first, cuts) }
     }
 
-    /// The same grid with steps that end where digital controllers are asked, and where what they say begins to act.
+    /// Adds cuts at the samples and actions of digital controllers.
     pub fn with_beats(self, beats: impl Iterator<Item = SampleClock>) -> Self {
         Self { beats: beats.collect(), ..self }
     }
@@ -52,27 +52,27 @@ impl TimeGrid {
         Self { cuts, passed: 0, ..self }
     }
 
-    /// The times beside the grid at which steps end, in increasing order [time].
+    /// Additional end times of steps, in increasing order [time].
     pub fn cuts(&self) -> &[f64] {
         &self.cuts
     }
 
-    /// The distance of points of the grid; infinite where there are none [time].
+    /// Spacing of the grid; infinite without grid points [time].
     pub fn dt(&self) -> f64 {
         self.dt
     }
 
-    /// By how much other times may differ from one and still be the same [time].
+    /// Tolerance of equal times around a time [time].
     pub fn slack(&self, time: f64) -> f64 {
         self.slack.max(ROUNDINGS * f64::EPSILON * time.abs())
     }
 
-    /// Whether a time has come, or is the same as `now`.
+    /// Returns true if a time is at or before `now`, within the tolerance.
     pub fn has_reached(&self, now: f64, time: f64) -> bool {
         now >= time - self.slack(now)
     }
 
-    /// `t_0 + n dt`.
+    /// Grid point `t_0 + n dt`.
     fn point(&self, n: u64) -> f64 {
         if self.dt == f64::INFINITY || n > MOST_POINTS {
             return f64::INFINITY;
@@ -80,7 +80,7 @@ impl TimeGrid {
         self.start + multiple(self.dt, n)
     }
 
-    /// Adds a cut to the grid, where there is none yet.
+    /// Adds a cut unless there is one already.
     pub fn cut_at(&mut self, time: f64) {
         let same = self.slack(time);
         if self.cuts.iter().all(|cut| (cut - time).abs() > same) {
@@ -88,43 +88,43 @@ impl TimeGrid {
         }
     }
 
-    /// The end of the step that begins at `now`: the next grid point or cut, but not beyond `limit` [time].
+    /// End of the step that starts at `now`: the next grid point or cut, at most `limit` [time].
     pub fn next(&self, now: f64, limit: f64) -> f64 {
         let grid = self.point(self.passed_by(now) + 1);
         let cut = self.cuts[self.cuts.partition_point(|cut| self.has_reached(now, *cut))..].first();
         let slack = self.slack(now);
         let beat = self.beats.iter().map(|beat| beat.next(now, slack)).min_by(f64::total_cmp);
-        // The cut comes last: where it and the limit are one, the schedule must see its own time.
+        // Cuts come last, because a schedule must be evaluated at its own time.
         [Some(limit), beat, cut.copied()].into_iter().flatten().fold(grid, |end, candidate| {
             if candidate > now && self.has_reached(end, candidate) { candidate } else { end }
         })
     }
 
-    /// The number of points of the grid that were passed.
+    /// Number of passed grid points.
     pub fn passed(&self) -> u64 {
         self.passed
     }
 
-    /// Takes the grid back to where `passed` points were passed; cuts stay.
+    /// Restores the number of passed grid points. Cuts remain.
     pub fn go_back(&mut self, passed: u64) {
         self.passed = passed;
     }
 
-    /// The same grid, begun anew with these cuts, as it is at a time.
+    /// Replaces the cuts, as of a time.
     pub fn lay(&mut self, cuts: &[f64], now: f64) {
         *self = std::mem::take(self).with_cuts(cuts.to_vec());
         self.passed = 0;
         self.reach(now);
     }
 
-    /// Remembers that a time has been reached, so that the next search of the grid begins there.
+    /// Records that a time is reached, so that the next search starts there.
     pub fn reach(&mut self, now: f64) {
         self.passed = self.passed_by(now);
     }
 
-    /// The number of grid points that are passed at a time; those that were passed before stay so.
+    /// Number of grid points passed at a time, at least the recorded number.
     fn passed_by(&self, now: f64) -> u64 {
-        // Near enough to get there soon, however far it is, and never too far.
+        // Start of the search: close to the result, and never beyond it.
         let near = (((now - self.start) / self.dt) as u64).saturating_sub(2).min(MOST_POINTS);
         let mut passed = self.passed.max(near);
         while passed < MOST_POINTS && self.has_reached(now, self.point(passed + 1)) {

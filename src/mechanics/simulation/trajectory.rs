@@ -1,33 +1,33 @@
 //! Control points over time.
 
-/// Room for configurations; beyond it every second one is forgotten.
+/// Largest number of stored values. Beyond it every second configuration is discarded.
 const MOST_NUMBERS: usize = 32 << 20;
 
-/// The trajectory of a run: the control points of all bodies, one after another [length], at some of its times.
+/// Trajectory of a run: control points of all bodies [length] at some of its times.
 #[derive(Debug, Clone)]
 pub struct Trajectory {
     stride: usize,
     times: Vec<f64>,
     numbers: Vec<f64>,
-    /// Only every so many-th configuration that is offered is kept.
+    /// Number of offered configurations per stored one.
     every: usize,
     offered: usize,
 }
 
 impl Trajectory {
-    /// An empty trajectory of configurations of `stride` numbers.
+    /// Creates an empty trajectory of configurations with `stride` numbers.
     pub fn new(stride: usize) -> Self {
         Self { stride, times: Vec::new(), numbers: Vec::new(), every: 1, offered: 0 }
     }
 
-    /// Makes room in the trajectory for configurations to come, as many as may be kept.
+    /// Reserves memory for further configurations.
     pub fn reserve(&mut self, configurations: usize) {
         let room = configurations.min(MOST_NUMBERS / self.stride + 1);
         self.times.reserve(room);
         self.numbers.reserve(room * self.stride);
     }
 
-    /// Offers a configuration at a time to the trajectory, which keeps it unless it is thinned out.
+    /// Offers a configuration, which is stored unless thinned out.
     pub fn push(&mut self, time: f64, numbers: impl Iterator<Item = f64>) {
         if self.offered.is_multiple_of(self.every) {
             self.times.push(time);
@@ -51,8 +51,8 @@ impl Trajectory {
         self.every *= 2;
     }
 
-    /// Takes the trajectory back to where `offered` configurations had been offered. What was thinned out since stays forgotten;
-    /// going on from here ends with the same configurations as going on without going back.
+    /// Restores the state after `offered` configurations. Discarded configurations remain discarded. The final content is the same as without going
+    /// back.
     pub fn go_back(&mut self, offered: usize) {
         self.offered = offered;
         let kept = offered.div_ceil(self.every);
@@ -60,22 +60,21 @@ impl Trajectory {
         self.numbers.truncate(kept * self.stride);
     }
 
-    /// How many numbers a configuration of the trajectory has.
+    /// Number of values per configuration.
     pub(super) fn stride(&self) -> usize {
         self.stride
     }
 
-    /// How many configurations were offered for each that the trajectory keeps.
+    /// Number of offered configurations per stored one.
     pub(super) fn every(&self) -> usize {
         self.every
     }
 
-    /// All numbers of all configurations of the trajectory, one configuration after another.
     pub(super) fn numbers(&self) -> &[f64] {
         &self.numbers
     }
 
-    /// A trajectory of the same bodies with other configurations, of so many that were offered; none when these do not fit each other.
+    /// Returns a trajectory with other configurations; `None` if they are inconsistent.
     pub(super) fn with_configurations(
         &self,
         offered: usize,
@@ -91,17 +90,17 @@ impl Trajectory {
         fits.then_some(Self { stride: self.stride, times, numbers, every, offered })
     }
 
-    /// The times of the configurations of the trajectory.
+    /// Times of the stored configurations.
     pub fn times(&self) -> &[f64] {
         &self.times
     }
 
-    /// The numbers of a configuration of the trajectory, by its index.
+    /// Values of a stored configuration.
     pub fn configuration(&self, index: usize) -> &[f64] {
         &self.numbers[index * self.stride..(index + 1) * self.stride]
     }
 
-    /// The index of the configuration of the trajectory nearest to a time; none where there is none.
+    /// Index of the stored configuration nearest to a time; `None` without any.
     pub fn nearest(&self, time: f64) -> Option<usize> {
         let after = self.times.partition_point(|t| *t < time);
         let candidates = [after.checked_sub(1), (after < self.times.len()).then_some(after)];

@@ -1,4 +1,4 @@
-//! The equations of equilibrium: under a prescribed load, and at a prescribed distance along the path.
+//! Equations of equilibrium: for a given load factor, and at a given distance along the equilibrium path.
 
 use crate::geometry::larger;
 use crate::integrators::{Forces, Inertia, Mechanism};
@@ -6,10 +6,10 @@ use crate::linalg::BorderedMatrix;
 use crate::newton::{Equations, ResidualNorms};
 use crate::system::{StaticForces, System, UnknownKind};
 
-/// The forces of a model at rest, and what its residual is compared with.
+/// Forces of a model at rest, with the scale of the residual.
 pub(super) struct Balance<'a> {
     pub(super) model: &'a mut System,
-    /// A length of the scene, which makes a force of a moment: under pure moments there is no other.
+    /// Length scale that converts moments to forces, for loads that are pure moments.
     pub(super) length: f64,
 }
 
@@ -24,24 +24,23 @@ impl Balance<'_> {
             UnknownKind::Rotation => larger(most, r.abs() / self.length),
             UnknownKind::Force => most,
         });
-        // Nothing is balanced by nothing.
+        // Without forces there is no scale.
         let force = if largest == 0.0 { 0.0 } else { largest / scale };
         let constraint = self.model.violation_at_rest(forces, scale);
         ResidualNorms { force, strain: strain_mismatch, constraint }
     }
 }
 
-/// The equations `F(u) - λ P(u) + σ M u = 0` of a model for a given load factor `λ`: at rest for `σ = 0`, else on the way there, as if masses moved in
-/// something viscous.
+/// Equations `F(u) - λ P(u) + σ M u = 0` for a given load factor `λ`: equilibrium for `σ = 0`, otherwise a pseudo-transient step with viscous
+/// resistance of the masses.
 pub(super) struct UnderLoad<'a> {
     pub(super) balance: Balance<'a>,
     pub(super) factor: f64,
-    /// The rate `σ` [1/time²].
+    /// Rate `σ` [1/time²].
     pub(super) rate: f64,
 }
 
 impl UnderLoad<'_> {
-    /// Adds `σ M u`.
     fn resist(&mut self, unknowns: &[f64], residual: &mut [f64]) {
         if self.rate > 0.0 {
             let model = &mut *self.balance.model;
@@ -76,19 +75,19 @@ impl Equations for UnderLoad<'_> {
     }
 }
 
-/// The equations `F(u) - λ P(u) = 0` with `t·u = Δs`: the load factor `λ`, the last unknown, is found so that the movement ends in a plane.
+/// Equations `F(u) - λ P(u) = 0` with `t·u = Δs`: the load factor `λ`, the last unknown, is determined by the distance to a plane.
 pub(super) struct AlongPath<'a> {
     pub(super) balance: Balance<'a>,
-    /// The normal `t` of the plane in which the movement ends, in the metric of the path; contacts, behind the movements, have no part in it.
+    /// Normal `t` of the plane in the metric of the path. Contact unknowns, behind the movements, do not enter.
     pub(super) normal: &'a [f64],
-    /// The distance `Δs` of that plane from the last equilibrium, in the metric of the path.
+    /// Distance `Δs` of the plane from the last equilibrium in the metric of the path.
     pub(super) distance: f64,
-    /// The forces on the unknowns and the supports, in the order of the model [force, force·length].
+    /// Forces on the unknowns and the supports, in the order of the model [force, force·length].
     pub(super) forces: &'a mut [f64],
 }
 
 impl AlongPath<'_> {
-    /// How far the movement is beyond the plane.
+    /// Signed distance of the movement from the plane.
     fn beyond_plane(&self, movements: &[f64]) -> f64 {
         let way: f64 = self.normal.iter().zip(movements).map(|(t, u)| t * u).sum();
         way - self.distance

@@ -1,4 +1,4 @@
-//! Finding one equilibrium after another.
+//! Continuation of equilibria.
 
 use super::balance::{Balance, UnderLoad};
 use super::error::StepFailure;
@@ -12,57 +12,57 @@ use crate::linalg::{BorderShape, BorderedMatrix};
 use crate::newton::Newton;
 use crate::system::{MasterEnd, Scene, System, UnknownKind};
 
-/// A step that finds no equilibrium is halved so often.
+/// Largest number of halvings of a step without an equilibrium.
 const MOST_HALVINGS: u32 = 8;
 
-/// An equilibrium so many times farther than a step along the path was meant to go is on another part of it.
+/// Multiple of the planned step along the path beyond which an equilibrium belongs to another part of it.
 const FAR: f64 = 2.0;
 
-/// One so many times farther than the last step, load for load, is another one: the structure has snapped through.
+/// Multiple of the last movement per load beyond which the structure has snapped through.
 const FAR_UNDER_LOAD: f64 = 4.0;
 
-/// No movement is far that is smaller than this part of the scene.
+/// Movements below this fraction of the scene are never too far.
 const NEARBY: f64 = 1e-3;
 
-/// Steps along the path grow and shrink so that each takes about so many iterations.
+/// Number of iterations per step that the step control aims at.
 const WANTED_ITERATIONS: f64 = 4.0;
 
-/// What holds a scene as it is drawn.
+/// Restraint of a scene as drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum InitialSupport {
-    /// Its supports and its stiffness, as far as that is known.
+    /// Supports and stiffness, as far as known.
     Itself,
-    /// Nothing but its loads holds so many movements.
+    /// The given number of movements is restrained by the loads only.
     Loads(usize),
 }
 
-/// Follows equilibria from the unloaded scene on.
+/// Continuation of equilibria from the unloaded scene.
 pub(super) struct Continuation<'s> {
     pub(super) scene: &'s Scene,
     length: f64,
-    /// What movements are squared with: relative to a length, as angles, and as means over the control points.
+    /// Weights of squared movements: relative to a length, as angles, averaged over the control points.
     metric: Vec<f64>,
     loading: Loading,
     pub(super) model: System,
     pub(super) path: EquilibriumPath,
     newton: Newton,
-    /// Movements, and behind them the unknowns of contacts.
+    /// Movements, followed by contact unknowns.
     pub(super) unknowns: Vec<f64>,
     residual: Vec<f64>,
     heading: PathDirection,
 }
 
-/// How a path goes on.
+/// Direction of a path.
 struct PathDirection {
-    /// The last movement.
+    /// Last movement.
     movements: Vec<f64>,
-    /// In how many ways a movement from here would release energy.
+    /// Number of directions with negative stiffness.
     falls: usize,
 }
 
 impl PathDirection {
-    /// Whether another one goes on like this. If not, it may have gone over to another branch, as beside the load at which a straight
-    /// column buckles, and smaller steps tell.
+    /// Returns true if the next step continues in this direction. Otherwise it may have changed to another branch, as near the buckling load of a
+    /// straight column, and smaller steps decide.
     fn is_kept_by(&self, next: &Self, metric: &[f64]) -> bool {
         let ways = metric.iter().zip(&self.movements).zip(&next.movements);
         let along: f64 = ways.map(|((weight, before), now)| weight * before * now).sum();
@@ -75,7 +75,7 @@ impl<'s> Continuation<'s> {
         let all = model.unknowns() + model.constraint_shape().width;
         let mut path = EquilibriumPath::default();
         path.push(point(&mut model, 0.0, 0.0, 0));
-        // A scene of particles alone has no moments.
+        // A scene of particles has no moments.
         let length = scene.longest_beam().unwrap_or(1.0);
         Self {
             scene,
@@ -91,7 +91,7 @@ impl<'s> Continuation<'s> {
         }
     }
 
-    /// Puts the loads on the scene in equal steps.
+    /// Applies the loads in equal steps.
     pub(super) fn load_up(
         &mut self,
         hold: InitialSupport,
@@ -100,13 +100,13 @@ impl<'s> Continuation<'s> {
         let Loading { factor, steps, .. } = self.loading;
         self.begin(factor * (1.0 / steps as f64), hold, goes_on)?;
         for step in 2..=steps {
-            // The last one is the whole to the last digit.
+            // The last factor is exact.
             self.reach(factor * (step as f64 / steps as f64), MOST_HALVINGS, goes_on)?;
         }
         Ok(())
     }
 
-    /// Goes to the first load factor.
+    /// Solves for the first load factor.
     fn begin(
         &mut self,
         factor: f64,
@@ -123,7 +123,7 @@ impl<'s> Continuation<'s> {
         }
     }
 
-    /// Follows the path until the load factor is reached, or the path has as many points as it may have.
+    /// Follows the path until the load factor is reached or the number of points is exhausted.
     pub(super) fn follow(
         &mut self,
         arc: ArcLength,
@@ -133,13 +133,13 @@ impl<'s> Continuation<'s> {
         let Loading { factor: goal, steps, .. } = self.loading;
         self.begin(goal / steps as f64, hold, goes_on)?;
         if hold != InitialSupport::Itself && steps > 1 {
-            // Where loads alone hold the scene, the path goes from there.
+            // If only loads restrain the scene, the path starts from there.
             self.reach(goal * (2.0 / steps as f64), MOST_HALVINGS, goes_on)?;
         }
         let mut trial = PathStep::new(&self.model, &self.loading);
         let mut distance = norm(&self.metric, &self.unknowns).min(arc.longest);
         if distance == 0.0 {
-            // Loads on supports alone move nothing: there is no path to follow.
+            // If loads act on supports only, nothing moves and there is no path.
             return self.reach(goal, MOST_HALVINGS, goes_on);
         }
         while self.path.load_factor() != goal && self.path.points().len() < arc.points {
@@ -149,7 +149,7 @@ impl<'s> Continuation<'s> {
         Ok(())
     }
 
-    /// Takes a step of some distance along the path, or of a part of it; returns the distance for the next.
+    /// Takes a step of a distance along the path, or a part of it. Returns the distance of the next step.
     fn advance(
         &mut self,
         trial: &mut PathStep,
@@ -188,7 +188,8 @@ impl<'s> Continuation<'s> {
         Err(self.lost(miss))
     }
 
-    /// How far it is to where the load factor turns, if it passes the goal before that and again after it: the first time counts.
+    /// Distance from the last point to the turning point of the load factor, if the path crosses the goal before it and again after it. The first
+    /// crossing counts.
     fn way_beyond(&self, goal: f64, factor: f64, distance: f64) -> Option<f64> {
         let [.., before, last] = self.path.points() else { return None };
         let factors = [before.load_factor, last.load_factor, factor];
@@ -197,7 +198,7 @@ impl<'s> Continuation<'s> {
         is_beyond.then_some(vertex.way - last.distance)
     }
 
-    /// Goes to a load factor, in halves where the whole step finds nothing, or something that does not continue the path.
+    /// Solves for a load factor, with halved steps if nothing is found or the result does not continue the path.
     fn reach(
         &mut self,
         factor: f64,
@@ -221,8 +222,7 @@ impl<'s> Continuation<'s> {
         self.reach(factor, halvings - 1, goes_on)
     }
 
-    /// Whether the last point continues the path, or no halving is left to tell. Along the path it may turn and become unstable as it
-    /// likes.
+    /// Returns true if the last point continues the path, or no halving is left. With arc-length control the path may turn and become unstable.
     fn goes_on_as_before(&mut self, halvings: u32) -> bool {
         if self.loading.control != Control::Load {
             return true;
@@ -236,17 +236,17 @@ impl<'s> Continuation<'s> {
         goes_on
     }
 
-    /// In how many ways a movement from here would release energy, as far as stiffness tells: not what loads do that turn with a beam.
+    /// Number of directions with negative stiffness, excluding the effect of follower loads.
     pub(super) fn falls(&self) -> usize {
         self.falls_against(0.0)
     }
 
-    /// That against what resists every movement by such a multiple of its inertia [1/time²].
+    /// The same with a multiple of the inertia added to the stiffness [1/time²].
     pub(super) fn falls_against(&self, rate: f64) -> usize {
         if self.model.follower().is_some() { 0 } else { self.model.falls_against(rate) }
     }
 
-    /// The iterations that led to an equilibrium near the last one.
+    /// Solves for an equilibrium near the last one. Returns the number of iterations.
     fn find(&mut self, factor: f64) -> Result<usize, StepFailure> {
         let found = match self.balance_from(factor, 0.0) {
             Ok(_) if self.moved() > self.farthest(factor) => Err(StepFailure::Far),
@@ -258,14 +258,15 @@ impl<'s> Continuation<'s> {
         found
     }
 
-    /// How far the unknowns lead: root mean square, relative to the longest beam.
+    /// Root mean square movement, relative to the longest beam.
     pub(super) fn moved(&self) -> f64 {
         norm(&self.metric, &self.unknowns)
     }
 
-    /// The iterations that led from here to where a part of the loads is balanced, by masses in something viscous too if `rate` is positive [1/time²].
+    /// Solves from the present configuration for a part of the loads, with viscous resistance if `rate` is positive [1/time²]. Returns the number of
+    /// iterations.
     ///
-    /// Sliders may come to lean on stops, or leave them; each time all begins anew.
+    /// The solution restarts whenever sliders are held at a stop or leave it.
     pub(super) fn balance_from(&mut self, factor: f64, rate: f64) -> Result<usize, StepFailure> {
         let mut iterations = 0;
         for _ in 0..=self.scene.most_settlings() {
@@ -283,14 +284,14 @@ impl<'s> Continuation<'s> {
         Err(StepFailure::Far)
     }
 
-    /// Takes back what a search has made of the model that found nothing.
+    /// Restores the last equilibrium after a failed search.
     pub(super) fn go_back(&mut self) {
         if let Some(last) = self.path.points().last() {
             self.model.restore(&last.state);
         }
     }
 
-    /// How far an equilibrium may be: by what the last step has moved for its load, or by a long step along the path.
+    /// Largest distance of the next equilibrium, from the last movement per load or the longest step along the path.
     fn farthest(&self, factor: f64) -> f64 {
         let [.., before, last] = self.path.points() else { return f64::INFINITY };
         match self.loading.control {
@@ -307,12 +308,12 @@ impl<'s> Continuation<'s> {
         self.arrive(factor, self.moved(), iterations);
     }
 
-    /// Adds the place of the model to the path, so far from the last one.
+    /// Appends the configuration of the model to the path.
     pub(super) fn arrive(&mut self, factor: f64, distance: f64, iterations: usize) {
         self.path.push(point(&mut self.model, factor, distance, iterations));
     }
 
-    /// Goes back to the point of the path before the last one.
+    /// Removes the last point of the path.
     fn take_back(&mut self) {
         self.path.pop();
         self.go_back();
@@ -335,7 +336,7 @@ impl<'s> Continuation<'s> {
     }
 }
 
-/// Lets sliders lean on stops that they would pass, and leave those that would pull; whether any did.
+/// Holds sliders that pass stops, and frees those with tensile stop forces. Returns true if any changed.
 pub(super) fn settle_on_stops(
     model: &mut System,
     scene: &Scene,
@@ -349,7 +350,7 @@ pub(super) fn settle_on_stops(
     model.settle_on_stops(unknowns, factor).map_err(leaves)
 }
 
-/// The room for the tangent of a model with so many full rows and columns behind; where something slides, contacts may be all that holds.
+/// Tangent matrix of a model with `full` additional dense rows. With sliders, contacts may be the only restraint.
 pub(super) fn tangent(model: &System, full: usize) -> BorderedMatrix {
     let (unknowns, contacts) = (model.unknowns(), model.constraint_shape());
     let border = BorderShape {

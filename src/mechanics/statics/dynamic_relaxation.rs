@@ -1,42 +1,42 @@
-//! Equilibria of what only its loads hold.
+//! Dynamic relaxation to equilibria of scenes that only loads restrain.
 
 use super::StaticsError;
 use super::continuation::Continuation;
 use super::error::StepFailure;
 
-/// The scene may move so far in a pass: root mean square, relative to the longest beam.
+/// Largest root mean square movement in a pass, relative to the longest beam.
 const FAR: f64 = 0.15;
 
-/// A pass that moves it less is near enough to the rest for Newton's method alone,
+/// Movement in a pass below which Newton's method is tried directly,
 const NEAR: f64 = 1e-2;
 
-/// and after one that moves it less than this nothing drives it away, were it the top of a hill.
+/// and below which the configuration counts as stationary, even if unstable.
 const STILL: f64 = 1e-13;
 
-/// Passes that move it little become less sluggish by so much.
+/// Factor of the rate after passes with small movement.
 const EASIER: f64 = 0.2;
 
-/// Those that find nothing, or move it too far, become more sluggish by so much.
+/// Factor of the rate after failed passes, or with too large movement.
 const HARDER: f64 = 4.0;
 
-/// Most tries of a first pass.
+/// Largest number of tries of the first pass.
 const MOST_FIRST_PASSES: usize = 60;
 
-/// Most passes.
+/// Largest number of passes.
 const MOST_PASSES: usize = 400;
 
-/// A scene that has moved so many times its size is on its way to nowhere.
+/// Total movement, relative to the size of the scene, from which the motion counts as endless.
 const NOWHERE: f64 = 30.0;
 
-/// A slider that would leave its master so often does.
+/// Number of departures after which a slider counts as leaving its master.
 const MOST_LEAVES: usize = 12;
 
 impl Continuation<'_> {
-    /// Finds the equilibrium to which the unloaded scene sinks under a part of its loads, as if its masses moved in something viscous:
-    /// `σ M u + F(u) - λ P = 0` again and again, with a `σ` that falls with the way (pseudo-transient continuation; Kelley & Keyes, SIAM J. Numer.
-    /// Anal. 35 (1998) 508–523). So many of its movements meet no resistance as it is drawn.
+    /// Finds the equilibrium that the unloaded scene approaches under a part of its loads with viscous resistance: repeated steps
+    /// `σ M u + F(u) - λ P = 0` with decreasing `σ` (pseudo-transient continuation; Kelley & Keyes, SIAM J. Numer. Anal. 35 (1998) 508–523).
+    /// `movements` is the number of unrestrained movements as drawn.
     ///
-    /// Every pass goes downhill: `K + σ M` is positive definite where it begins.
+    /// Every pass reduces the energy: `K + σ M` is positive definite at its start.
     pub(super) fn settle(
         &mut self,
         factor: f64,
@@ -89,7 +89,7 @@ impl Continuation<'_> {
         Err(StaticsError::Loose { scene, movements, reason })
     }
 
-    /// A rate [1/time²] with which the first pass goes downhill, and moves the scene by a small part of itself.
+    /// Rate [1/time²] with which the first pass reduces the energy and moves the scene by a small distance.
     fn first_rate(
         &mut self,
         factor: f64,

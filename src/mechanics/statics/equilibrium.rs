@@ -1,4 +1,4 @@
-//! A scene at rest under its loads.
+//! Equilibrium of a scene under its loads.
 
 use super::continuation::{Continuation, InitialSupport};
 use super::{Control, EquilibriumPath, InTime, Loading, PathPoint, StaticsError};
@@ -11,25 +11,25 @@ use crate::loads::PrescribedMotion;
 use crate::system::{Drive, Element, Scene, SectionSample, System, SystemError};
 use crate::vibration::{Modes, VibrationError, loose_movements};
 
-/// Forces whose sum is no larger than this part of them are balanced.
+/// Sums of forces below this fraction of their magnitudes count as zero.
 const ROUNDING: f64 = 1e-12;
 
-/// What becomes of a small disturbance of an equilibrium.
+/// Stability of an equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stability {
-    /// Every small disturbance of the equilibrium stays small.
+    /// Every small disturbance stays small.
     Stable,
-    /// A small disturbance of the equilibrium grows.
+    /// Some small disturbance grows.
     Unstable,
-    /// Rounding hides whether a small disturbance grows: stiffnesses differ too much.
+    /// Undecided because of rounding: stiffnesses differ too much.
     Hidden,
-    /// A load turns with the beam and has no potential: the stiffness alone does not tell whether a disturbance grows.
+    /// Undecided because of a follower load, which has no potential.
     Follower,
 }
 
-/// An equilibrium: a scene at rest under its loads, and the path that led there.
+/// Equilibrium of a scene under its loads, with the path from the unloaded scene.
 ///
-/// Start velocities of the scene play no part. Loads are put on together, in proportion.
+/// Start velocities are ignored. All loads are applied in proportion.
 pub struct Equilibrium {
     scene: Scene,
     loading: Loading,
@@ -38,10 +38,10 @@ pub struct Equilibrium {
 }
 
 impl Equilibrium {
-    /// Finds the equilibrium of a scene; `goes_on` is asked after every step, with its load factor.
+    /// Finds the equilibrium of a scene; `goes_on` is called with the load factor after every step.
     ///
     /// # Errors
-    /// When the scene cannot be built, a load has no value or none acts, no equilibrium is found, or it is stopped.
+    /// Fails if the scene cannot be built, a load has no value, no load acts, no equilibrium is found, or the search is stopped.
     pub fn find(
         scene: Scene,
         loading: Loading,
@@ -60,10 +60,10 @@ impl Equilibrium {
         Ok(Self { scene, loading, model, path })
     }
 
-    /// The scene as it is drawn, as if that were its equilibrium, for checking scripts.
+    /// Dry run for the check of scripts: the scene as drawn serves as its equilibrium.
     ///
     /// # Errors
-    /// As for [`find`](Self::find), but for what only a solution shows.
+    /// Errors of [`find`](Self::find) except those of the solution.
     pub fn pretend(scene: Scene, loading: Loading) -> Result<Self, StaticsError> {
         let model = prepare(&scene, &loading)?;
         let Continuation { model, mut path, .. } = Continuation::new(&scene, model, loading);
@@ -71,30 +71,30 @@ impl Equilibrium {
         Ok(Self { scene, loading, model, path })
     }
 
-    /// The scene that is at rest.
+    /// Scene in equilibrium.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
 
-    /// How the loads were put on the scene.
+    /// Application of the loads.
     pub fn loading(&self) -> &Loading {
         &self.loading
     }
 
-    /// The model at rest in the equilibrium, as a mechanism.
+    /// Model in equilibrium, as a mechanism.
     pub fn model(&self) -> &System {
         &self.model
     }
 
-    /// The path of equilibria that led to this one.
+    /// Path of equilibria that leads to this one.
     pub fn path(&self) -> &EquilibriumPath {
         &self.path
     }
 
-    /// Looks at the model at every point of the path; gives what was seen, in order.
+    /// Evaluates a function of the model at every point of the path, in order.
     ///
     /// # Errors
-    /// None that the scene did not have when the equilibrium was found.
+    /// Fails only as the scene did when the equilibrium was found.
     pub fn along_path<T>(&self, look: impl Fn(&System) -> T) -> Result<Vec<T>, StaticsError> {
         let mut model = at_rest(&self.scene)?;
         let at = |point: &PathPoint| {
@@ -104,7 +104,7 @@ impl Equilibrium {
         Ok(self.path.points().iter().map(at).collect())
     }
 
-    /// The reaction of the supports at a place: force [force] and moment [force·length]; none where no support is.
+    /// Reaction of the supports at a place: force [force] and moment [force·length]; `None` without a support there.
     pub fn reaction(&mut self, place: &BodyPoint) -> Option<(Vec2, f64)> {
         let mut forces = vec![0.0; self.model.degrees_of_freedom()];
         let contacts = self.model.constraint_shape().width;
@@ -115,25 +115,24 @@ impl Equilibrium {
         self.model.support_force(place, &forces)
     }
 
-    /// Section forces and strains at a station of the equilibrium.
+    /// Section forces and strains at a station.
     ///
     /// # Errors
-    /// When the station lies outside its beam, or on a particle.
+    /// Fails if the station lies outside its beam or on a particle.
     pub fn section_forces(&self, station: &Station) -> Result<SectionForces, SystemError> {
         let at = self.model.cross_section(&self.scene, station)?;
         Ok(self.model.section_forces(&at))
     }
 
-    /// The section forces of the equilibrium along a beam, from its start to its end.
+    /// Section forces along a beam, from start to end.
     ///
     /// # Errors
-    /// When an axis has a point without a tangent.
+    /// Fails if an axis has a point without a tangent.
     pub fn section_forces_along(&self, beam: usize) -> Result<Vec<SectionSample>, SystemError> {
         self.model.section_forces_along(&self.scene, beam)
     }
 
-    /// What becomes of a small disturbance of the equilibrium, by the signs of the pivots of the stiffness, and where these are not sure by the lowest
-    /// mode.
+    /// Stability by the signs of the pivots of the stiffness, or in doubt by the lowest mode.
     pub fn stability(&self, goes_on: &mut dyn FnMut() -> bool) -> Stability {
         if self.model.follower().is_some() {
             return Stability::Follower;
@@ -148,10 +147,10 @@ impl Equilibrium {
         }
     }
 
-    /// The lowest natural modes of vibration about the equilibrium.
+    /// Lowest natural modes about the equilibrium.
     ///
     /// # Errors
-    /// When there are not so many, or a load turns with the beam.
+    /// Fails if there are too few modes or a load follows the beam.
     pub fn modes(
         &self,
         count: usize,
@@ -161,8 +160,8 @@ impl Equilibrium {
     }
 }
 
-/// The same scene with beams that resist stretching, shear and bending alike, and masses like theirs: what can move without any
-/// resistance, and nothing else, has a stiffness of zero there, which no other stiffness or inertia hides.
+/// Same scene with equal axial, shear and bending stiffnesses of the beams and similar masses. Unrestrained movements have zero stiffness there,
+/// which no ratio of stiffnesses hides.
 fn of_equal_stiffness(scene: &Scene) -> Scene {
     let mut equal = scene.clone();
     for beam in &mut equal.beams {
@@ -187,14 +186,14 @@ fn of_equal_stiffness(scene: &Scene) -> Scene {
     equal
 }
 
-/// The model of a scene whose start velocities play no part, be they such that sliders would leave their masters.
+/// Model of a scene without start velocities, which may be incompatible with sliders.
 fn at_rest(scene: &Scene) -> Result<System, SystemError> {
     let mut still = scene.clone();
     still.sliders.iter_mut().for_each(|slider| slider.velocities = StartVelocities::Project);
     System::assemble(&still)
 }
 
-/// Speeds and controllers make something of time only.
+/// Prescribed rates and controllers need time.
 fn check_needs_no_time(scene: &Scene) -> Result<(), StaticsError> {
     let is_rate = |drive: &&Drive| {
         drive.motions().any(|(_, motion)| matches!(motion, PrescribedMotion::Rate(_)))
@@ -208,7 +207,7 @@ fn check_needs_no_time(scene: &Scene) -> Result<(), StaticsError> {
     }
 }
 
-/// The model at its start, its loads as they will be held.
+/// Model at its start with the loads at the time of the loading.
 fn prepare(scene: &Scene, loading: &Loading) -> Result<System, StaticsError> {
     loading.check()?;
     check_needs_no_time(scene)?;
@@ -235,7 +234,7 @@ fn prepare(scene: &Scene, loading: &Loading) -> Result<System, StaticsError> {
     }
 }
 
-/// Whether a model without loads is balanced as it is drawn; springs that are not at ease there may pull.
+/// Returns true if the model without loads is balanced as drawn, which strained springs may prevent.
 fn is_at_ease(model: &mut System) -> bool {
     if !model.is_strung() {
         return true;

@@ -1,4 +1,4 @@
-//! Why no equilibrium was found.
+//! Errors of equilibria.
 
 use std::fmt;
 
@@ -6,12 +6,12 @@ use crate::loads::LoadError;
 use crate::newton::NewtonError;
 use crate::system::SystemError;
 
-/// What says something of a drive or a load only where time passes.
+/// Time-dependent specification of a drive or a load.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum InTime {
-    /// A speed that is given to a drive.
+    /// Prescribed rate of a drive.
     Speed,
-    /// A controller, which answers to what it senses in time.
+    /// Controller, which reacts to its sensors over time.
     Controller,
 }
 
@@ -24,122 +24,122 @@ impl fmt::Display for InTime {
     }
 }
 
-/// An equilibrium that was not found.
+/// Failed search for an equilibrium.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StaticsError {
-    /// The scene of an equilibrium cannot be built.
+    /// Scene that cannot be built.
     #[error(transparent)]
     Model(#[from] SystemError),
-    /// A load has no value at the time at which loads are taken.
+    /// Load without a value at the time of the loading.
     #[error("load '{load}': {source}")]
     Load {
-        /// The name of the load without a value.
+        /// Name of the load.
         load: String,
-        /// The schedule's reason for having no value.
+        /// Reason.
         source: LoadError,
     },
-    /// Nothing acts.
+    /// Scene without loads.
     #[error("no load acts at t = {time}: with nothing to carry, the scene rests as it is drawn")]
     NoLoad {
-        /// The time at which loads were taken from their schedules [time].
+        /// Time of the loading [time].
         time: f64,
     },
-    /// A path of given length where nothing acts but what was not at ease as drawn, which no load factor scales.
+    /// Path of given length for a scene with initial strains only, which no load factor scales.
     #[error(
         "no load acts at t = {time}: what is not at ease as drawn pulls by itself, and there is no load to follow along a path of given length"
     )]
     NothingGrows {
-        /// The time at which loads were taken from their schedules [time].
+        /// Time of the loading [time].
         time: f64,
     },
-    /// Something that only time makes what it is.
+    /// Drive or load that needs time.
     #[error("'{name}' is given by {by}, which says nothing at rest, where no time passes")]
     InTime {
-        /// The name of the drive or the load.
+        /// Name of the drive or load.
         name: String,
-        /// What gives it.
+        /// Kind of the specification.
         by: InTime,
     },
-    /// A given motion where the load factor is found by the way along a path.
+    /// Prescribed motion under arc-length control.
     #[error(
         "{drive}: a motion that is given is put on by load steps alone, not along a path of given length"
     )]
     Driven {
-        /// The name of the drive.
+        /// Name of the drive.
         drive: String,
     },
-    /// A setting of the equilibrium is out of its range.
+    /// Setting outside its range.
     #[error("{name} is {value}, but must be {allowed}")]
     Value {
-        /// The name of the refused setting.
+        /// Name of the setting.
         name: &'static str,
-        /// The value of the refused setting, in its unit.
+        /// Rejected value.
         value: f64,
-        /// The values that the refused setting may have, in words.
+        /// Allowed values.
         allowed: &'static str,
     },
-    /// A scene that can move without resistance, and that its loads lead to no rest.
+    /// Unrestrained scene whose loads lead to no equilibrium.
     #[error(
         "'{scene}' is not held: {movements} of its movements meet no resistance as it is drawn, and it sinks to no rest under its loads: {reason}"
     )]
     Loose {
-        /// The name of the scene that can move.
+        /// Name of the scene.
         scene: String,
-        /// The number of movements without resistance.
+        /// Number of unrestrained movements.
         movements: usize,
-        /// The reason why no rest was found.
+        /// Reason.
         reason: Box<StepFailure>,
     },
-    /// No equilibrium was found near the last one.
+    /// No equilibrium near the last one.
     #[error("no equilibrium of '{scene}' was found near that at load factor {reached}: {reason}")]
     Lost {
-        /// The name of the scene without an equilibrium.
+        /// Name of the scene.
         scene: String,
-        /// The last load factor with an equilibrium before the path was lost [-].
+        /// Last load factor with an equilibrium [-].
         reached: f64,
-        /// The reason why the next equilibrium was missed.
+        /// Reason.
         reason: Box<StepFailure>,
     },
-    /// No equilibrium was found beyond the last point of a path.
+    /// No equilibrium beyond the last point of a path.
     #[error(
         "the path of '{scene}' leads no further than its point {points}, at load factor {reached}: {reason}"
     )]
     PathLost {
-        /// The name of the scene whose path ends.
+        /// Name of the scene.
         scene: String,
-        /// The number of points of the path.
+        /// Number of points of the path.
         points: usize,
-        /// The load factor at the last of them [-].
+        /// Load factor of the last point [-].
         reached: f64,
-        /// The reason why the next point was missed.
+        /// Reason.
         reason: Box<StepFailure>,
     },
-    /// The search for an equilibrium was stopped from outside.
+    /// Search stopped by the caller.
     #[error("stopped at load factor {reached}")]
     Interrupted {
-        /// The last load factor with an equilibrium before the search was stopped [-].
+        /// Last load factor with an equilibrium [-].
         reached: f64,
     },
 }
 
-/// Why a step found no equilibrium.
+/// Reason why a step found no equilibrium.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StepFailure {
-    /// Newton's method found no equilibrium.
+    /// Newton's method did not converge.
     #[error(transparent)]
     Newton(#[from] NewtonError),
-    /// Newton's method found an equilibrium that is far from the last one.
+    /// The solution is far from the last equilibrium.
     #[error("the next one is far away, as where a structure snaps through")]
     Far,
-    /// What nothing holds moves on without end.
+    /// Endless movement of an unrestrained scene.
     #[error("it moves on and on")]
     Endless,
-    /// A slider would leave its master.
+    /// Slider that would leave its master.
     #[error("slider '{slider}' would leave its beam at its {end}")]
     Leaves {
-        /// The name of the slider.
+        /// Name of the slider.
         slider: String,
-        /// The end of its master, such as `start`.
+        /// End of its master, such as `start`.
         end: &'static str,
     },
 }

@@ -1,46 +1,45 @@
-//! How loads are put on, and how the path of equilibria is followed.
+//! Application of loads, and control of the path of equilibria.
 
 use super::StaticsError;
 use crate::newton::Tolerance;
 
-/// The fewest points of a path: one that is not loaded and two that say where it goes.
+/// Smallest number of points of a path: the unloaded one, and two for its direction.
 pub(super) const LEAST_PATH: usize = 3;
 
-/// How loads are put on a scene: from nothing to the whole of them.
+/// Application of loads from zero to a load factor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Loading {
-    /// The time at which loads are taken from their schedules, just after it [time].
+    /// Time at which schedules of loads are evaluated (right limit) [time].
     pub time: f64,
-    /// The load factor at the end: the loads themselves for 1 [-].
+    /// Final load factor; 1 for the loads themselves [-].
     pub factor: f64,
-    /// The number of equal steps in which loads are put on; under arc-length control the first step is to the load factor over this.
+    /// Number of equal load steps. With arc-length control, the first step leads to the load factor divided by this number.
     pub steps: usize,
-    /// The quantity that is prescribed in a step.
+    /// Quantity that is prescribed in a step.
     pub control: Control,
-    /// The tolerance of the Newton solver.
+    /// Tolerance of the Newton solver.
     pub tolerance: Tolerance,
 }
 
-/// What is prescribed in a step.
+/// Quantity that is prescribed in a step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Control {
-    /// The load factor is prescribed in a step. The path ends at a limit point.
+    /// Load factor. The path ends at a limit point.
     #[default]
     Load,
-    /// The distance by which the scene moves is prescribed in a step; the load factor follows, and may fall.
+    /// Distance along the path. The load factor is an unknown and may decrease.
     ArcLength(ArcLength),
 }
 
-/// Steps of arc-length control along the path of equilibria.
+/// Arc-length control along the path of equilibria.
 ///
 /// E. Riks, An incremental approach to the solution of snapping and buckling problems, Int. J. Solids Struct. 15 (1979)
 /// 529–551, with the normal plane of Keller (1977); the size of steps as in Crisfield, Comput. Struct. 13 (1981) 55–62.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ArcLength {
-    /// The longest step along the path: root mean square of the displacements, relative to the longest beam, and the rotations of all
-    /// control points [-, rad].
+    /// Longest step: root mean square of displacements, relative to the longest beam, and rotations of all control points [-, rad].
     pub longest: f64,
-    /// The largest number of points of the path, which ends with them wherever it is.
+    /// Largest number of points of the path.
     pub points: usize,
 }
 
@@ -63,10 +62,6 @@ impl Default for ArcLength {
 }
 
 impl Loading {
-    /// Checks the numbers of the loading.
-    ///
-    /// # Errors
-    /// When a number is out of its range.
     pub(super) fn check(&self) -> Result<(), StaticsError> {
         let value = |name, value, allowed| Err(StaticsError::Value { name, value, allowed });
         if self.steps == 0 {

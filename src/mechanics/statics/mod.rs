@@ -1,4 +1,4 @@
-//! Equilibrium of a scene under its loads: in steps of the load, or along the path of equilibria through its limit points.
+//! Equilibrium of a scene under its loads, by load steps or along the equilibrium path through limit points.
 
 mod balance;
 mod continuation;

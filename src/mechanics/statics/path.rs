@@ -1,24 +1,24 @@
-//! Equilibria one after another, from the unloaded scene on.
+//! Paths of equilibria from the unloaded scene.
 
 use crate::system::SystemState;
 
-/// An equilibrium on the path from the unloaded scene.
+/// Equilibrium on a path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PathPoint {
-    /// The part of the loads that acts in this equilibrium [-].
+    /// Load factor [-].
     pub load_factor: f64,
-    /// The strain energy of the scene in this equilibrium [energy].
+    /// Strain energy [energy].
     pub strain_energy: f64,
-    /// How far the scene moved from the point before: root mean square of displacements, relative to the longest beam, and of
-    /// rotations, over all control points [-, rad].
+    /// Distance from the previous point: root mean square of displacements, relative to the longest beam, and rotations of all control points [-,
+    /// rad].
     pub distance: f64,
-    /// The number of Newton iterations from the point before.
+    /// Newton iterations from the previous point.
     pub iterations: usize,
-    /// The state of the model in this equilibrium.
+    /// State of the model.
     pub state: SystemState,
 }
 
-/// Equilibria in the order in which they were found; the first is the unloaded scene.
+/// Equilibria in order, starting with the unloaded scene.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct EquilibriumPath {
     points: Vec<PathPoint>,
@@ -33,25 +33,25 @@ impl EquilibriumPath {
         self.points.pop();
     }
 
-    /// Adds a point to the path at which nothing has moved, for checking scripts.
+    /// Appends an unmoved point, for a dry run.
     pub(super) fn pretend(&mut self, load_factor: f64) {
         let last = self.points.last().cloned();
         self.points.extend(last.map(|point| PathPoint { load_factor, ..point }));
     }
 
-    /// All points of the path, in order.
+    /// Points of the path in order.
     pub fn points(&self) -> &[PathPoint] {
         &self.points
     }
 
-    /// The load factor at the end of the path [-].
+    /// Load factor at the end of the path [-].
     pub fn load_factor(&self) -> f64 {
         self.points.last().map_or(0.0, |point| point.load_factor)
     }
 
-    /// The load factors at which the path turns, by parabolas through three points each [-].
+    /// Limit points: load factors at which the path turns, from parabolas through three points [-].
     ///
-    /// A structure that is loaded further there snaps through.
+    /// A structure that is loaded beyond a limit point snaps through.
     pub fn limit_points(&self) -> Vec<f64> {
         let turn = |three: &[PathPoint]| {
             let factors = [0, 1, 2].map(|at: usize| three[at].load_factor);
@@ -61,14 +61,14 @@ impl EquilibriumPath {
     }
 }
 
-/// The point between three equilibria where the load factor turns.
+/// Turning point of the load factor between three equilibria.
 pub(super) struct LoadTurningPoint {
-    /// The distance of the turn from the first of three points, in the metric of the path.
+    /// Distance from the first of the three points, in the metric of the path.
     pub(super) way: f64,
     pub(super) load_factor: f64,
 }
 
-/// The vertex of the parabola through three load factors with these distances between them, if they turn.
+/// Vertex of the parabola through three load factors at the given distances, if they turn.
 pub(super) fn vertex(
     [first, second, third]: [f64; 3],
     [before, after]: [f64; 2],
@@ -84,7 +84,7 @@ pub(super) fn vertex(
 mod tests {
     use super::*;
 
-    /// A path whose load factor is a function of the way along it.
+    /// Path with a given load factor over its length.
     fn path(places: &[f64], load_factor: impl Fn(f64) -> f64) -> EquilibriumPath {
         let before = std::iter::once(&0.0).chain(places);
         let point = |(at, before): (&f64, &f64)| PathPoint {

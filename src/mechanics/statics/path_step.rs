@@ -1,4 +1,4 @@
-//! Steps of given length along the path of equilibria.
+//! Steps of given length along the equilibrium path.
 
 use super::Loading;
 use super::balance::{AlongPath, Balance};
@@ -8,11 +8,11 @@ use crate::integrators::{Constraints, Mechanism};
 use crate::newton::Newton;
 use crate::system::{Scene, System};
 
-/// A step along the path, with its work space.
+/// Arc-length step with its work space.
 pub(super) struct PathStep {
     newton: Newton,
     normal: Vec<f64>,
-    /// Movements and unknowns of contacts, then the load factor.
+    /// Movements and contact unknowns, followed by the load factor.
     unknowns: Vec<f64>,
     residual: Vec<f64>,
     forces: Vec<f64>,
@@ -30,7 +30,7 @@ impl PathStep {
         }
     }
 
-    /// Goes on in the direction of the last movement.
+    /// Sets the direction to that of the last movement.
     pub(super) fn look_along(&mut self, metric: &[f64], last: &[f64]) {
         let inverse = 1.0 / norm(metric, last);
         for ((normal, weight), u) in self.normal.iter_mut().zip(metric).zip(last) {
@@ -38,7 +38,7 @@ impl PathStep {
         }
     }
 
-    /// From a standstill: the first iteration then goes along the tangent of the path.
+    /// Starts from zero movement, so that the first iteration follows the tangent of the path.
     pub(super) fn find(
         &mut self,
         model: &mut System,

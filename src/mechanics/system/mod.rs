@@ -1,4 +1,4 @@
-//! From a scene, as the user describes it, to a mechanism that integrators can advance.
+//! Scenes, and their assembly into mechanisms that integrators can advance.
 
 mod assembly;
 mod bodies;

@@ -1,4 +1,4 @@
-//! Tasks that are worked on at the same time.
+//! Concurrent tasks.
 
 use std::hint::spin_loop;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -6,13 +6,13 @@ use std::sync::{Mutex, PoisonError};
 
 use super::pool::{announce_parts, pool, stay_awake};
 
-/// How often a thread asks whether the others are done before it sleeps: for about 50 µs, the time that falling asleep and waking takes.
+/// Number of polls before a thread sleeps: about 50 µs, the cost of sleeping and waking.
 const PATIENCE: usize = 2000;
 
-/// Works on all tasks at once: on the first one here, on each other one in a thread that stands ready, or here where none has taken it before.
+/// Runs all tasks concurrently: the first one on this thread, each other one on a thread of the pool, or here if none has taken it.
 ///
-/// It returns when every thread that was asked has seen that its task is done, so that it waits where all of them are busy with something else. Tasks and their
-/// list are allocated, a few hundred bytes for each call: threads are asked only where a task takes far longer than that.
+/// Returns after every task is done, and waits if all threads are busy. Each call allocates a few hundred bytes, so it is meant for tasks that take
+/// far longer.
 pub fn at_once<T: Send>(tasks: impl IntoIterator<Item = T>, work: impl Fn(T) + Sync) {
     let mut tasks = tasks.into_iter();
     let first = tasks.next();
@@ -37,7 +37,7 @@ pub fn at_once<T: Send>(tasks: impl IntoIterator<Item = T>, work: impl Fn(T) + S
             });
         }
         first.into_iter().for_each(&work);
-        // What no thread has taken.
+        // Runs the tasks that no thread has taken.
         others.iter().for_each(take);
         for _ in 0..PATIENCE {
             if left.load(Ordering::Acquire) == 0 {
@@ -48,7 +48,7 @@ pub fn at_once<T: Send>(tasks: impl IntoIterator<Item = T>, work: impl Fn(T) + S
     });
 }
 
-/// Does two different things: at once where there are two threads, else one after the other.
+/// Runs two different operations, concurrently if there are two threads.
 pub fn both(threads: usize, one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
     if threads < 2 {
         one();

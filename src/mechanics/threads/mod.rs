@@ -1,4 +1,4 @@
-//! Work that several threads do at once, with the very bits that one thread gives: who calls it cuts the work such that no sum depends on who made it.
+//! Multithreading with results identical to those of one thread: the callers partition work such that no sum depends on the thread.
 
 mod at_once;
 mod pool;

@@ -1,4 +1,4 @@
-//! The threads that stand ready.
+//! Thread pool.
 
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -7,15 +7,14 @@ use std::time::{Duration, Instant};
 
 use rayon_core::{ThreadPool, ThreadPoolBuilder};
 
-/// So long a thread that has done its part looks for the next one before it falls asleep: the parts of a step follow each other at once, and waking a thread
-/// takes as long as many of them.
+/// Time for which an idle thread polls for new parts before it sleeps. The parts of a step follow immediately, and waking a thread takes as long as
+/// many of them.
 const AWAKE: Duration = Duration::from_micros(300);
 
-/// How often parts were handed out.
+/// Number of hand-outs of parts.
 static HANDED_OUT: AtomicUsize = AtomicUsize::new(0);
 
-/// The threads beside the one that works on a scene, one for each further core, from the first time on that any are asked for; none where there is
-/// one core, or the system gives none.
+/// Pool with one thread per additional core, created on first use; `None` with one core, or if the system provides no threads.
 pub(super) fn pool() -> Option<&'static ThreadPool> {
     static POOL: OnceLock<Option<ThreadPool>> = OnceLock::new();
     let start = || {
@@ -26,12 +25,12 @@ pub(super) fn pool() -> Option<&'static ThreadPool> {
     POOL.get_or_init(start).as_ref()
 }
 
-/// Tells threads that are awake that there are new parts.
+/// Notifies polling threads of new parts.
 pub(super) fn announce_parts() {
     HANDED_OUT.fetch_add(1, Ordering::Release);
 }
 
-/// Lets this thread of the pool, once it has ended what it does, look for new parts for a while.
+/// Makes this pool thread poll for new parts for a while after its work.
 pub(super) fn stay_awake() {
     let before = HANDED_OUT.load(Ordering::Acquire);
     rayon_core::spawn(move || {

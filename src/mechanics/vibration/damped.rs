@@ -1,7 +1,7 @@
-//! Damped vibration: `(λ² M + λ D + K) x = 0` of a small model, in all of its modes.
+//! Damped vibrations `(λ² M + λ D + K) x = 0` of a small model, in all of its modes.
 //!
-//! With all shapes `φ` of the undamped model, `φᵀ M φ = 1`, this is `λ² + λ B Bᵀ + Ω² = 0`, with a column of `B = Φᵀ √d g` for each rate `g·ẋ` that
-//! something damps by `d`: nothing is left out, and the squares `Ω²` are as exact as modes are.
+//! In all shapes `φ` of the undamped model, `φᵀ M φ = 1`, the problem is `λ² + λ B Bᵀ + Ω² = 0`, with a column of `B = Φᵀ √d g` for each rate `g·ẋ`
+//! with damping `d`. Nothing is truncated, and the squares `Ω²` are as accurate as the modes.
 
 use nalgebra::{Complex, DMatrix};
 
@@ -14,20 +14,20 @@ use crate::geometry::larger;
 use crate::integrators::Mechanism;
 use crate::system::{System, UnknownKind};
 
-/// Numbers smaller than this part of the highest frequency are rounding of nothing: what creeps back however slowly is far above it.
+/// Frequency, relative to the largest, below which a number is zero. Slow overdamped relaxation is far above it.
 const NOTHING: f64 = 1e-40;
 
-/// A damped natural vibration `exp(-δ t)`, with a frequency unless it only creeps back.
+/// Damped natural vibration `exp(-δ t)`, with a frequency unless it is overdamped.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DampedMode {
-    /// How fast the vibration decays, `δ = -Re λ`; negative where it grows [1/time].
+    /// Decay rate `δ = -Re λ`; negative for growth [1/time].
     pub decay_rate: f64,
-    /// With which angular frequency it swings, `|Im λ|`; zero where it is overdamped [rad/time].
+    /// Angular frequency `|Im λ|`; zero if overdamped [rad/time].
     pub angular_frequency: f64,
 }
 
 impl DampedMode {
-    /// The damping ratio `δ/|λ|`: one where nothing swings, zero where nothing moves [-].
+    /// Damping ratio `δ/|λ|`: one if overdamped, zero for `λ = 0` [-].
     pub fn damping_ratio(&self) -> f64 {
         match hypot(self.decay_rate, self.angular_frequency) {
             0.0 => 0.0,
@@ -35,11 +35,12 @@ impl DampedMode {
         }
     }
 
-    /// The damped vibrations of a model about its present configuration, taken as one at rest, those of the smallest `|λ|` first: one for each pair of
-    /// conjugate `λ`, one for each that is real.
+    /// Damped vibrations about the present configuration, treated as an equilibrium, in the order of `|λ|`: one for each conjugate pair and one for
+    /// each real `λ`.
     ///
     /// # Errors
-    /// When the model is large, something in it has no inertia, there are not so many, or what [`Modes::of`](super::Modes::of) says of undamped modes.
+    /// Fails if the model is too large, a part of it has no inertia, or there are too few vibrations, and with the errors of
+    /// [`Modes::of`](super::Modes::of) for undamped modes.
     pub fn of(
         model: &System,
         count: usize,
@@ -70,14 +71,14 @@ impl DampedMode {
         Ok(told.into_iter().map(|at| Self::of_number(at, least)).collect())
     }
 
-    /// The vibration `exp(λ t)`; what is no more than `least` is none [1/time].
+    /// Vibration `exp(λ t)`; numbers up to `least` are zero [1/time].
     fn of_number(at: Complex<f64>, least: f64) -> Self {
         let told = |number: f64| if number.abs() > least { number } else { 0.0 };
         Self { decay_rate: told(-at.re), angular_frequency: told(at.im.abs()) }
     }
 }
 
-/// `B`: a row for each shape, a column for each rate that is damped.
+/// Matrix `B`: a row for each shape, a column for each damped rate.
 fn dampers(model: &System, shapes: &[Vec<f64>]) -> DMatrix<f64> {
     let mut entries = Vec::new();
     for shape in shapes {

@@ -1,8 +1,8 @@
 //! All modes of a small scene at once.
 //!
-//! With `K + σ M = L D Lᵀ` and `M = H Hᵀ`, the squares of the singular values of `G = D^-½ L⁻¹ H` are `μ = 1/(ω² + σ)`. The rows of `G` are as
-//! graded as the pivots are, and rotations of its columns leave each row its own rounding: one-sided Jacobi rotations find all values, large
-//! and small, to nearly all digits (J. Demmel & K. Veselić, SIAM J. Matrix Anal. Appl. 13 (1992) 1204–1245).
+//! With `K + σ M = L D Lᵀ` and `M = H Hᵀ`, the squared singular values of `G = D^-½ L⁻¹ H` are `μ = 1/(ω² + σ)`. The rows of `G` are graded like the
+//! pivots, and rotations of columns preserve the relative accuracy of each row. One-sided Jacobi rotations therefore find all values, large and
+//! small, to almost full accuracy (J. Demmel & K. Veselić, SIAM J. Matrix Anal. Appl. 13 (1992) 1204–1245).
 
 use nalgebra::DMatrix;
 
@@ -13,19 +13,19 @@ use super::pencil::Pencil;
 use crate::elementary::hypot;
 use crate::linalg::{STRIP_WIDTH, SymmetricFactors};
 
-/// Columns are orthogonal when their product is below this part of their sizes.
+/// Relative product below which two columns are orthogonal.
 const ORTHOGONAL: f64 = 1e-15;
 
-/// Most sweeps over all pairs of columns; a dozen is usual.
+/// Largest number of sweeps over all pairs of columns; a dozen is usual.
 const MOST_SWEEPS: usize = 60;
 
-/// What is left of an inertia below this part of it is rounding.
+/// Relative remainder of an inertia that is due to rounding.
 const WITHOUT_INERTIA: f64 = 1e-13;
 
-/// All pairs `(μ, φ)` of a small scene that have inertia, the largest `μ` first. Movements without inertia do no harm: theirs is zero.
+/// All pairs `(μ, φ)` of a small scene with inertia, in decreasing order of `μ`. Movements without inertia have `μ = 0`.
 ///
 /// # Errors
-/// When the search is stopped.
+/// Fails if the search is stopped.
 pub(super) fn all_pairs(
     pencil: &Pencil,
     factors: &SymmetricFactors,
@@ -71,7 +71,8 @@ pub(super) fn all_pairs(
     Ok(Pairs { values: order.iter().map(|at| values[*at]).collect(), strips })
 }
 
-/// Takes lower shapes out of higher ones, and makes `φᵀ M φ = 1`: what rounding of a shape costs little energy may have much inertia.
+/// Orthogonalises higher shapes against lower ones, and normalises to `φᵀ M φ = 1`. Rounding errors of a shape that have little energy may have much
+/// inertia.
 fn orthogonalise(pencil: &Pencil, shapes: &mut DMatrix<f64>) {
     let size = pencil.size();
     let mut momenta = vec![0.0; size];
@@ -94,7 +95,7 @@ fn orthogonalise(pencil: &Pencil, shapes: &mut DMatrix<f64>) {
     }
 }
 
-/// `H`, with a column of zeros for each movement that has no inertia of its own.
+/// Root `H` of the inertia, with a zero column for each movement without inertia.
 fn inertia_root(pencil: &Pencil) -> DMatrix<f64> {
     let size = pencil.size();
     let mut root = DMatrix::zeros(size, size);
@@ -124,7 +125,7 @@ fn inertia_root(pencil: &Pencil) -> DMatrix<f64> {
     root
 }
 
-/// Turns columns in pairs until all are orthogonal; the squares of their sizes.
+/// Rotates pairs of columns until all are orthogonal. Returns the squares of their norms.
 pub(super) fn rotate(
     columns: &mut DMatrix<f64>,
     goes_on: &mut dyn FnMut() -> bool,
@@ -133,7 +134,7 @@ pub(super) fn rotate(
     let square = |column: &[f64]| column.iter().map(|entry| entry * entry).sum::<f64>();
     let mut sizes = Vec::new();
     for _ in 0..MOST_SWEEPS {
-        // Anew in each sweep: what rotations make of them drifts by rounding.
+        // Recomputed in each sweep, because updates accumulate rounding.
         sizes = columns.as_slice().chunks_exact(rows).map(square).collect();
         let mut is_turned = false;
         for first in 0..count {

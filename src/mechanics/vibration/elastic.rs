@@ -1,7 +1,7 @@
-//! The resistance of a configuration, taken apart: strains by movements, section forces by strains.
+//! Stiffness of a configuration in factored form: strains by movements, section forces by strains.
 //!
-//! Section forces `n = k s` are unknowns of their own beside the movements `x`: of a strain `s = B x` only what it lacks, `m = B x - n/k`, is
-//! ever multiplied by the stiffness `k` again. What balances is then rounded like section forces, not like stiffnesses.
+//! Section forces `n = k s` are unknowns in addition to the movements `x`. Of a strain `s = B x` only the mismatch `m = B x - n/k` is multiplied by
+//! the stiffness `k`. Residuals then have the rounding of section forces, not of stiffnesses.
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -9,16 +9,16 @@ use crate::beams::SpanStiffness;
 use crate::elementary::square;
 use crate::linalg::{STRIP_WIDTH, VectorStrip};
 
-/// A number for each of four vectors that are worked on side by side.
+/// One number for each of four vectors of a strip.
 pub(super) type FourVectors = [f64; STRIP_WIDTH];
 
-/// How all spans of a scene resist small movements: strains by movements, and their stiffnesses.
+/// Stiffness of all spans of a scene: strains by movements, and their stiffnesses.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Elastic {
     spans: Vec<StrainRows>,
-    /// The unknown of each component of each span; supported ones have the first number behind the unknowns.
+    /// Unknown of each component of each span; supported ones have the first number behind the unknowns.
     unknowns: Vec<u32>,
-    /// Of each span: strains, then pairs `p` and `q`.
+    /// Rows of each span: strains, then pairs `p` and `q`.
     rows: Vec<f64>,
     stiffness: Vec<f64>,
     doubts: Vec<f64>,
@@ -31,20 +31,20 @@ struct StrainRows {
     twists: usize,
 }
 
-/// Four shapes of movement with their section forces.
+/// Four mode shapes with their section forces.
 #[derive(Debug, Clone)]
 pub(super) struct Shapes {
     pub(super) movements: Vec<FourVectors>,
-    /// `n`, a row each.
+    /// Section forces `n`, a row each.
     forces: Vec<FourVectors>,
-    /// `m`
+    /// Mismatches `m`.
     missing: Vec<FourVectors>,
-    /// The force with which the scene resists each shape, `Bᵀ (n + k m) + K_g x` [force, force·length].
+    /// Internal forces of each shape, `Bᵀ (n + k m) + K_g x` [force, force·length].
     pub(super) resisting: Vec<FourVectors>,
 }
 
 impl Shapes {
-    /// Multiplies each of the four shapes by a number.
+    /// Scales each of the four shapes.
     pub(super) fn scale(&mut self, factors: &FourVectors) {
         let Self { movements, forces, missing, resisting } = self;
         for row in movements.iter_mut().chain(forces).chain(missing).chain(resisting) {
@@ -53,17 +53,17 @@ impl Shapes {
     }
 }
 
-/// The energies of four shapes, doubled.
+/// Twice the energies of four shapes.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Energies {
-    /// The doubled energy of each shape, `Σ n²/k + xᵀ K_g x`.
+    /// Twice the energy of each shape, `Σ n²/k + xᵀ K_g x`.
     pub(super) whole: FourVectors,
-    /// The doubled energy of the last correction of each shape.
+    /// Twice the energy of the last correction of each shape.
     pub(super) correction: FourVectors,
 }
 
 impl Elastic {
-    /// Adds the rows of a span; of the `size` unknowns of the scene, some may be the span's.
+    /// Adds the rows of a span, restricted to the `size` unknowns of the scene.
     pub(super) fn add(&mut self, size: usize, degrees: &[usize], span: &SpanStiffness) {
         let (strains, twists) = (span.stiffness.len(), span.doubts.len());
         self.spans.push(StrainRows { width: degrees.len(), strains, twists });
@@ -74,43 +74,43 @@ impl Elastic {
         self.doubts.extend(&span.doubts);
     }
 
-    /// The number of strains of all spans.
+    /// Number of strains of all spans.
     pub(super) fn strains(&self) -> usize {
         self.stiffness.len()
     }
 
-    /// The memory that so many strains take, with rows of `width` entries [bytes].
+    /// Memory of `strains` rows with `width` entries [bytes].
     pub(super) fn memory(strains: usize, width: usize) -> usize {
         strains * (width + 1) * size_of::<f64>()
     }
 
-    /// The room for four shapes with so many entries.
+    /// Work space for four shapes of a length.
     pub(super) fn room(&self, length: usize) -> Shapes {
         let rows = vec![[0.0; STRIP_WIDTH]; self.strains()];
         let vector = vec![[0.0; STRIP_WIDTH]; length];
         Shapes { forces: rows.clone(), missing: rows, resisting: vector.clone(), movements: vector }
     }
 
-    /// Makes shapes of four movements, with the section forces of their strains; gives their energies.
+    /// Initialises shapes from four movements with the section forces of their strains. Returns their energies.
     pub(super) fn begin(&self, movements: &VectorStrip, shapes: &mut Shapes) -> Energies {
-        // From nothing they are corrected by all that they are.
+        // Corrects zero shapes by the whole movements.
         shapes.movements.fill([0.0; STRIP_WIDTH]);
         shapes.forces.fill([0.0; STRIP_WIDTH]);
         shapes.missing.fill([0.0; STRIP_WIDTH]);
         self.correct(shapes, movements)
     }
 
-    /// Corrects four shapes, `x ← x + δ`, `n ← n + k (m + B δ)`; gives their energies.
+    /// Corrects four shapes, `x ← x + δ`, `n ← n + k (m + B δ)`. Returns their energies.
     pub(super) fn correct(&self, shapes: &mut Shapes, by: &VectorStrip) -> Energies {
         Arch::new().dispatch(ShapeCorrection { elastic: self, shapes, by })
     }
 
-    /// What rounding of movements may add to the doubled energy of each: `Σ k (ε Σ |B| |x|)²`, and of section forces in `xᵀ K_g x`.
+    /// Rounding error of twice the energy of each movement, `Σ k (ε Σ |B| |x|)²`, and of section forces in `xᵀ K_g x`.
     pub(super) fn rounding_of(&self, movements: &VectorStrip) -> FourVectors {
         Arch::new().dispatch(Rounding { elastic: self, movements })
     }
 
-    /// Gives each span its unknowns, its rows, and the places of its strains and pairs.
+    /// Passes each span with its unknowns, rows, and the places of its strains and pairs.
     #[inline(always)]
     fn each_span(&self, mut take: impl FnMut(ElasticSpan<'_>)) {
         let (mut unknown, mut entry, mut strain, mut twist) = (0, 0, 0, 0);
@@ -132,7 +132,7 @@ impl Elastic {
     }
 }
 
-/// What is known of a span.
+/// Data of a span.
 struct ElasticSpan<'a> {
     unknowns: &'a [u32],
     rows: &'a [f64],
@@ -142,7 +142,7 @@ struct ElasticSpan<'a> {
     twist: usize,
 }
 
-/// Most components of the control points of a span: those of degree 10.
+/// Largest number of components of a span, that of degree 10.
 const WIDEST: usize = 33;
 
 #[inline(always)]
@@ -191,7 +191,7 @@ impl WithSimd for ShapeCorrection<'_> {
         }
         shapes.resisting.fill([0.0; STRIP_WIDTH]);
         let mut energies = Energies::default();
-        // The widths of spans of degree 1 to 3 are known to the compiler.
+        // The widths of spans of degree 1 to 3 are compile-time constants.
         elastic.each_span(|span| match span.unknowns.len() {
             6 => correct_span::<6>(elastic, &span, shapes, by, &mut energies),
             9 => correct_span::<9>(elastic, &span, shapes, by, &mut energies),

@@ -1,7 +1,7 @@
-//! The lowest modes, by the block method of Lanczos with a shifted and inverted stiffness.
+//! Lowest modes by the shift-and-invert block Lanczos method.
 //!
-//! Ericsson & Ruhe, Math. Comp. 35 (1980) 1251–1268; R. G. Grimes, J. G. Lewis & H. D. Simon, SIAM J. Matrix Anal. Appl. 15 (1994) 228–272;
-//! K. Wu & H. D. Simon, SIAM J. Matrix Anal. Appl. 22 (2000) 602–616 (thick restarts). All vectors are kept orthogonal in the inertia.
+//! Ericsson & Ruhe, Math. Comp. 35 (1980) 1251–1268; R. G. Grimes, J. G. Lewis & H. D. Simon, SIAM J. Matrix Anal. Appl. 15 (1994) 228–272; K. Wu &
+//! H. D. Simon, SIAM J. Matrix Anal. Appl. 22 (2000) 602–616 (thick restarts). All vectors are orthogonalised with respect to the inertia.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
@@ -13,50 +13,49 @@ use crate::linalg::{
     STRIP_WIDTH, Square4, SymmetricFactors, combine, products, subtract_combination,
 };
 
-/// A pair has settled when applying the inverted stiffness gives it back but for this part; its value then for the square of that.
+/// Relative residual of the inverted stiffness at which a pair has converged; its value then has the square of that error.
 const SETTLED: f64 = 1e-8;
 
-/// A vector that loses so much by orthogonalisation is made of rounding.
+/// Reduction by orthogonalisation below which a vector consists of rounding.
 const LOST: f64 = 1e-11;
 
-/// One that loses so much is orthogonalised once more,
+/// Reduction below which a vector is orthogonalised a second time,
 const SHRUNK: f64 = 1e-4;
 
-/// and where that finds more than this trace of the basis, again.
+/// and remaining component in the basis above which it is orthogonalised again.
 const TRACE: f64 = 1e-8;
 
-/// Products of vectors that differ by less from those of orthonormal ones are as good as these.
+/// Tolerance of orthonormality.
 const ORTHONORMAL: f64 = 1e-14;
 
-/// Most restarts.
+/// Largest number of restarts.
 const MOST_RESTARTS: usize = 60;
 
-/// Pairs `(μ, φ)` of `M φ = μ (K + σ M) φ`, the largest `μ` first, `φᵀ M φ = 1`.
+/// Pairs `(μ, φ)` of `M φ = μ (K + σ M) φ` in decreasing order of `μ`, `φᵀ M φ = 1`.
 pub(super) struct Pairs {
     pub(super) values: Vec<f64>,
-    /// The vectors `φ` of the pairs, four in a strip.
+    /// Vectors `φ` of the pairs, four per strip.
     pub(super) strips: Vec<Vec<FourVectors>>,
 }
 
-/// A search by Lanczos's method that is under way.
+/// State of a Lanczos search.
 pub(super) struct Lanczos<'a> {
     pencil: &'a Pencil,
     factors: &'a SymmetricFactors,
     basis: Vec<Vec<FourVectors>>,
-    /// `Vᵀ M A⁻¹ M V`
+    /// Projection `Vᵀ M A⁻¹ M V`.
     projected: DMatrix<f64>,
-    /// The next block, what inertia makes of it, and how it is coupled to the one before.
+    /// Next block, its product with the inertia, and its coupling to the previous block.
     next: Vec<FourVectors>,
     next_momenta: Vec<FourVectors>,
     coupling: Square4,
-    /// Work space.
     momenta: Vec<FourVectors>,
-    /// Random numbers so far.
+    /// State of the random number generator.
     seed: u64,
 }
 
 impl<'a> Lanczos<'a> {
-    /// A search that begins with vectors without pattern, always the same.
+    /// Starts a search with reproducible random vectors.
     pub(super) fn new(pencil: &'a Pencil, factors: &'a SymmetricFactors) -> Self {
         let mut search = Self {
             pencil,
@@ -73,15 +72,15 @@ impl<'a> Lanczos<'a> {
         search
     }
 
-    /// The number of vectors that are kept while so many modes are looked for.
+    /// Number of stored vectors in a search for `count` modes.
     pub(super) fn width(count: usize) -> usize {
         (2 * count + 32).next_multiple_of(STRIP_WIDTH)
     }
 
-    /// Goes on with the search until so many pairs have settled: these, and more if they have.
+    /// Continues the search until `count` pairs have converged. Returns all converged pairs.
     ///
     /// # Errors
-    /// When they do not settle, or the search is stopped.
+    /// Fails if the pairs do not converge, or the search is stopped.
     pub(super) fn settle(
         &mut self,
         count: usize,
@@ -89,7 +88,7 @@ impl<'a> Lanczos<'a> {
     ) -> Result<Pairs, VibrationError> {
         let most = Self::width(count);
         for _ in 0..MOST_RESTARTS {
-            // Looking at the values costs the cube of their number.
+            // The cost of computing the values is cubic in their number.
             let mut look = count + 1;
             loop {
                 if !goes_on() {
@@ -114,7 +113,7 @@ impl<'a> Lanczos<'a> {
         Err(VibrationError::Unsettled { restarts: MOST_RESTARTS })
     }
 
-    /// Goes on with the pairs that were found and new vectors beside them: there may be more equal modes than vectors in a block.
+    /// Continues with the found pairs and new random vectors, because there may be more equal modes than vectors in a block.
     pub(super) fn look_beside(&mut self, found: Pairs) {
         self.projected = DMatrix::from_diagonal(&DVector::from_vec(found.values));
         self.basis = found.strips;
@@ -123,7 +122,7 @@ impl<'a> Lanczos<'a> {
         self.begin_anew();
     }
 
-    /// Applies the inverted stiffness to the next block, and takes what it is made of in the basis.
+    /// Applies the inverted stiffness to the next block, and projects the result onto the basis.
     fn step(&mut self) {
         let old = self.projected.nrows();
         self.basis.push(std::mem::take(&mut self.next));
@@ -136,7 +135,7 @@ impl<'a> Lanczos<'a> {
         self.coupling = orthonormalise(&mut image, &mut momenta);
         let left = (0..STRIP_WIDTH).map(|at| self.coupling[at][at]).fold(f64::INFINITY, f64::min);
         if left < SHRUNK * size {
-            // What is left is small beside what was taken out, and has a trace of it.
+            // The remainder is small relative to the removed part, and contaminated by it.
             let again = self.project(&mut image, None);
             self.pencil.inertia.times(&image, &mut momenta);
             let turn = orthonormalise(&mut image, &mut momenta);
@@ -156,7 +155,7 @@ impl<'a> Lanczos<'a> {
         (self.next, self.next_momenta) = (image, momenta);
     }
 
-    /// Takes out of a block what it has in common with the basis, and notes it in columns of the projection; the largest such part.
+    /// Removes the components in the basis from a block, and adds them to columns of the projection. Returns the largest component.
     fn project(&mut self, image: &mut [FourVectors], columns: Option<usize>) -> f64 {
         self.pencil.inertia.times(image, &mut self.momenta);
         let mut largest = 0.0_f64;
@@ -179,7 +178,7 @@ impl<'a> Lanczos<'a> {
         largest
     }
 
-    /// Puts vectors of no pattern where some have been lost.
+    /// Replaces lost vectors by random ones.
     fn replace(&mut self, block: &mut [FourVectors], lost: &[usize]) {
         let mut fresh = self.scattered();
         let keep_lost = |strip: &mut [FourVectors]| {
@@ -201,7 +200,7 @@ impl<'a> Lanczos<'a> {
         }
     }
 
-    /// Makes a block without pattern, orthogonal to the basis, the next.
+    /// Makes a random block, orthogonal to the basis, the next one.
     fn begin_anew(&mut self) {
         let mut block = self.pencil.zeros();
         self.replace(&mut block, &[0, 1, 2, 3]);
@@ -210,7 +209,7 @@ impl<'a> Lanczos<'a> {
         self.coupling = Square4::default();
     }
 
-    /// Vectors without pattern that inertia can move.
+    /// Random vectors in the range of the inertia.
     fn scattered(&mut self) -> Vec<FourVectors> {
         let size = self.pencil.size();
         let mut block = self.pencil.zeros();
@@ -227,7 +226,7 @@ impl<'a> Lanczos<'a> {
         block
     }
 
-    /// The values and vectors of the projection, the largest first.
+    /// Values and vectors of the projection in decreasing order.
     fn ritz(&self) -> (Vec<f64>, DMatrix<f64>) {
         let symmetric = (&self.projected + self.projected.transpose()) * 0.5;
         let SymmetricEigen { eigenvalues, eigenvectors } = symmetric.symmetric_eigen();
@@ -236,7 +235,7 @@ impl<'a> Lanczos<'a> {
         (order.iter().map(|at| eigenvalues[*at]).collect(), eigenvectors.select_columns(&order))
     }
 
-    /// How many have settled, from the first on.
+    /// Number of leading converged pairs.
     fn settled(&self, values: &[f64], vectors: &DMatrix<f64>) -> usize {
         let first = vectors.nrows() - STRIP_WIDTH;
         let rest = |column: usize| {
@@ -249,7 +248,7 @@ impl<'a> Lanczos<'a> {
         values.iter().enumerate().take_while(|pair| is_settled(*pair)).count()
     }
 
-    /// Combinations of the basis, some of them, zeros behind them.
+    /// Linear combinations of the basis, padded with zeros.
     fn combined(&self, vectors: &DMatrix<f64>, count: usize) -> Vec<Vec<FourVectors>> {
         let strip = |first: usize| {
             let mut strip = self.pencil.zeros();
@@ -271,7 +270,7 @@ impl<'a> Lanczos<'a> {
         Pairs { values: values[..count].to_vec(), strips: self.combined(vectors, count) }
     }
 
-    /// Keeps the best combinations of the basis alone.
+    /// Restarts with the best combinations of the basis.
     fn restart(&mut self, values: &[f64], vectors: &DMatrix<f64>, keep: usize) {
         let keep = keep.next_multiple_of(STRIP_WIDTH).min(values.len());
         self.basis = self.combined(vectors, keep);
@@ -279,13 +278,13 @@ impl<'a> Lanczos<'a> {
     }
 }
 
-/// Makes vectors with these momenta orthonormal in the inertia; the upper triangle that makes the old ones of the new. Vectors that are made of
-/// rounding become zero, and so does their entry on the diagonal.
+/// Orthonormalises vectors with respect to the inertia, given their momenta. Returns the upper triangle that expresses the old ones in the new.
+/// Vectors that consist of rounding become zero, with a zero diagonal entry.
 fn orthonormalise(block: &mut [FourVectors], momenta: &mut [FourVectors]) -> Square4 {
     let mut triangle = Square4::default();
     (0..STRIP_WIDTH).for_each(|at| triangle[at][at] = 1.0);
     let mut sizes = None;
-    // The second time takes away what the condition of the first has left; a third is for vectors that are all but parallel.
+    // The second pass removes the error due to the condition of the first; a third serves almost parallel vectors.
     for pass in 0..3 {
         let gram = products(block, momenta);
         let sizes = sizes.get_or_insert_with(|| std::array::from_fn(|at| gram[at][at]));
@@ -300,7 +299,7 @@ fn orthonormalise(block: &mut [FourVectors], momenta: &mut [FourVectors]) -> Squ
     triangle
 }
 
-/// Whether nothing is left to be made orthonormal, vectors of zeros set aside.
+/// Returns true if the vectors are orthonormal, apart from zero vectors.
 fn is_orthonormal(gram: &Square4) -> bool {
     let expected = |i: usize, j: usize| f64::from(u8::from(i == j && gram[i][i] > 0.0));
     (0..STRIP_WIDTH)
@@ -313,7 +312,7 @@ fn product(a: &Square4, b: &Square4) -> Square4 {
     })
 }
 
-/// `R` with `Rᵀ R = G`, and its inverse; rows and columns that are made of rounding, compared with the first sizes, are zero.
+/// Cholesky factor `R` with `Rᵀ R = G`, and its inverse. Rows and columns that consist of rounding, compared with the initial sizes, are zero.
 fn cholesky(gram: &Square4, sizes: &FourVectors) -> (Square4, Square4) {
     let (mut upper, mut inverse) = (Square4::default(), Square4::default());
     for j in 0..STRIP_WIDTH {

@@ -1,4 +1,4 @@
-//! Small vibration about a configuration: natural frequencies and their shapes.
+//! Small vibrations about a configuration: natural frequencies and mode shapes.
 
 mod damped;
 mod dense;

@@ -1,4 +1,4 @@
-//! Natural frequencies and shapes.
+//! Natural frequencies and mode shapes.
 
 use std::f64::consts::TAU;
 
@@ -10,58 +10,58 @@ use crate::geometry::Vec2;
 use crate::integrators::Mechanism;
 use crate::system::System;
 
-/// A movement whose square is below this part of that of the slowest bending meets no resistance.
+/// Square, relative to that of the slowest bending, below which a movement is unrestrained.
 const LOOSE: f64 = 1e-10;
 
-/// A natural mode of small vibration: frequency and shape.
+/// Natural mode of small vibration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mode {
-    /// The square `ω²` of the angular frequency: zero for a movement without resistance, and where rounding hides it; negative if the
-    /// configuration is unstable [1/time²].
+    /// Square `ω²` of the angular frequency: zero for an unrestrained movement, or if lost in rounding; negative if the configuration is unstable
+    /// [1/time²].
     pub square: f64,
-    /// How much of the square `ω²` rounding may hide [1/time²].
+    /// Rounding error of the square `ω²` [1/time²].
     pub rounding: f64,
-    /// How far the shape and its section forces are from balance, in the energy of `ω² + σ`, `σ` being about the square of the slowest
-    /// bending: the next correction would change so much. `ω² + σ` is not wrong by more than this part of itself, and by its square only,
-    /// over the relative distance of the next mode [-].
+    /// Relative residual of shape and section forces in the energy of `ω² + σ`, where `σ` is about the square of the slowest bending: the change by
+    /// the next correction. The relative error of `ω² + σ` is at most this residual, and at most its square over the relative distance of the next
+    /// mode [-].
     pub residual: f64,
-    /// The movements of the unknowns in the mode, with `φᵀ M φ = 1` [length, rad over the square root of a mass].
+    /// Movements of the unknowns, with `φᵀ M φ = 1` [length, rad over the square root of a mass].
     pub shape: Vec<f64>,
 }
 
 impl Mode {
-    /// The angular frequency `ω` of the mode; zero where nothing vibrates [rad/time].
+    /// Angular frequency `ω`; zero without vibration [rad/time].
     pub fn angular_frequency(&self) -> f64 {
         self.square.max(0.0).sqrt()
     }
 
-    /// The frequency `ω/2π` of the mode [1/time].
+    /// Frequency `ω/2π` [1/time].
     pub fn frequency(&self) -> f64 {
         self.angular_frequency() / TAU
     }
 
-    /// The period `2π/ω` of the mode, infinite where nothing vibrates [time].
+    /// Period `2π/ω`, infinite without vibration [time].
     pub fn period(&self) -> f64 {
         1.0 / self.frequency()
     }
 
-    /// Whether the movement of the mode meets no resistance that rounding would not hide.
+    /// Returns true for an unrestrained movement, within rounding.
     pub fn is_free(&self) -> bool {
         self.square == 0.0
     }
 
-    /// How fast the mode grows as a disturbance of an unstable configuration; zero if it is stable [1/time].
+    /// Growth rate of a disturbance of an unstable configuration; zero if stable [1/time].
     pub fn growth_rate(&self) -> f64 {
         (-self.square).max(0.0).sqrt()
     }
 }
 
-/// The lowest modes of a configuration.
+/// Lowest modes of a configuration.
 #[derive(Debug, Clone)]
 pub struct Modes {
     modes: Vec<Mode>,
     meshes: Vec<Mesh>,
-    /// The configuration: control points of all bodies, and shapes as displacements of these.
+    /// Control points of all bodies, and shapes as their displacements.
     points: Vec<Vec<Vec2>>,
     displacements: Vec<Vec<Vec<Vec2>>>,
     /// `½ φᵀ D φ` of each mode [1/time].
@@ -69,11 +69,10 @@ pub struct Modes {
 }
 
 impl Modes {
-    /// The modes of a model in its present configuration, taken as one at rest; `goes_on` is asked again and again where they are
-    /// looked for in a large scene.
+    /// Computes the modes of a model in its present configuration, treated as an equilibrium; `goes_on` is called repeatedly in large scenes.
     ///
     /// # Errors
-    /// When there are not so many, a load turns with the beam, or it is stopped.
+    /// Fails if there are too few modes, a load follows the beam, or the search is stopped.
     pub fn of(
         model: &System,
         count: usize,
@@ -102,27 +101,26 @@ impl Modes {
         })
     }
 
-    /// About the memory that looking for so many modes of a model takes at most [bytes].
+    /// Approximate peak memory of the search for `count` modes [bytes].
     pub fn memory(model: &System, count: usize) -> u64 {
         let unknowns = model.unknown_kinds().len();
-        // There are no more than that: a larger number is refused by the search.
+        // Larger numbers are rejected by the search.
         let numbers = numbers(unknowns, count.min(unknowns));
         (numbers * size_of::<f64>() + Pencil::memory(model)) as u64
     }
 
-    /// The modes, from the lowest on.
+    /// Modes in increasing order.
     pub fn all(&self) -> &[Mode] {
         &self.modes
     }
 
-    /// How fast each mode decays by damping, `½ φᵀ D φ`: exact where damping does not couple modes, as that of a material with one relaxation time for all
-    /// strains,
-    /// else to first order in the damping [1/time].
+    /// Decay rates `½ φᵀ D φ`: exact if damping does not couple modes, as for a material with one relaxation time for all strains, otherwise to first
+    /// order in the damping [1/time].
     pub fn decay_rates(&self) -> &[f64] {
         &self.decay_rates
     }
 
-    /// The damping ratio of each mode, its decay rate over its angular frequency; zero where nothing vibrates [-].
+    /// Damping ratio of each mode: decay rate over angular frequency; zero without vibration [-].
     pub fn damping_ratios(&self) -> impl Iterator<Item = f64> {
         self.modes.iter().zip(&self.decay_rates).map(|(mode, decay)| match mode.square > 0.0 {
             true => decay / mode.angular_frequency(),
@@ -130,22 +128,22 @@ impl Modes {
         })
     }
 
-    /// Whether every small disturbance stays small, or at least grows by its start velocity only.
+    /// Returns true if no small disturbance grows exponentially.
     pub fn is_stable(&self) -> bool {
         self.modes.iter().all(|mode| mode.square >= 0.0)
     }
 
-    /// The meshes of the beams whose modes these are.
+    /// Meshes of the beams.
     pub fn meshes(&self) -> &[Mesh] {
         &self.meshes
     }
 
-    /// The configuration that the modes are about: control points of all bodies [length].
+    /// Control points of all bodies in the configuration [length].
     pub fn points(&self) -> &[Vec<Vec2>] {
         &self.points
     }
 
-    /// The larger side of the box around the configuration [length].
+    /// Larger side of the bounding box of the configuration [length].
     pub fn size(&self) -> f64 {
         let points = || self.points.iter().flatten();
         let side = |along: fn(&Vec2) -> f64| {
@@ -155,7 +153,7 @@ impl Modes {
         side(|at| at.x).max(side(|at| at.y))
     }
 
-    /// The configuration displaced by a mode, the largest displacement of a control point being `amplitude` [length].
+    /// Configuration displaced by a mode, with `amplitude` as the largest displacement of a control point [length].
     pub fn displaced(&self, mode: usize, amplitude: f64) -> Vec<Vec<Vec2>> {
         let largest = self.largest(mode);
         if largest == 0.0 {
@@ -168,7 +166,7 @@ impl Modes {
         self.points.iter().zip(&self.displacements[mode]).map(moved).collect()
     }
 
-    /// The displacement of a place in a mode, relative to the largest of a control point [-].
+    /// Displacement of a place in a mode, relative to the largest of a control point [-].
     pub fn displacement(&self, mode: usize, place: &BodyPoint) -> Vec2 {
         match self.largest(mode) {
             0.0 => Vec2::zeros(),
@@ -182,8 +180,7 @@ impl Modes {
     }
 }
 
-/// The number of movements that meet no resistance in the present configuration without loads; 0 where a scene in which nothing slides
-/// is too large to find that out at once.
+/// Number of unrestrained movements of the present configuration without loads; 0 for scenes without sliders that are too large for this computation.
 pub fn loose_movements(model: &System) -> usize {
     if !is_small(model.unknowns()) && model.slider_names().next().is_none() {
         return 0;

@@ -5,24 +5,24 @@ use super::elastic::{Elastic, FourVectors};
 use crate::linalg::{LinearError, PreciseBand, STRIP_WIDTH, SymmetricFactors, SymmetricSparse};
 use crate::system::{OrderAtRest, System, add_resistance};
 
-/// An elimination whose numbers grew by more is not believed: of its 32 digits half are left.
+/// Growth above which an elimination is rejected, because half of its 32 digits are lost.
 const MOST_GROWTH: f64 = 1e12;
 
-/// The eigenvalue problem `K φ = ω² M φ` of small vibration, with the stiffness and the inertia of a model.
+/// Eigenvalue problem `K φ = ω² M φ` with the stiffness and the inertia of a model.
 pub(super) struct Pencil {
     stiffness: PreciseBand,
     pub(super) inertia: SymmetricSparse,
     pub(super) elastic: Elastic,
-    /// Where unknowns stand in stiffness and inertia.
+    /// Numbering of unknowns in stiffness and inertia.
     pub(super) order: OrderAtRest,
-    /// About the square of the slowest bending of the model [1/time²].
+    /// Approximate square of the slowest bending frequency [1/time²].
     pub(super) scale: f64,
-    /// The number of movements with inertia: so many modes have a finite frequency.
+    /// Number of movements with inertia, and thus of modes with a finite frequency.
     pub(super) finite: usize,
 }
 
 impl Pencil {
-    /// The eigenvalue problem of the present configuration of a model.
+    /// Creates the eigenvalue problem of the present configuration.
     pub(super) fn of(model: &System) -> Result<Self, VibrationError> {
         let order = model.order_at_rest();
         let size = order.count();
@@ -51,37 +51,36 @@ impl Pencil {
         Ok(Self { stiffness, inertia, elastic, order, scale, finite })
     }
 
-    /// About the memory that the eigenvalue problem of a model takes [bytes].
+    /// Approximate memory of the eigenvalue problem of a model [bytes].
     pub(super) fn memory(model: &System) -> usize {
         let order = model.order_at_rest();
         let (size, reach) = (order.count(), order.half_bandwidth() + 1);
-        // The stiffness in two parts, its factors, inertia while it is sorted, and about two strains for each movement.
+        // High and low parts of the stiffness, its factors, the inertia during sorting, and about two strains per movement.
         size * reach * 8 * size_of::<f64>() + Elastic::memory(2 * size, reach)
     }
 
-    /// The number of unknowns of the eigenvalue problem.
+    /// Number of unknowns.
     pub(super) fn size(&self) -> usize {
         self.stiffness.size()
     }
 
-    /// The length of vectors of the eigenvalue problem: unknowns, and the margin that solving needs.
+    /// Length of vectors: unknowns, and the padding for substitution.
     pub(super) fn length(&self) -> usize {
         self.size() + self.stiffness.half_bandwidth().max(1)
     }
 
-    /// A strip of zeros, as long as vectors of the eigenvalue problem.
     pub(super) fn zeros(&self) -> Vec<FourVectors> {
         vec![[0.0; STRIP_WIDTH]; self.length()]
     }
 
-    /// The factors of `K + σ M`; none if it is not positive definite.
+    /// Factors of `K + σ M`; `None` if it is not positive definite.
     pub(super) fn factors(&self, shift: f64) -> Option<SymmetricFactors> {
         let factors = self.stiffness.factorise(shift, &self.inertia).ok()?;
         (factors.pivots().negative == 0).then_some(factors)
     }
 
-    /// The number of modes whose `ω²` is below `σ`: the negative eigenvalues of `K - σ M` (Sylvester's law of inertia). None where the
-    /// elimination is not to be believed.
+    /// Number of modes with `ω²` below `σ`: the negative eigenvalues of `K - σ M` (Sylvester's law of inertia). `None` if the elimination is
+    /// unreliable.
     pub(super) fn modes_below(&self, square: f64) -> Option<usize> {
         match self.stiffness.pivots(-square, &self.inertia) {
             Ok(pivots) if pivots.growth <= MOST_GROWTH => Some(pivots.negative),
@@ -89,7 +88,7 @@ impl Pencil {
         }
     }
 
-    /// The product `M x` of the inertia with four vectors.
+    /// Product `M x` of the inertia with four vectors.
     pub(super) fn inertia_times(&self, x: &[FourVectors]) -> Vec<FourVectors> {
         let mut product = self.zeros();
         self.inertia.times(x, &mut product);

@@ -1,9 +1,9 @@
-//! `λ² + λ B Bᵀ + Ω² = 0`: the numbers of damped vibration, the slowest first, however far apart they are.
+//! Quadratic eigenvalue problem `λ² + λ B Bᵀ + Ω² = 0` of damped vibration, slowest eigenvalues first, over a large range of magnitudes.
 //!
-//! What damps may be of any strength: a dashpot that is as good as a support creeps back 10¹² times as slowly as the beam vibrates, and a damped
-//! material lets the fastest vibrations of a fine mesh decay 10¹⁴ times as fast as the slowest. All numbers are those of one matrix, of which only the
-//! largest are exact; so they are looked for from shifts on the positive real axis, from the slowest on ([`Resolvent`]), each of which tells those
-//! within a factor of about 10⁶.
+//! Damping may be of any strength. A dashpot that is practically a support relaxes 10¹² times as slowly as the beam vibrates, and with material
+//! damping the fastest vibrations of a fine mesh decay 10¹⁴ times as fast as the slowest. A single matrix has all eigenvalues, but only the largest
+//! ones are accurate. They are therefore computed from shifts on the positive real axis, starting with the slowest ([`Resolvent`]), each of which
+//! gives those within a factor of about 10⁶.
 
 use nalgebra::{Complex, DMatrix};
 
@@ -12,27 +12,27 @@ use super::resolvent::Resolvent;
 use crate::elementary::hypot;
 use crate::geometry::larger;
 
-/// Numbers `λ` are as exact as they should be up to so many times the shift they are seen from.
+/// Largest `|λ|` relative to the shift that is accurate.
 const REACH: f64 = 1e6;
 
-/// The next number beyond those may be known so badly that it is only believed up to so many times the shift.
+/// Largest `|λ|` relative to the shift that is accepted for the next eigenvalue beyond.
 const FARTHEST: f64 = 1e12;
 
-/// What a free movement moves at a damper is rounding below this part of what any mode moves there.
+/// Movement of an unrestrained mode at a damper, relative to the largest of any mode there, below which it is rounding.
 const ROUNDING: f64 = 1e-13;
 
 pub(super) type ComplexNumber = Complex<f64>;
 
-/// The size of a complex number.
+/// Absolute value of a complex number.
 pub(super) fn size(at: ComplexNumber) -> f64 {
     hypot(at.re, at.im)
 }
 
 /// Damped vibration in the modes of the undamped model.
 pub(super) struct Quadratic {
-    /// The squares of the frequencies of the undamped modes, the diagonal `Ω²` [1/time²].
+    /// Squared frequencies of the undamped modes, the diagonal of `Ω²` [1/time²].
     pub(super) squares: Vec<f64>,
-    /// `B`: a row for each mode, a column for each rate that is damped, or as few columns with the same `B Bᵀ` [1/time^½].
+    /// Matrix `B`: a row for each mode, a column for each damped rate, or fewer columns with the same `B Bᵀ` [1/time^½].
     pub(super) dampers: DMatrix<f64>,
 }
 
@@ -44,26 +44,26 @@ impl Quadratic {
             free.filter(|(rate, _)| rate.abs() <= least).for_each(|(rate, _)| *rate = 0.0);
         }
         if dampers.ncols() > dampers.nrows() {
-            // `Bᵀ = Q R`: rows keep their own rounding, which is squared in what damps nothing.
+            // `Bᵀ = Q R` preserves the relative rounding of rows, which is squared in undamped modes.
             dampers = dampers.transpose().qr().r().transpose();
         }
         Self { squares, dampers }
     }
 
-    /// How much of the square of a mode is damped, `(B Bᵀ)_ii` [1/time].
+    /// Modal damping `(B Bᵀ)_ii` [1/time].
     fn damping(&self, mode: usize) -> f64 {
         self.dampers.row(mode).norm_squared()
     }
 
-    /// Whether a mode is neither held nor damped: both of its numbers are zero.
+    /// Returns true for a mode that is neither restrained nor damped: both eigenvalues are zero.
     pub(super) fn is_loose(&self, mode: usize) -> bool {
         self.squares[mode] == 0.0 && self.damping(mode) == 0.0
     }
 
-    /// So many numbers of the slowest, of each pair the one above the real axis [1/time].
+    /// The `count` slowest eigenvalues, one of each conjugate pair, with positive imaginary part [1/time].
     ///
     /// # Errors
-    /// When there are not so many, or the search does not end.
+    /// Fails if there are too few, or the search does not end.
     pub(super) fn slowest(
         &self,
         count: usize,
@@ -104,7 +104,8 @@ impl Quadratic {
             .collect())
     }
 
-    /// A shift that no number is much below: with `x` scaled by `Ω`, what is held obeys `ẏ = A y` with `|A⁻¹| ≤ |Ω⁻¹ B|² + |Ω⁻¹|` [1/time].
+    /// Shift that no eigenvalue is far below: with `x` scaled by `Ω`, restrained movements satisfy `ẏ = A y` with `|A⁻¹| ≤ |Ω⁻¹ B|² + |Ω⁻¹|`
+    /// [1/time].
     fn slowest_shift(&self) -> f64 {
         let modes = || self.squares.iter().enumerate();
         let held = modes().filter(|(_, square)| **square != 0.0);
@@ -114,19 +115,19 @@ impl Quadratic {
         let free =
             modes().filter(|(_, square)| **square == 0.0).map(|(mode, _)| self.damping(mode));
         let free = free.filter(|damping| *damping > 0.0).fold(f64::INFINITY, f64::min);
-        // What is unstable has to be positive definite with the square of the shift.
+        // The square of the shift must make unstable modes positive definite.
         let unstable = self.squares.iter().fold(0.0, |most, square| larger(most, -square));
         larger((1.0 / (compliance + 1.0 / slowest)).min(free), 2.0 * unstable.sqrt())
     }
 
-    /// No number is faster [1/time].
+    /// Upper bound of the eigenvalues [1/time].
     fn fastest(&self) -> f64 {
         let vibration = self.squares.iter().fold(0.0, |most, square| larger(most, square.abs()));
         2.0 * vibration.sqrt() + self.dampers.norm_squared()
     }
 }
 
-/// So many of the first numbers, or one less where a pair would be torn apart.
+/// Number of leading eigenvalues, reduced by one if it would split a pair.
 fn whole_pairs(numbers: &[ComplexNumber], first: usize) -> usize {
     let numbers = numbers[..first].iter();
     let above = numbers.clone().filter(|at| at.im > 0.0).count();

@@ -1,4 +1,4 @@
-//! Pairs made sure: each is corrected with its section forces as unknowns, and what the last correction changes is its residual.
+//! Verification of pairs: each is corrected with its section forces as unknowns, and the last correction is its residual.
 
 use super::VibrationError;
 use super::elastic::{FourVectors, Shapes};
@@ -6,36 +6,36 @@ use super::lanczos::Pairs;
 use super::pencil::Pencil;
 use crate::linalg::{STRIP_WIDTH, SymmetricFactors, products, subtract_combination};
 
-/// A residual that is small enough: the square is then known to all digits.
+/// Residual at which the square is accurate to all digits.
 const SMALL: f64 = 1e-8;
 
-/// Most corrections.
+/// Largest number of corrections.
 const MOST_CORRECTIONS: usize = 8;
 
-/// A residual that falls by less does not fall any more.
+/// Reduction factor above which a residual counts as stagnating.
 const FALLING: f64 = 0.3;
 
-/// Pairs whose `μ` differ by more are far apart.
+/// Ratio of `μ` above which pairs are far apart.
 const WIDE: f64 = 1e7;
 
-/// A pair of frequency and shape that was made sure.
+/// Verified pair of frequency and shape.
 pub(super) struct RefinedPair {
     pub(super) square: f64,
-    /// The part of `ω² + σ` by which it may be wrong at most, rounding of the pair itself set aside [-].
+    /// Bound of the relative error of `ω² + σ`, apart from the rounding of the pair itself [-].
     pub(super) residual: f64,
-    /// What rounding of the movements may add to the square `ω²` of the pair [1/time²].
+    /// Rounding error of the square `ω²` due to the movements [1/time²].
     pub(super) rounding: f64,
     pub(super) shape: Vec<f64>,
 }
 
-/// Corrects the first `count` pairs of a search for modes.
+/// Corrects the first `count` pairs of a search.
 ///
-/// With the pair `(x, n)` of movements and section forces, `ω²` of its energies and `r = ω² M x - Bᵀ (n + k m) - K_g x`, the correction is `δ = A⁻¹ r`,
-/// which takes `x` to `(ω² + σ) A⁻¹ M x`. What other pairs have in it is left out of `δ` and counted in the residual: inverted
-/// stiffness would let a trace of a low one outgrow a high one.
+/// With the pair `(x, n)` of movements and section forces, `ω²` from its energies and `r = ω² M x - Bᵀ (n + k m) - K_g x`, the correction is
+/// `δ = A⁻¹ r`, which maps `x` to `(ω² + σ) A⁻¹ M x`. Components of other pairs are removed from `δ` and counted in the residual, because the
+/// inverted stiffness would amplify traces of low pairs above high ones.
 ///
 /// # Errors
-/// When the refinement is stopped.
+/// Fails if the refinement is stopped.
 pub(super) fn refine(
     pencil: &Pencil,
     factors: &SymmetricFactors,
@@ -50,10 +50,10 @@ pub(super) fn refine(
     })
 }
 
-/// The residuals of the first `count` of all pairs that there are. Nothing is outside of all, and so nothing is left to be corrected.
+/// Residuals of the first `count` pairs of a complete set, which needs no correction.
 ///
 /// # Errors
-/// When the assessment is stopped.
+/// Fails if the assessment is stopped.
 pub(super) fn assess(
     pencil: &Pencil,
     shift: f64,
@@ -95,12 +95,12 @@ struct OtherPairs<'a> {
     shift: f64,
     strips: &'a [Vec<FourVectors>],
     momenta: &'a [Vec<FourVectors>],
-    /// `μ`
+    /// Values `μ`.
     values: &'a [f64],
 }
 
 impl OtherPairs<'_> {
-    /// The squares of a strip as the values have them; zero where there is none.
+    /// Squares of a strip according to the values; zero for empty lanes.
     fn squares(&self, at: usize) -> FourVectors {
         std::array::from_fn(|lane| {
             let value = self.values.get(STRIP_WIDTH * at + lane).copied();
@@ -188,7 +188,7 @@ impl OtherPairs<'_> {
             for row in &mut momenta {
                 row.iter_mut().zip(&scale).for_each(|(entry, factor)| *entry *= factor);
             }
-            // The first correction takes away what the movements were rounded by, and says nothing on the pair.
+            // The first correction removes the rounding of the movements and does not assess the pair.
             let is_done = (0..STRIP_WIDTH).all(|lane| {
                 residuals[lane].is_nan()
                     || residuals[lane] <= SMALL
@@ -201,9 +201,9 @@ impl OtherPairs<'_> {
         self.sure(shapes, &squares, &residuals)
     }
 
-    /// Takes what all pairs have in imbalances out of them; what that leaves of the residuals, to be compared with `ω² + σ`.
+    /// Removes the components of all pairs from residual forces. Returns their contribution to the residuals, relative to `ω² + σ`.
     ///
-    /// In a pair that is below, an imbalance counts by its size alone: inverted stiffness would make much of what does no harm.
+    /// Components in lower pairs count by magnitude only, because the inverted stiffness would overestimate them.
     fn without_others(&self, imbalance: &mut [FourVectors], squares: &FourVectors) -> FourVectors {
         let mut left = [0.0; STRIP_WIDTH];
         for (at, (strip, momenta)) in self.strips.iter().zip(self.momenta).enumerate() {
@@ -218,13 +218,13 @@ impl OtherPairs<'_> {
         left
     }
 
-    /// Whether the highest pair is so far above the lowest that solving blurs the one by the rounding of the other.
+    /// Returns true if the highest pair is so far above the lowest that a solution for one contains the rounding of the other.
     fn is_wide(&self) -> bool {
         let count = self.values.len().min(STRIP_WIDTH * self.strips.len());
         self.values[0] > WIDE * self.values[count - 1]
     }
 
-    /// Takes all pairs out of movements.
+    /// Removes the components of all pairs from movements.
     fn clean(&self, movements: &mut [FourVectors]) {
         for (strip, momenta) in self.strips.iter().zip(self.momenta) {
             let parts = products(momenta, movements);
@@ -242,14 +242,14 @@ fn subtract_resisting(r: &mut [FourVectors], squares: &FourVectors, shapes: &Sha
     }
 }
 
-/// A lane of zeros stands for no pair.
+/// Zero lanes contain no pair.
 fn squares_of(energies: &FourVectors, kinetic: &FourVectors) -> FourVectors {
     std::array::from_fn(
         |lane| if kinetic[lane] > 0.0 { energies[lane] / kinetic[lane] } else { 0.0 },
     )
 }
 
-/// What makes `xᵀ M x = 1`.
+/// Factors that normalise `xᵀ M x` to 1.
 fn scale_of(kinetic: &FourVectors) -> FourVectors {
     kinetic.map(|kinetic| if kinetic > 0.0 { 1.0 / kinetic.sqrt() } else { 0.0 })
 }

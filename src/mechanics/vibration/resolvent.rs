@@ -1,18 +1,18 @@
-//! Damped vibration about a shift: the numbers of `λ² + λ B Bᵀ + Ω²` near it.
+//! Damped vibration about a shift: eigenvalues of `λ² + λ B Bᵀ + Ω²` near it.
 //!
-//! With `y = (Ω x, ẋ)` the vibration is `ẏ = A y`, `A = [0 Ω; -Ω -B Bᵀ]`, which takes energy and never gives any: for `σ > 0` no vector is longer than
-//! `1/σ` times itself after `(A - σ)⁻¹`, however strong the damping is (Lumer & Phillips, Pacific J. Math. 11 (1961) 679–698). With the diagonals `e =
-//! (σ² + Ω²)^-½`, `w = Ω e` and `t = σ e`, `w² + t² = 1`,
+//! With `y = (Ω x, ẋ)` the vibration is `ẏ = A y`, `A = [0 Ω; -Ω -B Bᵀ]`, which is dissipative. For `σ > 0` therefore `|(A - σ)⁻¹| ≤ 1/σ` for damping
+//! of any strength (Lumer & Phillips, Pacific J. Math. 11 (1961) 679–698). With the diagonals `e = (σ² + Ω²)^-½`, `w = Ω e` and `t = σ e`,
+//! `w² + t² = 1`,
 //!
 //! ```text
 //! σ (A - σ)⁻¹ = [ -(t² + w P w)   -w (1 - P) t ]        P = G (1 + Gᵀ G)⁻¹ Gᵀ,   G = √σ e B
 //!               [  t (1 - P) w    -t (1 - P) t ]
 //! ```
 //!
-//! has no large entry: a dashpot of any strength is a projection `P`. With the singular vectors `U` and values `s` of `G`, of which one-sided
-//! rotations find small ones beside large ones, it is `U s²/(1 + s²) Uᵀ`. The eigenvalues `θ` of the matrix give `λ = σ (1 + 1/θ)`; each that is told
-//! is corrected by inverse iteration with the Rayleigh quotient of the quadratic problem, in which the forces of strong dashpots are unknowns, divided
-//! by what damps (F. Tisseur & K. Meerbergen, SIAM Review 43 (2001) 235–286, sections 2 and 3.4).
+//! has no large entry: a dashpot of any strength is a projection `P`. With the singular vectors `U` and values `s` of `G`, which one-sided rotations
+//! compute accurately over all magnitudes, it is `U s²/(1 + s²) Uᵀ`. The eigenvalues `θ` of the matrix give `λ = σ (1 + 1/θ)`. Each reported one is
+//! corrected by inverse iteration with the Rayleigh quotient of the quadratic problem, with the forces of strong dashpots, divided by the damping, as
+//! unknowns (F. Tisseur & K. Meerbergen, SIAM Review 43 (2001) 235–286, sections 2 and 3.4).
 
 use nalgebra::{DMatrix, DVector, Schur};
 
@@ -21,36 +21,35 @@ use super::dense::rotate;
 use super::quadratic::{ComplexNumber, Quadratic, size};
 use crate::elementary::square;
 
-/// Most sweeps of the search for all `θ`, for each of them; it takes a few.
+/// Largest number of sweeps per `θ`; a few are usual.
 const MOST_SWEEPS: usize = 40;
 
-/// What couples `θ` is none below these parts of what is beside it: the next one is taken where the search does not end.
+/// Relative couplings of `θ` that count as zero. The next one is used if the search does not end.
 const DECOUPLED: [f64; 3] = [f64::EPSILON, 1e-14, 1e-12];
 
-/// Corrections of each `λ` that is told.
+/// Number of corrections of each reported `λ`.
 const CORRECTIONS: usize = 4;
 
-/// A correction that moves `λ` by a larger part of it has gone to another one, and is not taken,
+/// Relative change of `λ` above which a correction has moved to another eigenvalue and is rejected,
 const FAR: f64 = 1e-4;
 
-/// nor one that moves it by more than this part, where it is next to the shift, and so many times as much as rounding may: those crowd whose shapes it
-/// mixes.
+/// as are changes above this value next to the shift if they exceed a multiple of rounding, which indicates a cluster with mixed shapes.
 const NEAR: f64 = 1e-10;
 const SPARE: f64 = 1e-12;
 
-/// So far beside `λ`, as a part of it, inverse iteration stands, where nothing is singular.
+/// Relative offset of inverse iteration from `λ`, where the matrix is not singular.
 const BESIDE: f64 = 1e-8;
 
-/// Damping `s²` above which a force is an unknown of its own: as a part of a matrix it would take so many digits of what it damps little.
+/// Damping `s²` above which the force is an unknown of its own. As a matrix entry it would reduce the accuracy of weakly damped modes.
 const STRONG: f64 = 1e4;
 
 /// Damped vibration about a shift.
 pub(super) struct Resolvent {
-    /// The shift `σ` [1/time].
+    /// Shift `σ` [1/time].
     pub(super) shift: f64,
     /// `w` and `t` of each mode, and the sign of its square.
     scales: Vec<(f64, f64, f64)>,
-    /// The modes whose places count, those that are held, and whose velocities do, those that are not loose.
+    /// Modes whose positions are variables (restrained ones), and modes whose velocities are (those not loose).
     places: Vec<usize>,
     velocities: Vec<usize>,
     /// `U`, a column for each `s²`.
@@ -59,10 +58,10 @@ pub(super) struct Resolvent {
 }
 
 impl Resolvent {
-    /// A problem about a shift whose square makes what is unstable positive.
+    /// Creates the problem about a shift whose square makes unstable modes positive.
     ///
     /// # Errors
-    /// When the search is stopped.
+    /// Fails if the search is stopped.
     pub(super) fn of(
         problem: &Quadratic,
         shift: f64,
@@ -90,18 +89,18 @@ impl Resolvent {
         Ok(Self { shift, scales, places, velocities, directions, damping })
     }
 
-    /// All numbers `λ/σ`, the smallest first; those next to it are exact.
+    /// All eigenvalues `λ/σ` in increasing order of magnitude. Those next to the shift are accurate.
     ///
     /// # Errors
-    /// When the search does not end.
+    /// Fails if the search does not end.
     pub(super) fn numbers(&self) -> Result<Vec<ComplexNumber>, VibrationError> {
         let matrix = self.matrix();
         let count = matrix.nrows();
         if count == 0 {
             return Ok(Vec::new());
         }
-        // A matrix is found to be decoupled where what couples is small beside its diagonal: beside numbers of no interest, which are next to nothing,
-        // it may never be. Then all are moved away from zero, by as much as the largest.
+        // Deflation tests couplings relative to the diagonal, which may never succeed beside almost zero eigenvalues of no interest. Then all
+        // eigenvalues are shifted away from zero by the largest magnitude.
         let search = |part: f64, moved: f64| {
             let mut matrix = matrix.clone();
             (0..count).for_each(|at| matrix[(at, at)] -= moved);
@@ -153,7 +152,7 @@ impl Resolvent {
         weighted * self.directions.transpose()
     }
 
-    /// A number `λ/σ`, corrected.
+    /// Corrected eigenvalue `λ/σ`.
     pub(super) fn corrected(&self, start: ComplexNumber) -> ComplexNumber {
         let complex = |value: f64| ComplexNumber::new(value, 0.0);
         let modes = self.scales.len();
@@ -161,7 +160,7 @@ impl Resolvent {
         let strong: Vec<usize> =
             (0..self.damping.len()).filter(|at| self.damping[*at] > STRONG).collect();
         let mut at = start;
-        // `λ - σ` is one over what was found.
+        // `λ - σ` is the inverse of the computed value.
         let rounding = SPARE * square(size(start - complex(1.0))) / size(start);
         let trusted = (NEAR + rounding).min(FAR) * size(start);
         let unknowns = modes + strong.len();
@@ -199,12 +198,12 @@ impl Resolvent {
             let mut damped =
                 moving.iter().zip(resisted.iter()).map(|(a, b)| a * b).sum::<ComplexNumber>();
             for (force, damper) in (modes..).zip(&strong) {
-                // The rate follows from the force, without a difference.
+                // The rate follows from the force without cancellation.
                 let rate = next[force] / (beside * self.damping[*damper]);
                 damped += rate * rate * self.damping[*damper];
             }
             let root = root(damped * damped - inertia * stiffness * 4.0);
-            // The sum that is no difference gives both.
+            // The sum without cancellation gives both.
             let [sum, difference] = [damped + root, damped - root];
             let sum = if size(sum) > size(difference) { sum } else { difference };
             let nearest = [-sum / (inertia * 2.0), -stiffness * 2.0 / sum];
@@ -212,7 +211,7 @@ impl Resolvent {
                 true => nearest[0],
                 false => nearest[1],
             };
-            // Where two meet, the quotient of their shape has no value.
+            // At a double eigenvalue the Rayleigh quotient is undefined.
             let moved = size(nearest - start);
             if moved.is_nan() || moved > trusted {
                 return start;
@@ -225,7 +224,6 @@ impl Resolvent {
     }
 }
 
-/// A square root.
 fn root(of: ComplexNumber) -> ComplexNumber {
     let size = size(of);
     if size == 0.0 {

@@ -1,4 +1,4 @@
-//! The search for the lowest modes: a shift, pairs, and a count that shows that none is missing.
+//! Search for the lowest modes: a shift, converged pairs, and a count that verifies completeness.
 
 use super::VibrationError;
 use super::dense::all_pairs;
@@ -8,43 +8,42 @@ use super::pencil::Pencil;
 use super::refinement::{RefinedPair, assess, refine};
 use crate::linalg::{STRIP_WIDTH, SymmetricFactors};
 
-/// Up to so many unknowns all modes are found at once,
+/// Number of unknowns up to which all modes are computed at once,
 const SMALL: usize = 240;
 
-/// and up to so many where more than a quarter of them is asked for.
+/// and the same if more than a quarter of the modes is requested.
 const MEDIUM: usize = 2000;
 
-/// Matrices of the size of the stiffness that are there at a time where all modes are found.
+/// Number of simultaneous matrices of the size of the stiffness if all modes are computed.
 const DENSE_COPIES: usize = 5;
 
-/// An unstable configuration needs a larger shift; after so many tries by a hundred there is none.
+/// Largest number of increases of the shift by a factor of a hundred, for unstable configurations.
 const MOST_SHIFTS: usize = 14;
 
-/// A pair whose residual is larger is refused.
+/// Residual above which a pair is rejected.
 const LARGEST_RESIDUAL: f64 = 1e-6;
 
-/// Modes that differ by less than this part of `ω² + σ` are equal where modes are counted.
+/// Relative difference in `ω² + σ` below which modes are equal in counts.
 const EQUAL: f64 = 1e-6;
 
-/// A square below so many times its rounding is zero.
+/// Multiple of its rounding below which a square is zero.
 const ROUNDING: f64 = 64.0;
 
-/// A square below this part of the shift is zero: shapes are orthogonal but for their rounding, and that of a rigid motion has so much of
-/// the others.
+/// Square, relative to the shift, below which it is zero, because shapes of rigid motions contain components of others by rounding.
 const HIDDEN: f64 = 1e-14;
 
-/// A shift is well chosen when the lowest square that is not zero is not smaller than it by more,
+/// Largest ratio of the shift to the lowest nonzero square,
 const LARGEST_SHIFT: f64 = 1e4;
 
-/// and, where there are zeros, not larger by more.
+/// and smallest ratio if there are zero squares.
 const SMALLEST_SHIFT: f64 = 1e-6;
 
-/// How modes are looked for.
+/// Search strategy.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum ModeSearch {
-    /// All at once, and the lowest are taken.
+    /// All modes at once.
     All,
-    /// The lowest alone.
+    /// Lowest modes only.
     Lowest,
 }
 
@@ -55,21 +54,21 @@ impl ModeSearch {
     }
 }
 
-/// Whether a scene is small enough for all its modes to be found at once.
+/// Returns true if a scene is small enough to compute all modes at once.
 pub(super) fn is_small(unknowns: usize) -> bool {
     unknowns <= SMALL
 }
 
-/// About how many numbers the search for so many modes keeps at a time.
+/// Approximate number of values stored by a search.
 pub(super) fn numbers(unknowns: usize, count: usize) -> usize {
     match ModeSearch::of(unknowns, count) {
         ModeSearch::All => DENSE_COPIES * unknowns * unknowns,
-        // The basis, what becomes of it in a restart, and pairs with their momenta, shapes and section forces.
+        // Basis and its copy in a restart, and pairs with their momenta, shapes and section forces.
         ModeSearch::Lowest => unknowns * (2 * Lanczos::width(count) + 3 * count + 16 * STRIP_WIDTH),
     }
 }
 
-/// The lowest modes of an eigenvalue problem.
+/// Lowest modes of an eigenvalue problem.
 pub(super) fn lowest(
     pencil: &Pencil,
     count: usize,
@@ -82,7 +81,7 @@ pub(super) fn lowest(
         None => found,
         Some((shift, factors)) => match with_shift(pencil, shift, &factors, count, goes_on) {
             Err(VibrationError::Interrupted) => return Err(VibrationError::Interrupted),
-            // What was found first is as good as its residuals say.
+            // The first result is as accurate as its residuals.
             Err(_) => found,
             Ok(finer) => finer,
         },
@@ -90,7 +89,7 @@ pub(super) fn lowest(
     accept(found)
 }
 
-/// A shift from one on that makes the stiffness positive definite, and the factors.
+/// Smallest tried shift that makes the stiffness positive definite, with the factors.
 fn definite(pencil: &Pencil, mut shift: f64) -> Result<(f64, SymmetricFactors), VibrationError> {
     for _ in 0..=MOST_SHIFTS {
         if let Some(factors) = pencil.factors(shift) {
@@ -101,7 +100,7 @@ fn definite(pencil: &Pencil, mut shift: f64) -> Result<(f64, SymmetricFactors), 
     Err(VibrationError::Indefinite)
 }
 
-/// The lowest modes, with a residual each.
+/// Lowest modes with their residuals.
 fn with_shift(
     pencil: &Pencil,
     shift: f64,
@@ -128,7 +127,7 @@ fn with_shift(
     Ok(modes)
 }
 
-/// Pairs of which a count shows that none is missing.
+/// Pairs whose completeness is verified by a count.
 fn counted_pairs(
     pencil: &Pencil,
     shift: f64,
@@ -140,7 +139,7 @@ fn counted_pairs(
     let mut wanted = count;
     loop {
         let pairs = search.settle(wanted, goes_on)?;
-        // Those that equal the last one are as good as it; all below must be there.
+        // Pairs equal to the last one are as good; all below must be found.
         let below = 1.0 / pairs.values[count - 1] * (1.0 - EQUAL) - shift;
         let found = pairs.values.iter().filter(|value| 1.0 / *value - shift < below).count();
         match pencil.modes_below(below) {
@@ -160,7 +159,7 @@ fn mode_of(pair: RefinedPair, shift: f64) -> Mode {
     Mode { square, rounding, residual, shape }
 }
 
-/// A shift that keeps more digits, if there is one.
+/// Shift of better accuracy, if there is one.
 fn better_shift(modes: &[Mode], shift: f64) -> Option<f64> {
     let lowest = modes.iter().map(|mode| mode.square).find(|square| *square != 0.0)?;
     let is_large = shift > LARGEST_SHIFT * lowest.abs();
@@ -173,7 +172,7 @@ fn better_shift(modes: &[Mode], shift: f64) -> Option<f64> {
     }
 }
 
-/// Modes whose residual is small.
+/// Accepts modes with small residuals.
 fn accept(modes: Vec<Mode>) -> Result<Vec<Mode>, VibrationError> {
     let bad = |mode: &Mode| !(mode.residual <= LARGEST_RESIDUAL && mode.square.is_finite());
     match modes.iter().position(bad) {

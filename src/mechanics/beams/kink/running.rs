@@ -1,22 +1,22 @@
-//! The energy of motion that a mesh misses of a kink that runs along it.
+//! Kinetic energy of a moving kink that a mesh does not represent.
 
 use super::SplineString;
 use crate::beams::Mesh;
 use crate::geometry::{GaussRule, PiecewisePolynomial, Span, Vec2, lower_splines};
 
-/// On how many spans the mean is taken at most.
+/// Largest number of spans in the mean.
 const SAMPLES: usize = 16;
 
 impl SplineString {
-    /// The number `μ` that makes `½ μ ρA g |a|² v²` the energy of motion that the mesh misses, in the mean over places of a kink `a` that runs
-    /// along with the speed `v`: means over spans spread evenly.
+    /// Correction factor `μ` such that `½ μ ρA g |a|² v²` is the kinetic energy that the mesh misses, averaged over the places of a kink `a` moving
+    /// with the speed `v`: a mean over evenly spread spans.
     ///
     /// ```text
     /// μ = ∫ (X(L) - s(ξ) - ∫ u² dX) ds/∫ g ds        u = l(X)ᵀ M⁻¹ t(ξ)/|x_ξ|
     /// ```
     ///
-    /// With the start held, what lies in front of a kink of one rises with `v` and nothing else moves; the mesh moves with `u v` instead. Beside the kink `u`
-    /// is what it should be, so that the difference is a matter of the spans around it.
+    /// With the start held, points in front of a unit kink rise with `v` and nothing else moves. The mesh moves with `u v` instead. Away from the
+    /// kink `u` is exact, so that the difference involves only the spans around it.
     pub fn inertia(
         &self,
         mesh: &Mesh,
@@ -39,7 +39,7 @@ impl SplineString {
                         let fields = rule.iter_on(around.start, around.end).map(|(x, weight)| {
                             let values = basis.evaluate_in(around, x);
                             let own = values.values().iter().enumerate();
-                            // How much of the rise is still missing, or is there already.
+                            // Motion that is missing in front of the kink, or present behind it.
                             let (there, missing) =
                                 own.fold((0.0, 0.0), |(there, missing), (a, n)| {
                                     let [low, high] = motion[around.first + a];
@@ -64,8 +64,8 @@ impl SplineString {
         missed / lengths
     }
 
-    /// How control points move as a kink runs by a place on a span with such lower splines, as a part of what the end of the string does; and
-    /// what they lack to that.
+    /// Motion of control points as a kink passes a place on a span with the given lower splines, relative to that of the end of the string; and its
+    /// difference from that of the end.
     fn motion(&self, span: &Span, lower: &[f64]) -> Vec<[f64; 2]> {
         let mut strains = vec![0.0; self.stretched.len()];
         strains[span.first..][..lower.len()].copy_from_slice(lower);

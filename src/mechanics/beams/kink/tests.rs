@@ -5,7 +5,7 @@ use crate::beams::Quadrature;
 use crate::elementary;
 use crate::geometry::{Basis, Curve, KnotVector, interpolate};
 
-/// Every kind of mesh that is offered, with the patch rule: degrees 1 to 7 of all continuities, Lagrange elements, uneven knots, breaks.
+/// Every supported kind of mesh with the patch rule: degrees 1 to 7 of all continuities, Lagrange elements, uneven knots, breaks.
 fn meshes() -> Vec<Mesh> {
     let mut meshes = Vec::new();
     for degree in 1..=7 {
@@ -33,8 +33,8 @@ fn arc() -> Curve {
     Curve::arc(Vec2::new(0.0, 0.0), 1.0, 0.3, 2.2).unwrap()
 }
 
-/// `g` by dense algebra, with the start held: what the end of the string moves under a unit load at ξ is the exact response at ξ to it, less the one at ξ
-/// itself.
+/// `g` by dense algebra with the start held: the displacement of the end of the string under a unit load at ξ is the exact response at ξ, minus the
+/// mesh response at ξ itself.
 fn dense(mesh: &Mesh, points: &[Vec2], places: &[f64]) -> Vec<f64> {
     let (basis, count) = (mesh.basis(), points.len());
     let mut stiffness = DMatrix::zeros(count, count);
@@ -95,7 +95,7 @@ fn the_kink_length_is_that_of_dense_algebra_on_every_mesh_straight_or_curved() {
 
 #[test]
 fn a_straight_beam_has_what_its_mesh_lacks_with_both_ends_held() {
-    // The formula of docs/theory.md, G - bᵀ K⁻¹ b with G = X (L - X)/L.
+    // Formula of docs/theory.md, G - bᵀ K⁻¹ b with G = X (L - X)/L.
     for mesh in meshes().into_iter().filter(|mesh| mesh.basis().functions() > 2) {
         let (basis, length) = (mesh.basis(), line().length());
         let points = interpolate(&line(), basis).unwrap();
@@ -172,8 +172,8 @@ fn a_mesh_with_too_few_points_has_no_missed_kink() {
     assert!(missed_kink(&mesh, &points).unwrap().is_none());
 }
 
-/// What equal spans without an end miss of a kink at rest and of one on its way, in the mean over its places, by Fourier's sums: of all waves of the exact
-/// string, those are taken out that the splines of a degree have, with strains at one point a span, half a span from a knot where it is odd.
+/// Missing energy of a resting and a moving kink on equal spans without an end, averaged over its places, by Fourier sums: the waves of the exact
+/// string minus those of splines of a degree, with one strain point per span, half a span from a knot for odd degrees.
 fn fourier(degree: usize, is_exact: bool) -> f64 {
     let (tau, order) = (2.0 * std::f64::consts::PI, degree as i32 + 1);
     let hat = |k: f64| (elementary::sin(0.5 * k) / (0.5 * k)).powi(order);
@@ -185,7 +185,8 @@ fn fourier(degree: usize, is_exact: bool) -> f64 {
         let stiffness = if is_exact {
             aliases().map(|(_, q)| (q * hat(q)) * (q * hat(q))).sum()
         } else {
-            // The centre of a spline is a knot where its degree is odd, and lies half a span from one where it is even: both times half a span off.
+            // The centre of a spline is a knot for odd degrees, and half a span from a knot for even ones. In both cases it is half a span from the
+            // strain points.
             let sum: f64 =
                 aliases().map(|(m, q)| if m % 2 == 0 { q * hat(q) } else { -q * hat(q) }).sum();
             sum * sum
@@ -204,7 +205,7 @@ fn a_kink_on_its_way_is_as_heavy_as_what_the_mesh_misses_of_its_motion() {
         let mesh = Mesh::bspline(400, degree, degree - 1).unwrap();
         let points = interpolate(&line(), mesh.basis()).unwrap();
         let found = missed_kink(&mesh, &points).unwrap().unwrap().inertia;
-        // The sums over waves end late for quadratic splines.
+        // The sums converge slowly for quadratic splines.
         let rounding = if degree == 2 { 4e-3 } else { 2e-4 };
         assert!((found - fourier(degree, false)).abs() < rounding, "{degree}: {found}");
         let exact = mesh.with_quadrature(Quadrature::Points(degree + 1)).unwrap();

@@ -1,13 +1,13 @@
-//! The section at a place between points.
+//! Section at a place between quadrature points.
 
 use crate::beams::Section;
 
-/// The section at a place between points, by shares that add up to one.
+/// Section at a place between points, by weights that add up to one.
 pub(in crate::beams) trait Interpolation: Default {
-    /// Adds a share of the section of a point.
+    /// Adds a weighted section.
     fn add(&mut self, section: &Section, share: f64);
 
-    /// What the sections of the points have come to.
+    /// Returns the interpolated section.
     fn section<'a>(&'a self, uniform: &'a Section) -> &'a Section;
 }
 
@@ -19,7 +19,7 @@ impl Interpolation for () {
     }
 }
 
-/// The sum of shares of sections.
+/// Weighted sum of sections.
 #[derive(Debug, Default)]
 pub(in crate::beams) struct Interpolated(Section);
 

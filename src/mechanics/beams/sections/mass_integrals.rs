@@ -1,27 +1,27 @@
-//! Integrals of products of two functions, from which the inertia of a beam is made.
+//! Integrals of products of two functions, for the inertia of a beam.
 
 use std::fmt::Debug;
 
 use crate::beams::Section;
 use crate::beams::dynamics::Movement;
 
-/// An integral of a product of two functions along a beam.
+/// Integral of a product of two functions along a beam.
 pub(in crate::beams) trait MassIntegral:
     Copy + Default + Debug + Send + Sync
 {
-    /// Adds a product times its weight [length], where the beam has a section.
+    /// Adds a product times its weight [length] at a section.
     fn add(&mut self, product: f64, section: &Section);
 
-    /// The integral of the product alone, without inertia [length].
+    /// Integral of the product without inertia [length].
     fn length(self) -> f64;
 
-    /// What the inertia of each component is proportional to: the integral itself, or mass and rotary inertia.
+    /// Quantity proportional to the inertia of each component: the integral itself, or mass and rotary inertia.
     fn weights(self) -> Movement;
 
-    /// By what the [`weights`](Self::weights) are to be multiplied: mass and rotary inertia per length, or one.
+    /// Factors of the [`weights`](Self::weights): mass and rotary inertia per length, or one.
     fn shares(uniform: &Section) -> Movement;
 
-    /// A factor times the inertia that belongs to it.
+    /// Inertia of each component, times a factor.
     #[inline]
     fn inertia(self, factor: f64, uniform: &Section) -> Movement {
         let (weights, shares) = (self.weights(), Self::shares(uniform));

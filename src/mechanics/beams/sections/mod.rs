@@ -1,4 +1,4 @@
-//! Which section each quadrature point of a beam has: that of the beam, or one of its own.
+//! Sections of the quadrature points of a beam: uniform, or one per point.
 
 mod interpolated;
 mod mass_integrals;

@@ -1,24 +1,23 @@
-//! The section at any parameter of an axis.
+//! Section at any parameter of an axis.
 
 use crate::beams::{BeamError, Mesh, Section, SectionVariation};
 use crate::geometry::{GaussRule, Span, Vec2};
 
-/// Points by which arc lengths within a span are measured.
+/// Number of points for the arc length within a span.
 const POINTS: usize = 8;
 
-/// The sections of a beam along the axis that control points draw on a mesh.
+/// Sections of a beam along an axis given by control points.
 pub(in crate::beams) struct SectionsOnAxis<'a> {
     variation: &'a SectionVariation,
     mesh: &'a Mesh,
     control_points: &'a [Vec2],
     rule: GaussRule,
-    /// The arc length at which each span starts, and that of all [length].
+    /// Arc lengths at the starts of the spans, and the total [length].
     starts: Vec<f64>,
     length: f64,
 }
 
 impl<'a> SectionsOnAxis<'a> {
-    /// The sections along an axis.
     pub(in crate::beams) fn new(
         variation: &'a SectionVariation,
         mesh: &'a Mesh,
@@ -37,7 +36,7 @@ impl<'a> SectionsOnAxis<'a> {
         Ok(along)
     }
 
-    /// The arc length from the start of a span to a parameter in it [length].
+    /// Arc length from the start of a span to a parameter in it [length].
     fn within(&self, span: &Span, xi: f64) -> f64 {
         let speed = |at: f64| {
             self.mesh.basis().evaluate_in(span, at).combine(1, self.control_points).norm()
@@ -45,7 +44,7 @@ impl<'a> SectionsOnAxis<'a> {
         self.rule.iter_on(span.start, xi).map(|(at, weight)| weight * speed(at)).sum()
     }
 
-    /// The section at a parameter in a span, by the number of that.
+    /// Section at a parameter in a span of this index.
     pub(in crate::beams) fn at(&self, index: usize, span: &Span, xi: f64) -> Section {
         match self.variation {
             SectionVariation::Uniform(section) => *section,

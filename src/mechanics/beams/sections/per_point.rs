@@ -1,4 +1,4 @@
-//! The sections of quadrature points.
+//! Sections of quadrature points.
 
 use std::fmt::Debug;
 
@@ -10,24 +10,23 @@ use crate::beams::force_points::Stiffness;
 use crate::beams::pair::Pair;
 use crate::beams::simd::{LANES, LaneChunk, Lanes, Vector};
 
-/// The sections of the quadrature points of neighbouring spans, a type for each way in which they are known: the points of a uniform beam share one and
-/// nothing is looked up.
+/// Sections of the quadrature points of neighbouring spans, by storage type. A uniform beam shares one section without lookup.
 pub(in crate::beams) trait Sections: Clone + Debug + Send + Sync {
-    /// What is summed up of a product of two functions: the length, and the inertia where that is not proportional to it.
+    /// Integral of a product of two functions: the length, and the inertia if it is not proportional to it.
     type MassIntegral: MassIntegral;
-    /// The section at a place between points.
+    /// Section at a place between points.
     type Interpolation: Interpolation;
 
-    /// The sections at the points for `Γ` and at those for `κ`.
+    /// Creates the sections at the points for `Γ` and for `κ`.
     fn new(at_force: Vec<Section>, at_moment: Vec<Section>) -> Self;
 
-    /// That of a point for `Γ`.
+    /// Section of a point for `Γ`.
     fn of_force<'a>(&'a self, uniform: &'a Section, point: usize) -> &'a Section;
 
-    /// That of a point for `κ`.
+    /// Section of a point for `κ`.
     fn of_moment<'a>(&'a self, uniform: &'a Section, point: usize) -> &'a Section;
 
-    /// The stiffness `diag(EA, GA)` of points for `Γ` side by side, by their number.
+    /// Stiffness `diag(EA, GA)` of points for `Γ` in lanes.
     fn force_stiffness<V: Simd>(
         &self,
         uniform: &Section,
@@ -35,7 +34,7 @@ pub(in crate::beams) trait Sections: Clone + Debug + Send + Sync {
         part: LaneChunk<V>,
     ) -> Stiffness<V>;
 
-    /// The stiffness `EI` of points for `κ` side by side, by their number.
+    /// Stiffness `EI` of points for `κ` in lanes.
     fn bending_stiffness<V: Simd>(
         &self,
         uniform: &Section,
@@ -43,11 +42,11 @@ pub(in crate::beams) trait Sections: Clone + Debug + Send + Sync {
         part: LaneChunk<V>,
     ) -> Vector<V>;
 
-    /// The masses of control points, from their lengths where the section is the same, or as they were weighed.
+    /// Masses of control points: from their lengths if uniform, otherwise as integrated.
     fn masses(uniform: &Section, lengths: Vec<f64>, weighed: Vec<f64>) -> Vec<f64>;
 }
 
-/// All points have the section of the beam.
+/// One section for all points.
 #[derive(Debug, Clone)]
 pub(in crate::beams) struct Uniform;
 
@@ -94,17 +93,17 @@ impl Sections for Uniform {
     }
 }
 
-/// Each point has its own.
+/// One section per point.
 #[derive(Debug, Clone)]
 pub(in crate::beams) struct PerPoint {
     at_force: Vec<Section>,
     at_moment: Vec<Section>,
-    /// `diag(EA, GA)` and `EI` of points side by side.
+    /// `diag(EA, GA)` and `EI` of points in lanes.
     force_stiffness: Vec<Pair<Lanes>>,
     bending_stiffness: Vec<Lanes>,
 }
 
-/// A number of the sections of points side by side; lanes without a point have that of the last one.
+/// Property of the sections of points in lanes. Empty lanes repeat the last point.
 fn side_by_side(sections: &[Section], of: impl Fn(&Section) -> f64) -> Lanes {
     let mut lanes = Lanes::default();
     for lane in 0..LANES {

@@ -28,7 +28,6 @@ fn rows(passage: &ContactPath) -> [&[f64]; 6] {
     ]
 }
 
-/// One number for each function of the basis.
 fn spread(functions: usize, first: usize, window: &[f64]) -> Vec<f64> {
     let mut all = vec![0.0; functions];
     add(&mut all, first, 1.0, window);
@@ -48,13 +47,11 @@ fn distance(one: &[f64], other: &[f64]) -> f64 {
     one.iter().zip(other).fold(0.0, |most, (a, b)| most.max((a - b).abs()))
 }
 
-/// Where the fraction `t` of the domain is.
 fn place(basis: &Basis, t: f64) -> f64 {
     let (start, end) = basis.domain();
     ((1.0 - t) * start + t * end).clamp(start, end)
 }
 
-/// Strictly inside a span, its number and the parameter.
 fn inside(basis: &Basis, t: f64) -> (Span, f64) {
     let spans = basis.spans();
     let place = t * spans.len() as f64;
@@ -62,7 +59,7 @@ fn inside(basis: &Basis, t: f64) -> (Span, f64) {
     (span, span.start + (0.1 + 0.8 * place.fract()) * (span.end - span.start))
 }
 
-/// The coefficients of ξ³ in a cubic basis: the polar form at the knots, or the values at the nodes.
+/// Coefficients of ξ³ in a cubic basis: the polar form at the knots, or the values at the nodes.
 fn cube(basis: &Basis) -> Vec<f64> {
     match basis {
         Basis::BSpline(knots) => {
@@ -88,7 +85,7 @@ fn the_quotient_of_a_cube_is_exact_near_and_far_and_beyond_the_domain() {
                 assert!((value - exact).abs() < 1e-13 * largest(on.slope()).max(10.0), "{context}");
                 let slope = combine(&on, on.slope(), &coefficients);
                 assert!((slope - 3.0 * to * to).abs() < 1e-13 * largest(on.slope()), "{context}");
-                // Across kinks the rounding of the quotient is divided by the way.
+                // Across kinks, the rounding of the quotient is divided by the path.
                 let kinks = basis.continuity() == 0;
                 if !kinks || way == 0.0 || way.abs() >= 0.01 {
                     let change = combine(&on, on.change(), &coefficients);
@@ -267,7 +264,7 @@ proptest! {
         basis in bases(), t in 0.0..=1.0f64, u in 0.0..=1.0f64, nearness in 0..15i32,
     ) {
         let xi = place(&basis, t);
-        // From a place and from all breaks, a way ahead and one that starts a little before.
+        // Paths from a place and from all breaks, forward and starting slightly before.
         for from in basis.breaks().into_iter().chain([xi]) {
             let way = (place(&basis, u) - from) * 10f64.powi(-nearness);
             for (a, b) in [(from, from + way), (from - 0.3 * way, from + way)] {

@@ -1,19 +1,19 @@
-//! The rule that keeps energy, both momenta and the gap.
+//! Sliding rule that conserves energy, both momenta and the gap.
 
 use super::contact::{AXES, PathVector};
 use super::{CONTACT_UNKNOWNS, Contact, ContactUnknowns, Equation, SlidingLaw, Unit};
 use crate::elementary::square;
 use crate::geometry::{cross, perpendicular};
 
-/// The conserving law of sliding on the smooth axis of a mesh: the gap is closed at the end of every step, and energy, linear and angular momentum are
-/// kept, for any step. The kink of the axis under the contact force is left to the mesh, which smears it.
+/// Conserving law of sliding on the smooth axis of a mesh: the gap is closed at the end of every step, and energy, linear and angular momentum are
+/// conserved for any step size. The kink of the axis under the contact force is smeared by the mesh.
 ///
 /// ```text
 /// x_s1 = Σ B_i(ξ1) x_i1          |τ|² η + (d × λ) Jτ = 0          λ·τ + 4 η·d = 0
 /// ```
 ///
-/// The mean place of the slave is `Σ B̄_i x̄_i + Δξ d`, off the place where `λ` acts on the master: the smallest `η` that
-/// balances this moment is taken, and the sliding equation follows from the energy. Derived in docs/theory.md, section 10.
+/// The mean place of the slave is `Σ B̄_i x̄_i + Δξ d`, at a distance from the place where `λ` acts on the master. The smallest `η` that balances
+/// this moment is used, and the sliding equation follows from the energy. Derived in docs/theory.md, section 10.
 #[derive(Debug, Clone, Copy)]
 pub struct Conserving;
 

@@ -1,4 +1,4 @@
-//! Numbers with their derivatives by what an equation of a contact depends on (forward differentiation).
+//! Dual numbers (forward differentiation) with the derivatives needed in the equations of a contact.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -6,10 +6,10 @@ use super::contact::PathVector;
 use super::{Contact, ContactUnknowns, Equation, Unit};
 use crate::geometry::Vec2;
 
-/// How many numbers an equation of a contact depends on: offset of the slave, tangent, swing, `λ`, couple and way.
+/// Number of derivatives: offset of the slave, tangent, swing, `λ`, couple and path.
 pub(super) const ALL_SLOPES: usize = 11;
 
-/// No derivatives: where values only are asked for, they come from the same operations in the same order.
+/// No derivatives. Values come from the same operations in the same order.
 pub(super) const NO_SLOPES: usize = 0;
 
 const OFFSET: usize = 0;
@@ -19,35 +19,35 @@ const FORCE: usize = 6;
 const COUPLE: usize = 8;
 const WAY: usize = 10;
 
-/// A number of a contact with its derivatives by the offset of the slave from the smooth axis, the mean tangent `τ` and the swing `d` of the master, the
-/// force `λ`, the couple and the way `Δξ`: with [`ALL_SLOPES`], or with [`NO_SLOPES`].
+/// Number with derivatives with respect to the offset of the slave from the smooth axis, mean tangent `τ`, swing `d`, force `λ`, couple, and path
+/// `Δξ`: [`ALL_SLOPES`] of them, or [`NO_SLOPES`].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Dual<const SLOPES: usize> {
     pub value: f64,
     slopes: [f64; SLOPES],
 }
 
-/// A vector of a contact with the derivatives of both components.
+/// Vector of two dual numbers.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct DualVector<const SLOPES: usize> {
     pub x: Dual<SLOPES>,
     pub y: Dual<SLOPES>,
 }
 
-/// What the equations of a contact are made of.
+/// Variables of the equations of a contact.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ContactDuals<const SLOPES: usize> {
-    /// How far the slave is from the smooth axis at the end of the step, `x_s1 - Σ B_i(ξ1) x_i1` [length].
+    /// Offset of the slave from the smooth axis at the end of the step, `x_s1 - Σ B_i(ξ1) x_i1` [length].
     pub offset: DualVector<SLOPES>,
-    /// The mean tangent `τ` [length].
+    /// Mean tangent `τ` [length].
     pub tangent: DualVector<SLOPES>,
-    /// The swing `d` [length].
+    /// Swing `d` [length].
     pub swing: DualVector<SLOPES>,
-    /// The contact force `λ` on the master [force].
+    /// Contact force `λ` on the master [force].
     pub force: DualVector<SLOPES>,
-    /// The couple of the contact [force].
+    /// Couple of the contact [force].
     pub couple: DualVector<SLOPES>,
-    /// The way `Δξ` [-].
+    /// Path `Δξ` [-].
     pub way: Dual<SLOPES>,
 }
 
@@ -73,14 +73,14 @@ impl<const SLOPES: usize> Dual<SLOPES> {
         Self { value, slopes: [0.0; SLOPES] }
     }
 
-    /// A number that depends on the way only, with its derivative by that.
+    /// Number that depends on the path only, with its derivative.
     pub fn along_way(value: f64, by_way: f64) -> Self {
         let mut jet = Self::constant(value);
         jet.add_slope(WAY, by_way);
         jet
     }
 
-    /// Adds to the derivative by one of the numbers, where there are derivatives.
+    /// Adds to a derivative, if there are derivatives.
     fn add_slope(&mut self, at: usize, slope: f64) {
         if let Some(own) = self.slopes.get_mut(at) {
             *own += slope;
@@ -94,7 +94,7 @@ impl<const SLOPES: usize> Dual<SLOPES> {
 }
 
 impl Dual<ALL_SLOPES> {
-    /// The equation that the number vanishes.
+    /// Equation that sets the number to zero.
     pub fn vanishes(self, unit: Unit) -> Equation {
         let pair = |at: usize| Vec2::new(self.slopes[at], self.slopes[at + 1]);
         Equation {
@@ -182,12 +182,12 @@ impl<const SLOPES: usize> DualVector<SLOPES> {
         self.x * other.y - self.y * other.x
     }
 
-    /// The vector turned by a right angle, `J a`.
+    /// Vector rotated by a right angle, `J a`.
     pub fn turned(&self) -> Self {
         Self { x: -self.y, y: self.x }
     }
 
-    /// The vector `p` with `a·p = α` and `b·p = β`.
+    /// Vector `p` with `a·p = α` and `b·p = β`.
     pub fn with_products([a, b]: [Self; 2], [alpha, beta]: [Dual<SLOPES>; 2]) -> Self {
         let determinant = a.cross(&b).inverse();
         (a.turned() * beta - b.turned() * alpha) * determinant

@@ -1,11 +1,11 @@
-//! The rule of a slider whose kink stays as it is for a step.
+//! Law of a slider whose kink is fixed for a step.
 
 use super::dual::{ContactDuals, Dual, DualVector, NO_SLOPES};
 use super::kink_on_path::{KinkOnPath, vanish};
 use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, KinkState, SlidingLaw};
 
-/// The law of a slider on a master whose kink turns with the master and otherwise stays as it is, whatever the contact force: energy, linear and angular
-/// momentum and the gap to the kinked axis are kept, for any step.
+/// Law of a slider on a master whose kink rotates with the master and is otherwise fixed, independent of the contact force. Energy, linear and
+/// angular momentum, and the gap to the kinked axis are conserved for any step size.
 ///
 /// ```text
 /// x_s1 = Σ B_i(ξ1) x_i1 + g1 a1          a1 = (1 - q J)⁻¹ (1 + q J) a0          q = 2 Jτ·d/|τ|²
@@ -33,18 +33,18 @@ impl SlidingLaw for Frozen {
     }
 }
 
-/// A kink that stays as it is, in an iterate of a step.
+/// Fixed kink in an iterate of a step.
 struct FrozenInStep<const SLOPES: usize> {
     on_way: KinkOnPath<SLOPES>,
-    /// The direction `w` of the way [length].
+    /// Direction `w` of the path [length].
     direction: DualVector<SLOPES>,
-    /// The speed `v1` of the kink along the master at the end of the step [length/time].
+    /// Speed `v1` of the kink along the master at the end of the step [length/time].
     speed: Dual<SLOPES>,
-    /// The force `p1 = GA a1` that stands for the jump of the tangent at the end of the step [force].
+    /// Force `p1 = GA a1` of the jump of the tangent at the end of the step [force].
     jump: DualVector<SLOPES>,
-    /// What sets the kink in motion, `(Δπ/Δt) e` [force].
+    /// Inertia force of the kink, `(Δπ/Δt) e` [force].
     inertia: DualVector<SLOPES>,
-    /// What the energy of the kink grows by on a unit of way [force·length].
+    /// Growth of the kink energy per unit of path [force·length].
     rise: Dual<SLOPES>,
 }
 

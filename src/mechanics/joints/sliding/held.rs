@@ -1,9 +1,9 @@
-//! A slider that rests against the stop at an end of its master.
+//! Slider held at the stop at an end of its master.
 
 use super::{CONTACT_UNKNOWNS, Contact, Equation, KinkState, SlidingLaw};
 use crate::geometry::Vec2;
 
-/// The law of a slider at rest: the slave stays where it is on the master, as in a hinge: `x_s1 = Σ B_i(ξ1) x_i1`, with its kink, `Δξ = 0`, `η = 0`.
+/// Law of a held slider: the slave is fixed on the master like a hinge: `x_s1 = Σ B_i(ξ1) x_i1`, with its kink, `Δξ = 0`, `η = 0`.
 #[derive(Debug, Clone, Copy)]
 pub struct HeldSlider;
 
@@ -19,7 +19,7 @@ impl SlidingLaw for HeldSlider {
     }
 }
 
-/// The force `p1 = 2 λ - p0` that stands for the kink of a master on which nothing moves [force].
+/// Force `p1 = 2 λ - p0` of the kink of a master without motion along it [force].
 fn jump_at_end(contact: &Contact<'_>) -> Vec2 {
     let before = contact.kink.as_ref().map_or(Vec2::zeros(), |kink| kink.before);
     contact.unknowns.force * 2.0 - before

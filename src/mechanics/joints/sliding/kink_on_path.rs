@@ -1,12 +1,12 @@
-//! A kink on the way of its slider: what the laws of kinked axes have in common.
+//! Kink on the path of its slider: common part of the laws of kinked axes.
 
 use super::dual::{ALL_SLOPES, ContactDuals, Dual, DualVector};
 use super::{CONTACT_UNKNOWNS, Contact, Equation, Kink, Unit};
 use crate::elementary::square;
 
-/// A kink in an iterate of a step, as it follows from the way alone.
+/// Path-dependent part of a kink in an iterate.
 pub(super) struct KinkOnPath<const SLOPES: usize> {
-    /// The kink length `g1` at the end of the way [length].
+    /// Kink length `g1` at the end of the path [length].
     pub length: Dual<SLOPES>,
     /// `Δg/Δξ` [length].
     pub difference: Dual<SLOPES>,
@@ -14,17 +14,17 @@ pub(super) struct KinkOnPath<const SLOPES: usize> {
     pub stretch: Dual<SLOPES>,
     /// `1/|τ|²` [1/length²].
     pub over_square: Dual<SLOPES>,
-    /// How far the slave was from the smooth axis at the start of the step, `g0 a0` [length].
+    /// Offset of the slave from the smooth axis at the start of the step, `g0 a0` [length].
     pub offset_before: DualVector<SLOPES>,
-    /// The mean vector `r` from where the contact pushes the master to the slave [length].
+    /// Mean vector `r` from the contact on the master to the slave [length].
     pub arm: DualVector<SLOPES>,
 }
 
-/// The units of the equations of a contact whose axis is kinked.
+/// Units of the equations of a contact with a kinked axis.
 pub(super) const UNITS: [Unit; CONTACT_UNKNOWNS] =
     [Unit::Length, Unit::Length, Unit::Force, Unit::Force, Unit::Force];
 
-/// The equations that numbers vanish in their [`UNITS`].
+/// Equations that set these numbers to zero, in their [`UNITS`].
 pub(super) fn vanish(
     numbers: [Dual<ALL_SLOPES>; CONTACT_UNKNOWNS],
 ) -> [Equation; CONTACT_UNKNOWNS] {
@@ -45,8 +45,8 @@ impl<const SLOPES: usize> KinkOnPath<SLOPES> {
         }
     }
 
-    /// What vanishes for a contact whose axis is kinked by `jump` [force] at the end of the step: the gap to it is closed, the contact turns nothing, and the
-    /// balance of forces along the way [force·length] vanishes.
+    /// Residuals of a contact with a kink `jump` [force] at the end of the step: gap to the kinked axis, moment balance, and force balance along the
+    /// path [force·length].
     pub fn imbalances(
         &self,
         (contact, kink): (&Contact<'_>, &Kink),

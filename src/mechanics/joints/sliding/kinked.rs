@@ -1,11 +1,10 @@
-//! The rule that keeps energy, both momenta and the gap to the kinked axis.
+//! Sliding rule that conserves energy, both momenta and the gap to the kinked axis.
 
 use super::dual::{ContactDuals, Dual, DualVector, NO_SLOPES};
 use super::kink_on_path::{KinkOnPath, UNITS, vanish};
 use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, KinkState, SlidingLaw, Unit};
 
-/// The conserving law of sliding: the gap is closed at the end of every step, and energy, linear and angular momentum are kept, for any
-/// step.
+/// Conserving law of sliding: the gap is closed at the end of every step, and energy, linear and angular momentum are conserved for any step size.
 ///
 /// ```text
 /// x_s1 = Σ B_i(ξ1) x_i1 + g1 a1                          |τ|² χ + (r × λ) Jτ = 0          r = Δξ d + ½ (g0 a0 + g1 a1)
@@ -14,10 +13,10 @@ use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, KinkState, Sl
 /// ½ (v0 + v1) Δt = (Δs/Δξ) τ·u/|τ|²                      u = Δξ τ + Δ(g a) - 4 b J r
 /// ```
 ///
-/// The slave is on the axis as the contact force kinks it: the tangent jumps by `a` there, and the kink moves along the master with the speed
-/// `v`. The mesh misses its energy, `½ g |a|² (GA + ρA v²)`, with `ρA` a little larger than that of the beam. The jump at the end of the step
-/// follows from `λ` across the master and from the second line; what is left is the balance of forces along it. Where there is no [`Kink`] it is
-/// the law [`Conserving`]. Derived in docs/theory.md, sections 10 and 10.1.
+/// The slave is on the axis as kinked by the contact force: the tangent jumps by `a` there, and the kink moves along the master with the speed `v`.
+/// Its energy `½ g |a|² (GA + ρA v²)`, with `ρA` a little larger than that of the beam, is missing in the mesh. The jump at the end of the step
+/// follows from `λ` across the master and from the second line. The balance of forces along the master remains. Without a [`Kink`] the law is
+/// [`Conserving`]. Derived in docs/theory.md, sections 10 and 10.1.
 #[derive(Debug, Clone, Copy)]
 pub struct Kinked;
 
@@ -40,7 +39,7 @@ impl SlidingLaw for Kinked {
     }
 }
 
-/// What vanishes under the law.
+/// Residuals of the law.
 fn imbalances<const SLOPES: usize>(
     contact: &Contact<'_>,
     kink: &Kink,
@@ -52,16 +51,16 @@ fn imbalances<const SLOPES: usize>(
     step.on_way.imbalances((contact, kink), &jets, step.jump, balance)
 }
 
-/// A kink in an iterate of a step.
+/// Kink in an iterate of a step.
 struct KinkInStep<const SLOPES: usize> {
     on_way: KinkOnPath<SLOPES>,
-    /// The speed `v1` of the kink along the master at the end of the step [length/time].
+    /// Speed `v1` of the kink along the master at the end of the step [length/time].
     speed: Dual<SLOPES>,
-    /// The force `p1 = GA a1` that stands for the jump of the tangent at the end of the step [force].
+    /// Force `p1 = GA a1` of the jump of the tangent at the end of the step [force].
     jump: DualVector<SLOPES>,
-    /// The mean force `κ ½ (p0 + p1)`, `κ = 1 - ρA v0 v1/GA`, with which the kink pushes [force].
+    /// Mean force of the kink, `κ ½ (p0 + p1)` with `κ = 1 - ρA v0 v1/GA` [force].
     mean_force: DualVector<SLOPES>,
-    /// What sets the kink in motion, `Δπ/Δt` [force].
+    /// Inertia force of the kink, `Δπ/Δt` [force].
     inertia: Dual<SLOPES>,
 }
 

@@ -1,19 +1,19 @@
-//! The rule of the paper's equations 11 to 14: energy and momenta are kept, the gap drifts.
+//! Sliding rule of equations 11 to 14 of Sibileau & Muñoz: energy and momenta are conserved, the gap drifts.
 
 use super::contact::AXES;
 use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw, Unit};
 
-/// A gap smaller than this part of the master is rounding and gives no direction.
+/// Gaps below this fraction of the master are rounding and define no direction.
 const ROUNDING: f64 = 1e-13;
 
-/// The relaxed law of sliding: the contact is closed in the mean of each step; energy, linear and angular momentum are kept, the gap is not.
+/// Relaxed law of sliding: the contact is closed on average over each step. Energy, linear and angular momentum are conserved, the gap is not.
 ///
 /// ```text
 /// ½ (x_s0 + x_s1) = Σ B̄_i x̄_i          λ·(2/Δξ) (Σ B̄_i x_i0 - x_s0) = 0          η = 0
 /// ```
 ///
-/// Sibileau & Muñoz, equations 11 to 14. A step may have no solution: the direction in the second equation turns away from
-/// the tangent as the gap grows, and is not defined where `Δξ` passes zero.
+/// Sibileau & Muñoz, equations 11 to 14. A step may have no solution: the direction in the second equation deviates from the tangent as the gap
+/// grows, and is undefined for `Δξ = 0`.
 #[derive(Debug, Clone, Copy)]
 pub struct Relaxed;
 

@@ -1,8 +1,8 @@
-//! A slider that has left its master.
+//! Slider that has left its master.
 
 use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw};
 
-/// The law of a slider that has left its master: nothing acts and nothing is tied: `λ = 0`, `η = 0`, `Δξ = 0`.
+/// Law of a released slider: no force and no constraint, `λ = 0`, `η = 0`, `Δξ = 0`.
 #[derive(Debug, Clone, Copy)]
 pub struct Released;
 

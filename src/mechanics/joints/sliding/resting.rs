@@ -1,24 +1,24 @@
-//! Sliders at rest: without inertia, and in no step.
+//! Sliders in equilibrium.
 //!
-//! The contact of a movement from one place at rest to another is that of a way of length zero at its end, `ξ1`, on the master as it is there.
+//! The contact of a movement between two equilibria is that of a path of length zero at its end `ξ1`, on the master in its final configuration.
 
 use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw};
 use crate::geometry::Vec2;
 
-/// The law of a slider at rest without friction, which makes the potential energy `λ·(x_s - Σ B_i(ξ) x_i) - ½ g(ξ) |λ|²/GA` of its contact stationary:
+/// Law of a frictionless slider at rest, which makes the potential energy `λ·(x_s - Σ B_i(ξ) x_i) - ½ g(ξ) |λ|²/GA` of its contact stationary:
 ///
 /// ```text
 /// x_s = Σ B_i(ξ) x_i + g(ξ) λ/GA          λ·x'(ξ) + ½ g'(ξ) |λ|²/GA = 0          η = 0
 /// ```
 ///
-/// Where there is no [`Kink`](super::Kink), `g = 0`. Derived in docs/theory.md, section 14.
+/// Without a [`Kink`](super::Kink), `g = 0`. Derived in docs/theory.md, section 14.
 #[derive(Debug, Clone, Copy)]
 pub struct Resting;
 
-/// The law of a slider that leans on the stop at an end of its master: `x_s = Σ B_i(ξ) x_i` at that end, with its kink.
+/// Law of a slider held at the stop at an end of its master: `x_s = Σ B_i(ξ) x_i` at that end, with its kink.
 #[derive(Debug, Clone, Copy)]
 pub struct AtStop {
-    /// The way `Δξ` to the end [-].
+    /// Path `Δξ` to the end [-].
     pub way: f64,
 }
 
@@ -40,7 +40,7 @@ impl SlidingLaw for AtStop {
     }
 }
 
-/// `(λ·x'(ξ) + ½ g'(ξ) |λ|²/GA)/ℓ = 0`: no displacement of the slave along the master does work.
+/// `(λ·x'(ξ) + ½ g'(ξ) |λ|²/GA)/ℓ = 0`: no work in displacements of the slave along the master.
 fn not_driven(contact: &Contact<'_>) -> Equation {
     let (force, scale) = (contact.unknowns.force, 1.0 / contact.length);
     let tangent = contact.end_point().by_way;
@@ -51,20 +51,20 @@ fn not_driven(contact: &Contact<'_>) -> Equation {
         let half = 0.5 * kink.compliance * scale;
         equation.value += half * kink.along.slope * force.norm_squared();
         equation.by_unknowns.force += force * (2.0 * half * kink.along.slope);
-        // A way of length zero has half the second derivative for the change of its slope.
+        // For a path of length zero, the change of the slope is half the second derivative.
         equation.by_unknowns.way += 2.0 * half * kink.along.change * force.norm_squared();
     }
     equation
 }
 
 impl Contact<'_> {
-    /// The contact forces `B_i(ξ) λ` on the control points of the master at rest [force], in order.
+    /// Contact forces `B_i(ξ) λ` on the control points of the master at rest [force].
     pub fn master_forces_at_rest(&self) -> impl Iterator<Item = Vec2> + '_ {
         self.passage.end().iter().map(|value| self.unknowns.force * *value)
     }
 
-    /// The derivatives of the contact forces `B_i(ξ) λ` on the control points of the master at rest, in order: by `λ` and by `η` a factor each, by `Δξ` a
-    /// force.
+    /// Derivatives of the contact forces `B_i(ξ) λ` on the control points of the master at rest: factors with respect to `λ` and `η`, and a force
+    /// with respect to `Δξ`.
     pub fn master_force_slopes_at_rest(&self) -> impl Iterator<Item = (f64, f64, Vec2)> + '_ {
         let force = self.unknowns.force;
         let weights = self.passage.end().iter().zip(self.passage.slope());

@@ -1,50 +1,50 @@
-//! The rules by name, with what each of them claims. Tests and help read this list.
+//! Registry of the sliding rules with their claims, used by tests and help.
 
 use serde::{Deserialize, Serialize};
 
 use super::{Conserving, Exact, Kinked, Relaxed, SlidingLaw};
 
-/// A choice of the law by which a step keeps a slider on its master.
+/// Selection of the law that keeps a slider on its master.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum SlidingRule {
-    /// The law [`Relaxed`]: the contact is closed in the mean of each step.
+    /// [`Relaxed`]: the contact is closed on average over each step.
     Relaxed,
-    /// The law [`Exact`]: the contact is closed at the end of each step; angular momentum is not kept.
+    /// [`Exact`]: the contact is closed at the end of each step; angular momentum is not conserved.
     Exact,
-    /// The law [`Conserving`]: the contact is closed at the end of each step; energy and momenta are kept.
+    /// [`Conserving`]: the contact is closed at the end of each step; energy and momenta are conserved.
     #[default]
     Conserving,
-    /// The law [`Kinked`]: the contact is closed on the kinked axis at the end of each step; energy and momenta are kept.
+    /// [`Kinked`]: the contact is closed on the kinked axis at the end of each step; energy and momenta are conserved.
     Kinked,
 }
 
-/// What a law of sliding keeps to rounding, with an integrator that keeps it without sliders. All laws keep linear momentum.
+/// Quantities that a law conserves to rounding, with an integrator that conserves them without sliders. All laws conserve linear momentum.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RuleClaims {
-    /// Whether the law of sliding keeps the energy.
+    /// True if the energy is conserved.
     pub energy: bool,
-    /// Whether the law of sliding keeps the angular momentum.
+    /// True if angular momentum is conserved.
     pub angular_momentum: bool,
-    /// Whether the law of sliding has the slave on the master at the end of every step.
+    /// True if the slave is on the master at the end of every step.
     pub gap: bool,
 }
 
-/// A law of sliding in the list [`SLIDING_RULES`].
+/// Entry of [`SLIDING_RULES`].
 #[derive(Debug, Clone, Copy)]
 pub struct RuleEntry {
-    /// The law of sliding that this row of the list describes.
+    /// The rule.
     pub rule: SlidingRule,
-    /// The name of the law of sliding in scripts and reports.
+    /// Name in scripts and reports.
     pub name: &'static str,
-    /// What the law of sliding is good for, in a sentence.
+    /// Recommended use in a sentence.
     pub summary: &'static str,
-    /// What the law of sliding keeps.
+    /// Claims of the law.
     pub claims: RuleClaims,
-    /// The source of the law of sliding in the literature.
+    /// Reference.
     pub source: &'static str,
 }
 
-/// All laws of sliding, the default first.
+/// All rules, the default first.
 pub const SLIDING_RULES: &[RuleEntry] = &[CONSERVING, KINKED, EXACT, RELAXED];
 
 const CONSERVING: RuleEntry = RuleEntry {
@@ -80,7 +80,7 @@ const RELAXED: RuleEntry = RuleEntry {
 };
 
 impl SlidingRule {
-    /// The row of this law of sliding in [`SLIDING_RULES`].
+    /// Entry of this rule in [`SLIDING_RULES`].
     pub fn entry(self) -> &'static RuleEntry {
         match self {
             Self::Kinked => &KINKED,
@@ -90,7 +90,7 @@ impl SlidingRule {
         }
     }
 
-    /// The equations of this law of sliding.
+    /// Law with the equations of this rule.
     pub fn law(self) -> &'static dyn SlidingLaw {
         match self {
             Self::Kinked => &Kinked,

@@ -1,10 +1,10 @@
-//! Where schedules jump or bend.
+//! Breaks of schedules: jumps and kinks.
 
 use super::Schedule;
 use crate::loads::SampleClock;
 
 impl Schedule {
-    /// The times at which the schedule jumps or bends; steps should end there.
+    /// Times of jumps and kinks, at which steps should end.
     pub fn breaks(&self) -> Vec<f64> {
         match self {
             Self::Constant(_) | Self::Sine { .. } | Self::Sampled(_) | Self::Clocked { .. } => {
@@ -17,13 +17,13 @@ impl Schedule {
         }
     }
 
-    /// The beat of a digital controller among the parts of the schedule, if there is one; steps should end where it is asked and where it acts. Controllers are
-    /// never combined with other schedules.
+    /// Clock of a digital controller, if the schedule is one. Steps should end at its samples and actions. Controllers are never combined with other
+    /// schedules.
     pub fn beat(&self) -> Option<SampleClock> {
         if let Self::Clocked { beat, .. } = self { Some(*beat) } else { None }
     }
 
-    /// Whether a time is one of those at which the schedule jumps or bends.
+    /// Returns true if a time is a declared break.
     pub fn may_bend_at(&self, time: f64) -> bool {
         match self {
             Self::Constant(_) | Self::Sine { .. } | Self::Sampled(_) => false,
@@ -35,7 +35,7 @@ impl Schedule {
         }
     }
 
-    /// Whether the schedule may have different values just before and just after a time.
+    /// Returns true if the values just before and just after a time may differ.
     pub fn may_jump_at(&self, time: f64) -> bool {
         match self {
             Self::Constant(_) | Self::Sine { .. } | Self::SmoothPulse { .. } | Self::Sampled(_) => {

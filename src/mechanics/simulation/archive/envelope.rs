@@ -1,4 +1,4 @@
-//! What is around the content of a file: a mark, versions, lengths and a checksum.
+//! File envelope: magic number, versions, lengths and checksum.
 //!
 //! ```text
 //! mark       8 bytes    89 "withy" 0D 0A; the first byte is no text, the last two show what turns line ends round
@@ -13,15 +13,14 @@ use super::ArchiveError;
 
 const MARK: [u8; 8] = *b"\x89withy\r\n";
 
-/// Of this program. A change of anything that is stored makes it one more.
+/// File format version. Increment it with any change of the stored data.
 const FORMAT: u16 = 22;
 
 const PROGRAM: &str = env!("CARGO_PKG_VERSION");
 
-/// The length of a checksum.
+/// Length of a checksum [bytes].
 const CHECKSUM: usize = 4;
 
-/// Reads from front to back.
 struct ArchiveReader<'a> {
     bytes: &'a [u8],
     at: usize,
@@ -44,7 +43,7 @@ impl<'a> ArchiveReader<'a> {
     }
 }
 
-/// The bytes of a simulation's file with some content: versions, length and checksum before it.
+/// Wraps content in an envelope.
 pub fn wrap(content: &[u8]) -> Vec<u8> {
     let program = &PROGRAM.as_bytes()[..PROGRAM.len().min(usize::from(u8::MAX))];
     let mut file = MARK.to_vec();
@@ -57,7 +56,7 @@ pub fn wrap(content: &[u8]) -> Vec<u8> {
     file
 }
 
-/// The content of a simulation's file, once versions, length and checksum are checked.
+/// Checks versions, length and checksum, and returns the content.
 pub fn unwrap(file: &[u8]) -> Result<&[u8], ArchiveError> {
     if file.is_empty() || !file.starts_with(&MARK[..file.len().min(MARK.len())]) {
         return Err(ArchiveError::Foreign);

@@ -1,4 +1,4 @@
-//! Simulations as files that survive a restart: versioned and checksummed.
+//! Versioned and checksummed files of simulations.
 
 mod envelope;
 mod error;

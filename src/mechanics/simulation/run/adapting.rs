@@ -1,4 +1,4 @@
-//! Steps as long as a tolerance allows.
+//! Variable steps under a tolerance.
 
 use super::Simulation;
 use super::event_location::MOST_ARRIVALS;
@@ -11,12 +11,12 @@ use crate::simulation::step_retry::StepRetry;
 use crate::simulation::{Monitor, SimulationError};
 
 impl Simulation {
-    /// The size that the next step has if nothing cuts it [time].
+    /// Planned size of the next step [time].
     pub fn dt(&self) -> f64 {
         self.clock.dt()
     }
 
-    /// The time at which the next step is to end, if it goes no further than `limit` [time].
+    /// End time of the next step, limited by `limit` [time].
     pub fn next_stop(&self, limit: f64) -> f64 {
         let now = self.time();
         let stop = self.clock.grid.next(now, limit);
@@ -24,7 +24,7 @@ impl Simulation {
         planned.map_or(stop, |(adaptive, pace)| adaptive.plan(&pace, now, stop).interval.end)
     }
 
-    /// Takes two equal steps of the method that keep the tolerance, trying shorter ones until they do.
+    /// Takes two equal steps within the tolerance, with shorter ones after rejections.
     pub(super) fn adapt(
         &mut self,
         adaptive: &mut Adaptive,
@@ -88,7 +88,7 @@ impl Simulation {
                 }
                 Err(FailedStep { source: StepError::Overshoot { iterations, .. }, before }) => {
                     self.progress.count_try(before + iterations);
-                    // Beyond an end there is nothing to compare; what comes after an arrival is not as what was.
+                    // There is no comparison beyond an end, and the motion after an arrival differs from that before.
                     self.clock.pace = Some(StepSizeState { error: None, tries: 0, ..pace });
                     let start = interval.start;
                     let half = StepRetry::new(Interval::between(start, start + 0.5 * dt));
@@ -118,7 +118,7 @@ impl Simulation {
         }
     }
 
-    /// Takes a step as a whole and in halves; where a part of it has no solution, all of it with the kinks under contact forces staying as they are.
+    /// Takes a whole step and two halves. If a part has no solution, all are repeated with fixed kinks under contact forces.
     fn try_step(
         &mut self,
         adaptive: &mut Adaptive,
@@ -146,7 +146,7 @@ impl Simulation {
         Ok(if plan.is_least { doubled.judged_by_places() } else { doubled })
     }
 
-    /// Takes the second half of a step that waits in its middle, if one does.
+    /// Takes the second half of a paused step, if there is one.
     fn end_step_half_way(
         &mut self,
         adaptive: &mut Adaptive,
@@ -156,8 +156,8 @@ impl Simulation {
         resampling.as_mut()?.go_on(doubling, &mut *self.stepper.integrator, &mut self.model, order)
     }
 
-    /// Whether a step of the simulation waits in its middle for those who control loads and drives: who has stopped the run goes on with it, or
-    /// [goes back](Self::go_back_to_start_of_step).
+    /// Returns true if a step is paused in its middle to sample controllers. A stopped run may continue or [restore the start of the
+    /// step](Self::go_back_to_start_of_step).
     pub fn is_half_way(&self) -> bool {
         let adaptive = self.adaptive.as_ref();
         adaptive
@@ -165,7 +165,7 @@ impl Simulation {
             .is_some_and(Resampling::is_half_way)
     }
 
-    /// Takes the simulation back to the start of a step that waits in its middle, if one does.
+    /// Restores the start of a paused step, if there is one.
     pub fn go_back_to_start_of_step(&mut self) {
         if let Some(adaptive) = &mut self.adaptive
             && adaptive.resampling.as_mut().is_some_and(Resampling::abandon)
@@ -174,7 +174,7 @@ impl Simulation {
         }
     }
 
-    /// Goes on to the end of a step that is compared with nothing, or until a slider arrives: what comes then is compared again.
+    /// Continues to the end of a step without error estimate, or until a slider arrives.
     fn cover_uncompared(
         &mut self,
         halving: StepRetry,

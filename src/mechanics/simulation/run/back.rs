@@ -1,4 +1,4 @@
-//! Going back to states that were, and copies that go their own way.
+//! Rewinding to earlier states, and copies of simulations.
 
 use std::rc::Rc;
 
@@ -9,29 +9,28 @@ use crate::simulation::{SimulationError, WorkCounts};
 use crate::system::SystemState;
 
 impl Simulation {
-    /// Keeps the state of the simulation after every step from here on, as long as all of them fit into `limit` bytes; then the oldest but
-    /// the first are forgotten. Zero keeps none, and costs nothing. A smaller limit than before forgets at once.
+    /// Keeps snapshots after every step within a memory limit in bytes. When the limit is exceeded, the oldest snapshots except the first are
+    /// discarded. Zero disables snapshots. A reduced limit applies immediately.
     pub fn keep_snapshots(&mut self, limit: usize) {
         let mut snapshots = std::mem::take(&mut self.snapshots);
         snapshots.set_limit(limit, || self.snapshot(self.model.state()));
         self.snapshots = snapshots;
     }
 
-    /// The memory that snapshots may take [bytes]; zero when none are kept.
+    /// Memory limit of snapshots [bytes]; zero if disabled.
     pub fn snapshot_limit(&self) -> usize {
         self.snapshots.limit()
     }
 
-    /// The number of snapshots that are kept, and the memory that they take [bytes].
+    /// Number of snapshots and their memory [bytes].
     pub fn snapshots_kept(&self) -> (usize, usize) {
         (self.snapshots.count(), self.snapshots.bytes())
     }
 
-    /// Takes the simulation back so many steps, bit for bit. Halves of steps count as steps, as they do in the history; cuts of the time grid
-    /// stay.
+    /// Rewinds by a number of steps, bit for bit. Half steps count as steps, as in the history. Cuts of the time grid remain.
     ///
     /// # Errors
-    /// When fewer steps were taken, or the state there is not kept.
+    /// Fails if fewer steps were taken, or the state is not stored.
     pub fn back(&mut self, steps: usize) -> Result<(), SimulationError> {
         let taken = self.progress.counts.steps;
         match taken.checked_sub(steps) {
@@ -40,14 +39,14 @@ impl Simulation {
         }
     }
 
-    /// Takes the simulation back to the end of the last step at or before a time, bit for bit; the present is such an end too.
+    /// Rewinds to the end of the last step at or before a time, bit for bit. The present counts.
     ///
     /// # Errors
-    /// When the time is before the start or to come, or the state there is not kept.
+    /// Fails if the time is outside the run, or the state is not stored.
     pub fn rewind(&mut self, time: f64) -> Result<(), SimulationError> {
         let (now, slack) = (self.time(), self.slack());
         let begun = self.history().samples().first().map_or(0.0, |row| row.measures.time);
-        // Zero stands for the start, which may be later.
+        // Zero denotes the start, which may be later.
         let time = if time.abs() <= slack { begun } else { time };
         if time.is_nan() || time < begun - slack || time > now + slack {
             return Err(SimulationError::NotBehind { time, begun, now });
@@ -66,7 +65,7 @@ impl Simulation {
         }
     }
 
-    /// How many steps ended at or before a time, as far as history or snapshots know.
+    /// Number of steps that ended at or before a time, as far as known from history or snapshots.
     fn steps_until(&self, time: f64) -> Option<usize> {
         if self.has_all_rows() {
             let rows = self.record.history.samples();
@@ -75,12 +74,12 @@ impl Simulation {
         Some(self.snapshots.last_until(time, self.progress.counts.steps)?.steps())
     }
 
-    /// Goes back so many steps, for checking scripts: as [`back`](Self::back) does, or as near as a pretended run allows.
+    /// Rewinds a dry run by a number of steps, as [`back`](Self::back) does.
     pub fn pretend_back(&mut self, steps: usize) {
         self.pretend_back_to(self.progress.counts.steps.saturating_sub(steps));
     }
 
-    /// Goes back to a time, for checking scripts: as [`rewind`](Self::rewind) does, or as near as a pretended run allows.
+    /// Rewinds a dry run to a time, as [`rewind`](Self::rewind) does.
     pub fn pretend_rewind(&mut self, time: f64) {
         self.pretend_back_to(self.steps_until(time + self.slack()).unwrap_or(0));
     }
@@ -88,7 +87,7 @@ impl Simulation {
     fn pretend_back_to(&mut self, steps: usize) {
         let Some(first) = self.snapshots.first().map(Snapshot::steps) else { return };
         if self.go_back_to(steps.max(first)).is_err() {
-            // The first is always kept.
+            // The first snapshot is always kept.
             let _: Result<(), SimulationError> = self.go_back_to(first);
         }
     }
@@ -114,10 +113,10 @@ impl Simulation {
         Ok(())
     }
 
-    /// Takes a state that the simulation has been in, or a copy of it has; rows of the history that came later are gone.
+    /// Restores a snapshot of this simulation or a copy of it. Later rows of the history are removed.
     ///
     /// # Errors
-    /// When the scene cannot be built, which it could before.
+    /// Fails if the scene cannot be built, which succeeded before.
     pub(super) fn stand_at(&mut self, snapshot: &Snapshot) -> Result<(), SimulationError> {
         self.leave_derivatives("going back");
         self.stand_released(&snapshot.let_go)?;
@@ -132,7 +131,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// The error of a state that is not kept: in words, and the fewest steps that may have led there.
+    /// Error for a state that is not stored, with the fewest steps that may lead to it.
     fn forgotten(&self, target: String, steps: usize) -> SimulationError {
         let now = self.progress.counts.steps;
         let kept = self.snapshots.first().zip(self.snapshots.unbroken_from(now));
@@ -152,7 +151,7 @@ impl Simulation {
         }
     }
 
-    /// Keeps the present state of the simulation, if snapshots are kept.
+    /// Stores a snapshot of the present if enabled.
     pub(super) fn remember(&mut self) {
         let Some(blank) = self.snapshots.blank() else { return };
         self.clock.grid.reach(self.time());
@@ -160,7 +159,7 @@ impl Simulation {
         self.snapshots.push(snapshot);
     }
 
-    /// A snapshot of the present, written into a state that may have held another.
+    /// Snapshot of the present, in a recycled state.
     pub(super) fn snapshot(&self, mut state: SystemState) -> Snapshot {
         self.model.write_state(&mut state);
         Snapshot {
@@ -177,20 +176,20 @@ impl Simulation {
         }
     }
 
-    /// A copy of the simulation that has been through the same and goes its own way from here.
+    /// Returns an independent copy of the simulation.
     ///
     /// # Errors
-    /// When the scene cannot be built, which it could before.
+    /// Fails if the scene cannot be built, which succeeded before.
     pub fn fork(&self) -> Result<Self, SimulationError> {
         let mut fork = self.fork_without_snapshots()?;
         fork.snapshots = self.snapshots.clone();
         Ok(fork)
     }
 
-    /// A copy of the simulation that has been through the same and goes its own way from here, without states to go back to.
+    /// Returns an independent copy without snapshots.
     ///
     /// # Errors
-    /// When the scene cannot be built, which it could before.
+    /// Fails if the scene cannot be built, which succeeded before.
     pub(super) fn fork_without_snapshots(&self) -> Result<Self, SimulationError> {
         let mut fork = Self::start(self.scene.clone(), self.settings)?;
         fork.stand_released(&self.progress.let_go)?;

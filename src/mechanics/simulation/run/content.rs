@@ -1,4 +1,4 @@
-//! What is stored of a simulation, and how it is made of that again.
+//! Serialised content of a simulation.
 
 use std::borrow::Cow;
 use std::rc::Rc;
@@ -14,13 +14,13 @@ use crate::simulation::step_retry::StepRetry;
 use crate::simulation::{Arrival, Recording, ReleaseEvent, Sample, SimulationSettings, WorkCounts};
 use crate::system::{Scene, SystemState};
 
-/// Counts beyond this, and grid points beyond it, cannot have been counted.
+/// Bound of plausible counters and grid points.
 const MOST_COUNTED: usize = 1 << 52;
 
-/// Most Newton iterations that settings may allow.
+/// Largest number of Newton iterations in settings.
 const MOST_ITERATIONS: usize = 10_000;
 
-/// Everything that a simulation is but what follows from it.
+/// Stored data of a simulation; everything else is derived.
 #[derive(Serialize, Deserialize)]
 struct Content<'a> {
     name: Cow<'a, str>,
@@ -31,7 +31,7 @@ struct Content<'a> {
     samples: Cow<'a, [Sample]>,
     rows_kept: usize,
     extra: Cow<'a, [f64]>,
-    /// How many configurations were offered to the trajectory for each that it kept.
+    /// Number of configurations offered to the trajectory per stored one.
     every: usize,
     times: Cow<'a, [f64]>,
     numbers: Cow<'a, [f64]>,
@@ -39,7 +39,7 @@ struct Content<'a> {
     let_go: Cow<'a, [ReleaseEvent]>,
     counts: WorkCounts,
     cuts: Cow<'a, [f64]>,
-    /// The parts of a [`StepRetry`].
+    /// Parts of a [`StepRetry`].
     under_way: Option<((f64, f64), u64, u32, usize)>,
     pace: Option<StepSizeState>,
 }
@@ -49,10 +49,10 @@ fn refused(reason: &str) -> ArchiveError {
 }
 
 impl Simulation {
-    /// The simulation as a file that [`from_bytes`](Self::from_bytes) reads, under a name. Snapshots are not in it.
+    /// Serialises the simulation under a name, for [`from_bytes`](Self::from_bytes). Snapshots are not included.
     ///
     /// # Errors
-    /// When a load has a function from outside as its schedule, or somebody outside is still to say when something lets go.
+    /// Fails if a load follows a script function, or a release waits for one.
     pub fn to_bytes(&self, name: &str) -> Result<Vec<u8>, ArchiveError> {
         let mut schedules = self.scene.schedules();
         if let Some((load, schedule)) = schedules.find(|(_, schedule)| !schedule.can_be_stored()) {
@@ -90,10 +90,10 @@ impl Simulation {
         Ok(wrap(&bytes))
     }
 
-    /// A simulation and its name from a file of [`to_bytes`](Self::to_bytes); it goes on bit for bit as the one that was stored.
+    /// Restores a simulation and its name from the result of [`to_bytes`](Self::to_bytes). It continues bit for bit.
     ///
     /// # Errors
-    /// When the file is cut off, damaged, of a later format or something else, or its content makes no sense.
+    /// Fails if the file is truncated, damaged, of a later format or another kind, or its content is invalid.
     pub fn from_bytes(file: &[u8]) -> Result<(String, Self), ArchiveError> {
         let bytes = unwrap(file)?;
         let read = postcard::take_from_bytes::<Content>(bytes);
@@ -107,7 +107,7 @@ impl Simulation {
 }
 
 impl Content<'_> {
-    /// Checks what no constructor checks.
+    /// Checks values that no constructor checks.
     fn check(&self) -> Result<(), ArchiveError> {
         let Tolerance { force, strain, constraint, polish, iterations } = self.settings.tolerance;
         let are_tolerances = [force, strain, constraint, polish].iter().all(|x| *x >= 0.0);

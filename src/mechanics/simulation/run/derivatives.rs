@@ -1,4 +1,4 @@
-//! Derivatives by parameters of the scene, found with the steps.
+//! Derivatives with respect to parameters of the scene, computed with the steps.
 
 use super::{Simulation, SimulationSettings};
 use crate::simulation::sensitivities::Sensitivities;
@@ -8,11 +8,11 @@ use crate::simulation::{
 use crate::system::{Scene, System};
 
 impl Simulation {
-    /// Builds a scene with those that parameters make of it, and puts the simulation at its start; the derivatives by these parameters are found with its
-    /// steps, which they do not change.
+    /// Starts a simulation with its scenes at perturbed parameters. Derivatives with respect to these parameters are computed with the steps and do
+    /// not change them.
     ///
     /// # Errors
-    /// As those of [`start`](Self::start), and when steps cannot be taken in company or the scenes differ in more than numbers.
+    /// Errors of [`start`](Self::start). Also fails if the method has no derivatives or the scenes differ in more than numbers.
     pub fn start_with_derivatives(
         scene: Scene,
         settings: SimulationSettings,
@@ -24,25 +24,25 @@ impl Simulation {
         Ok(run)
     }
 
-    /// The names of the parameters by which the simulation has derivatives, with the distances of the runs beside it.
+    /// Names of the parameters of derivatives, with the perturbations.
     pub fn parameters(&self) -> impl Iterator<Item = (&str, f64)> {
         self.stepper.sensitivities.iter().flat_map(|of| of.parameters())
     }
 
-    /// The run beside this one at a parameter, by its index, plus or minus its distance, in the state that lies so far from the present one in the
-    /// direction of the derivative: half the difference of what both tell, over the distance, is the derivative of that.
+    /// Perturbed run of a parameter. Its state is the present one plus or minus the derivative times the perturbation, so half the difference of both
+    /// results over the perturbation is a derivative.
     ///
     /// # Errors
-    /// When there are no derivatives (any more).
+    /// Fails if there are no derivatives.
     pub fn beside(&self, parameter: usize, side: PerturbedSide) -> Result<&Self, DerivativeError> {
         let known = self.stepper.sensitivities.as_ref().ok_or(DerivativeError::None)?;
         known.beside(parameter, side)
     }
 
-    /// The same, to look at it by way of what may change it for the moment.
+    /// Mutable access to a perturbed run, for queries that need it.
     ///
     /// # Errors
-    /// When there are no derivatives (any more).
+    /// Fails if there are no derivatives.
     pub fn beside_mut(
         &mut self,
         parameter: usize,
@@ -52,11 +52,10 @@ impl Simulation {
         known.beside_mut(parameter, side)
     }
 
-    /// The part of the history of the run beside this one at a parameter, by its index, plus or minus its distance, that belongs to the rows between two
-    /// times. It is there as well where derivatives have ended behind these.
+    /// History of a perturbed run between two times, also if derivatives ended later.
     ///
     /// # Errors
-    /// When there are no derivatives of all of these rows.
+    /// Fails if some of these rows have no derivatives.
     pub fn history_beside(
         &self,
         parameter: usize,
@@ -74,10 +73,10 @@ impl Simulation {
         }
     }
 
-    /// The derivative of a number that a simulation tells by a parameter, by its index.
+    /// Derivative of a quantity of the simulation with respect to a parameter.
     ///
     /// # Errors
-    /// When there are no derivatives (any more).
+    /// Fails if there are no derivatives.
     pub fn derivative(
         &self,
         parameter: usize,
@@ -89,17 +88,16 @@ impl Simulation {
         Ok((number(plus?) - number(minus?)) / (2.0 * distance))
     }
 
-    /// The work for the derivatives of the simulation so far.
+    /// Work counters of the derivatives.
     pub fn derivative_counts(&self) -> DerivativeCounts {
         self.stepper.sensitivities.as_ref().map(|of| of.counts()).unwrap_or_default()
     }
 
-    /// The mechanism of the simulation, to be stepped by somebody else.
     pub(in crate::simulation) fn model_mut(&mut self) -> &mut System {
         &mut self.model
     }
 
-    /// There are no derivatives from the present on: something happens that they do not pass.
+    /// Ends the derivatives at an event that they cannot pass.
     pub(super) fn lose_derivatives(&mut self, event: &'static str) {
         let time = self.time();
         if let Some(sensitivities) = &mut self.stepper.sensitivities {
@@ -107,7 +105,7 @@ impl Simulation {
         }
     }
 
-    /// There are no derivatives from here on: the run did not get here by its steps.
+    /// Ends the derivatives after the run was changed other than by steps.
     pub(super) fn leave_derivatives(&mut self, way: &'static str) {
         if let Some(sensitivities) = &mut self.stepper.sensitivities {
             sensitivities.lose(DerivativeError::Way { way });

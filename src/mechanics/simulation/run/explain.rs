@@ -1,4 +1,4 @@
-//! What a simulation uses, and what it therefore leaves out.
+//! Summary of the features that a simulation uses and omits.
 
 use super::Simulation;
 use crate::simulation::controller::StepController;
@@ -6,7 +6,7 @@ use crate::simulation::{Recording, WorkCounts};
 use crate::system::SystemFeature;
 
 impl Simulation {
-    /// What this simulation uses and what it leaves out: first of its scene, then how it takes steps.
+    /// Features that this simulation uses and omits: those of its scene, then those of its steps.
     pub fn explain(&self) -> Vec<SystemFeature> {
         let method = self.settings().method;
         let mut parts = self.model().explain(self.scene(), &[method]);
@@ -58,7 +58,7 @@ impl Simulation {
         }
     }
 
-    /// What becomes of steps that fail or err, and how often they did.
+    /// Treatment and number of failed and rejected steps.
     fn explain_tries(&self) -> SystemFeature {
         let WorkCounts { rejected, retries, .. } = self.counts();
         match &self.adaptive {

@@ -1,4 +1,4 @@
-//! What may leave a step without a solution, in words: what no steps, however short, take a scene through.
+//! Conditions under which every step fails, however short.
 
 use super::Simulation;
 use crate::beams::BodyIndex;
@@ -9,27 +9,27 @@ use crate::simulation::Axes;
 use crate::simulation::warning::short;
 use crate::system::{Element, SliderState};
 
-/// An axis that is shorter than this part of what it is as drawn is as good as compressed to nothing.
+/// Axis compression factor below which the axis counts as crushed.
 const COMPRESSED: f64 = 0.5;
 
-/// An axis that is longer than so many times what it is as drawn is as good as torn.
+/// Axis stretch factor above which the axis counts as torn.
 const STRETCHED: f64 = 1.5;
 
-/// A contact force that is larger than this part of the shear stiffness of a beam folds its axis.
+/// Contact force, relative to the shear stiffness of the beam, above which the axis folds.
 const PRESSED: f64 = 0.1;
 
-/// A slider that kinks its axis and is nearer to an end than this part of its master is held off by the kink.
+/// Relative distance to an end below which the kink under a slider keeps it off the end.
 const HOVERS: f64 = 5e-3;
 
 impl Simulation {
-    /// What is extreme in the present configuration, in words, as the end of a sentence; empty where nothing is.
+    /// Extreme conditions of the present configuration, appended to messages; empty if there are none.
     pub(super) fn plight(&self) -> String {
         let extreme = self.extreme_axes().chain(self.extreme_contacts());
         let others = self.bodies_without_inertia().chain(self.driven_backwards());
         extreme.chain(others).map(|told| format!("; {told}")).collect()
     }
 
-    /// What is pulled off its centre and has no inertia turns in no time to where nothing turns it.
+    /// A body without inertia that is loaded off its centre rotates instantaneously to its equilibrium angle.
     fn bodies_without_inertia(&self) -> impl Iterator<Item = String> {
         let inertia = |body: usize| -> f64 {
             let masses = self.scene.elements.iter().filter_map(|element| match element {
@@ -51,7 +51,7 @@ impl Simulation {
         )
     }
 
-    /// A method whose steps go back in time for a part, where what resists gives.
+    /// Methods with backward substeps, in which dissipative elements add energy.
     fn driven_backwards(&self) -> impl Iterator<Item = String> {
         let goes_back = self.settings.method == Method::FourthOrder;
         let damping = if goes_back { self.model.most_damping() } else { None };

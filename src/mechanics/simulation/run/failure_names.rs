@@ -1,15 +1,15 @@
-//! Where a step failed, in the names of the scene.
+//! Names for the location of a failed step.
 
 use super::Simulation;
 use crate::beams::{BodyIndex, Station};
 use crate::integrators::{FailureSource, StepError};
 use crate::joints::CONTACT_UNKNOWNS;
 
-/// The movements of a control point, in words.
+/// Names of the movements of a control point.
 const MOVEMENTS: [&str; 3] = ["x", "y", "the angle"];
 
 impl Simulation {
-    /// The same error, with the name of what the step failed at, if that is known.
+    /// Adds the name of the failed unknown to an error, if known.
     pub(super) fn with_name(&self, mut error: StepError) -> StepError {
         if let StepError::Newton { culprit, .. } = &mut error {
             let name = culprit.take().and_then(|culprit| match *culprit {

@@ -1,4 +1,4 @@
-//! Looking at a motion: which of its configurations to show, and where everything is in them.
+//! Selection of recorded configurations.
 
 use super::Simulation;
 use crate::geometry::Vec2;
@@ -6,8 +6,7 @@ use crate::simulation::Outline;
 use crate::system::SystemError;
 
 impl Simulation {
-    /// The recorded configurations between two times, by their index in the trajectory: all of them, or so many at most, as evenly
-    /// spread in time as they were recorded.
+    /// Indices of recorded configurations between two times, at most `most`, spread as evenly in time as recorded.
     pub fn frames_between(&self, from: f64, to: f64, most: usize) -> Vec<usize> {
         let trajectory = self.trajectory();
         let first = trajectory.times().partition_point(|time| *time < from);
@@ -24,7 +23,7 @@ impl Simulation {
         frames
     }
 
-    /// The control points of all bodies in a configuration of the trajectory: beams first, then particles [length].
+    /// Control points of all bodies in a recorded configuration: beams, then particles, then rigid bodies [length].
     pub fn control_points_at(&self, index: usize) -> Vec<Vec<Vec2>> {
         let mut numbers = self.trajectory().configuration(index).chunks_exact(2);
         let of_body = |body: &[Vec2]| {
@@ -33,10 +32,10 @@ impl Simulation {
         self.model.control_points().map(of_body).collect()
     }
 
-    /// The outlines of the beams, in their order, and then of the rigid bodies that have points.
+    /// Outlines of the beams, then of rigid bodies with points.
     ///
     /// # Errors
-    /// When an axis has a point without a tangent.
+    /// Fails if an axis has a point without a tangent.
     pub fn outlines(&self) -> Result<&[Outline], SystemError> {
         self.drawn.outlines(|| Outline::of_scene(&self.scene, self.model.meshes()))
     }

@@ -1,7 +1,7 @@
-//! What lets go in the course of a run, between two steps.
+//! Releases between two steps of a run.
 //!
-//! A release belongs to the start of a step: the state at the end of the step before is that of a scene that still holds. So going back to
-//! it and going on lets go again, at the same place.
+//! A release belongs to the start of a step. The state at the end of the previous step is unreleased, so continuing after a rewind repeats the
+//! release.
 
 use std::rc::Rc;
 
@@ -10,12 +10,12 @@ use crate::joints::{Releasable, Release, Trigger};
 use crate::simulation::{ReleaseEvent, SimulationError};
 
 impl Simulation {
-    /// What has let go so far, in the order in which it did.
+    /// Releases so far, in their order.
     pub fn let_go(&self) -> &[ReleaseEvent] {
         &self.progress.let_go
     }
 
-    /// Whether something waits for somebody outside to say that it lets go, by its index among the releases of the scene.
+    /// Returns true if a release waits to be triggered by the caller.
     pub fn waits_for_release(&self, release: usize) -> bool {
         let described = self.scene.releases.get(release);
         described.is_some_and(|described| described.trigger == Trigger::Outside)
@@ -26,10 +26,10 @@ impl Simulation {
         self.let_go().iter().any(|gone| gone.release == release)
     }
 
-    /// Lets go at the present moment what a release of the scene, by its index, is about; once.
+    /// Executes a release of the scene at the present time, once.
     ///
     /// # Errors
-    /// When the scene cannot be built, which it could before.
+    /// Fails if the scene cannot be built, which succeeded before.
     pub fn release(&mut self, release: usize) -> Result<(), SimulationError> {
         let Some(Release { hold, .. }) = self.scene.releases.get(release).copied() else {
             return Ok(());
@@ -49,7 +49,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Lets go what is due at the present time, before the next step.
+    /// Executes the releases due at the present time, before the next step.
     pub(super) fn let_go_due(&mut self) -> Result<(), SimulationError> {
         for release in 0..self.scene.releases.len() {
             if let Trigger::Time(time) = self.scene.releases[release].trigger
@@ -61,7 +61,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Makes the model one in which this has let go, to be given a state of such a one.
+    /// Marks the given objects released, before a state is restored.
     pub(super) fn stand_released(
         &mut self,
         let_go: &Rc<[ReleaseEvent]>,
@@ -78,14 +78,14 @@ impl Simulation {
         let_go.iter().map(|gone| self.scene.releases[gone.release].hold).collect()
     }
 
-    /// Gives the method work space for a model whose movements have other numbers, and finds again what is recorded.
+    /// Adapts the work space of the method and the sensors to the renumbered model.
     fn take_up_model(&mut self) -> Result<(), SimulationError> {
         let Self { settings, model, record, scene, stepper, .. } = self;
         stepper.integrator = settings.method.build(model, settings.tolerance);
         Ok(record.look_again(scene, model)?)
     }
 
-    /// Lets go of everything that waits for somebody outside, for a pretended run: scripts may wait for that.
+    /// Executes all pending triggered releases in a dry run, because scripts may wait for them.
     pub(super) fn pretend_releases(&mut self) -> Result<(), SimulationError> {
         for release in 0..self.scene.releases.len() {
             if self.waits_for_release(release) {

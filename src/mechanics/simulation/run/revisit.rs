@@ -1,10 +1,9 @@
-//! A copy that is shown the states in which a simulation has been: those that are kept, or, where they are forgotten, those of the
-//! same run made again.
+//! Access to earlier states through a copy: stored snapshots, or a repeated run.
 
 use super::Simulation;
 use crate::simulation::{Monitor, SimulationError};
 
-/// Pauses a run where it has come to a time.
+/// Monitor that pauses a run at a time.
 struct PauseTime<'m> {
     time: f64,
     monitor: &'m mut dyn Monitor,
@@ -17,7 +16,7 @@ impl Monitor for PauseTime<'_> {
 }
 
 impl Simulation {
-    /// Steps and times of the states that the simulation keeps without a gap up to the present, the present included.
+    /// Steps and times of the contiguous stored states up to the present, inclusive.
     pub fn states_kept(&self) -> Vec<(usize, f64)> {
         let steps = self.progress.counts.steps;
         let from = self.snapshots.unbroken_from(steps).unwrap_or(steps);
@@ -25,11 +24,10 @@ impl Simulation {
         kept.chain([(steps, self.time())]).collect()
     }
 
-    /// Takes the state in which another simulation, of which this is a copy that has not gone on, was after fewer steps than this
-    /// one is now. Gives whether that state is kept.
+    /// Restores in this copy an earlier state of the original simulation. Returns true if that state is stored.
     ///
     /// # Errors
-    /// When the scene cannot be built, which it could before.
+    /// Fails if the scene cannot be built, which succeeded before.
     pub fn revisit(&mut self, of: &Self, steps: usize) -> Result<bool, SimulationError> {
         if steps == self.progress.counts.steps {
             return Ok(true);
@@ -41,18 +39,18 @@ impl Simulation {
         Ok(true)
     }
 
-    /// A copy of the simulation at the present, without states of its own to go back to.
+    /// Returns a copy at the present without snapshots.
     ///
     /// # Errors
-    /// When the scene cannot be built, which it could before.
+    /// Fails if the scene cannot be built, which succeeded before.
     pub fn copy_at_present(&self) -> Result<Self, SimulationError> {
         self.fork_without_snapshots()
     }
 
-    /// A copy of the simulation at the start of the run, to make it again.
+    /// Returns a copy at the start of the run, to repeat it.
     ///
     /// # Errors
-    /// When the scene cannot be built, which it could before.
+    /// Fails if the scene cannot be built, which succeeded before.
     pub fn copy_at_start(&self) -> Result<Self, SimulationError> {
         let mut copy = self.fork_without_snapshots()?;
         match self.snapshots.find(0) {
@@ -66,12 +64,11 @@ impl Simulation {
         Ok(copy)
     }
 
-    /// Goes on, in a copy at an earlier place of the same run, to a row of the history of the original. Gives whether energy, momenta and
-    /// what was exchanged are there what they were, to the last bit: functions that a script had called on the way, or loads that it
-    /// computes, may have made another run of it.
+    /// Repeats the run of the original in a copy up to a row of its history. Returns true if energies, momenta and exchanges agree bit for bit.
+    /// Script functions called during the original run may make them differ.
     ///
     /// # Errors
-    /// As [`run_to`](Self::run_to), and when there is no such row.
+    /// Errors of [`run_to`](Self::run_to), or a missing row.
     pub fn run_again(
         &mut self,
         of: &Self,
@@ -82,7 +79,7 @@ impl Simulation {
         let Some(wanted) = rows.get(row) else { return Ok(false) };
         let time = wanted.measures.time;
         if time > self.time() {
-            // No step was to end where a slider arrived: the run goes on towards the next row, and pauses.
+            // Steps were not planned to end at arrivals, so the run continues towards the next row and pauses.
             let is_arrival = |at: &f64| of.arrivals().iter().any(|arrival| arrival.time == *at);
             let mut ends = rows[row..].iter().map(|row| row.measures.time);
             let goal = ends.find(|end| !is_arrival(end)).unwrap_or(time);

@@ -1,4 +1,4 @@
-//! Looking inside the beams of a simulation.
+//! Section results of a simulation.
 
 use super::Simulation;
 use crate::beams::{SectionForces, Station};
@@ -7,27 +7,27 @@ use crate::system::{
 };
 
 impl Simulation {
-    /// Section forces and strains at a station, in the present configuration: see [`Model::section_forces`](crate::system::Model::section_forces).
+    /// Section forces and strains at a station in the present configuration: see [`Model::section_forces`](crate::system::Model::section_forces).
     ///
     /// # Errors
-    /// When the station lies outside its beam, or on a particle.
+    /// Fails if the station lies outside its beam or on a particle.
     pub fn section_forces(&self, station: &Station) -> Result<SectionForces, SystemError> {
         let at = self.model.cross_section(&self.scene, station)?;
         Ok(self.model.section_forces(&at))
     }
 
-    /// The section forces of the simulation along a beam in the present configuration, from its start to its end.
+    /// Section forces along a beam in the present configuration, from start to end.
     ///
     /// # Errors
-    /// When an axis has a point without a tangent.
+    /// Fails if an axis has a point without a tangent.
     pub fn section_forces_along(&self, beam: usize) -> Result<Vec<SectionSample>, SystemError> {
         self.model.section_forces_along(&self.scene, beam)
     }
 
-    /// Places along a beam, found once, at which it is sampled: its knots, and so many between each two of them.
+    /// Places along a beam for repeated sampling: its knots, and a number of places between consecutive knots.
     ///
     /// # Errors
-    /// When an axis has a point without a tangent.
+    /// Fails if an axis has a point without a tangent.
     pub fn places_along(
         &self,
         beam: usize,
@@ -36,31 +36,31 @@ impl Simulation {
         self.model.places_along(&self.scene, beam, within_a_span)
     }
 
-    /// What a beam does in the present configuration, from its start to its end.
+    /// Samples a beam in the present configuration, from start to end.
     pub fn sample_along(&self, along: &BeamPlaces) -> Vec<BeamSample> {
         self.model.sample_along(along)
     }
 
-    /// Accelerations and forces at the present moment: see [`Model::instant`](crate::system::Model::instant).
+    /// Instantaneous accelerations and forces: see [`Model::instant`](crate::system::Model::instant).
     ///
     /// # Errors
-    /// When a load has no value, or contact forces are not determined.
+    /// Fails if a load has no value, or contact forces are undetermined.
     pub fn instant(&mut self) -> Result<Instant, SystemError> {
         self.model.instant()
     }
 
-    /// The energy of a body by kind: beams come first, then particles.
+    /// Energy of a body by kind. Indices count beams first, then particles.
     pub fn energy_of(&mut self, body: usize) -> BodyEnergy {
         self.model.energy_of(body)
     }
 
-    /// How many columns somebody outside is to fill in after every row, in the order in which they were described.
+    /// Number of columns that the caller fills after every row.
     pub fn outside_columns(&self) -> usize {
         let sensors = self.scene.sensors.iter();
         sensors.filter(|sensor| sensor.probe == Probe::Outside).count()
     }
 
-    /// Fills in the values of these columns in the last row of the history.
+    /// Sets these columns in the last row of the history.
     pub fn fill_in(&mut self, values: &[f64]) {
         let first = self.record.history.extra_width() - self.scene.sensors.len();
         let sensors = self.scene.sensors.iter().enumerate();

@@ -1,4 +1,4 @@
-//! A step of the time grid: taken whole or in halves, cut where sliders arrive, and recorded.
+//! Steps of the time grid: whole or halved, cut at arrivals of sliders, and recorded.
 
 use super::Simulation;
 use super::event_location::MOST_ARRIVALS;
@@ -8,7 +8,7 @@ use crate::simulation::step_retry::StepRetry;
 use crate::simulation::{Monitor, SimulationError};
 use crate::system::MasterLimit;
 
-/// How much of an interval steps have covered.
+/// Completion of an interval.
 #[derive(PartialEq, Eq)]
 pub(super) enum IntervalProgress {
     All,
@@ -16,7 +16,7 @@ pub(super) enum IntervalProgress {
 }
 
 impl Simulation {
-    /// Takes the simulation to the end of a step, cutting the way where sliders arrive at ends of their masters.
+    /// Advances to the end of a step, with cuts at arrivals of sliders.
     pub(super) fn cover_with_arrivals(
         &mut self,
         mut halving: StepRetry,
@@ -34,7 +34,7 @@ impl Simulation {
         Err(self.rattles())
     }
 
-    /// The error of a slider that does not get away from an end of its master.
+    /// Error of a slider with too many arrivals in one step.
     pub(super) fn rattles(&self) -> SimulationError {
         let arrival = self.progress.arrivals.last().map_or_else(
             || format!("a slider is about to arrive after t = {}", self.time()),
@@ -43,7 +43,7 @@ impl Simulation {
         SimulationError::Rattles { arrival, most: MOST_ARRIVALS }
     }
 
-    /// Covers an interval by one step or, where that fails, by halves of it, growing again after success.
+    /// Covers an interval by one step, or on failure by halves that grow again after success.
     pub(super) fn cover(
         &mut self,
         mut halving: StepRetry,
@@ -64,7 +64,7 @@ impl Simulation {
                             self.keep_row();
                         }
                         let arrived = self.arrive(&landing);
-                        // An arrival without a step is not remembered: going on from the step before leads here again.
+                        // An arrival without a step has no snapshot. Continuing from the previous step leads here again.
                         if landing.step.is_some() {
                             self.remember();
                         }
@@ -98,9 +98,9 @@ impl Simulation {
         Ok(IntervalProgress::All)
     }
 
-    /// Takes a step; where none is found, one in which the kinks under contact forces stay as they are.
+    /// Takes a step. On failure, repeats it with fixed kinks under contact forces.
     fn step_or_keep_kinks(&mut self, interval: Interval) -> Result<NewtonReport, StepError> {
-        // Only now: what is told of the last step is told by its law.
+        // Resets the law only here, because queries of the last step depend on it.
         self.model.let_kinks_follow();
         let stepped = self.stepper.step(&mut self.model, interval);
         let stepped = match stepped {
@@ -111,13 +111,13 @@ impl Simulation {
             other => other,
         };
         if self.stepper.sensitivities.is_some() && self.model.has_kept_kinks() {
-            // The runs beside this one may take the other law.
+            // The perturbed runs may use the other law.
             self.lose_derivatives("a kink under a slider was kept as it is");
         }
         stepped
     }
 
-    /// Keeps the kinks under contact forces as they are, for a step that was not found; whether that makes it another step.
+    /// Fixes the kinks under contact forces after a failed step. Returns true if that changes the step.
     pub(super) fn keeps_kinks_for(&mut self, source: &StepError) -> bool {
         match source {
             StepError::Overshoot { .. } | StepError::Load { .. } => false,
@@ -125,7 +125,6 @@ impl Simulation {
         }
     }
 
-    /// Counts a step that succeeded after some failed tries.
     pub(in crate::simulation) fn count_step(
         &mut self,
         interval: Interval,
@@ -139,13 +138,13 @@ impl Simulation {
         }
     }
 
-    /// Asks the monitor whether the run goes on.
+    /// Calls the monitor.
     pub(super) fn ask(&self, monitor: &mut dyn Monitor) -> Result<(), SimulationError> {
         let time = self.time();
         if monitor.goes_on(time) { Ok(()) } else { Err(SimulationError::Interrupted { time }) }
     }
 
-    /// The error of steps that failed in every size.
+    /// Error of a step that failed in every size.
     fn no_step(&self, dt: f64, divisions: u64, source: StepError) -> SimulationError {
         let (time, plight) = (self.time(), self.plight());
         if let StepError::Overshoot { overshoot, .. } = &source {

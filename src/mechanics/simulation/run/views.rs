@@ -1,4 +1,4 @@
-//! Looking at a simulation: places, paths and configurations to draw.
+//! Places, paths and configurations for drawing.
 
 use super::Simulation;
 use crate::beams::{BodyPoint, Station};
@@ -9,19 +9,18 @@ use crate::system::SystemError;
 use crate::vibration::{Modes, VibrationError};
 
 impl Simulation {
-    /// The place of a station on its body.
+    /// Place of a station on its body.
     ///
     /// # Errors
-    /// When the station lies outside its beam.
+    /// Fails if the station lies outside its beam.
     pub fn place(&self, station: &Station) -> Result<BodyPoint, SystemError> {
         self.scene.place(station, self.model.meshes())
     }
 
-    /// The lowest natural modes of the present configuration, taken as one at rest, under the section forces that it has and the forces that hold points of
-    /// rigid bodies at the present moment.
+    /// Lowest natural modes about the present configuration, treated as an equilibrium under its present section and constraint forces.
     ///
     /// # Errors
-    /// When there are not so many, a load turns with the beam, these forces are not determined, or it is stopped.
+    /// Fails if there are too few modes, a load follows the beam, these forces are undetermined, or the search is stopped.
     pub fn modes(
         &mut self,
         count: usize,
@@ -32,7 +31,7 @@ impl Simulation {
             .map_err(|error| VibrationError::NoForces(error.to_string()))?
     }
 
-    /// The points where a place was, with the times, at all configurations of the trajectory.
+    /// Path of a place: times and positions at all recorded configurations.
     pub fn path(&self, place: &BodyPoint) -> Vec<(f64, Vec2)> {
         let counts: Vec<usize> = self.model.control_points().map(<[Vec2]>::len).collect();
         let offset = counts[..place.body].iter().sum::<usize>();
@@ -54,19 +53,19 @@ impl Simulation {
             .collect()
     }
 
-    /// The present configuration, as it is drawn.
+    /// Present configuration for drawing.
     ///
     /// # Errors
-    /// When an axis has a point without a tangent.
+    /// Fails if an axis has a point without a tangent.
     pub fn configuration(&self) -> Result<Configuration, SystemError> {
         let bodies: Vec<&[Vec2]> = self.model.control_points().collect();
         Ok(Outline::draw(self.outlines()?, self.time(), &bodies))
     }
 
-    /// The configuration nearest to a time, as it is drawn; none before there is one.
+    /// Recorded configuration nearest to a time, for drawing; `None` without any.
     ///
     /// # Errors
-    /// When an axis has a point without a tangent.
+    /// Fails if an axis has a point without a tangent.
     pub fn configuration_near(&self, time: f64) -> Result<Option<Configuration>, SystemError> {
         let Some(index) = self.record.trajectory.nearest(time) else { return Ok(None) };
         let bodies = self.control_points_at(index);
@@ -74,7 +73,7 @@ impl Simulation {
         Ok(Some(Outline::draw(self.outlines()?, self.record.trajectory.times()[index], &bodies)))
     }
 
-    /// When something let go, or a slider left its master at an end, if it has [time].
+    /// Time at which an object was released or a slider left its master, if it was [time].
     pub fn release_of(&self, hold: Releasable) -> Option<f64> {
         let is_release = |arrival: &&Arrival| {
             Releasable::Slider(arrival.limit.slider) == hold
@@ -85,18 +84,18 @@ impl Simulation {
         left.or_else(|| self.let_go().iter().find(is_it).map(|gone| gone.time))
     }
 
-    /// The points where stations are at present [length].
+    /// Present positions of stations [length].
     ///
     /// # Errors
-    /// When a station lies outside its beam.
+    /// Fails if a station lies outside its beam.
     pub fn stations(&self, stations: &[Station]) -> Result<Vec<Vec2>, SystemError> {
         stations.iter().map(|at| Ok(self.model.position(&self.place(at)?))).collect()
     }
 
-    /// The points where stations were in the configuration nearest to a time [length].
+    /// Positions of stations in the recorded configuration nearest to a time [length].
     ///
     /// # Errors
-    /// When a station lies outside its beam.
+    /// Fails if a station lies outside its beam.
     pub fn stations_near(&self, stations: &[Station], time: f64) -> Result<Vec<Vec2>, SystemError> {
         let Some(index) = self.record.trajectory.nearest(time) else {
             return self.stations(stations);

@@ -1,4 +1,4 @@
-//! What the steps of a run do not resolve.
+//! Warnings about unresolved motion.
 
 use std::f64::consts::TAU;
 
@@ -10,50 +10,50 @@ use crate::simulation::{Invariant, StepSize, Warning};
 use crate::system::{RESOLVED_BLOW, Resolution, SpringLaw, System, SystemFeature};
 use crate::vibration::{Modes, VibrationError};
 
-/// Steps that leave more than this part of the kinetic energy to vibration that they do not follow are too long: that of a single
-/// vibration with 3.5 steps a period, which takes a fifth longer than it should.
+/// Unresolved fraction of the kinetic energy above which steps are too long. It is that of a single vibration with 3.5 steps per period, whose period
+/// is 20 % too long.
 const LARGEST_SHARE: f64 = 0.2;
 
-/// Where motion as a whole is followed, a smaller part of its energy may be in vibration that is not,
+/// Unresolved fraction that is reported even if the motion as a whole is resolved,
 const HIDDEN_SHARE: f64 = 0.05;
 
-/// and that takes less than a step, by so many times [rad].
+/// provided that its phase per step exceeds this value [rad].
 const HIDDEN_TURN: f64 = 2.0 * TAU;
 
-/// Where a body has less than this part of the kinetic energy of a scene, what it does matters to nobody.
+/// Bodies with less than this fraction of the kinetic energy are ignored.
 const NOTHING: f64 = 1e-8;
 
-/// Rounding of some ten thousand steps makes less of the energy, however stiff a scene is.
+/// Energy drift that rounding does not reach in some ten thousand steps, for any stiffness.
 const LARGEST_DRIFT: f64 = 1e-7;
 
-/// What dissipates may be off by this part of all energy by rounding.
+/// Relative rounding error of dissipated energies.
 const FED: f64 = 1e-7;
 
-/// The part of all energy that is much of it.
+/// Fraction of the total energy that counts as large.
 const MUCH: f64 = 0.3;
 
-/// The modes about a scene as drawn are looked for where there are no more unknowns than this,
+/// Largest number of unknowns for which modes as drawn are computed.
 const MOST_UNKNOWNS: usize = 1200;
 
-/// and so many of them at a time, until one is no free movement.
+/// Numbers of modes to compute until one is not a rigid-body mode.
 const MODES: [usize; 3] = [4, 8, 16];
 
-/// So many of the last steps are looked at for whether long and short ones take turns,
+/// Number of recent steps examined for alternating lengths.
 const LOOKED_BACK: usize = 200;
 
-/// which they do where they differ by more than this part,
+/// Relative difference of alternating step lengths.
 const UNEVEN: f64 = 0.1;
 
-/// so often.
+/// Largest acceptable number of alternations.
 const MOST_TURNS: usize = 20;
 
-/// The resolution of no more sliders is explained.
+/// Largest number of sliders whose resolution is explained.
 const SLIDERS: usize = 6;
 
 impl Simulation {
-    /// What the steps that led to the present do not resolve; empty when all is well. Steps that were taken back do not count.
+    /// Warnings about motion that the steps so far do not resolve. Undone steps do not count.
     ///
-    /// The lowest period of the scene is found the first time that there is something to tell of it.
+    /// The lowest period of the scene is computed when the first warning needs it.
     pub fn notes(&self) -> Vec<Warning> {
         let (dt, resolution) = (self.longest_step(), self.model.resolution());
         let mut notes = Vec::new();
@@ -109,14 +109,14 @@ impl Simulation {
         notes
     }
 
-    /// Whether vibration that steps do not follow is a good part of a motion.
+    /// Returns true if unresolved vibration is a large part of a motion.
     fn is_unresolved(&self, resolution: &Resolution) -> bool {
         let share = resolution.unresolved_share();
         let turn = resolution.angular_frequency() * self.dt();
         share > LARGEST_SHARE || (share > HIDDEN_SHARE && turn > HIDDEN_TURN)
     }
 
-    /// Damped beams whose own motion steps of a size [time] do not follow, where they follow that of the scene.
+    /// Damped beams whose motion is unresolved at a step size [time] although that of the scene is resolved.
     fn beams_not_followed(&self, dt: f64) -> impl Iterator<Item = Warning> {
         let least = NOTHING * self.model.resolution().kinetic();
         let beams = self.model.resolution_by_beam();
@@ -129,8 +129,8 @@ impl Simulation {
         })
     }
 
-    /// Long and short steps that take turns, where velocities that are off in a step do not fade: by `-1` a step they are gone on with, and what long steps
-    /// add short ones do not take away.
+    /// Alternating long and short steps in scenes where velocity errors persist. Such errors are multiplied by -1 in each step, and long and short
+    /// steps do not cancel.
     fn uneven_steps(&self) -> Option<Warning> {
         let keeps = self.model.has_rigid_links() || self.scene.dissipating().next().is_some();
         if !keeps || !matches!(self.settings.dt, StepSize::Fixed(_)) {
@@ -150,14 +150,14 @@ impl Simulation {
         (turns >= MOST_TURNS).then_some(Warning::Uneven { shortest, longest })
     }
 
-    /// The longest of the steps that were taken: a chosen size may be one that was wished for and never met [time].
+    /// Longest step taken; a requested step size may never have been used [time].
     fn longest_step(&self) -> f64 {
         let rows = self.history().samples();
         let longest = rows.iter().map(|row| row.dt).fold(0.0, larger);
         if longest > 0.0 { longest.min(self.dt()) } else { self.dt() }
     }
 
-    /// The drift of the energy, where the method promises none and rounding does not explain it. Sliders have rules with promises of their own.
+    /// Energy drift that contradicts the claims of the method and exceeds rounding. Sliders are excluded, because their rules make their own claims.
     fn broken_promise(&self) -> Option<f64> {
         let keeps = self.settings.method.entry().claims.energy == EnergyClaim::Kept;
         let rows = self.history().samples();
@@ -165,7 +165,7 @@ impl Simulation {
         if !keeps || !self.scene.sliders.is_empty() {
             return None;
         }
-        // All rows are looked at only where the first and the last one are apart by more than they should be.
+        // All rows are examined only if the first and the last differ too much.
         let apart = Invariant::Energy.value(&last) - Invariant::Energy.value(&first);
         let now = last.energy.kinetic + last.energy.strain + last.energy.stored;
         if apart.norm() <= LARGEST_DRIFT * now {
@@ -175,7 +175,7 @@ impl Simulation {
         (drift > LARGEST_DRIFT).then_some(drift)
     }
 
-    /// The method that damps vibration which steps do not follow, by name: none where it is in use. It damps what strains: beams, and springs whose law is a line.
+    /// Name of the method with numerical damping; `None` if it is in use. It damps strains: beams, and springs with a linear law.
     fn damping_method(&self) -> Option<&'static str> {
         let entries = INTEGRATORS.iter();
         let damping = entries.filter(|entry| entry.claims.energy == EnergyClaim::Decays);
@@ -186,8 +186,8 @@ impl Simulation {
         others.find(|name| *name != self.settings.method.entry().name)
     }
 
-    /// The most that something that dissipates gave back over a step of the method of fourth order, a part of which leads back in time; none where rounding explains
-    /// it.
+    /// Largest energy gained from a dissipative element in a step of the fourth-order method, which has a backward substep; `None` if explained by
+    /// rounding.
     fn fed_back(&self) -> Option<Warning> {
         if self.settings.method != Method::FourthOrder {
             return None;
@@ -205,11 +205,11 @@ impl Simulation {
         (beyond > 0.0).then_some(Warning::Fed { time, dt, energy })
     }
 
-    /// What takes a good part of the kinetic energy within a step, or may give it: the strongest damping, and controllers.
+    /// Possible causes of a large change of kinetic energy within a step: the strongest damping, and controllers.
     fn suspects(&self) -> Vec<RateChangeCause> {
         let rows = self.history().samples();
         let others = rows.last().map(|row| row.measures).unwrap_or_default().dissipated;
-        // What is stored may be let go as slowly as a damper allows: it is motion that is taken within a step.
+        // A damper may release stored energy arbitrarily slowly, so only kinetic energy lost within a step counts.
         let left = rows.iter().map(|row| row.measures.energy.kinetic).fold(0.0, larger);
         let most = self.model.most_damping();
         let is_much = |energy: f64| larger(energy, others) > MUCH * (larger(energy, others) + left);
@@ -221,14 +221,14 @@ impl Simulation {
         dampers.into_iter().chain(controllers.take(1)).collect()
     }
 
-    /// The lowest period of the scene as drawn; none where something slides, nothing vibrates, or the scene is large [time].
+    /// Lowest period of the scene as drawn; `None` with sliders, without vibration, or for large scenes [time].
     fn lowest_period(&self) -> Option<f64> {
         self.drawn.lowest_period(|| {
             let slides = self.model.slider_names().next().is_some();
             if slides || self.model.unknowns() > MOST_UNKNOWNS {
                 return None;
             }
-            // Where modes are refused the note tells no period: it is about the steps, and not about the modes.
+            // If modes cannot be computed, the warning omits the period.
             let drawn = System::assemble(&self.scene).ok()?;
             MODES.iter().find_map(|count| {
                 let modes = match Modes::of(&drawn, *count, &mut || true) {
@@ -244,7 +244,7 @@ impl Simulation {
         })
     }
 
-    /// How far the steps so far resolve the motion, in numbers, and what is to be told of it.
+    /// Resolution measures of the steps so far, and their explanation.
     pub(super) fn explain_resolution(&self) -> Vec<SystemFeature> {
         let resolution = self.model.resolution();
         let mut how = format!(

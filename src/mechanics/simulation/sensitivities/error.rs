@@ -1,80 +1,80 @@
-//! Why there are no derivatives of a run.
+//! Reasons for missing derivatives.
 
 use crate::integrators::StepError;
 
-/// Why a run has no derivatives by parameters of its scene.
+/// Reason why a run has no derivatives with respect to parameters.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum DerivativeError {
-    /// The steps of a run follow a tolerance.
+    /// Variable steps.
     #[error(
         "derivatives by parameters need steps of a fixed size, and a tolerance gives steps that jump when a parameter changes"
     )]
     Adaptive,
-    /// The method of a run takes no companions along.
+    /// Method without derivatives.
     #[error(
         "derivatives by parameters are found with energy_momentum and fourth_order, not with {method}"
     )]
     Method {
-        /// The method of the run.
+        /// Name of the method.
         method: &'static str,
     },
-    /// Something of a scene is steered from outside, step by step.
+    /// Scene with a controller.
     #[error("'{name}' is steered by a controller, whose answers have no derivatives by parameters")]
     Steered {
-        /// The load or drive of the scene that is steered.
+        /// Name of the controlled load or drive.
         name: String,
     },
-    /// A scene records the mean over a step of what a joint gives, which is summed up along the run itself.
+    /// Recorded mean of a joint force, which is accumulated along the run.
     #[error("'{sensor}' is the mean over a step, which has no derivatives by parameters")]
     Mean {
-        /// The recorded column.
+        /// Name of the column.
         sensor: String,
     },
-    /// A parameter changes the form of a scene.
+    /// Parameter that changes the structure of the scene.
     #[error(
         "the scene at '{parameter}' plus or minus {distance:e} has another number of unknowns or sliders: only numbers of a scene may depend on a parameter"
     )]
     Form {
-        /// The parameter of the run that changes more than numbers.
+        /// Name of the parameter.
         parameter: String,
-        /// How far beside the run that is so, in the units of the parameter.
+        /// Perturbation in the units of the parameter.
         distance: f64,
     },
-    /// A parameter moves the times at which loads jump or bend.
+    /// Parameter that shifts times of jumps or kinks of loads.
     #[error(
         "times at which something jumps, bends or lets go depend on '{parameter}', where derivatives jump: give times that do not"
     )]
     Times {
-        /// The parameter of the run that moves times.
+        /// Name of the parameter.
         parameter: String,
     },
-    /// Something happened at a time that depends on parameters.
+    /// Event at a time that depends on parameters.
     #[error(
         "there are no derivatives from t = {time} on: {event}, at a time that depends on the parameters, where derivatives jump"
     )]
     Event {
-        /// The time of the run at which it happened [time].
+        /// Time of the event [time].
         time: f64,
-        /// What happened in the run, in words.
+        /// Description of the event.
         event: &'static str,
     },
-    /// The run went another way than by steps.
+    /// Run that was changed other than by steps.
     #[error(
         "there are no derivatives after {way}: they are found with the steps of the run itself"
     )]
     Way {
-        /// What was done with the run, in words.
+        /// Description of the change.
         way: &'static str,
     },
-    /// A step beside the run was not solved.
+    /// Perturbed step that was not solved.
     #[error("there are no derivatives from t = {time} on: beside the run {source}")]
     NoStep {
-        /// The end of the last step of the run with derivatives [time].
+        /// End of the last step with derivatives [time].
         time: f64,
-        /// The reason why the step beside the run was not solved.
+        /// Reason.
         source: Box<StepError>,
     },
-    /// Nobody asked for derivatives at the start.
+    /// Run that was started without derivatives.
     #[error("the simulation was started without this parameter")]
     None,
 }

@@ -1,23 +1,23 @@
-//! The two runs beside a run, at a parameter plus and minus a distance.
+//! Pair of perturbed runs.
 
 use super::{DerivativeError, PerturbedSide, Variation};
 use crate::simulation::{Simulation, SimulationError};
 use crate::system::{Scene, System, SystemState};
 
-/// Two runs beside a run, and the derivative of its state between them.
+/// Two perturbed runs, and the derivative of the state.
 pub struct PerturbedRuns {
     pub(super) name: String,
     pub(super) distance: f64,
-    /// At the parameter plus the distance, and minus it.
+    /// Runs at the parameter plus and minus the perturbation.
     runs: [Simulation; 2],
-    /// Of the numbers of the state.
+    /// Derivative of the numeric state.
     derivative: Vec<f64>,
-    /// Room for the states of both.
+    /// Buffers for the states of both.
     states: [SystemState; 2],
 }
 
 impl PerturbedRuns {
-    /// The runs beside one that is at its start, in a state that is given.
+    /// Starts the perturbed runs of a run at its start.
     pub(super) fn start(
         run: &Simulation,
         variation: Variation,
@@ -41,7 +41,7 @@ impl PerturbedRuns {
         Ok(twins)
     }
 
-    /// Finds the derivative of the state from the present states of both runs.
+    /// Computes the derivative of the state from the states of both runs.
     pub(super) fn differentiate(&mut self) {
         let Self { runs, states, derivative, distance, .. } = self;
         for (run, state) in runs.iter().zip(states.iter_mut()) {
@@ -51,7 +51,7 @@ impl PerturbedRuns {
         plus.change_from(minus, 2.0 * *distance, derivative);
     }
 
-    /// Puts both runs beside a state, as far as the derivative leads from it over the distance.
+    /// Sets both runs to a state plus and minus the derivative times the perturbation.
     pub(super) fn stand_beside(&mut self, state: &SystemState) {
         let Self { runs, states, derivative, distance, .. } = self;
         for ((run, beside), amount) in
@@ -87,7 +87,7 @@ impl PerturbedRuns {
     }
 }
 
-/// The times at which something in a scene jumps, bends or lets go [time].
+/// Times of jumps, kinks and releases of a scene [time].
 fn times(scene: &Scene) -> Vec<f64> {
     let breaks = scene.schedules().flat_map(|(_, schedule)| schedule.breaks());
     breaks.chain(scene.release_times()).collect()

@@ -1,4 +1,4 @@
-//! The parts of a scene put together.
+//! Assembly of a mechanism from the parts of a scene.
 
 use super::numbering::{LinkPlace, Numbering};
 use crate::beams::{
@@ -15,23 +15,23 @@ use crate::system::sliders::Sliders;
 use crate::system::state::MotionState;
 use crate::system::{BeamDefinition, Scene, System, SystemError, SystemState};
 
-/// Strains are known to so many roundings: they are differences of coordinates, which are larger than spans.
+/// Accuracy of strains in units of rounding. Strains are differences of coordinates larger than spans.
 const STRAIN_ROUNDINGS: f64 = 100.0;
 
-/// The bodies of a scene on their meshes, from which its model is made.
+/// Bodies of a scene on their meshes, from which the model is built.
 pub struct Assembly<'a> {
     pub scene: &'a Scene,
-    /// The meshes of the beams, with breaks where joints are, one for each beam of the scene.
+    /// Meshes of the beams, with breaks at joints.
     pub meshes: Vec<Mesh>,
-    /// The bodies of the scene: one for each beam, then one for each particle, then one for each rigid body.
+    /// Bodies of the scene: beams, then particles, then rigid bodies.
     pub bodies: Vec<Box<dyn BodyDynamics>>,
 }
 
 impl System {
-    /// Builds the mechanism that a scene describes, at its start.
+    /// Builds the mechanism of a scene at its start.
     ///
     /// # Errors
-    /// When the scene is empty, a beam cannot be put on its mesh, or start velocities do not fit the joints.
+    /// Fails if the scene is empty, a beam does not fit its mesh, or start velocities contradict the joints.
     pub fn assemble(scene: &Scene) -> Result<Self, SystemError> {
         let mut model = Self::as_drawn(scene)?;
         model.settle_start_velocities(scene)?;
@@ -39,10 +39,10 @@ impl System {
         Ok(model)
     }
 
-    /// Builds the mechanism that a scene describes, at rest in a state at a time: only then and there velocities have to fit the joints.
+    /// Builds the mechanism of a scene at rest in the given state and time. Velocities are checked against the joints only there.
     ///
     /// # Errors
-    /// Those of [`assemble`](Self::assemble), or when a function has no value at that time.
+    /// Errors of [`assemble`](Self::assemble), or a function without a value at that time.
     pub fn assemble_at_rest(
         scene: &Scene,
         state: &SystemState,
@@ -55,7 +55,7 @@ impl System {
         Ok(model)
     }
 
-    /// A model as drawn; start velocities are those that were given, whether they fit or not.
+    /// Model as drawn, with unchecked start velocities.
     fn as_drawn(scene: &Scene) -> Result<Self, SystemError> {
         if scene.beams.is_empty() && scene.particles.is_empty() && scene.rigid_bodies.is_empty() {
             return Err(SystemError::Empty { scene: scene.name.clone() });
@@ -139,7 +139,7 @@ impl<'a> Assembly<'a> {
         Ok(assembly)
     }
 
-    /// The control points of all bodies; the slaves of sliders are moved onto their masters as the meshes draw them.
+    /// Control points of all bodies. The slaves of sliders are moved onto their meshed masters.
     fn drawn(&self) -> Result<Vec<Vec<Vec2>>, SystemError> {
         let beams = self.scene.beams.iter().zip(&self.meshes).map(|(beam, mesh)| {
             interpolate(&beam.axis, mesh.basis()).map_err(SystemError::geometry(&beam.name))
@@ -148,7 +148,7 @@ impl<'a> Assembly<'a> {
         let rigid = self.scene.rigid_bodies.iter().map(|body| Ok(body.control_points()));
         let mut points =
             beams.chain(particles).chain(rigid).collect::<Result<Vec<_>, SystemError>>()?;
-        // A slave may be on a master that slides itself: its own place is right once that of its master is.
+        // A master may itself be a slave, so masters are placed first.
         let place = |slider: &Slider| {
             Ok((
                 self.place_at(slider.master, self.slider_parameter(slider)?)?,
@@ -174,7 +174,7 @@ impl<'a> Assembly<'a> {
         Ok(points)
     }
 
-    /// The nodes at a station: its own, and those of the stations that joints hold there.
+    /// Nodes at a station and at the stations joined to it.
     fn nodes_at(&self, station: &Station) -> Result<Vec<BodyPoint>, SystemError> {
         let mut stations = vec![*station];
         let mut next = 0;
@@ -192,7 +192,7 @@ impl<'a> Assembly<'a> {
         stations.iter().map(|station| self.place(station)).collect()
     }
 
-    /// Starts and ends of all beams, then the stations of the scene, then the rigid bodies.
+    /// Starts and ends of all beams, then stations of the scene, then rigid bodies.
     fn trackers(&self) -> Result<Vec<Tracker>, SystemError> {
         let ends = self.scene.beams.iter().enumerate().flat_map(|(beam, definition)| {
             [0.0, definition.axis.length()].map(|arc_length| Station::on_beam(beam, arc_length))
@@ -203,7 +203,7 @@ impl<'a> Assembly<'a> {
             .collect()
     }
 
-    /// The points of rigid bodies, each held to the centre of its body where it is drawn, and the points on inclined rollers.
+    /// Rigid links of the points of rigid bodies, and inclined rollers.
     fn links(&self, numbering: &Numbering) -> Links {
         let first = self.scene.first_rigid_body();
         let link = |&LinkPlace { body, point, force }: &LinkPlace| {
@@ -241,7 +241,7 @@ impl<'a> Assembly<'a> {
         Ok(Elements::new(parts.into_iter(), weight))
     }
 
-    /// That of the beams [mass].
+    /// Mass of the beams [mass].
     fn mass(&self) -> f64 {
         let lengths = self.bodies.iter().map(|beam| beam.lumped_lengths().iter().sum::<f64>());
         let beams = lengths.zip(&self.scene.beams);
@@ -276,7 +276,7 @@ impl AssemblyContext for Assembly<'_> {
     }
 }
 
-/// The places that joints of a scene hold together which were not released, on meshes of its beams.
+/// Places connected by joints that are not released.
 pub fn joined(
     scene: &Scene,
     released: &[Releasable],

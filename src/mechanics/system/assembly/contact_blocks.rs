@@ -1,18 +1,18 @@
-//! What of the contacts of many sliders can be eliminated by itself.
+//! Independent elimination blocks for the contacts of many sliders.
 
 use super::Numbering;
 use crate::linalg::BlockLayout;
 use crate::system::scene::Ties;
 use crate::system::sliders::SliderContact;
 
-/// From so many sliders on, contacts are eliminated one by one: the border of fewer takes less time (docs/studies.md).
+/// Number of sliders from which contacts are eliminated block by block. For fewer, the border is faster (docs/studies.md).
 const MANY: usize = 4;
 
-/// A rigid body with more points is not eliminated with its contact.
+/// Largest number of points of a rigid body that is eliminated with its contact.
 const MOST_POINTS: usize = 4;
 
 impl Numbering {
-    /// The contacts of sliders as blocks, where there are many of them.
+    /// Contacts of sliders as blocks, if there are many.
     pub fn contact_blocks(&self, sliders: &[SliderContact]) -> Option<BlockLayout> {
         if sliders.len() < MANY {
             return None;
@@ -25,7 +25,7 @@ impl Numbering {
         let mut sizes = vec![0_usize; self.unknowns];
         component.iter().for_each(|&of| sizes[of] += 1);
         let unknown = |at: &usize| *at < self.unknowns;
-        // How many sliders move the unknowns of a component.
+        // Number of sliders that move the unknowns of a component.
         let mut sliders_on = vec![0_usize; self.unknowns];
         for slider in sliders {
             let (body, point) = slider.connection.slave;
@@ -36,7 +36,7 @@ impl Numbering {
             }
             roots.into_iter().flatten().for_each(|root| sliders_on[root] += 1);
         }
-        // Nothing slides on those that are free.
+        // Nothing else slides on free slaves.
         let own = sliders.iter().map(|slider| {
             let own = self.unknowns_of_free_slave(slider);
             let root = component[*own.first()?];
@@ -51,7 +51,7 @@ impl Numbering {
         })
     }
 
-    /// The unknowns of a slave that is no beam and may go anywhere, if it is such.
+    /// Unknowns of an unconstrained slave that is not a beam.
     fn unknowns_of_free_slave(&self, slider: &SliderContact) -> Vec<usize> {
         let body = slider.connection.slave.0;
         let points = &self.degrees_of_freedom[body];

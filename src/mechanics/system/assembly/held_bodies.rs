@@ -1,4 +1,4 @@
-//! Rigid bodies without mass or without inertia, which something else has to hold.
+//! Rigid bodies without mass or without inertia, which need other restraints.
 
 use crate::beams::{BodyIndex, Station};
 use crate::joints::Component;
@@ -6,10 +6,10 @@ use crate::system::elements::{Dragged, Element};
 use crate::system::{Scene, SpringKind, System, SystemError};
 
 impl System {
-    /// Refuses a rigid body of which a movement meets neither inertia nor anything that holds it: its acceleration would not be determined.
+    /// Rejects a rigid body with a movement that has neither inertia nor restraint, because its acceleration would be undetermined.
     ///
-    /// What holds is a support, a drive, a shared movement, a mass at a point, or an element at one. For the angle it has to be off the centre, or turn
-    /// with the body.
+    /// Restraints are a support, a drive, a shared movement, a mass at a point, or an element at a point. To restrain the angle, the point must be
+    /// off the centre or rotate with the body.
     pub(super) fn check_movements_held(&self, scene: &Scene) -> Result<(), SystemError> {
         let inertia = self.diagonal_of_inertia();
         let first = scene.first_rigid_body();
@@ -44,7 +44,7 @@ impl System {
     }
 }
 
-/// Whether a spring, a damper, drag or a slider acts at a point of a rigid body.
+/// Returns true if a spring, a damper, drag or a slider acts at a point of a rigid body.
 fn is_touched(scene: &Scene, body: usize, point: usize) -> bool {
     let is_there = |station: &Station| station.body == BodyIndex::Rigid(body, point);
     let springs = scene.springs().filter(|spring| matches!(spring.kind, SpringKind::Way(_)));
@@ -54,7 +54,7 @@ fn is_touched(scene: &Scene, body: usize, point: usize) -> bool {
         || scene.elements.iter().any(is_dragged)
 }
 
-/// Whether a torsion spring, or what ties its angle, acts on a rigid body.
+/// Returns true if a torsion spring or a drive acts on the angle of a rigid body.
 fn is_turned(scene: &Scene, body: usize) -> bool {
     let is_own =
         |station: &Station| matches!(station.body, BodyIndex::Rigid(own, _) if own == body);

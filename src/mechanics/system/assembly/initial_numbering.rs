@@ -1,4 +1,4 @@
-//! The unknowns in the order of the bodies, and which of them are coupled with each other.
+//! Unknowns in the order of the bodies, and their coupling.
 
 use super::tied_components::{GROUND, TiedComponents};
 use crate::beams::{BodyDynamics, BodyPoint, Station};
@@ -6,25 +6,25 @@ use crate::joints::Component;
 use crate::system::SystemError;
 use crate::system::scene::Scene;
 
-/// The number of what is no unknown.
+/// Marks components that are not unknowns.
 const NONE: usize = usize::MAX;
 
-/// Numbers of the unknowns in the order of the bodies, before they are put into that of the band.
+/// Unknowns in the order of the bodies, before bandwidth reduction.
 pub struct InitialNumbering {
     pub unknowns: usize,
-    /// The number of each class of components that move as one, by its root.
+    /// Unknown of each class of tied components, indexed by its root.
     pub number: Vec<usize>,
-    /// The unknowns of the force of each rigid link: they stand before the point that it holds.
+    /// Force unknowns of each rigid link, numbered before its point.
     pub forces: Vec<[usize; 2]>,
-    /// The unknown of the force of each inclined roller: they stand before the point that it holds. None where it has let go.
+    /// Force unknown of each inclined roller, numbered before its point; `None` after a release.
     pub across: Vec<Option<usize>>,
 }
 
 impl InitialNumbering {
-    /// Numbers the components of a scene that are free, those that move as one alike.
+    /// Numbers the free components of a scene, with one number per tied class.
     ///
     /// # Errors
-    /// When nothing is free.
+    /// Fails if nothing is free.
     pub fn new(scene: &Scene, tied: &mut TiedComponents) -> Result<Self, SystemError> {
         let all = tied.count();
         let held = tied.links.iter().map(|link| tied.component(*link, Component::X));
@@ -53,7 +53,7 @@ impl InitialNumbering {
             }
         }
         match unknowns {
-            // Where all is driven, forces come out.
+            // Scenes with prescribed movements only still yield forces.
             0 if scene.drives.is_empty() => {
                 Err(SystemError::NothingMoves { scene: scene.name.clone() })
             }
@@ -61,7 +61,7 @@ impl InitialNumbering {
         }
     }
 
-    /// The unknowns that are coupled with each other: by spans, by rigid links and rollers, and by elements.
+    /// Groups of unknowns that are coupled by spans, rigid links, rollers or elements.
     pub fn coupled(
         &self,
         scene: &Scene,
@@ -113,7 +113,7 @@ impl InitialNumbering {
         Ok(groups)
     }
 
-    /// The unknowns of control points of bodies, in rising order.
+    /// Unknowns of control points of bodies, in increasing order.
     pub fn numbers(
         &self,
         points: impl Iterator<Item = (usize, usize)>,

@@ -1,18 +1,18 @@
-//! Whether the forces of rigid links and inclined rollers are determined: what joints hold twice has no force that one could tell.
+//! Determinacy of the forces of rigid links and inclined rollers. Redundant constraints have no unique forces.
 
 use crate::elementary::square;
 use crate::geometry::larger;
 use crate::linalg::BandedMatrix;
 use crate::system::{Scene, System, SystemError, UnknownKind};
 
-/// A force that answers to a disturbance of the size one and is larger than this is one of rounding.
+/// Response to a disturbance of size one above which a force is due to rounding.
 const UNDETERMINED: f64 = 1e11;
 
 impl System {
-    /// Refuses rigid bodies and points on rollers that are held more often than they can move.
+    /// Rejects rigid bodies and rollers with redundant constraints.
     ///
-    /// All movements get a mass of one. Then the forces by which rigid links and rollers close small gaps are about as large as these, times the square of
-    /// the number of bodies in a chain at most, if they are determined.
+    /// All movements get unit mass. Then the forces that close small gaps are about as large as the gaps, times at most the square of the number of
+    /// bodies in a chain, if they are determined.
     pub(super) fn check_links(&self, scene: &Scene) -> Result<(), SystemError> {
         if self.links().forces() == 0 {
             return Ok(());
@@ -29,7 +29,7 @@ impl System {
             }
         }
         self.links().add_coupling(self.bodies(), unknowns.count(), &mut matrix);
-        // Gaps that no symmetry of a scene closes.
+        // Gaps without symmetry, which no symmetry of a scene can close.
         let mut forces = vec![0.0; unknowns.count()];
         let across = self.links().rollers().map(|(unknown, _)| unknown);
         let of_links = self.links().iter().flat_map(|link| link.unknowns);

@@ -1,4 +1,4 @@
-//! From a scene to a model: meshes with nodes where joints are, numbers, elements, sliders and start velocities.
+//! Assembly of a model from a scene: meshes with nodes at joints, numbering, elements, sliders and start velocities.
 
 mod assemble;
 mod contact_blocks;

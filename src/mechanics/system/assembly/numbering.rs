@@ -1,4 +1,4 @@
-//! The numbers of the unknowns that are left where movements are tied to each other or to the ground.
+//! Degrees of freedom with movements tied to each other or to the ground.
 
 use super::initial_numbering::InitialNumbering;
 use super::tied_components::{GROUND, TiedComponents};
@@ -10,7 +10,7 @@ use crate::system::elements::{PrescribedMovement, Support};
 use crate::system::scene::Scene;
 use crate::system::state::{UnknownKind, Unknowns};
 
-/// Where a rigid link is: its body, the control point that it holds to the first one, and the unknowns of its force.
+/// Rigid link: its body, the control point linked to the first one, and its force unknowns.
 #[derive(Debug, Clone, Copy)]
 pub struct LinkPlace {
     pub body: usize,
@@ -18,27 +18,26 @@ pub struct LinkPlace {
     pub force: [usize; 2],
 }
 
-/// The degree of freedom of every component of every control point of every body: the unknowns come first,
-/// the supported ones last.
+/// Degree of freedom of every component of every control point. Unknowns come first, supported ones last.
 #[derive(Debug, Clone)]
 pub struct Numbering {
     pub degrees_of_freedom: Vec<Vec<[usize; 3]>>,
-    /// The two unknowns of the force of each rigid link, among those of the movements that it couples.
+    /// Rigid links with their two force unknowns.
     pub links: Vec<LinkPlace>,
-    /// The unknown of the force of each inclined roller, and its body and control point; none where it has let go.
+    /// Force unknown, body and control point of each inclined roller; `None` after a release.
     pub rollers: Vec<Option<(usize, (usize, usize))>>,
     pub unknowns: usize,
-    /// The unknowns that are coupled with each other.
+    /// Groups of coupled unknowns.
     pub groups: Vec<Vec<usize>>,
-    /// Of the supported ones, those that are prescribed stand first.
+    /// Number of prescribed degrees of freedom, the first of the supported ones.
     prescribed: usize,
     supported: usize,
     half_bandwidth: usize,
 }
 
 impl Numbering {
-    /// Numbers the movements of bodies; `place` finds the stations of joints on their meshes. Constraints with `border`
-    /// unknowns stand between the unknown and the supported movements. Joints and drives that were `released` tie nothing.
+    /// Numbers the movements of bodies; `place` locates stations on the meshes. Constraints with `border` unknowns are numbered between the unknown
+    /// and the supported movements. Joints and drives in `released` tie nothing.
     pub fn new(
         scene: &Scene,
         released: &[Releasable],
@@ -80,7 +79,7 @@ impl Numbering {
             });
             degrees_of_freedom.push(points.collect());
         }
-        // What acts at a point couples its movements, which stand side by side whatever else is coupled.
+        // Forces at a point couple its movements, so they are numbered next to each other.
         for (index, body) in bodies.iter().enumerate().filter(|(_, body)| body.order() == 1) {
             for point in 0..body.control_points().len() {
                 groups.push(initial.numbers([(index, point)].into_iter(), &mut tied));
@@ -101,8 +100,8 @@ impl Numbering {
         })
     }
 
-    /// The supports in the order of their degrees of freedom, those that move as is prescribed and those that do not move, and the unknowns; constraints
-    /// with `border` unknowns stand between.
+    /// Supports in the order of their degrees of freedom (prescribed ones first), and the unknowns; constraints with `border` unknowns are numbered
+    /// between.
     pub fn supports_and_unknowns(
         &self,
         scene: &Scene,

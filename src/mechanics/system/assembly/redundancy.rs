@@ -1,19 +1,19 @@
-//! Whether the contact forces of sliders are determined: what is held twice has no force that one could tell.
+//! Determinacy of the contact forces of sliders. Redundant contacts have no unique forces.
 //!
-//! An impulse `P` at the contacts changes the velocities across the masters by `G M⁻¹ Gᵀ P`. Where this matrix is singular, some
-//! impulses change nothing, and the forces of a step are not determined either.
+//! Impulses `P` at the contacts change the velocities across the masters by `G M⁻¹ Gᵀ P`. If this matrix is singular, some impulses change nothing,
+//! and the forces of a step are not determined.
 
 use crate::system::errors::SliderError;
 use crate::system::{Scene, System, SystemError};
 
-/// What is left of the response of a slider beside that of the others, relative to its own, when it is one of rounding.
+/// Pivot of the Cholesky factorisation, relative to the diagonal, below which a response is due to rounding.
 const NOTHING_LEFT: f64 = 1e-13;
 
-/// The response of a slider on which only rounding acts, relative to that of the mass of everything.
+/// Response below which only rounding acts on a slider, relative to the response of the total mass.
 const NO_RESPONSE: f64 = 1e-26;
 
 impl System {
-    /// Refuses sliders whose contact forces are not determined at the start.
+    /// Rejects sliders whose contact forces are not determined at the start.
     pub(super) fn check_determined(&self, scene: &Scene) -> Result<(), SystemError> {
         let Ok(response) = self.response_across() else {
             return Err(self.sliders().overdetermined());

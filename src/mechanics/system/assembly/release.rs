@@ -1,4 +1,4 @@
-//! What lets go of a model on its way.
+//! Releases of a model during a run.
 
 use super::Numbering;
 use super::assemble::joined;
@@ -9,11 +9,11 @@ use crate::system::mechanism::DofNumbers;
 use crate::system::{Scene, System, SystemError};
 
 impl System {
-    /// Lets something go at the present moment that the scene of this model holds; `released` has let go before. Places and rates go on; what a spring
-    /// stores counts as dissipated. Methods need new work space for what follows.
+    /// Releases an object of the scene at the present time; `released` lists the earlier releases. Places and rates are continuous. The energy stored
+    /// in a released spring counts as dissipated. Methods need a new work space afterwards.
     ///
     /// # Errors
-    /// When a station is off its beam, which it was not when the scene was described.
+    /// Fails if a station lies off its beam, which the scene excludes.
     pub fn let_go(
         &mut self,
         scene: &Scene,
@@ -32,10 +32,10 @@ impl System {
         Ok(())
     }
 
-    /// Makes the model one in which exactly these have let go, to be given a state of such a one.
+    /// Marks exactly the given objects released, before a state is restored.
     ///
     /// # Errors
-    /// When a station is off its beam, which it was not when the scene was described.
+    /// Fails if a station lies off its beam, which the scene excludes.
     pub fn stand_released(
         &mut self,
         scene: &Scene,
@@ -47,7 +47,7 @@ impl System {
         Ok(())
     }
 
-    /// Numbers for all movements where these have let go.
+    /// Numbering of all movements after the given releases.
     fn numbers(&self, scene: &Scene, released: &[Releasable]) -> Result<DofNumbers, SystemError> {
         let border = self.constraint_shape().width;
         let meshes = self.meshes();

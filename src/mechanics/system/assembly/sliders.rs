@@ -1,4 +1,4 @@
-//! Sliders from description to model.
+//! Assembly of sliders.
 
 use super::{Assembly, Numbering};
 use std::sync::Arc;
@@ -14,12 +14,12 @@ use crate::system::sliders::{
 };
 use crate::system::{BeamDefinition, Scene, System, SystemError};
 
-/// Largest start velocity across the master, relative to the fastest point of the scene: where a mechanism has a dead centre, velocities of
-/// that size have left nothing but their rounding.
+/// Largest start velocity across the master, relative to the fastest point of the scene. At a dead centre of a mechanism, velocities of this size are
+/// due to rounding.
 const SAME_VELOCITY: f64 = 1e-9;
 
 impl Assembly<'_> {
-    /// The sliders of the scene with their contacts, in its order.
+    /// Sliders of the scene with their contacts, in its order.
     pub fn sliders(&self, numbering: &Numbering) -> Result<Vec<SliderContact>, SystemError> {
         let mut sliders: Vec<SliderContact> = Vec::new();
         let mut kink_lengths = vec![None; self.scene.beams.len()];
@@ -69,13 +69,13 @@ impl Assembly<'_> {
         MasterCurve::new(self.scene.beams[beam].axis.clone(), self.mesh(beam).basis().domain())
     }
 
-    /// The functions of a beam along ways, of which `found` has those that are known.
+    /// Contact path of a beam, cached in `found`.
     fn passage(&self, beam: usize, found: &mut [Option<ContactPath>]) -> ContactPath {
         let basis = || ContactPath::new(self.mesh(beam).basis().clone());
         found[beam].get_or_insert_with(basis).clone()
     }
 
-    /// The beams of a track as sliders find them.
+    /// Beams of a track for its sliders.
     fn route(
         &self,
         legs: &[TrackBeam],
@@ -94,8 +94,8 @@ impl Assembly<'_> {
         legs.iter().map(leg).collect()
     }
 
-    /// The axis of a slider's master as the contact force kinks it, if the rule knows of that and the mesh of the master is smooth; kink
-    /// lengths are found once.
+    /// Axis of the master with a kink under the contact force, if the rule has one and the mesh of the master is smooth. Kink lengths are computed
+    /// once.
     fn kinked_axis(
         &self,
         slider: &Slider,
@@ -103,7 +103,7 @@ impl Assembly<'_> {
     ) -> Result<Option<KinkedAxis>, SystemError> {
         let (master, beam) = (slider.master, &self.scene.beams[slider.master]);
         let basis = self.mesh(master).basis();
-        // At a node where the mesh itself may kink there is no kink length, and a slider would have to pass a wall.
+        // At a node where the mesh may kink there is no kink length, and a slider could not pass.
         let has_nodes = basis.breaks().len() > 2 && basis.continuity() == 0;
         if slider.rule != SlidingRule::Kinked || has_nodes {
             return Ok(None);
@@ -127,7 +127,7 @@ impl Assembly<'_> {
         Ok(found[master].clone().flatten().map(axis))
     }
 
-    /// The parameter of the mesh of its master at which a slider starts.
+    /// Parameter of the mesh of the master at which a slider starts.
     pub fn slider_parameter(&self, slider: &Slider) -> Result<f64, SystemError> {
         let beam = &self.scene.beams[slider.master];
         Station::on_beam(slider.master, slider.arc_length)
@@ -141,9 +141,9 @@ fn bar(beam: &BeamDefinition) -> ImpactBar {
 }
 
 impl System {
-    /// Deals with start velocities that would leave the masters, as each slider says.
+    /// Adjusts start velocities across the masters as each slider specifies.
     ///
-    /// Speeds across a master that strain nothing by more than rounding, as waves go, are none either: `w/c < ε`.
+    /// Speeds across a master count as zero if their strain wave is below rounding: `w/c < ε`.
     pub(super) fn settle_start_velocities(&mut self, scene: &Scene) -> Result<(), SystemError> {
         let negligible = self.negligible_velocity(scene);
         let mut is_projected = false;
@@ -160,11 +160,10 @@ impl System {
         Ok(())
     }
 
-    /// Puts a model at rest that has not taken a step at a time, gives what is moved by functions of time the rates that these have there, and points of
-    /// rigid bodies those that fit.
+    /// Sets a model at rest to a time. Prescribed movements get the rates of their functions, and points of rigid bodies the compatible ones.
     ///
     /// # Errors
-    /// When a function has no value there, or velocities there do not fit the sliders.
+    /// Fails if a function has no value at that time, or velocities contradict the sliders.
     pub(super) fn begin_at(&mut self, time: f64, scene: &Scene) -> Result<(), SystemError> {
         self.pass_time_to(time);
         self.set_given_in_motion(time)

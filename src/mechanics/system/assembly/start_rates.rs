@@ -1,4 +1,4 @@
-//! Start velocities: rigid motions of beams and bodies, which tied movements must share, and velocities of single nodes.
+//! Start velocities: rigid motions of beams and bodies, shared by tied movements, and velocities of single nodes.
 
 use super::{Assembly, Numbering};
 use crate::beams::{BodyDynamics, BodyIndex, Station};
@@ -10,44 +10,41 @@ use crate::system::{Scene, StartMotion, StationVelocity, SystemError, Turning};
 /// Largest difference of tied start velocities, relative to the velocities of the beam.
 const SAME_VELOCITY: f64 = 1e-9;
 
-/// Largest difference of a start velocity from that with which a prescribed motion begins, which is found by differences.
+/// Largest difference of a start velocity from the initial rate of a prescribed motion, which is computed by finite differences.
 const SAME_START: f64 = 1e-6;
 
-/// The components of a start velocity in messages.
+/// Names of the components in messages.
 const COMPONENTS: [&str; 3] = ["velocity along x", "velocity along y", "spin"];
 
-/// Why a supported movement has no velocity.
 const GROUND: &str = "the ground there does not move";
 
-/// Why a prescribed movement has the velocity that it has.
 fn given_there(rate: f64) -> String {
     format!("its motion is given there, and begins with {rate}")
 }
 
-/// The rate of each unknown, with the beam or the rigid body that has given it; and that which is asked for at a node, if one is.
+/// Rate of each unknown with the body that has set it, and the requested rates of single nodes.
 struct SharedRates<'a> {
     rates: Vec<Option<(usize, f64)>>,
     asked: Vec<Option<RequestedRate<'a>>>,
 }
 
-/// A rate that is asked for at a node [length/time, 1/time].
+/// Requested rate of a node [length/time, 1/time].
 #[derive(Clone, Copy)]
 struct RequestedRate<'a> {
     rate: f64,
     at: &'a Station,
 }
 
-/// The rates with which prescribed movements begin, behind the unknown ones.
+/// Initial rates of prescribed movements, numbered after the unknown ones.
 #[derive(Clone, Copy)]
 struct InitialDriveRates<'a> {
     unknowns: usize,
-    /// With the entries of constraints ahead, which nobody asks for.
+    /// Includes leading entries of constraints, which are unused.
     rates: &'a [f64],
     constraints: usize,
 }
 
 impl InitialDriveRates<'_> {
-    /// That of a degree of freedom, if it is prescribed.
     fn at(&self, degree: usize) -> Option<f64> {
         let entry = degree.checked_sub(self.unknowns)?;
         if entry < self.constraints { None } else { self.rates.get(entry).copied() }
@@ -55,7 +52,7 @@ impl InitialDriveRates<'_> {
 }
 
 impl SharedRates<'_> {
-    /// Takes a rate of a beam for a degree of freedom; that of another beam, or of the ground, which it does not share, is returned.
+    /// Sets the rate of a degree of freedom. Returns a different rate set earlier by another body or the ground.
     fn take(
         &mut self,
         at: usize,
@@ -84,9 +81,9 @@ impl RequestedRate<'_> {
 }
 
 impl Assembly<'_> {
-    /// The rates of the unknown movements at the start, which fit joints and start velocities [length/time, 1/time].
+    /// Rates of the unknown movements at the start, compatible with joints and start velocities [length/time, 1/time].
     ///
-    /// Behind them stand constraints with so many unknowns, and movements that are prescribed with rates of their own.
+    /// Constraints with `border` unknowns follow, then prescribed movements with their own rates.
     pub fn start_rates(
         &self,
         numbering: &Numbering,
@@ -105,7 +102,7 @@ impl Assembly<'_> {
         let first = self.scene.first_rigid_body();
         for (index, body) in (first..).zip(&self.scene.rigid_bodies) {
             let degrees = &numbering.degrees_of_freedom[index];
-            // One without points is as large as anything: what it shares is its centre.
+            // A body without points shares only its centre, so any size does.
             let size = if body.size() > 0.0 { body.size() } else { 1.0 };
             self.share_rigid_motion(index, size, &body.motion, degrees, &mut shared, begun)?;
         }
@@ -118,7 +115,7 @@ impl Assembly<'_> {
         Ok(rates)
     }
 
-    /// Refuses velocities across inclined rollers.
+    /// Rejects velocities across inclined rollers.
     fn check_rollers(&self, numbering: &Numbering, rates: &[f64]) -> Result<(), SystemError> {
         let inclined =
             self.scene.joints.iter().filter_map(|joint| Some((joint, joint.kind.inclined()?)));
@@ -140,7 +137,7 @@ impl Assembly<'_> {
         Ok(())
     }
 
-    /// Gives the movements of a body of some length the rates of its rigid motion.
+    /// Sets the rates of the rigid motion of a body of some length.
     fn share_rigid_motion(
         &self,
         index: usize,
@@ -164,7 +161,7 @@ impl Assembly<'_> {
             let sized = degrees.iter().zip(rates).zip(sizes).zip(COMPONENTS);
             for (((&at, rate), size), component) in sized {
                 if let Some(begins) = begun.at(at) {
-                    // What rests is set in motion by a blow.
+                    // A body at rest is set in motion by an impact.
                     if !rests && (rate - begins).abs() > SAME_START * size.max(begins.abs()) {
                         return Err(SystemError::StartVelocity {
                             body: self.name_of(index),
@@ -176,8 +173,8 @@ impl Assembly<'_> {
                     continue;
                 }
                 if let Some(asked) = shared.asked.get(at).copied().flatten() {
-                    // A node of a beam has it, whatever the beam does; a rigid body cannot do otherwise there, and a beam that moves not with a particle
-                    // that moves differently.
+                    // A node of a beam may have its own velocity. A rigid body cannot, nor can a moving beam joined to a particle that moves
+                    // differently.
                     let is_rigid = degrees_of_freedom.len() > 1 && index >= self.scene.beams.len();
                     let moves_apart = !rests && matches!(asked.at.body, BodyIndex::Particle(_));
                     let missed = (rate - asked.rate).abs();
@@ -208,10 +205,10 @@ impl Assembly<'_> {
         Ok(())
     }
 
-    /// The rates that are asked for at single nodes, for each unknown.
+    /// Requested rates of single nodes by unknown.
     ///
     /// # Errors
-    /// When two stations that are joined are given different ones.
+    /// Fails if joined stations have different requested rates.
     fn asked_rates(
         &self,
         numbering: &Numbering,
@@ -243,7 +240,6 @@ impl Assembly<'_> {
         Ok(asked)
     }
 
-    /// A beam or a rigid body in words, by its index in the model.
     fn name_of(&self, index: usize) -> String {
         let first = self.scene.first_rigid_body();
         match self.scene.beams.get(index) {
@@ -252,7 +248,7 @@ impl Assembly<'_> {
         }
     }
 
-    /// Sets the rates of the node at a station, whatever its beam does.
+    /// Sets the rates of the node at a station independently of its beam.
     fn set_velocity(
         &self,
         velocity: &StationVelocity,
@@ -303,7 +299,7 @@ impl Assembly<'_> {
     }
 }
 
-/// The centre of mass of a beam as drawn.
+/// Centre of mass of a beam as drawn.
 fn centre(beam: &dyn BodyDynamics) -> Vec2 {
     let lengths = beam.lumped_lengths();
     let moment: Vec2 =

@@ -1,28 +1,28 @@
-//! Components of control points that move as one: the classes of the relation "tied".
+//! Classes of tied components of control points.
 
 use crate::beams::{BodyDynamics, BodyPoint, Station};
 use crate::joints::{Component, Partner, Releasable};
 use crate::system::SystemError;
 use crate::system::scene::{Scene, Ties};
 
-/// The class of what does not move.
+/// Class of the fixed components.
 pub const GROUND: usize = 0;
 
-/// Components of control points of bodies, counted from one on in the order of the bodies, that joints, particles and rigid bodies tie into classes.
+/// Components of control points, numbered from one in the order of the bodies, in classes tied by joints, particles and rigid bodies.
 pub struct TiedComponents {
     pub ties: Ties,
-    /// The first component of each body, and behind the last one the count of all.
+    /// First component of each body, followed by the total.
     offsets: Vec<usize>,
-    /// The body of each rigid link, and the point that it holds to the first one.
+    /// Body and linked point of each rigid link.
     pub links: Vec<(usize, usize)>,
-    /// The body and the control point of each inclined roller, in the order of the joints of the scene; none where it has let go.
+    /// Body and control point of each inclined roller, in the order of the joints; `None` after a release.
     pub rollers: Vec<Option<(usize, usize)>>,
-    /// The classes whose movement is prescribed, in the order of the drives.
+    /// Classes with a prescribed movement, in the order of the drives.
     pub prescribed: Vec<usize>,
 }
 
 impl TiedComponents {
-    /// Ties what moves as one in a scene; `place` finds stations on the meshes of its bodies. Joints and drives that were `released` tie nothing.
+    /// Ties the components of a scene; `place` locates stations on the meshes. Joints and drives in `released` tie nothing.
     pub fn new(
         scene: &Scene,
         released: &[Releasable],
@@ -45,7 +45,7 @@ impl TiedComponents {
                 classes.rollers.extend(joint.kind.inclined().map(|_| None));
                 continue;
             }
-            // Stations of joints are breaks of the mesh, where a control point lies on the axis.
+            // Stations of joints are breaks of the mesh, with a control point on the axis.
             let from = place(&joint.station)?;
             let to = match &joint.partner {
                 Partner::Ground => None,
@@ -69,14 +69,14 @@ impl TiedComponents {
         Ok(classes)
     }
 
-    /// Particles do not turn.
+    /// Particles do not rotate.
     fn tie_particles(&mut self, scene: &Scene) {
         for body in scene.beams.len()..scene.first_rigid_body() {
             self.ties.tie(GROUND, self.component((body, 0), Component::Rotation));
         }
     }
 
-    /// The points of a rigid body turn with it; one at the centre is the centre.
+    /// The points of a rigid body rotate with it. Points at the centre are the centre.
     fn tie_rigid_bodies(&mut self, scene: &Scene) {
         let first = scene.first_rigid_body();
         for (body, definition) in (first..).zip(&scene.rigid_bodies) {
@@ -93,17 +93,16 @@ impl TiedComponents {
         }
     }
 
-    /// The number of all components, the ground among them.
+    /// Number of all components including the ground.
     pub fn count(&self) -> usize {
         self.offsets[self.offsets.len() - 1]
     }
 
-    /// A component of a control point of a body.
+    /// Index of a component of a control point.
     pub fn component(&self, (body, point): (usize, usize), component: Component) -> usize {
         self.offsets[body] + 3 * point + component as usize
     }
 
-    /// A component of the control point that is at a place.
     fn at(&self, place: &BodyPoint, component: Component) -> usize {
         self.component((place.body, place.nearest_control_point()), component)
     }

@@ -1,4 +1,4 @@
-//! All bodies of a model, and what is watched on them.
+//! All bodies of a model, with tracked sections and joined places.
 
 use std::ops::{Deref, DerefMut};
 
@@ -7,23 +7,22 @@ use super::{Body, DegreesOfFreedom, Momenta, Tracker};
 use crate::beams::{BodyPoint, Mesh, Movement};
 use crate::geometry::{Vec2, larger};
 
-/// A function that is smaller than this at a place is zero there.
+/// Basis functions below this value count as zero at a node.
 const NO_WEIGHT: f64 = 1e-12;
 
-/// The bodies of a model: beams, then particles, then rigid bodies, and what is watched on them; it derefs to the slice of them.
+/// Bodies of a model (beams, then particles, then rigid bodies) with tracked sections. Dereferences to the slice of bodies.
 pub struct Bodies {
     pub(super) all: Vec<Body>,
-    /// Of the beams.
     meshes: Vec<Mesh>,
-    /// Sections whose angle is followed: starts and ends of all beams, then the stations of the scene, then rigid bodies.
+    /// Tracked sections: starts and ends of all beams, then stations of the scene, then rigid bodies.
     pub(super) trackers: Vec<Tracker>,
-    /// Pairs of places that joints hold together.
+    /// Pairs of joined places.
     joined: Vec<(BodyPoint, BodyPoint)>,
-    /// That of the beams alone [mass].
+    /// Mass of the beams [mass].
     mass: f64,
-    /// How many threads may work at once.
+    /// Largest number of threads.
     pub(super) threads: usize,
-    /// Where there are many bodies.
+    /// Partition for two threads, for large numbers of bodies.
     pub(super) halves: Option<BodyHalves>,
 }
 
@@ -42,8 +41,6 @@ impl DerefMut for Bodies {
 }
 
 impl Bodies {
-    /// Bodies with the meshes of the beams among them, the sections that are followed, the places that joints hold together, and the
-    /// mass of the beams [mass].
     pub fn new(
         all: Vec<Body>,
         meshes: Vec<Mesh>,
@@ -54,7 +51,7 @@ impl Bodies {
         Self { all, meshes, trackers, joined, mass, threads: 1, halves: None }
     }
 
-    /// Gives the movements of all bodies other numbers, of which so many are unknown, and tells which places joints hold together.
+    /// Renumbers the movements of all bodies and replaces the joined places.
     pub fn renumber(
         &mut self,
         numbers: Vec<Vec<[usize; 3]>>,
@@ -68,32 +65,32 @@ impl Bodies {
         self.joined = joined;
     }
 
-    /// The meshes of the beams, with breaks where joints are.
+    /// Meshes of the beams, with breaks at joints.
     pub fn meshes(&self) -> &[Mesh] {
         &self.meshes
     }
 
-    /// The mass of the beams, without what stands on them [mass].
+    /// Mass of the beams without attached masses [mass].
     pub fn mass(&self) -> f64 {
         self.mass
     }
 
-    /// The number of sections whose angle is followed.
+    /// Number of tracked sections.
     pub fn followed_sections(&self) -> usize {
         self.trackers.len()
     }
 
-    /// The unwrapped angle of a section that is followed, by its number [rad].
+    /// Unwrapped angle of a tracked section [rad].
     pub fn angle(&self, section: usize) -> Option<f64> {
         self.trackers.get(section).map(|tracker| tracker.angle)
     }
 
-    /// The point where a place is at the start of the step [length].
+    /// Position of a place at the start of the step [length].
     pub fn position(&self, place: &BodyPoint) -> Vec2 {
         place.interpolate(self[place.body].dynamics.control_points())
     }
 
-    /// The speed of the fastest control point [length/time].
+    /// Speed of the fastest control point [length/time].
     pub fn fastest_speed(&self, rates: &[f64]) -> f64 {
         let speeds = self.iter().flat_map(|body| {
             (0..body.degrees_of_freedom.len()).map(|point| body.vector_at(point, rates).norm())
@@ -101,37 +98,35 @@ impl Bodies {
         speeds.fold(0.0, larger)
     }
 
-    /// The largest distance between places that joints hold together [length].
+    /// Largest gap between joined places [length].
     pub fn largest_gap(&self) -> f64 {
         let gap = |(a, b): &(BodyPoint, BodyPoint)| (self.position(a) - self.position(b)).norm();
         self.joined.iter().map(gap).fold(0.0, larger)
     }
 
-    /// Momenta and twice the kinetic energy of all bodies, from the rates of the unknowns.
     pub fn momenta(&mut self, rates: &[f64]) -> Momenta {
         let mut sum = Momenta::default();
         self.all.iter_mut().for_each(|body| sum += body.momenta(rates));
         sum
     }
 
-    /// The strain energy of all bodies [energy].
     pub fn strain_energy(&self) -> f64 {
         self.iter().map(|body| body.dynamics.strain_energy()).sum()
     }
 
-    /// Gives every body its part of the increments of the unknowns.
+    /// Distributes increments of the unknowns to the bodies.
     pub fn gather(&mut self, increments: &[f64]) {
         for body in &mut self.all {
             body.gather(increments);
         }
     }
 
-    /// The values of unknowns at the control points of every body; supported movements are zero.
+    /// Values at the control points of every body; zero for supported movements.
     pub fn by_control_point(&self, values: &[f64]) -> Vec<Vec<Movement>> {
         self.iter().map(|body| body.by_control_point(values).collect()).collect()
     }
 
-    /// Gives every movement of every control point a number of its own, as if nothing were joined; the numbers that they had.
+    /// Gives every movement of every control point its own number, ignoring joints. Returns the previous numbers.
     pub fn number_apart(&mut self) -> Vec<DegreesOfFreedom> {
         let mut next = 0;
         let own = self.iter().map(|body| {
@@ -145,19 +140,18 @@ impl Bodies {
         self.number_as(own)
     }
 
-    /// Gives the movements of all control points other numbers; the numbers that they had.
+    /// Replaces the numbers of all movements. Returns the previous ones.
     pub fn number_as(&mut self, numbers: Vec<DegreesOfFreedom>) -> Vec<DegreesOfFreedom> {
         let bodies = self.all.iter_mut().zip(numbers);
         bodies.map(|(body, own)| std::mem::replace(&mut body.degrees_of_freedom, own)).collect()
     }
 
-    /// Exchanges the numbers of the movements of all control points for others.
     pub fn exchange_numbers(&mut self, numbers: &mut [DegreesOfFreedom]) {
         let bodies = self.all.iter_mut().zip(numbers);
         bodies.for_each(|(body, own)| std::mem::swap(&mut body.degrees_of_freedom, own));
     }
 
-    /// The nodes that joints hold together at a place, as indices of bodies and control points; none where the place is no node.
+    /// Nodes joined at a place, as indices of bodies and control points; `None` if the place is not a node.
     pub fn tied_nodes(&self, place: &BodyPoint) -> Option<Vec<(usize, usize)>> {
         let mut nodes = vec![node_of(place)?];
         let mut next = 0;
@@ -175,20 +169,18 @@ impl Bodies {
         Some(nodes)
     }
 
-    /// Appends the state of all bodies at the start of a step.
     pub fn save(&self, state: &mut Vec<f64>) {
         self.iter().for_each(|body| body.dynamics.save(state));
         self.trackers.iter().for_each(|tracker| tracker.save(state));
     }
 
-    /// Takes the state of all bodies back, in the order in which it was appended.
     pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         self.all.iter_mut().for_each(|body| body.dynamics.restore(next));
         self.trackers.iter_mut().for_each(|tracker| tracker.restore(next));
     }
 }
 
-/// The body and the control point of a place, if it is where a control point is.
+/// Body and control point of a place that coincides with a control point.
 fn node_of(place: &BodyPoint) -> Option<(usize, usize)> {
     let point = place.nearest_control_point();
     let is_node = place.weights().all(|(at, weight)| at == point || weight.abs() < NO_WEIGHT);

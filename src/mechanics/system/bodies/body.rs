@@ -1,4 +1,4 @@
-//! A body of the model: its dynamics, and where its movements stand among the degrees of freedom.
+//! Body of a model: its dynamics and the degrees of freedom of its movements.
 
 use std::iter::once;
 use std::ops::Range;
@@ -12,21 +12,21 @@ use crate::geometry::{Vec2, cross};
 use crate::linalg::BandRows;
 use crate::threads::at_once;
 
-/// A beam or a particle with the places of its movements in the vectors of the mechanism.
+/// Beam, particle or rigid body with the degrees of freedom of its movements.
 pub struct Body {
     pub dynamics: Box<dyn BodyDynamics>,
     pub degrees_of_freedom: DegreesOfFreedom,
-    /// For each span that moves consecutive unknowns only: the first of them.
+    /// First unknown of each span whose unknowns are consecutive.
     consecutive: Vec<Option<usize>>,
-    /// For each control point whether all that share a span with it move consecutive unknowns.
+    /// For each control point, true if all spans that contain it have consecutive unknowns.
     in_order: Vec<bool>,
     unknowns: usize,
-    /// The first control point and the first row of each part that is worked on at the same time, but for the first part.
+    /// First control point and first row of each concurrent part except the first.
     parts: Vec<(usize, usize)>,
     moved: Vec<Movement>,
-    /// What was added up, and not handed on yet.
+    /// Accumulated nodal forces, not yet handed on.
     forces: Vec<Movement>,
-    /// What was met meanwhile.
+    /// Summary of these forces.
     met: ForceSummary,
 }
 
@@ -52,7 +52,7 @@ impl Body {
         body
     }
 
-    /// Gives the movements of the body's control points other places among the degrees of freedom, of which so many are unknown.
+    /// Renumbers the movements of the control points.
     pub fn renumber(&mut self, degrees_of_freedom: Vec<[usize; 3]>, unknowns: usize) {
         let order = self.dynamics.order();
         let are_consecutive = |points: Range<usize>| {
@@ -75,8 +75,8 @@ impl Body {
         }
     }
 
-    /// Lets the body work in at most so many parts at once from here on, with the same results: in one, where it is not large, or the
-    /// rows of its parts do not stand one part after another. Gives the number of parts.
+    /// Divides the body into at most `most` concurrent parts with unchanged results, and returns their number. Small bodies, and bodies whose parts
+    /// have interleaved rows, are not divided.
     pub fn divide(&mut self, most: usize) -> usize {
         let points = self.dynamics.divide(most);
         let rows_of = |points: &[[usize; 3]]| {
@@ -95,12 +95,11 @@ impl Body {
         self.parts.len() + 1
     }
 
-    /// Whether the body works in several parts at once.
+    /// Returns true if the body has several concurrent parts.
     pub fn is_divided(&self) -> bool {
         !self.parts.is_empty()
     }
 
-    /// The number of control points of this body.
     pub fn points(&self) -> usize {
         self.degrees_of_freedom.len()
     }
@@ -110,29 +109,29 @@ impl Body {
         rows.filter(|row| *row < self.unknowns)
     }
 
-    /// The first of the unknowns of this body.
+    /// First unknown of the body.
     pub fn first_row(&self) -> Option<usize> {
         self.rows().min()
     }
 
-    /// The last of the unknowns of this body.
+    /// Last unknown of the body.
     pub fn last_row(&self) -> Option<usize> {
         self.rows().max()
     }
 
-    /// Gathers the values of the unknowns at this body, by control point; supported movements are zero.
+    /// Gathers values of the unknowns by control point; zero for supported movements.
     pub fn gather(&mut self, values: &[f64]) -> &[Movement] {
         self.degrees_of_freedom.gather(values, &mut self.moved);
         &self.moved
     }
 
-    /// The values of the unknowns at the control points of this body; supported movements are zero.
+    /// Values of the unknowns by control point; zero for supported movements.
     pub fn by_control_point(&self, values: &[f64]) -> impl Iterator<Item = Movement> {
         let value = |at: usize| values.get(at).copied().unwrap_or(0.0);
         self.degrees_of_freedom.iter().map(move |degrees| degrees.map(value))
     }
 
-    /// The movement of a place of this body [length, length, rad], from values of the unknowns.
+    /// Movement of a place [length, length, rad], from values of the unknowns.
     pub fn at(&self, place: &BodyPoint, values: &[f64]) -> Movement {
         let mut sum = [0.0; 3];
         for (point, share) in place.weights() {
@@ -143,46 +142,46 @@ impl Body {
         sum
     }
 
-    /// The x and y components of a control point of this body, from values of the unknowns.
+    /// Components x and y at a control point, from values of the unknowns.
     pub fn vector_at(&self, point: usize, values: &[f64]) -> Vec2 {
         let [x, y, _] = self.degrees_of_freedom[point];
         let value = |at: usize| values.get(at).copied().unwrap_or(0.0);
         Vec2::new(value(x), value(y))
     }
 
-    /// The place of a control point of this body, and what rounding has cut off it so far [length].
+    /// Position of a control point, and its accumulated rounding remainder [length].
     pub fn precise_point(&self, point: usize) -> (Vec2, Vec2) {
         (self.dynamics.control_points()[point], self.dynamics.remainders()[point])
     }
 
-    /// The movements of the control points of this body that were gathered last.
+    /// Movements that were gathered last.
     pub fn moved(&self) -> &[Movement] {
         &self.moved
     }
 
-    /// Lets the body accept the movements that were gathered last.
+    /// Accepts the movements that were gathered last.
     pub fn advance(&mut self, rotations: RotationIncrement) {
         self.dynamics.advance(&self.moved, rotations);
     }
 
-    /// Hands the forces that were added up on to `out`, and what was met meanwhile.
+    /// Adds the accumulated forces to `out`, clears them, and returns their summary.
     pub fn hand_on(&mut self, out: &mut [f64]) -> ForceSummary {
         self.degrees_of_freedom.hand_on(&mut self.forces, out);
         std::mem::take(&mut self.met)
     }
 
-    /// Forgets the forces that were added up.
+    /// Clears the accumulated forces.
     pub fn forget_forces(&mut self) {
         self.forces.fill(Movement::default());
     }
 
-    /// Adds up the internal forces of this body, to be handed on.
+    /// Accumulates the internal forces.
     pub fn meet_forces(&mut self, at: Collocation, increments: &[f64], weight: f64) {
         self.gather(increments);
         self.met = self.dynamics.add_forces(at, &self.moved, weight, &mut self.forces);
     }
 
-    /// Adds up the condensed internal forces of this body, to be handed on, and adds their derivatives to the rows of the tangent that are at hand.
+    /// Accumulates the condensed internal forces, and adds their derivatives to the given rows of the tangent.
     pub fn linearise(
         &mut self,
         at: Collocation,
@@ -213,7 +212,7 @@ impl Body {
         }
     }
 
-    /// Adds up the forces that would close the strain mismatch of this body, to be handed on.
+    /// Accumulates the forces that would remove the strain mismatch.
     pub fn meet_mismatch(&mut self, weight: f64) {
         self.dynamics.add_mismatch_forces(weight, &mut self.forces);
     }
@@ -223,13 +222,13 @@ impl Body {
         self.dynamics.correct_section_forces(&self.moved);
     }
 
-    /// Adds up `factor · M · rates` of this body, to be handed on.
+    /// Accumulates `factor · M · rates`.
     pub fn meet_inertia(&mut self, factor: f64, rates: &[f64]) {
         self.gather(rates);
         self.dynamics.add_inertia(factor, &self.moved, &mut self.forces);
     }
 
-    /// Gives the entries of `factor · M` of this body to `add`: row, column and value; several of one place add up.
+    /// Passes the entries of `factor · M` to `add` as row, column and value. Entries of the same place add up.
     pub fn inertia_entries(&self, factor: f64, add: &mut impl FnMut(usize, usize, f64)) {
         self.inertia_entries_of(0..self.degrees_of_freedom.len(), factor, add);
     }
@@ -245,7 +244,7 @@ impl Body {
         });
     }
 
-    /// Gives the entries of a row of control points in the inertia to `add`: row, column and value.
+    /// Passes the inertia entries of one control point to `add`.
     fn entries_of(
         &self,
         point: usize,
@@ -255,7 +254,7 @@ impl Body {
     ) {
         let rows = &self.degrees_of_freedom[point];
         for (columns, inertia) in self.degrees_of_freedom[first..].iter().zip(inertia) {
-            // Functions that share no span may stand far apart in the numbering of the tangent.
+            // Basis functions without a common span may be far apart in the numbering of the tangent.
             if *inertia == Movement::default() {
                 continue;
             }
@@ -267,7 +266,7 @@ impl Body {
         }
     }
 
-    /// Adds `factor · M` of this body to the rows of the tangent that are at hand.
+    /// Adds `factor · M` to the given rows of the tangent.
     pub fn add_inertia_tangent(&self, factor: f64, rows: BandRows<'_>) {
         let add = |points: Range<usize>, mut rows: BandRows<'_>| {
             let at_hand = rows.rows();
@@ -307,7 +306,6 @@ impl Body {
         });
     }
 
-    /// Momenta and twice the kinetic energy of this body, from the rates of the unknowns.
     pub fn momenta(&mut self, rates: &[f64]) -> Momenta {
         self.gather(rates);
         self.dynamics.add_inertia(1.0, &self.moved, &mut self.forces);

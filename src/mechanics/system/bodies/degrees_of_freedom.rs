@@ -1,18 +1,18 @@
-//! Where the movements of a body stand among the degrees of freedom.
+//! Degrees of freedom of the movements of a body.
 
 use std::ops::{Deref, Range};
 
 use crate::beams::Movement;
 
-/// The numbers of the movements of a body's control points among the degrees of freedom; it derefs to them, three for each control point.
+/// Degrees of freedom by control point, three for each. Dereferences to them.
 #[derive(Debug, Clone, Default)]
 pub struct DegreesOfFreedom {
     numbers: Vec<[usize; 3]>,
-    /// All of them, in pieces that are copied as a whole.
+    /// The same, in contiguous runs for block copies.
     runs: Vec<DofRun>,
 }
 
-/// Movements whose numbers follow one another.
+/// Movements with consecutive degrees of freedom.
 #[derive(Debug, Clone)]
 struct DofRun {
     movements: Range<usize>,
@@ -41,7 +41,7 @@ impl Deref for DegreesOfFreedom {
 }
 
 impl DegreesOfFreedom {
-    /// Gathers values by control point; zero where there are none.
+    /// Gathers values by control point; zero for missing values.
     pub fn gather(&self, values: &[f64], moved: &mut [Movement]) {
         let moved = moved.as_flattened_mut();
         for DofRun { movements, first } in &self.runs {
@@ -53,12 +53,12 @@ impl DegreesOfFreedom {
         }
     }
 
-    /// Those numbers that are below some number, as the unknowns are.
+    /// Degrees of freedom below a bound, such as the number of unknowns.
     pub fn below(&self, unknowns: usize) -> Vec<usize> {
         self.numbers.as_flattened().iter().copied().filter(|number| *number < unknowns).collect()
     }
 
-    /// Hands forces of control points on to `out`, and leaves zeros in their place.
+    /// Adds nodal forces to `out` and clears them.
     pub fn hand_on(&self, forces: &mut [Movement], out: &mut [f64]) {
         let forces = forces.as_flattened_mut();
         for DofRun { movements, first } in &self.runs {

@@ -1,29 +1,30 @@
-//! Many bodies in two halves, on which two threads work at once, with the very bits that one thread gives.
+//! Partition of many bodies into two halves for two threads, with results identical to those of one thread.
 //!
-//! Sums are made in the order of the bodies: each adds up its forces for itself, and one thread hands them on. Of the tangent the second half has the
-//! rows for itself that no body of the first one has; what its bodies give to rows before these they give again afterwards.
+//! Sums are made in the order of the bodies: each body accumulates its own forces, and one thread hands them on. In the tangent, the second half
+//! exclusively owns the rows that no body of the first half has. Bodies of the second half that contribute to earlier rows are processed again
+//! afterwards.
 
 use super::Body;
 
-/// Fewest control points of a half: smaller ones gain little, and lose where the other core has other work (docs/studies.md).
+/// Fewest control points of a half. Smaller halves gain little, and lose if the other core is busy (docs/studies.md).
 const SMALLEST_HALF: usize = 1500;
 
-/// The largest part of all control points that bodies astride may have: so much is done twice.
+/// Largest fraction of control points in bodies astride, whose work is done twice.
 const LARGEST_ASTRIDE: f64 = 0.1;
 
-/// Where bodies are cut in two halves.
+/// Partition of the bodies into two halves.
 #[derive(Debug, Clone)]
 pub(super) struct BodyHalves {
-    /// The first body of the second half.
+    /// First body of the second half.
     pub(super) body: usize,
-    /// The first row of the tangent that no body of the first half has.
+    /// First row of the tangent without a body of the first half.
     pub(super) row: usize,
-    /// The bodies of the second half that have rows before that one.
+    /// Bodies of the second half with rows before that one.
     pub(super) astride: Vec<usize>,
 }
 
 impl BodyHalves {
-    /// The cut of bodies into two halves, where two threads pay.
+    /// Returns the partition if a second thread is worthwhile.
     pub(super) fn worthwhile(bodies: &[Body], threads: usize) -> Option<Self> {
         let points = |bodies: &[Body]| bodies.iter().map(Body::points).sum::<usize>();
         let all = points(bodies);

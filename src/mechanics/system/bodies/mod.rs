@@ -1,4 +1,4 @@
-//! Beams, particles and rigid bodies, and where their movements stand among the unknowns of the model.
+//! Beams, particles and rigid bodies, with their degrees of freedom.
 
 mod all;
 mod body;

@@ -1,9 +1,8 @@
-//! Momenta of what moves.
+//! Momenta of bodies.
 
 use crate::geometry::Vec2;
 
-/// Twice the kinetic energy [energy], the momentum [mass·length/time] and the angular momentum about the origin
-/// [mass·length²/time] of something that moves.
+/// Twice the kinetic energy [energy], momentum [mass·length/time] and angular momentum about the origin [mass·length²/time].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Momenta {
     pub twice_kinetic: f64,

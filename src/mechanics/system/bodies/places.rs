@@ -1,10 +1,10 @@
-//! Where the movements of a body stand in the tangent.
+//! Rows of the movements of a body in the tangent.
 
 use std::iter::once;
 
 use crate::linalg::BandRows;
 
-/// The rows of a tangent, cut where parts begin.
+/// Splits the rows of a tangent at the starts of parts.
 pub(super) fn rows_of_parts<'a>(
     parts: &[(usize, usize)],
     rows: BandRows<'a>,
@@ -19,17 +19,17 @@ pub(super) fn rows_of_parts<'a>(
     })
 }
 
-/// Where the movements of spans stand in the tangent.
+/// Degrees of freedom of spans in the tangent.
 pub(super) struct Places<'a> {
     pub(super) degrees_of_freedom: &'a [[usize; 3]],
     pub(super) consecutive: &'a [Option<usize>],
-    /// The number of control points of a span.
+    /// Number of control points per span.
     pub(super) order: usize,
     pub(super) unknowns: usize,
 }
 
 impl Places<'_> {
-    /// Adds the block of a span, but for rows that are not at hand.
+    /// Adds the block of a span, restricted to the available rows.
     pub(super) fn add_block(&self, rows: &mut BandRows<'_>, first: usize, block: &[f64]) {
         let width = 3 * self.order;
         let at_hand = rows.rows();

@@ -1,12 +1,12 @@
-//! Sections whose rotation is followed: stations, and places where loads turn with the beam.
+//! Tracked rotations of sections, for stations and follower loads.
 
 use crate::beams::{BodyPoint, Movement, Rotation, RotationIncrement};
 
-/// A place of a beam whose angle is followed: it is advanced with the steps.
+/// Place of a beam with a tracked section angle, advanced in every step.
 #[derive(Debug, Clone, Copy)]
 pub struct Tracker {
     pub place: BodyPoint,
-    /// The unwrapped angle of the followed section [rad].
+    /// Unwrapped angle [rad].
     pub angle: f64,
     pub rotation: Rotation,
 }
@@ -16,7 +16,7 @@ impl Tracker {
         Self { place, angle: place.tangent_angle, rotation: Rotation::by(place.tangent_angle) }
     }
 
-    /// The rotation increment `Δω` of the followed section in some movements.
+    /// Rotation increment `Δω` of the section.
     pub fn increment(&self, moved: &[Movement]) -> f64 {
         self.place.weights().map(|(point, weight)| weight * moved[point][2]).sum()
     }
@@ -27,12 +27,10 @@ impl Tracker {
         self.rotation = self.rotation.turned(rotations, increment).normalised();
     }
 
-    /// Appends the angle that is followed to a state.
     pub fn save(&self, state: &mut Vec<f64>) {
         state.extend([self.angle, self.rotation.cos, self.rotation.sin]);
     }
 
-    /// Takes the angle that is followed back from a state.
     pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         self.angle = next();
         self.rotation = Rotation { cos: next(), sin: next() };

@@ -1,4 +1,4 @@
-//! What all bodies do in a step, one after another or in two halves at once.
+//! Step operations on all bodies, in sequence or in two concurrent halves.
 
 use super::halves::BodyHalves;
 use super::{Bodies, Body};
@@ -7,7 +7,7 @@ use crate::linalg::{BandRows, BandedMatrix};
 use crate::threads::at_once;
 
 impl Bodies {
-    /// Lets up to `threads` threads work on a large body, or on many, from here on, with the same results; gives how many will at most.
+    /// Sets the number of threads for a large body or many bodies, with unchanged results. Returns the largest number in use.
     pub fn divide(&mut self, threads: usize) -> usize {
         self.threads = threads;
         let parts = self.all.iter_mut().map(|body| body.divide(threads)).max().unwrap_or(1);
@@ -15,12 +15,11 @@ impl Bodies {
         if self.halves.is_some() { parts.max(2) } else { parts }
     }
 
-    /// How many threads may work at once.
     pub fn threads(&self) -> usize {
         self.threads
     }
 
-    /// Lets all bodies do something, each for itself.
+    /// Applies an independent operation to each body.
     fn each(&mut self, work: impl Fn(&mut Body) + Sync) {
         match &self.halves {
             None => self.all.iter_mut().for_each(work),
@@ -31,12 +30,12 @@ impl Bodies {
         }
     }
 
-    /// Begins a step of all bodies with the section forces of the last one.
+    /// Starts a step with the section forces of the last one.
     pub fn begin_step(&mut self) {
         self.each(|body| body.dynamics.begin_step());
     }
 
-    /// Adds the internal forces of all bodies to `out`; the largest that was met.
+    /// Adds the internal forces of all bodies to `out`. Returns their summary.
     pub fn add_forces(
         &mut self,
         at: Collocation,
@@ -48,7 +47,7 @@ impl Bodies {
         self.hand_on(out)
     }
 
-    /// Hands what all bodies have added up on to `out`, in their order, which sums depend on; the largest that was met.
+    /// Hands on the accumulated forces in the order of the bodies, which determines rounding. Returns their summary.
     fn hand_on(&mut self, out: &mut [f64]) -> ForceSummary {
         let mut summary = ForceSummary::default();
         for body in &mut self.all {
@@ -57,7 +56,7 @@ impl Bodies {
         summary
     }
 
-    /// Adds the condensed internal forces of all bodies to `out`, and their derivatives to the tangent.
+    /// Adds the condensed internal forces to `out` and their derivatives to the tangent.
     pub fn add_linearised_forces(
         &mut self,
         at: Collocation,
@@ -95,7 +94,6 @@ impl Bodies {
         }
     }
 
-    /// Adds `factor · M` of all bodies to the tangent.
     pub fn add_inertia_tangent(&self, factor: f64, tangent: &mut BandedMatrix) {
         let Some(halves) = &self.halves else {
             return self
@@ -114,24 +112,24 @@ impl Bodies {
         }
     }
 
-    /// Adds the forces to `out` that would close the strain mismatch of all bodies.
+    /// Adds the forces that would remove the strain mismatch of all bodies.
     pub fn add_mismatch_forces(&mut self, weight: f64, out: &mut [f64]) {
         self.each(|body| body.meet_mismatch(weight));
         self.hand_on(out);
     }
 
-    /// Updates the section forces of all bodies for a correction of the unknowns.
+    /// Updates the section forces after a correction of the unknowns.
     pub fn correct_section_forces(&mut self, correction: &[f64]) {
         self.each(|body| body.correct_section_forces(correction));
     }
 
-    /// Adds `factor · M · rates` of all bodies to `out`, one entry for each unknown.
+    /// Adds `factor · M · rates` to `out`, one entry per unknown.
     pub fn add_inertia(&mut self, factor: f64, rates: &[f64], out: &mut [f64]) {
         self.each(|body| body.meet_inertia(factor, rates));
         self.hand_on(out);
     }
 
-    /// Lets all bodies accept the movements that were gathered last.
+    /// Accepts the movements that were gathered last.
     pub fn advance(&mut self, rotations: RotationIncrement) {
         for tracker in &mut self.trackers {
             tracker.advance(self.all[tracker.place.body].moved(), rotations);

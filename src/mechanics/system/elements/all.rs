@@ -1,4 +1,4 @@
-//! All elements of a model.
+//! All elements of a model, with their sums over one step.
 
 use super::element::BuiltElement;
 use super::point_mass::NodalMass;
@@ -9,22 +9,21 @@ use crate::linalg::BandedMatrix;
 use crate::loads::LoadError;
 use crate::system::bodies::{Body, Momenta};
 
-/// The elements of a model: point masses, weight, what else puts forces on bodies, and what resists their movements.
+/// Elements of a model: point masses, weight, external forces and internal forces (springs, dampers, drag).
 #[derive(Default)]
 pub struct Elements {
     masses: Vec<NodalMass>,
-    /// The weight of everything, if there is gravity.
     weight: Option<Weight>,
-    /// In the order of the scene.
+    /// External forces, in the order of the scene.
     forces: Vec<Box<dyn ExternalForce>>,
-    /// In the order of the scene.
+    /// Internal forces, in the order of the scene.
     resistances: Vec<Box<dyn InternalForce>>,
-    /// How far the force of that was from its configuration which was farthest in the last iterate, and its number.
+    /// Largest relative force mismatch in the last iterate, and the index of its internal force.
     farthest: (f64, usize),
 }
 
 impl Elements {
-    /// The elements that descriptions were built into, and the weight of the beams, if there is gravity.
+    /// Collects built elements, and adds the weight of the point masses to that of the beams.
     pub fn new(parts: impl Iterator<Item = BuiltElement>, mut weight: Option<Weight>) -> Self {
         let (mut masses, mut forces, mut resistances) = (Vec::new(), Vec::new(), Vec::new());
         for part in parts {
@@ -38,22 +37,20 @@ impl Elements {
         Self { masses, weight, forces, resistances, farthest: (0.0, 0) }
     }
 
-    /// The mass of all point masses of the model [mass].
+    /// Total mass of all point masses [mass].
     pub fn mass(&self) -> f64 {
         self.masses.iter().map(|mass| mass.mass).sum()
     }
 
-    /// The weight of all beams and point masses, if there is gravity.
     pub fn weight(&self) -> Option<&dyn ExternalForce> {
         self.weight.as_ref().map(|weight| weight as &dyn ExternalForce)
     }
 
-    /// The elements that put forces on bodies besides the weight, in the order of the scene.
     pub fn forces(&self) -> impl Iterator<Item = &dyn ExternalForce> + Clone {
         self.forces.iter().map(|force| &**force)
     }
 
-    /// What resists movements of bodies: springs, dampers, damping of beams, drag, in the order of the scene.
+    /// Springs, dampers, material damping and drag, in the order of the scene.
     pub fn resistances(&self) -> impl Iterator<Item = &dyn InternalForce> + Clone {
         self.resistances.iter().map(|resistance| &**resistance)
     }
@@ -63,22 +60,22 @@ impl Elements {
         self.resistances.iter_mut().filter(|resistance| resistance.stretched().is_some())
     }
 
-    /// Lets go of a spring, by its index.
+    /// Releases the spring with this index.
     pub fn let_go(&mut self, spring: usize) {
         self.springs_mut().nth(spring).into_iter().for_each(|spring| spring.let_go());
     }
 
-    /// Makes these springs ones that have let go, by their indices, and all others ones that have not, to be given a state of such ones.
+    /// Marks the given springs released and all others attached, before a state of theirs is restored.
     pub fn detach_only(&mut self, is_released: impl Fn(usize) -> bool) {
         for (at, spring) in self.springs_mut().enumerate() {
             if is_released(at) { spring.detach() } else { spring.attach() }
         }
     }
 
-    /// Prepares all elements for a step that begins with such rates of the unknowns.
+    /// Prepares all elements for a step that starts with the given rates of the unknowns.
     ///
     /// # Errors
-    /// When an element has no finite value: its name, and why.
+    /// Name of the element without a finite value, and the reason.
     pub fn begin_step(
         &mut self,
         (interval, stages): (Interval, &[Stage]),
@@ -93,32 +90,32 @@ impl Elements {
         })
     }
 
-    /// Gives all elements the values that they have just after a time.
+    /// Evaluates all elements just after a time.
     ///
     /// # Errors
-    /// When one has no finite value then: its name, and why.
+    /// Name of the element without a finite value, and the reason.
     pub fn hold_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
         self.forces.iter_mut().try_for_each(|force| {
             force.hold_at(time).map_err(|error| (force.name().to_owned(), error))
         })
     }
 
-    /// Whether an element may have another value just after a time than just before it.
+    /// Returns true if the value of an element may jump at a time.
     pub fn may_jump_at(&self, time: f64) -> bool {
         self.forces.iter().any(|force| force.may_jump_at(time))
     }
 
-    /// The number of sections whose angle elements follow.
+    /// Number of sections whose angle is tracked for follower forces.
     pub fn followed_sections(&self) -> usize {
         self.forces.iter().map(|force| force.followed_sections()).sum()
     }
 
-    /// Adds `factor · M · rates` of all point masses to `out`, one entry for each unknown.
+    /// Adds `factor · M · rates` of all point masses to `out`, one entry per unknown.
     pub fn add_inertia(&self, bodies: &[Body], factor: f64, rates: &[f64], out: &mut [f64]) {
         self.masses.iter().for_each(|mass| mass.add_inertia(bodies, factor, rates, out));
     }
 
-    /// Gives the entries of `factor · M` of all point masses to `add`: row, column and value; several of one place add up.
+    /// Passes the entries of `factor · M` of all point masses to `add` as row, column and value. Entries of the same place add up.
     pub fn inertia_entries(
         &self,
         bodies: &[Body],
@@ -130,23 +127,21 @@ impl Elements {
         masses.for_each(|mass| mass.inertia_entries(bodies, factor, unknowns, add));
     }
 
-    /// Adds momenta and twice the kinetic energy of all point masses to a sum.
     pub fn add_momenta(&self, bodies: &[Body], rates: &[f64], sum: &mut Momenta) {
         self.masses.iter().for_each(|mass| *sum += mass.momenta(bodies, rates));
     }
 
-    /// Twice the kinetic energy of the masses on a body [energy].
     pub fn twice_kinetic_on(&self, bodies: &[Body], body: usize, rates: &[f64]) -> f64 {
         let on_body = self.masses.iter().filter(|mass| mass.place.body == body);
         on_body.map(|mass| mass.momenta(bodies, rates).twice_kinetic).sum()
     }
 
-    /// The potential of the weight of a body and what stands on it [energy].
+    /// Potential energy of the weight of a body and the masses on it [energy].
     pub fn potential_of(&self, bodies: &[Body], body: usize) -> f64 {
         self.weight.as_ref().map_or(0.0, |weight| weight.energy_of(bodies, body))
     }
 
-    /// Subtracts the forces of all elements in an iterate; gives the largest force and the largest moment of an element on a control point.
+    /// Subtracts the forces of all elements in an iterate. Returns the largest force and the largest moment on a control point.
     pub fn subtract_from(&mut self, at: TrialState<'_>, out: &mut [f64]) -> (f64, f64) {
         let weight = self.weight.iter_mut().map(|weight| weight as &mut dyn ExternalForce);
         let forces = self.forces.iter_mut().map(|force| &mut **force as &mut dyn ExternalForce);
@@ -156,22 +151,22 @@ impl Elements {
         })
     }
 
-    /// Adds the derivative of minus the forces of all elements by the increments to the tangent; there are `unknowns` increments.
+    /// Adds minus the derivative of all forces with respect to the increments to the tangent with `unknowns` rows.
     pub fn add_tangent(&self, at: TrialState<'_>, unknowns: usize, tangent: &mut BandedMatrix) {
         self.forces.iter().for_each(|force| force.add_tangent(at, unknowns, tangent));
     }
 
-    /// Prepares a movement that takes no time.
+    /// Prepares a movement of zero duration.
     pub fn begin_movement(&mut self) {
         self.resistances.iter_mut().for_each(|resistance| resistance.begin_movement());
     }
 
-    /// Rates have jumped.
+    /// Discards rate histories after a jump of the rates.
     pub fn forget_rates(&mut self) {
         self.resistances.iter_mut().for_each(|resistance| resistance.forget_rates());
     }
 
-    /// Adds what resists movements, with its forces as they are; the largest that was met.
+    /// Adds all internal forces of an iterate. Returns their summary.
     pub fn add_resistance(
         &mut self,
         at: TrialState<'_>,
@@ -188,14 +183,14 @@ impl Elements {
         }
     }
 
-    /// What resists with a force that was farthest from its configuration in the last iterate, by name, and how far that was; none where all fit.
+    /// Name and relative mismatch of the internal force farthest from its target in the last iterate; `None` if all match.
     pub fn farthest(&self) -> Option<(&str, f64)> {
         let (missing, index) = self.farthest;
         let resistance = self.resistances.get(index)?;
         (missing != 0.0).then(|| (resistance.name(), missing))
     }
 
-    /// Adds what resists movements, condensed, and its derivative by the increments; there are so many unknowns.
+    /// Adds all condensed internal forces and their derivatives with respect to the `unknowns` increments.
     pub fn add_linearised_resistance(
         &mut self,
         at: TrialState<'_>,
@@ -208,46 +203,46 @@ impl Elements {
         }
     }
 
-    /// Adds `weight` times the forces that would close the mismatch met by the last forces.
+    /// Adds `weight` times the forces that would remove the current mismatch.
     pub fn add_mismatch_forces(&self, bodies: &[Body], weight: f64, out: &mut [f64]) {
         self.resistances.iter().for_each(|resistance| {
             resistance.add_mismatch_forces(bodies, weight, out);
         });
     }
 
-    /// Carries a correction of the increments over to the forces of what resists movements.
+    /// Updates internal forces after a correction of the increments.
     pub fn correct(&mut self, bodies: &[Body], correction: &[f64]) {
         self.resistances.iter_mut().for_each(|resistance| resistance.correct(bodies, correction));
     }
 
-    /// The energy that springs store [energy].
+    /// Energy stored in springs [energy].
     pub fn stored(&self) -> f64 {
         self.resistances().map(InternalForce::stored).fold(0.0, |sum, stored| sum + stored)
     }
 
-    /// What dampers have dissipated since the start [energy].
+    /// Energy dissipated since the start [energy].
     pub fn dissipated(&self) -> f64 {
         self.resistances()
             .map(InternalForce::dissipated)
             .fold(0.0, |sum, dissipated| sum + dissipated)
     }
 
-    /// Adds what resists such rates of the control points of all bodies, with what springs store, to the forces on bodies.
+    /// Adds internal forces at the given rates of all control points, including spring forces.
     pub fn add_resisting(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]) {
         self.resistances().for_each(|resistance| resistance.add_forces_now(bodies, rates, out));
     }
 
-    /// Gives each rate that is damped at such rates of the unknowns, at the start of the step, behind what damps it.
+    /// Passes each damped rate and the damping coefficient to `take`, at the start of the step.
     pub fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
         self.resistances().for_each(|resistance| resistance.each_damped_rate(bodies, rates, take));
     }
 
-    /// Gives how springs resist small movements at rest: degrees of freedom, and their rows.
+    /// Passes the degrees of freedom and stiffness of each spring at rest to `take`.
     pub fn each_at_rest(&self, bodies: &[Body], take: &mut dyn FnMut(&[usize], &SpanStiffness)) {
         self.resistances().for_each(|resistance| resistance.at_rest(bodies, take));
     }
 
-    /// The work and impulse that all elements gave in the step of the movements that the bodies gathered last.
+    /// Work and impulse of all elements in the step whose movements the bodies gathered last.
     pub fn exchange(&self, bodies: &[Body], duration: f64) -> WorkAndImpulse {
         let mut sum = WorkAndImpulse::default();
         for element in self.forces().chain(self.weight()) {
@@ -259,25 +254,23 @@ impl Elements {
         sum
     }
 
-    /// The energy that is stored in weight and elements [energy].
+    /// Energy stored in weight and external forces [energy].
     pub fn energy(&self, bodies: &[Body]) -> f64 {
         let stored = self.weight().into_iter().chain(self.forces());
         stored.filter_map(|element| element.energy(bodies)).reduce(|a, b| a + b).unwrap_or(0.0)
     }
 
-    /// Lets all elements accept the movements that the bodies gathered last.
+    /// Accepts the movements that the bodies gathered last.
     pub fn advance(&mut self, bodies: &[Body], rotations: RotationIncrement) {
         self.forces.iter_mut().for_each(|force| force.advance(bodies, rotations));
         self.resistances.iter_mut().for_each(|resistance| resistance.advance(bodies));
     }
 
-    /// Appends the state of all elements at the start of a step.
     pub fn save(&self, state: &mut Vec<f64>) {
         self.forces.iter().for_each(|force| force.save(state));
         self.resistances.iter().for_each(|resistance| resistance.save(state));
     }
 
-    /// Takes the state of all elements back, in the order in which it was appended.
     pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         self.forces.iter_mut().for_each(|force| force.restore(next));
         self.resistances.iter_mut().for_each(|resistance| resistance.restore(next));

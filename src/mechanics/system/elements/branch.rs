@@ -1,21 +1,21 @@
-//! On which branch of a law with corners a spring is.
+//! The branch of a piecewise law on which a spring is.
 
-/// Where a spring is on a law with corners, and how fast it goes on there.
+/// Segment of a piecewise law on which a spring is, and its rate there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Branch {
-    /// The number of sharp corners of the law that are behind: a bumper is in touch on one branch and not on the next.
+    /// Number of sharp corners of the law below the current elongation. A bumper changes its branch when contact begins.
     pub index: usize,
-    /// The rate of what the spring measures [length/time, rad/time].
+    /// Rate of the elongation [length/time, rad/time].
     pub rate: f64,
-    /// What the spring measures.
+    /// Quantity on which the law depends.
     pub along: Along,
 }
 
-/// What a law of a spring goes along.
+/// Quantity on which the law of a spring depends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Along {
-    /// The law goes along a length.
+    /// Length.
     Length,
-    /// The law goes along an angle.
+    /// Angle.
     Angle,
 }

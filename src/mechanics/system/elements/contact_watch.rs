@@ -1,49 +1,49 @@
-//! How long bounces last on a spring that is slack at times: bumpers, ropes.
+//! Duration of bounces on springs that are slack at times, such as bumpers and ropes.
 
-/// A bounce that takes this many steps or fewer is not resolved: a half of its period is passed in three.
+/// Bounces of at most this many steps are unresolved. Half of the contact period passes in three steps.
 const FEW: f64 = 3.0;
 
-/// A touch that changes the rate by less than this part of it is no bounce.
+/// Contacts that change the rate by less than this fraction are no bounces.
 const TURNED: f64 = 0.5;
 
-/// A touch by less than this part of a length or angle is one of rounding.
+/// Contact depths below this fraction of the length or angle are attributed to rounding.
 const TOUCH: f64 = 1e-12;
 
-/// A bounce on a spring that steps did not resolve.
+/// Bounce on a spring that the steps did not resolve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ShortBounce {
-    /// The number of steps, or of parts of steps, in which the spring was not slack [-].
+    /// Number of steps, or parts of steps, with the spring not slack [-].
     pub steps: f64,
-    /// The largest force in it, mean of a step [force, force·length].
+    /// Largest force of the bounce, averaged over a step [force, force·length].
     pub force: f64,
-    /// How long it took [time].
+    /// Duration of the bounce [time].
     pub duration: f64,
 }
 
-/// Watches when a spring is slack and when it is not: a part of its state.
+/// Monitor of the contact phases of a spring that can be slack.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ContactWatch {
-    /// The steps since it is not slack; zero while it is.
+    /// Steps since contact began; zero while slack.
     steps: f64,
-    /// The rate of elongation with which that began [length/time, rad/time].
+    /// Rate of elongation when contact began [length/time, rad/time].
     entry: f64,
-    /// The largest force since then [force, force·length].
+    /// Largest force in this contact [force, force·length].
     force: f64,
-    /// The time since then [time].
+    /// Time since contact began [time].
     duration: f64,
-    /// A force that rounding of the length or angle makes: bounces with less are none [force, force·length].
+    /// Force below which a bounce is attributed to rounding [force, force·length].
     noise: f64,
-    /// The hardest bounce that steps did not resolve; none so far.
+    /// Hardest unresolved bounce so far.
     unresolved: Option<ShortBounce>,
 }
 
 impl ContactWatch {
-    /// Watches a spring of such a largest stiffness, whose length or angle has such an extent.
+    /// Creates the monitor of a spring with a largest stiffness and a typical length or angle.
     pub fn new(largest_stiffness: f64, extent: f64) -> Self {
         Self { noise: TOUCH * largest_stiffness * extent, ..Self::default() }
     }
 
-    /// Takes in a step with such a rate, the rate of the step before, its force and duration [time]; whether the spring was slack at its start, and is at its end.
+    /// Records a step: slackness at its start and end, rates of elongation of the previous step and of this one, force and duration.
     pub fn add(
         &mut self,
         [was_slack, is_slack]: [bool; 2],
@@ -73,19 +73,17 @@ impl ContactWatch {
         self.entry = 0.0;
     }
 
-    /// The bounce of the largest force among those that steps did not resolve.
+    /// Unresolved bounce with the largest force.
     pub fn short_bounce(&self) -> Option<ShortBounce> {
         self.unresolved
     }
 
-    /// Appends the numbers of the watch.
     pub fn save(&self, state: &mut Vec<f64>) {
         state.extend([self.steps, self.entry, self.force, self.duration]);
         let bounce = |bounce: ShortBounce| [bounce.steps, bounce.force, bounce.duration];
         state.extend(self.unresolved.map_or([0.0; 3], bounce));
     }
 
-    /// Takes the numbers of the watch back, in the order in which they were appended.
     pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         (self.steps, self.entry, self.force, self.duration) = (next(), next(), next(), next());
         let (steps, force, duration) = (next(), next(), next());
@@ -97,7 +95,6 @@ impl ContactWatch {
 mod tests {
     use super::*;
 
-    /// Slack, one step in touch, slack again with the rate turned round.
     fn bounced(force: f64) -> ContactWatch {
         let mut watch = ContactWatch::new(1e4, 2.0);
         watch.add([true, false], [1.0, 1.0], (force, 0.1));

@@ -1,14 +1,14 @@
-//! A coordinate that is followed by its changes, however many and however small they are.
+//! Compensated sums of increments.
 
-/// A length, an angle or a rate that changes have been added up to: their sum, and what its rounding has lost.
+/// Length, angle or rate that is accumulated from increments, with the rounding error of the sum.
 ///
-/// A rope of 1 m that is stretched by a micrometre in a blow would else know its stretch to ten digits only, and with it the energy that it stores
-/// (compensated summation; N. J. Higham, Accuracy and Stability of Numerical Algorithms (2002), section 4.3).
+/// Compensated summation (N. J. Higham, Accuracy and Stability of Numerical Algorithms (2002), section 4.3). Without it, a rope of 1 m that is
+/// stretched by a micrometre in an impact would know its stretch, and thereby its stored energy, to ten digits only.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Coordinate {
-    /// The sum, rounded at each addition.
+    /// Rounded sum.
     pub value: f64,
-    /// What has to be added to it.
+    /// Correction to be added to the sum.
     pub rest: f64,
 }
 
@@ -19,7 +19,7 @@ impl From<f64> for Coordinate {
 }
 
 impl Coordinate {
-    /// The coordinate after a change.
+    /// Returns the coordinate after a change.
     pub fn after(self, change: f64) -> Self {
         let value = self.value + change;
         let part = value - self.value;
@@ -27,12 +27,12 @@ impl Coordinate {
         Self { value, rest: self.rest + lost }
     }
 
-    /// How far it is beyond a number, right to the rounding of that difference.
+    /// Difference from a number, accurate to the rounding of the difference.
     pub fn beyond(self, number: f64) -> f64 {
         (self.value - number) + self.rest
     }
 
-    /// How far it is beyond another one.
+    /// Difference from another coordinate.
     pub fn beyond_other(self, other: Self) -> f64 {
         (self.value - other.value) + (self.rest - other.rest)
     }

@@ -1,4 +1,4 @@
-//! Laws of damping: a force over the rate of an elongation, which takes energy and never gives any.
+//! Damping laws: a dissipative force as a function of the rate of an elongation.
 
 use std::fmt;
 
@@ -7,15 +7,15 @@ use serde::{Deserialize, Serialize};
 use super::spring_law::SpringLaw;
 use crate::geometry::larger;
 
-/// A force at rest, or one that feeds the motion, is one of rounding if it is smaller than this part of the largest.
+/// Forces at rest, or in the direction of the motion, below this fraction of the largest force are attributed to rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// A damping force over the rate `q̇` of an elongation: none at rest, and else against the motion.
+/// Damping force as a function of the rate `q̇` of an elongation. It is zero at rest and opposes the motion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum DampingLaw {
-    /// `c q̇`, `c` at least zero [force·time/length; of torsion force·length·time/rad].
+    /// `c q̇`, with `c` at least zero [force·time/length; of torsion force·length·time/rad].
     Linear(f64),
-    /// A polygon of forces over rates, a table or a function that was asked.
+    /// Piecewise linear force over the rate, from a table or a sampled function.
     Curve(SpringLaw),
 }
 
@@ -31,21 +31,21 @@ impl From<f64> for DampingLaw {
     }
 }
 
-/// Where a law of damping drives what it should damp.
+/// Range in which a damping law adds energy.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum NegativeDamping {
-    /// At a rate of the law [length/time, rad/time], with a force [force, force·length].
+    /// At a rate inside the law [length/time, rad/time], with a force [force, force·length].
     At {
-        /// The rate.
+        /// Rate at which energy is added.
         rate: f64,
-        /// The force there.
+        /// Force at this rate.
         force: f64,
     },
-    /// Beyond one of its ends, where it goes on straight and falls.
+    /// Beyond an end of the law, where its linear extrapolation changes sign.
     Beyond {
-        /// The rate at that end.
+        /// Rate at the end of the law.
         end: f64,
-        /// The rate from which on it drives.
+        /// Rate from which energy is added.
         from: f64,
     },
 }
@@ -68,10 +68,10 @@ impl fmt::Display for NegativeDamping {
 }
 
 impl DampingLaw {
-    /// Samples a damping force over the rates of a range that has zero inside of it, as [`RestoringLaw::sampled`] does on either side.
+    /// Samples a damping force over a range of rates that contains zero, with [`RestoringLaw::sampled`] on either side.
     ///
     /// # Errors
-    /// Those of the function.
+    /// Errors of the function.
     pub fn sampled<E>(
         (from, to): (f64, f64),
         mut force: impl FnMut(f64) -> Result<f64, E>,
@@ -90,7 +90,7 @@ impl DampingLaw {
         Ok(Self::Curve(SpringLaw::Sampled { points: all, error: worst }))
     }
 
-    /// The corners of the law, rate and force; none of a linear one.
+    /// Corners of the law as pairs of rate and force; empty for a linear law.
     pub fn corners(&self) -> &[(f64, f64)] {
         match self {
             Self::Curve(SpringLaw::Table { points } | SpringLaw::Sampled { points, .. }) => points,
@@ -98,12 +98,12 @@ impl DampingLaw {
         }
     }
 
-    /// Whether there is any damping.
+    /// Returns true if there is any damping.
     pub fn acts(&self) -> bool {
         *self != Self::Linear(0.0)
     }
 
-    /// Where a polygon does not resist, or pushes at rest; none where it dissipates at every rate, also beyond its ends.
+    /// Range in which the law adds energy or has a force at rest; `None` if it dissipates at every rate, including its extrapolation.
     pub fn feeds(&self) -> Option<NegativeDamping> {
         let corners = self.corners();
         let (Some(first), Some(last)) = (corners.first(), corners.last()) else { return None };
@@ -117,7 +117,7 @@ impl DampingLaw {
         if let Some((rate, force)) = moving.find(|at| feeds(*at)) {
             return Some(NegativeDamping::At { rate, force });
         }
-        // So far beyond the ends that a line which falls has turned its sign.
+        // Far enough beyond the ends for a falling line to change its sign.
         let reach = |end: f64| 1e6 * (end.abs() + (last.0 - first.0));
         let beyond = [(first, first.0 - reach(first.0)), (last, last.0 + reach(last.0))];
         let (end, rate) = beyond.into_iter().find(|(_, rate)| feeds((*rate, self.force(*rate))))?;
@@ -125,7 +125,7 @@ impl DampingLaw {
         Some(NegativeDamping::Beyond { end: end.0, from: end.0 - end.1 / slope })
     }
 
-    /// The same law with a corner at rest, where its force is none to the last bit.
+    /// Returns the law with a corner at rest where its force is exactly zero.
     pub fn with_rest(&self) -> Self {
         let mut law = self.clone();
         if let Self::Curve(SpringLaw::Table { points } | SpringLaw::Sampled { points, .. }) =
@@ -140,7 +140,6 @@ impl DampingLaw {
         law
     }
 
-    /// The force at a rate [force, force·length].
     pub fn force(&self, rate: f64) -> f64 {
         match self {
             Self::Linear(constant) => constant * rate,
@@ -148,7 +147,7 @@ impl DampingLaw {
         }
     }
 
-    /// The derivative of the force by the rate; at a corner that of the segment beyond it [force·time/length, force·length·time/rad].
+    /// Derivative of the force with respect to the rate; at a corner that of the upper segment [force·time/length, force·length·time/rad].
     pub fn slope(&self, rate: f64) -> f64 {
         match self {
             Self::Linear(constant) => *constant,
@@ -156,9 +155,8 @@ impl DampingLaw {
         }
     }
 
-    /// The force of a law at a rate, and its slope; where Newton's method is told of the impedance of what a force acts on, those of the straight piece of a
-    /// polygon that the line of that impedance through rate and force meets, which may be another one than that at the rate: between two steep pieces it
-    /// would go to and fro.
+    /// Force and slope for Newton's method. With a given impedance of the loaded system, they are taken on the segment that the line of this
+    /// impedance through rate and force intersects. Without it, the iteration could alternate between two steep segments.
     pub fn aimed(&self, rate: f64, force: f64, impedance: Option<f64>) -> (f64, f64) {
         let at_rate = (self.force(rate), self.slope(rate));
         let (Some(impedance), corners) = (impedance, self.corners()) else { return at_rate };
@@ -166,14 +164,14 @@ impl DampingLaw {
         let Some(passed) = corners.iter().position(|(at, _)| above(*at) >= 0.0) else {
             return at_rate;
         };
-        // A rate inside of the piece before that corner.
+        // Rate inside the segment before that corner.
         let Some(before) = passed.checked_sub(1) else { return at_rate };
         let inside = 0.5 * (corners[before].0 + corners[passed].0);
         let slope = self.slope(inside);
         (self.force(inside) + slope * (rate - inside), slope)
     }
 
-    /// What small vibration meets: the slope at rest, the mean of both sides of it where they differ [force·time/length, force·length·time/rad].
+    /// Damping coefficient for small vibrations: the slope at rest, averaged over both sides [force·time/length, force·length·time/rad].
     pub fn slope_at_rest(&self) -> f64 {
         match self {
             Self::Linear(constant) => *constant,
@@ -181,7 +179,7 @@ impl DampingLaw {
         }
     }
 
-    /// The law in words; none where nothing is damped.
+    /// Description of the law for messages; `None` without damping.
     pub fn describe(&self) -> Option<String> {
         match self {
             Self::Linear(0.0) => None,

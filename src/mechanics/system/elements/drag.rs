@@ -1,4 +1,4 @@
-//! Drag of air or water, as a scene describes it.
+//! Drag in air or water as described by a scene.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,40 +11,40 @@ use crate::geometry::{GaussRule, Vec2};
 use crate::system::SystemError;
 use crate::system::errors::finite;
 
-/// What is dragged, and with which law.
+/// Object that experiences drag, with its law.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Dragged {
-    /// A beam, by its index, along its whole length: across and along its axis.
+    /// A beam, along its whole length, with separate laws across and along the axis.
     Beam {
-        /// The beam.
+        /// Index of the beam.
         beam: usize,
-        /// The force per length across the axis.
+        /// Force per length across the axis.
         normal: SpeedLaw,
-        /// The force per length along the axis.
+        /// Force per length along the axis.
         tangent: SpeedLaw,
     },
-    /// A point: a particle, or a station of a beam. It is dragged alike in every direction.
+    /// A particle or a station of a beam, with the same drag in every direction.
     Point {
-        /// Where it is.
+        /// Station with drag.
         station: Station,
-        /// The force against its velocity.
+        /// Force against the velocity.
         law: SpeedLaw,
     },
 }
 
-/// Drag: forces against velocities, in a medium that is still or flows.
+/// Drag: forces against the velocity relative to a resting or flowing medium.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Drag {
-    /// What it is called in messages and columns.
+    /// Name in messages and columns.
     pub name: String,
-    /// What is dragged.
+    /// Object that experiences drag.
     pub on: Dragged,
-    /// The velocity of the medium [length/time].
+    /// Velocity of the medium [length/time].
     pub wind: Vec2,
 }
 
 impl Drag {
-    /// What it is, and its name.
+    /// Kind and name for messages.
     pub fn object(&self) -> String {
         format!("drag '{}'", self.name)
     }
@@ -78,7 +78,7 @@ impl ElementDef for Drag {
         }
     }
 
-    /// A force that grows with the speed ties the components of a velocity together.
+    /// Quadratic drag couples the components of the velocity.
     fn coupled(&self) -> Vec<Station> {
         match &self.on {
             Dragged::Beam { .. } => Vec::new(),
@@ -101,7 +101,7 @@ impl ElementDef for Drag {
     }
 }
 
-/// `degree + 1` Gauss points in each span.
+/// `degree + 1` Gauss points per span.
 fn points_of_beam(site: &dyn AssemblyContext, beam: usize) -> Result<Vec<DragPoint>, SystemError> {
     let basis = site.mesh(beam).basis();
     let rule = GaussRule::new(basis.degree() + 1).map_err(|error| site.wrong(beam, error))?;

@@ -4,8 +4,8 @@
 //! v = Δx/Δt - wind      f_a = -w N_a G(v, t)      D grows by Σ w G·v Δt ≥ 0, W by -Σ w G·wind Δt
 //! ```
 //!
-//! In a wind `G·v` is that of the law at the force `G`: as `G·Δx - G·wind Δt` it would be a small difference of two numbers that a strong drag makes large,
-//! whose rounding may have either sign. W is what is left of `-G·Δx`, so that the ledger closes.
+//! With a wind, `G·v` is the power of the law at the force `G`. Evaluated as `G·Δx - G·wind Δt`, it would be a small difference of large numbers
+//! whose rounding may have either sign. `W` is the remainder of `-G·Δx`, so that the energy balance closes.
 //!
 //! `t` is the direction of the axis in the mean configuration.
 
@@ -27,12 +27,11 @@ pub struct DragForces {
     points: Vec<DragPoint>,
     pace: RateHistory,
     dissipated: f64,
-    /// What the wind has given [energy].
+    /// Work of the wind [energy].
     wind_work: f64,
 }
 
 impl DragForces {
-    /// Drag by a law on points of bodies, in a wind [length/time].
     pub fn new(name: String, law: DragLaw, points: Vec<DragPoint>, wind: Vec2) -> Self {
         Self {
             name,
@@ -49,7 +48,7 @@ impl DragForces {
         self.pace.at(at.stage, at.weight).filter(|_| is_timed)
     }
 
-    /// What the wind gives by a point in the step of the movements that its body gathered last, and what is lost there [energy].
+    /// Work of the wind and dissipated energy of one point, in the step whose movements its body gathered last [energy].
     fn turnover(&self, point: &DragPoint, body: &Body) -> [f64; 2] {
         let (force, movement) = (point.given(), point.movement(body));
         let taken = force.dot(&movement);
@@ -118,7 +117,7 @@ impl InternalForce for DragForces {
         }
     }
 
-    /// It counts once a step, whatever the weight.
+    /// Drag is evaluated once per step, whatever the weight.
     fn add_mismatch_forces(&self, bodies: &[Body], _weight: f64, out: &mut [f64]) {
         for point in &self.points {
             point.scatter(&bodies[point.body], point.missing(), out);
@@ -129,7 +128,7 @@ impl InternalForce for DragForces {
         self.points.iter_mut().for_each(|point| point.correct(&bodies[point.body], correction));
     }
 
-    /// What the medium gives: an impulse where the point is in the middle of the step, and work where it flows.
+    /// The impulse acts at the mean position of the point. A flowing medium does work.
     fn exchange(&self, bodies: &[Body], duration: f64) -> WorkAndImpulse {
         let mut sum = WorkAndImpulse::default();
         for point in &self.points {
@@ -174,7 +173,7 @@ impl InternalForce for DragForces {
         }
     }
 
-    /// Small vibration meets what is linear in velocities.
+    /// Small vibrations are damped by the linear part only.
     fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
         let damping = self.surroundings.law.linear();
         for point in &self.points {

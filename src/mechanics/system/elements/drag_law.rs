@@ -1,4 +1,4 @@
-//! Laws of drag: a force against a velocity, with its derivatives.
+//! Drag laws: force against a velocity, with derivatives.
 //!
 //! ```text
 //! point    G = (c + k |v|) v        line    G = φn(n·v) n + φt(t·v) t,  φ(s) = c s + k |s| s        G·v ≥ 0
@@ -8,12 +8,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Vec2, perpendicular};
 
-/// A force over a speed, `c s + k |s| s`: of a point, or per length of a line.
+/// Force over speed, `c s + k |s| s`, of a point or per length of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct SpeedLaw {
-    /// The coefficient `c` of the part that is linear in the speed [force·time/length; of a line force·time/length²].
+    /// Coefficient `c` of the linear part [force·time/length; of a line force·time/length²].
     pub linear: f64,
-    /// The coefficient `k` of the part that is quadratic in the speed [force·time²/length²; of a line force·time²/length³].
+    /// Coefficient `k` of the quadratic part [force·time²/length²; of a line force·time²/length³].
     pub quadratic: f64,
 }
 
@@ -22,7 +22,7 @@ impl SpeedLaw {
         (self.linear + self.quadratic * speed.abs()) * speed
     }
 
-    /// The power `F s` at a force `F = c s + k |s| s`: never negative, and without a speed that it would have to be a difference of.
+    /// Power `F s` at a force `F = c s + k |s| s`. It is computed from the force alone, and never negative.
     fn power(&self, force: f64) -> f64 {
         let force = force.abs();
         if force == 0.0 {
@@ -37,38 +37,38 @@ impl SpeedLaw {
     }
 }
 
-/// How the medium resists.
+/// Drag law of a point or a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum DragLaw {
-    /// Alike in every direction.
+    /// Isotropic.
     Point(SpeedLaw),
-    /// Across and along a line.
+    /// Different across and along a line.
     Line {
-        /// The force across the line, over the speed across it.
+        /// Force across the line.
         normal: SpeedLaw,
-        /// The force along the line, over the speed along it.
+        /// Force along the line.
         tangent: SpeedLaw,
     },
 }
 
-/// The force of a point of the body on the medium by its components across a line, along `n = J t`, and along it, with their derivatives.
+/// Force of the body on the medium in components across the line (`n = J t`) and along it, with derivatives.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DragResponse {
     /// `(G·n, G·t)` [force, or force/length].
     pub force: Vec2,
-    /// The derivative of either component by the velocity.
+    /// Derivative of each component with respect to the velocity.
     pub by_velocity: [Vec2; 2],
-    /// The derivatives of the components by the angle of the line.
+    /// Derivatives of the components with respect to the angle of the line.
     pub by_turn: Vec2,
 }
 
-/// The vector in space that has these components across and along a line with a unit tangent.
+/// Vector in space of components across and along a line with unit tangent `t`.
 pub fn in_space(t: Vec2, components: Vec2) -> Vec2 {
     perpendicular(t) * components.x + t * components.y
 }
 
 impl DragLaw {
-    /// What resists a velocity relative to the medium, where the line has a unit tangent; that of a point does not count.
+    /// Drag at a velocity relative to the medium, for a line with unit tangent `t`. Points ignore `t`.
     pub fn resist(&self, velocity: Vec2, t: Vec2) -> DragResponse {
         let n = perpendicular(t);
         let (across, along) = (n.dot(&velocity), t.dot(&velocity));
@@ -95,7 +95,7 @@ impl DragLaw {
         }
     }
 
-    /// The power that is lost at such components of the force [power, or power/length].
+    /// Dissipated power at the given force components [power, or power/length].
     pub fn power(&self, force: Vec2) -> f64 {
         match self {
             Self::Point(law) => law.power(force.norm()),
@@ -103,7 +103,7 @@ impl DragLaw {
         }
     }
 
-    /// What the components of the force are relative to where velocities are differences of velocities of such a size.
+    /// Scale of the force components for velocities of a given magnitude.
     pub fn scale(&self, speed: f64) -> Vec2 {
         let of = |law: &SpeedLaw| law.slope(speed) * speed;
         match self {
@@ -112,7 +112,7 @@ impl DragLaw {
         }
     }
 
-    /// The coefficients of what is linear in velocities, across and along a line [force·time/length; of a line force·time/length²].
+    /// Linear coefficients across and along the line [force·time/length; of a line force·time/length²].
     pub fn linear(&self) -> Vec2 {
         match self {
             Self::Point(law) => Vec2::repeat(law.linear),
@@ -120,7 +120,7 @@ impl DragLaw {
         }
     }
 
-    /// The law in words.
+    /// Description of the law for messages.
     pub fn describe(&self) -> String {
         let law = |law: &SpeedLaw| match (law.linear, law.quadratic) {
             (linear, 0.0) => format!("{linear} v"),
@@ -163,7 +163,7 @@ mod tests {
                     assert!((by - expected).norm() < 1e-8, "{law:?}: {by} {expected}");
                 }
                 let turned = force(velocity, angle + h) - force(velocity, angle - h);
-                // Components change, and so does the line that they stand on.
+                // Derivative of the components plus that of the rotating line.
                 let by = found.by_turn + Vec2::new(found.force.y, -found.force.x);
                 assert!((in_space(t, by) - turned / (2.0 * h)).norm() < 1e-8, "{law:?}");
             }

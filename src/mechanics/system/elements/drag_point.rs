@@ -1,69 +1,66 @@
-//! A point of a body that is dragged, in a step.
+//! Drag at a point of a body in a step.
 //!
-//! Its force is an unknown of its own, by components across and along its line: a force that was made of velocities would carry `c` times their rounding,
-//! which a strong drag, or a wind, makes larger than all that it has to balance.
+//! The force is an unknown of its own, in components across and along the line. A force computed from velocities would carry `c` times their
+//! rounding, which under strong drag or wind exceeds the forces that it balances.
 
 use super::drag_law::{DragLaw, DragResponse, in_space};
 use crate::beams::{BodyPoint, RateCollocation};
 use crate::geometry::{Vec2, larger, perpendicular};
 use crate::system::bodies::Body;
 
-/// The medium around points, and how it resists.
+/// Medium around points, and its drag law.
 pub struct Medium {
     pub law: DragLaw,
-    /// The velocity of the medium [length/time].
+    /// Velocity of the medium [length/time].
     pub wind: Vec2,
 }
 
-/// A point of a body that is dragged.
+/// Point of a body with drag.
 #[derive(Debug, Clone)]
 pub struct DragPoint {
-    /// The body, by its index.
     pub body: usize,
-    /// The first control point whose function is not zero there.
+    /// First control point with a nonzero basis function at the point.
     first: usize,
-    /// The functions there [-], and their derivatives by arc length [1/length]; the latter are zero where no direction counts.
+    /// Basis functions at the point [-] and their derivatives with respect to arc length [1/length]. The latter are zero for isotropic drag.
     shape: Vec<f64>,
     slope: Vec<f64>,
-    /// The length that it stands for [length]; 1 of a point.
+    /// Quadrature weight [length]; 1 for a point.
     weight: f64,
-    /// The velocity of the point in the step before [length/time].
+    /// Velocity in the previous step [length/time].
     last_velocity: Vec2,
-    /// The largest speed that its velocity may be a difference of, at the start of the step [length/time].
+    /// Largest speed of which the velocity may be a difference, at the start of the step [length/time].
     speed: f64,
-    /// The components of the force across and along the line, in the iterate [force, or force/length].
+    /// Force components across and along the line in the iterate [force, or force/length].
     force: Vec2,
-    /// The force of the last step, likewise.
+    /// Force components of the last step.
     last_force: Vec2,
-    /// What the configuration asks for less the force, likewise.
+    /// Target force minus force.
     mismatch: Vec2,
-    /// The force in space, as it was given last, times its weight [force].
+    /// Force in space that was applied last, times the quadrature weight [force].
     given: Vec2,
     linearised: DragTrial,
-    /// Where rates were taken last.
     rates: Option<RateCollocation>,
 }
 
-/// A point in an iterate.
+/// Drag point in an iterate.
 #[derive(Debug, Clone, Copy)]
 struct DragTrial {
-    /// The unit tangent of its line.
+    /// Unit tangent of the line.
     tangent: Vec2,
     resisted: DragResponse,
-    /// The derivative of the angle of the line by `g` [1/length].
+    /// Derivative of the line angle with respect to the gradient `g` [1/length].
     turn_by_gradient: Vec2,
     rates: (f64, f64),
 }
 
 impl DragTrial {
-    /// A point that nothing resists.
     fn nothing() -> Self {
         let none = Vec2::zeros();
         let resisted = DragResponse::default();
         Self { tangent: Vec2::x(), resisted, turn_by_gradient: none, rates: (0.0, 0.0) }
     }
 
-    /// What resists a velocity where a line has a tangent of any length.
+    /// Drag at a velocity, for a line with a tangent of any length.
     fn new(law: &DragLaw, velocity: Vec2, gradient: Vec2, rates: (f64, f64)) -> Self {
         let (tangent, inverse) = unit_tangent(gradient);
         let resisted = law.resist(velocity, tangent);
@@ -71,7 +68,7 @@ impl DragTrial {
     }
 }
 
-/// The unit tangent along a gradient, and one over the size of that [1/length]; where there is none, any.
+/// Unit tangent along a gradient and the inverse length of the gradient [1/length]; an arbitrary direction for a zero gradient.
 fn unit_tangent(gradient: Vec2) -> (Vec2, f64) {
     let length = gradient.norm();
     match length > 0.0 {
@@ -81,7 +78,7 @@ fn unit_tangent(gradient: Vec2) -> (Vec2, f64) {
 }
 
 impl DragPoint {
-    /// A point with functions of control points and their derivatives by arc length, which stands for a length.
+    /// Creates a point of a line from basis functions and their derivatives, with a quadrature weight.
     pub fn new(
         (body, first): (usize, usize),
         shape: Vec<f64>,
@@ -106,56 +103,53 @@ impl DragPoint {
         }
     }
 
-    /// The point at a place, which has no length and no direction.
+    /// Creates a point with isotropic drag.
     pub fn at(place: &BodyPoint) -> Self {
         let shape = place.shape().to_vec();
         let slope = vec![0.0; shape.len()];
         Self::new((place.body, place.first), shape, slope, 1.0)
     }
 
-    /// The sum of values of control points by the functions, or by their derivatives.
+    /// Sum of control point values weighted by the functions or their derivatives.
     fn combine(&self, by: &[f64], value: impl Fn(usize) -> Vec2) -> Vec2 {
         by.iter()
             .enumerate()
             .fold(Vec2::zeros(), |sum, (at, by)| sum + value(self.first + at) * *by)
     }
 
-    /// The largest size that a sum by the functions is a difference of.
+    /// Largest magnitude that cancels in a sum over the functions.
     fn size(&self, value: impl Fn(usize) -> Vec2) -> f64 {
         let sizes = self.shape.iter().enumerate();
         sizes.fold(0.0, |sum, (at, by)| sum + value(self.first + at).norm() * by.abs())
     }
 
-    /// The velocity of the point at rates of control points [length/time].
     pub fn velocity(&self, rate: impl Fn(usize) -> Vec2) -> Vec2 {
         self.combine(&self.shape, rate)
     }
 
-    /// The components of the velocity of the point across and along its line at the start of a step, at rates of control points [length/time].
+    /// Velocity components across and along the line at the start of a step [length/time].
     pub fn across_and_along(&self, body: &Body, rate: impl Fn(usize) -> Vec2) -> Vec2 {
         let (velocity, tangent) = (self.velocity(rate), unit_tangent(self.gradient(body)).0);
         Vec2::new(perpendicular(tangent).dot(&velocity), tangent.dot(&velocity))
     }
 
-    /// The length that the point stands for [length]; 1 of a point.
     pub fn weight(&self) -> f64 {
         self.weight
     }
 
-    /// The tangent of the axis at the start of the step.
+    /// Tangent of the axis at the start of the step.
     fn gradient(&self, body: &Body) -> Vec2 {
         let points = body.dynamics.control_points();
         let origin = points[self.first];
         self.combine(&self.slope, |at| points[at] - origin)
     }
 
-    /// The movement of the point in the step of the movements that the body gathered last.
     pub fn movement(&self, body: &Body) -> Vec2 {
         let moved = body.moved();
         self.combine(&self.shape, |at| Vec2::new(moved[at][0], moved[at][1]))
     }
 
-    /// Where the point is in the middle of that step.
+    /// Mean position of the point in that step.
     pub fn middle(&self, body: &Body) -> Vec2 {
         let points = body.dynamics.control_points();
         let origin = points[self.first];
@@ -168,7 +162,7 @@ impl DragPoint {
         self.speed = self.size(|at| body.vector_at(at, rates));
     }
 
-    /// Begins a movement that takes no time.
+    /// Prepares a movement of zero duration.
     pub fn rest(&mut self) {
         (self.force, self.mismatch, self.given) = (Vec2::zeros(), Vec2::zeros(), Vec2::zeros());
         self.linearised = DragTrial::nothing();
@@ -188,7 +182,7 @@ impl DragPoint {
         DragTrial::new(&around.law, velocity, gradient, (rates.by_change, rates.share))
     }
 
-    /// Compares the force with what an iterate asks for; how far it is off, relative to what the velocities there are differences of.
+    /// Compares the force with the target of an iterate. Returns the mismatch relative to the scale of the velocities.
     pub fn compare(
         &mut self,
         around: &Medium,
@@ -210,7 +204,7 @@ impl DragPoint {
         larger(relative(self.mismatch.x, scale.x), relative(self.mismatch.y, scale.y))
     }
 
-    /// Takes the derivatives in an iterate; the force that it asks for.
+    /// Linearises the target force in an iterate, and returns it.
     pub fn linearise(
         &mut self,
         around: &Medium,
@@ -224,8 +218,8 @@ impl DragPoint {
         in_space(tangent, resisted.force) * self.weight
     }
 
-    /// Gives the derivatives of the force on control points by the movements of control points, each with its component; the line turns with the force of
-    /// the iterate.
+    /// Passes the derivatives of the nodal forces with respect to nodal movements to `give`, including the rotation of the line with the current
+    /// force.
     pub fn each_derivative(&self, mut give: impl FnMut((usize, usize), (usize, usize), f64)) {
         let DragTrial { tangent, resisted, turn_by_gradient, rates: (by_change, share) } =
             self.linearised;
@@ -246,7 +240,7 @@ impl DragPoint {
         }
     }
 
-    /// Carries a correction of the movements over to the force, to first order.
+    /// Updates the force after a correction of the movements, to first order.
     pub fn correct(&mut self, body: &Body, correction: &[f64]) {
         let DragTrial { resisted, turn_by_gradient, rates: (by_change, share), .. } =
             self.linearised;
@@ -257,29 +251,29 @@ impl DragPoint {
         self.force += self.mismatch + Vec2::new(across, along) + resisted.by_turn * turn;
     }
 
-    /// The force of the last iterate in space [force].
+    /// Applied force of the last iterate in space [force].
     pub fn given(&self) -> Vec2 {
         self.given
     }
 
-    /// The power that the law loses at the force of the last iterate, which the rounding of velocities has no part in [power].
+    /// Dissipated power at the force of the last iterate, free of the rounding of velocities [power].
     pub fn power(&self, law: &DragLaw) -> f64 {
         law.power(self.force) * self.weight
     }
 
-    /// By how much the point moves in a step of a duration, less what it would at the velocity that was resisted: nothing where that is the mean one [length].
+    /// Movement of the point minus `duration` times the resisted velocity; zero where that is the mean velocity [length].
     pub fn besides(&self, movement: Vec2, duration: f64) -> Vec2 {
         let Some(rates) = self.rates else { return Vec2::zeros() };
         movement * (1.0 - rates.by_change * duration)
             + self.last_velocity * (rates.by_last * duration)
     }
 
-    /// The force that would close the mismatch, in the direction of the last linearisation [force].
+    /// Force that would remove the mismatch, in the direction of the last linearisation [force].
     pub fn missing(&self) -> Vec2 {
         in_space(self.linearised.tangent, self.mismatch) * self.weight
     }
 
-    /// The force on the medium at rates of control points at the start of a step [force].
+    /// Force on the medium at rates at the start of a step [force].
     pub fn resisting(&self, around: &Medium, body: &Body, rate: impl Fn(usize) -> Vec2) -> Vec2 {
         let velocity = self.velocity(rate) - around.wind;
         let DragTrial { tangent, resisted, .. } =
@@ -287,7 +281,6 @@ impl DragPoint {
         in_space(tangent, resisted.force) * self.weight
     }
 
-    /// Adds a force at the point to those on control points.
     pub fn scatter(&self, body: &Body, force: Vec2, out: &mut [f64]) {
         for (at, share) in self.shape.iter().enumerate() {
             let [x, y, _] = body.degrees_of_freedom[self.first + at];
@@ -296,7 +289,7 @@ impl DragPoint {
         }
     }
 
-    /// Ends a step in which it had this velocity.
+    /// Ends a step in which the point had this velocity.
     pub fn advance(&mut self, velocity: Vec2) {
         self.last_velocity = velocity;
         self.last_force = self.force;

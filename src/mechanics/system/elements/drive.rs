@@ -1,4 +1,4 @@
-//! Motions that a scene gives to stations, as functions of time.
+//! Prescribed motions of stations as functions of time.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,17 +6,17 @@ use crate::beams::Station;
 use crate::joints::Component;
 use crate::loads::{PrescribedMotion, Schedule};
 
-/// What gives a motion: what it is called, and what is told of it.
+/// Kind of a prescribed motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum DriveKind {
     /// Components of a station follow functions.
     Move,
-    /// A section is turned from the ground.
+    /// A section is rotated relative to the ground.
     Motor,
 }
 
 impl DriveKind {
-    /// What it is, in a word.
+    /// Word for the kind in messages.
     pub fn name(self) -> &'static str {
         match self {
             Self::Move => "move",
@@ -25,37 +25,37 @@ impl DriveKind {
     }
 }
 
-/// A motion of a station that is prescribed, component by component.
+/// Prescribed motion of a station, by component.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Drive {
-    /// The name of the drive in messages and columns.
+    /// Name in messages and columns.
     pub name: String,
-    /// What gives the motion.
+    /// Kind of the prescribed motion.
     pub kind: DriveKind,
-    /// The station whose motion is prescribed.
+    /// Station whose motion is prescribed.
     pub station: Station,
-    /// What is prescribed for x, y and the angle, as far as it is; displacements are counted from the place as drawn.
+    /// Prescribed motions of x, y and the angle. Displacements are relative to the place as drawn.
     pub motions: [Option<PrescribedMotion>; 3],
 }
 
 impl Drive {
-    /// Whether a component of the station is prescribed.
+    /// Returns true if a component of the station is prescribed.
     pub fn drives(&self, component: Component) -> bool {
         self.motions[component as usize].is_some()
     }
 
-    /// Which of x, y and the angle are prescribed.
+    /// Flags of the prescribed components x, y and angle.
     pub fn prescribed(&self) -> [bool; 3] {
         Component::ALL.map(|component| self.drives(component))
     }
 
-    /// The components that are prescribed, with what they do.
+    /// Prescribed components with their motions.
     pub fn motions(&self) -> impl Iterator<Item = (Component, &PrescribedMotion)> {
         let all = Component::ALL.into_iter().zip(&self.motions);
         all.filter_map(|(component, motion)| Some((component, motion.as_ref()?)))
     }
 
-    /// The functions of time that it follows.
+    /// Functions of time that the drive follows.
     pub fn schedules(&self) -> impl Iterator<Item = &Schedule> {
         self.motions().map(|(_, motion)| motion.schedule())
     }

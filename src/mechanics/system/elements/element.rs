@@ -1,4 +1,4 @@
-//! The elements of a scene as they are described, and what their descriptions offer to a model.
+//! Elements of a scene, and the interface of their descriptions.
 
 use serde::{Deserialize, Serialize};
 
@@ -9,26 +9,26 @@ use crate::geometry::GeometryError;
 use crate::loads::{Load, Schedule};
 use crate::system::SystemError;
 
-/// An element of a scene: something with mass on a body, or something that puts forces on bodies.
+/// Element of a scene: a mass on a body, or forces on bodies.
 ///
-/// A further kind is a variant, and a file in `model/elements` with its [`ElementDef`] and what it is built into: a [`ExternalForce`], or a
-/// [`InternalForce`](super::InternalForce).
+/// To add a kind, add a variant and a file in `model/elements` with its [`ElementDef`] and the [`ExternalForce`] or
+/// [`InternalForce`](super::InternalForce) that it builds.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub enum Element {
-    /// The element is a mass at a station.
+    /// Mass at a station.
     PointMass(PointMass),
-    /// A load: a force, a moment or a force per length that follows a schedule.
+    /// Force, moment or force per length that follows a schedule.
     Load(Load),
-    /// A spring, a damper or a tendon.
+    /// Spring, damper or tendon.
     Spring(Spring),
-    /// The damping of the material of a beam.
+    /// Material damping of a beam.
     Damping(MaterialDamping),
-    /// Drag of air or water.
+    /// Drag in air or water.
     Drag(Drag),
 }
 
 impl Element {
-    /// What it is, in a word.
+    /// Word for the kind in messages.
     pub fn kind(&self) -> &'static str {
         match self {
             Self::PointMass(_) => "mass",
@@ -39,7 +39,6 @@ impl Element {
         }
     }
 
-    /// Its name, if it has one.
     pub(in crate::system) fn name_mut(&mut self) -> Option<&mut String> {
         match self {
             Self::PointMass(_) => None,
@@ -50,7 +49,7 @@ impl Element {
         }
     }
 
-    /// The element as what every kind of element can be asked.
+    /// Interface of the description.
     pub(in crate::system) fn description(&self) -> &dyn ElementDef {
         match self {
             Self::PointMass(mass) => mass,
@@ -62,81 +61,81 @@ impl Element {
     }
 }
 
-/// A kind of element as a scene describes it.
+/// Description of an element in a scene.
 pub trait ElementDef {
-    /// Checks the numbers and the stations of an element.
+    /// Checks numbers and stations.
     ///
     /// # Errors
-    /// When a number is out of its range, or a station is none of the scene.
+    /// Fails if a number is out of range or a station does not exist.
     fn check(&self, setting: &dyn SceneChecks) -> Result<(), SystemError>;
 
-    /// The stations at which the element needs a node of the mesh.
+    /// Stations that need a node of the mesh.
     fn nodes(&self) -> Vec<Station> {
         Vec::new()
     }
 
-    /// Stations whose movements it ties together, however far apart they are: the order of the unknowns keeps them near each other.
+    /// Stations that the element couples. The numbering keeps their unknowns close to each other.
     fn coupled(&self) -> Vec<Station> {
         Vec::new()
     }
 
-    /// The schedule that the element follows, with the element's name; steps end where a schedule jumps or bends.
+    /// Schedule and name of the element. Steps end where a schedule jumps or has a kink.
     fn schedule(&self) -> Option<(&str, &Schedule)> {
         None
     }
 
-    /// Builds the element into a model: what it is there.
+    /// Builds the element for a model.
     ///
     /// # Errors
-    /// When it cannot act where it is.
+    /// Fails if the element cannot act at its place.
     fn build(&self, site: &dyn AssemblyContext) -> Result<BuiltElement, SystemError>;
 }
 
-/// What becomes of an element in a model.
+/// Built form of an element in a model.
 pub enum BuiltElement {
-    /// The element becomes a part of the inertia.
+    /// Part of the inertia.
     Mass(NodalMass),
-    /// The element becomes forces on bodies.
+    /// External force.
     Force(Box<dyn ExternalForce>),
-    /// What resists movements of bodies.
+    /// Internal force: resists movements of bodies.
     Resistance(Box<dyn InternalForce>),
 }
 
-/// What the check of an element may ask of its scene.
+/// Scene queries available to the check of an element.
 pub trait SceneChecks {
-    /// A station of the scene in words.
+    /// Describes a station for messages.
     fn describe(&self, station: &Station) -> String;
 
-    /// Refuses a station that is none of the scene; `object` is what is there, in words.
+    /// Checks that a station exists; `object` describes the object there.
     ///
     /// # Errors
-    /// When there is no such body, or the station lies outside its beam.
+    /// Fails if the body does not exist or the station lies outside its beam.
     fn check_station(&self, object: &'static str, station: &Station) -> Result<(), SystemError>;
 }
 
-/// What an element may ask of the model that it is built into.
+/// Model queries available while an element is built.
 pub trait AssemblyContext {
-    /// The place of a station on the mesh of its body.
+    /// Returns the place of a station on the mesh of its body.
     ///
     /// # Errors
-    /// When the station lies outside its beam.
+    /// Fails if the station lies outside its beam.
     fn place(&self, station: &Station) -> Result<BodyPoint, SystemError>;
 
-    /// The place of a beam at a parameter of its mesh.
+    /// Returns the place of a beam at a parameter of its mesh.
     ///
     /// # Errors
-    /// When the parameter lies outside the mesh.
+    /// Fails if the parameter lies outside the mesh.
     fn place_at(&self, beam: usize, parameter: f64) -> Result<BodyPoint, SystemError>;
 
-    /// The mesh of a beam, by its index.
+    /// Mesh of a beam.
     fn mesh(&self, beam: usize) -> &Mesh;
 
-    /// The sections along a beam, by its index.
+    /// Sections along a beam.
     fn variation(&self, beam: usize) -> &SectionVariation;
 
-    /// A body at its start, by its index: beams come first, then particles, then rigid bodies.
+    /// Body at its start. Indices count beams first, then particles, then rigid bodies.
     fn body(&self, index: usize) -> &dyn BodyDynamics;
 
-    /// Wraps an error of geometry as one of a beam, by its index.
+    /// Wraps an error of the geometry of a beam.
     fn wrong(&self, beam: usize, error: GeometryError) -> SystemError;
 }

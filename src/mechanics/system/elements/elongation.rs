@@ -1,12 +1,12 @@
-//! What springs measure: the length of a way over several places, or the angle between two sections.
+//! Elongations: the length of a polygonal path over several places, or the angle between two sections.
 //!
 //! ```text
 //! way:    Δℓ = e·Δd, e = (d₀ + d₁)/(ℓ₀ + ℓ₁), part by part        angle:  Δθ = r (Δω_b - Δω_a)
 //! ```
 //!
-//! `e` and `r` are secants: a force along them does exactly the work `F Δℓ`, `M Δθ`, and is opposite at both ends. Differences of
-//! places are advanced by increments, so that they do not depend on how far from the origin everything has moved; and so is the elongation itself, as
-//! what it has grown by since the start: a length less one at ease would carry the rounding of the length, which may be millions of times as large.
+//! `e` and `r` are secants. A force along them does exactly the work `F Δℓ` or `M Δθ`, and is opposite at both ends. Differences of places are
+//! advanced by increments, so that rounding does not depend on the distance from the origin. The elongation is accumulated as its growth since the
+//! start. Otherwise, the difference to the natural length would carry the rounding of a length that may be millions of times as large.
 
 mod shares;
 mod term;
@@ -21,20 +21,17 @@ use crate::beams::{BodyPoint, Movement, RotationIncrement};
 use crate::geometry::{Vec2, larger};
 use crate::system::bodies::Body;
 
-/// Movements that a change is a difference of are off by so many times their last digit at most.
+/// Bound of the rounding error of movements, in units of their last digit.
 const MOST_ROUNDING: f64 = 16.0;
 
-/// Where an elongation is taken: a place of a body, or the ground.
+/// End of an elongation: a place of a body, or the ground.
 #[derive(Debug, Clone)]
 pub enum ElongationEnd {
-    /// A place that moves.
     Moving(BodyPoint),
-    /// A place that does not.
     Ground,
 }
 
 impl ElongationEnd {
-    /// The number of functions that are not zero there.
     fn order(&self) -> usize {
         match self {
             Self::Moving(place) => place.shape().len(),
@@ -42,7 +39,7 @@ impl ElongationEnd {
         }
     }
 
-    /// What it has of a vector of the control points of each body, by body and point: none on the ground.
+    /// Interpolates a vector field of control points; zero on the ground.
     pub fn combine(&self, of_point: impl Fn(usize, usize) -> Vec2) -> Vec2 {
         let Self::Moving(place) = self else { return Vec2::zeros() };
         place
@@ -51,61 +48,60 @@ impl ElongationEnd {
     }
 }
 
-/// Which movements of a place count.
+/// Measured quantity.
 #[derive(Debug, Clone)]
 enum Measure {
-    /// Those of the place: the differences `d₀` from each terminal to the next [length].
+    /// Length of the path with the differences `d₀` between consecutive terminals [length].
     Way(Vec<Vec2>),
-    /// The rotation of its section.
+    /// Angle between two sections.
     Angle,
-    /// One component of the way between two terminals, by its number, x or y.
+    /// One component of the vector between two terminals, x (0) or y (1).
     Component(usize),
 }
 
-/// A length or an angle between terminals at the start of a step, and how it changes in an iterate.
+/// Length or angle between terminals at the start of a step, and its change in an iterate.
 ///
-/// Its coordinates are the movements of the terminals that count, one terminal after another: x and y of each for a way, the
-/// rotation of each for an angle.
+/// Its coordinates are the movements of the terminals, one terminal after another: x and y for a length, the rotation for an angle.
 #[derive(Debug, Clone)]
 pub struct Elongation {
     measure: Measure,
     terminals: Vec<ElongationEnd>,
-    /// Where their coordinates stand among the degrees of freedom, where they were located last.
+    /// Shares of the degrees of freedom in the coordinates, as located last.
     shares: Vec<CoordinateShare>,
-    /// What is measured in the scene as it was built [length, rad].
+    /// Value in the scene as built [length, rad].
     drawn: f64,
-    /// By how much it has grown since, up to the start of the step [length, rad].
+    /// Growth since then, up to the start of the step [length, rad].
     grown: Coordinate,
-    /// The movements in the iterate, a number for each coordinate.
+    /// Movements in the iterate, one number per coordinate.
     moved: Vec<f64>,
-    /// Those of a correction.
+    /// Movements of a correction.
     corrected: Vec<f64>,
-    /// The change `Δq` of what is measured in the step [length, rad].
+    /// Change `Δq` in the step [length, rad].
     pub change: f64,
-    /// The same of the iterate whose force was settled last, and how much more it is as the force has it, without rounding of movements, of which a
-    /// stiff spring would store something [length, rad].
+    /// Change in the iterate whose force was settled last, and the correction that the force implies. The correction excludes the rounding of
+    /// movements, which would store energy in a stiff spring [length, rad].
     settled: (f64, f64),
-    /// The secant `g` with `Σ g u = Δq`; at the end of a step the derivative there [-].
+    /// Secant `g` with `Σ g u = Δq`; for forces at the end of a step the derivative there [-].
     pub secant: Vec<f64>,
-    /// The derivative `∂Δq/∂u` by the movements [-].
+    /// Derivative `∂Δq/∂u` with respect to the movements [-].
     pub slope: Vec<f64>,
-    /// The derivative `∂g/∂u` of the secant by the movements, row by row, where it was found last [1/length, 1/rad].
+    /// Derivative `∂g/∂u` of the secant, row by row, at the place where it was found last [1/length, 1/rad].
     pub bend: Vec<f64>,
-    /// What has to be added to the secant for the direction at the time of the step that [`balance`](Self::balance) took last [-].
+    /// Difference between the direction at the time of the step taken last by [`balance`](Self::balance) and the secant [-].
     pub lag: Vec<f64>,
-    /// The derivative of the lag by the movements, row by row [1/length].
+    /// Derivative of the lag with respect to the movements, row by row [1/length].
     pub lag_bend: Vec<f64>,
 }
 
 impl Elongation {
-    /// The length of a way over terminals, which are at these places at the start.
+    /// Creates the length of a path over terminals at the given initial places.
     pub fn way(terminals: Vec<ElongationEnd>, at: &[Vec2]) -> Self {
         let parts: Vec<Vec2> = at.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let length = parts.iter().map(Vec2::norm).sum();
         Self::new(Measure::Way(parts), length, terminals, 2)
     }
 
-    /// One component, x or y, of the way between two terminals, which are at these places at the start.
+    /// Creates one component, x or y, of the vector between two terminals at the given initial places.
     pub fn component(
         terminals: [ElongationEnd; 2],
         [from, to]: [Vec2; 2],
@@ -115,7 +111,7 @@ impl Elongation {
         Self::new(Measure::Component(component), start, terminals.into(), 2)
     }
 
-    /// The angle from the first terminal to the second one, which is this one at the start [rad].
+    /// Creates the angle from the first terminal to the second, with its initial value [rad].
     pub fn angle(terminals: [ElongationEnd; 2], angle: f64) -> Self {
         Self::new(Measure::Angle, angle, terminals.into(), 1)
     }
@@ -140,56 +136,54 @@ impl Elongation {
         }
     }
 
-    /// Whether it is the angle between two sections.
     pub fn is_angle(&self) -> bool {
         matches!(self.measure, Measure::Angle)
     }
 
-    /// `q` at the start of the step [length, rad].
+    /// Value of `q` at the start of the step [length, rad].
     pub fn value(&self) -> f64 {
         self.drawn + self.grown.value
     }
 
-    /// `q` in the scene as it was built [length, rad].
+    /// Value of `q` in the scene as built [length, rad].
     pub fn drawn(&self) -> f64 {
         self.drawn
     }
 
-    /// By how much `q` has grown from the scene as it was built to the start of the step, right beyond its own rounding [length, rad].
+    /// Growth of `q` since the scene was built, with compensated rounding [length, rad].
     pub fn grown(&self) -> Coordinate {
         self.grown
     }
 
-    /// What rounding of it is relative to, in an iterate: the largest length or angle that it is a difference of [length, rad].
+    /// Scale of its rounding in an iterate: the largest length or angle that enters [length, rad].
     pub fn extent(&self) -> f64 {
         let after = (self.value() + self.change).abs();
         match self.measure {
             Measure::Way(_) => after,
             Measure::Angle => larger(1.0, after),
-            // It is advanced by movements that may be larger by far.
+            // It is advanced by movements that may be much larger.
             Measure::Component(..) => self.moved.iter().fold(after, |size, by| size.max(by.abs())),
         }
     }
 
-    /// How far the change may be off by rounding of the movements that it is a difference of [length, rad].
+    /// Bound of the rounding error of the change [length, rad].
     fn rounding(&self) -> f64 {
         let moved = self.moved.iter().fold(0.0, |most, by| larger(most, by.abs()));
         MOST_ROUNDING * f64::EPSILON * moved
     }
 
-    /// Takes the change of the iterate that was taken last for so much more, if rounding of its movements may be that; whether it may.
+    /// Corrects the change of the last iterate by `missing` if this is within the rounding of its movements. Returns true if it is.
     pub fn settle(&mut self, missing: f64) -> bool {
         let is_rounding = missing.abs() <= self.rounding();
         self.settled = (self.change, if is_rounding { missing } else { 0.0 });
         is_rounding
     }
 
-    /// Whether it is one component of a way.
     pub fn is_component(&self) -> bool {
         matches!(self.measure, Measure::Component(..))
     }
 
-    /// The components of the movement of a place that count.
+    /// Components of the movement of a place that contribute.
     pub fn components(&self) -> Range<usize> {
         match self.measure {
             Measure::Way(_) | Measure::Component(..) => 0..2,
@@ -197,7 +191,7 @@ impl Elongation {
         }
     }
 
-    /// The terminals that move: their places, and the numbers of their coordinates.
+    /// Moving terminals: their places and the indices of their coordinates.
     pub fn moving(&self) -> impl Iterator<Item = (&BodyPoint, Range<usize>)> {
         let count = self.components().len();
         self.terminals.iter().enumerate().filter_map(move |(at, terminal)| match terminal {
@@ -206,7 +200,7 @@ impl Elongation {
         })
     }
 
-    /// Takes the movements of an iterate, and finds change, secant and slope.
+    /// Evaluates change, secant and slope in an iterate.
     pub fn take(&mut self, at: TrialState<'_>) {
         self.locate(at.bodies);
         self.gather(at.increments);
@@ -214,8 +208,8 @@ impl Elongation {
         self.compare(collocation.rotations);
     }
 
-    /// Finds the lag in the iterate that was taken last, at the end of a step: the direction of the way such a share of the step after its start, less
-    /// the secant. There is none where no share is told, and none of angles, whose directions do not change.
+    /// Evaluates the lag in the last iterate: the direction at a share of the step minus the secant. The lag is zero without a share, and for angles,
+    /// whose directions are constant.
     pub fn balance(&mut self, share: Option<f64>) {
         let Self { measure, moved, lag, lag_bend, .. } = self;
         [&mut *lag, lag_bend].into_iter().for_each(|all| all.fill(0.0));
@@ -243,7 +237,7 @@ impl Elongation {
         }
     }
 
-    /// The rate of `q` at the start of the step, where everything was taken last, with such rates of the control points of all bodies.
+    /// Rate of `q` at the start of the step for the given rates of all control points.
     pub fn rate(&self, rates: &[Vec<Movement>]) -> f64 {
         let mut sum = 0.0;
         for (place, coordinates) in self.moving() {
@@ -256,12 +250,12 @@ impl Elongation {
         sum
     }
 
-    /// The rate of `q` at the end of the last step, with such rates of the unknowns then.
+    /// Rate of `q` at the end of the last step for the rates of the unknowns at that time.
     pub fn rate_behind(&self, bodies: &[Body], rates: &[f64]) -> f64 {
         self.moving().fold(0.0, |sum, (place, coordinates)| {
             let [x, y, spin] = bodies[place.body].at(place, rates);
             match (self.is_angle(), &self.slope[coordinates]) {
-                // What turns angles less than increments is of the step, and not of the rate.
+                // The factor between angles and increments belongs to the step, not to the rate.
                 (true, slope) => sum + slope[0].signum() * spin,
                 (false, slope) => sum + (slope[0] * x + slope[1] * y),
             }
@@ -308,7 +302,7 @@ impl Elongation {
         }
     }
 
-    /// Finds the bend in the iterate that was taken last.
+    /// Evaluates the derivative of the secant in the last iterate.
     pub fn find_bend(&mut self, rotations: RotationIncrement) {
         let Self { measure, moved, bend, .. } = self;
         let Measure::Way(parts) = measure else { return };
@@ -356,7 +350,7 @@ impl Elongation {
         }
     }
 
-    /// For each part of a way its derivative at rest and the length of the part: the rows of what its force turns.
+    /// Length and derivative at rest of each segment of a path. Their force is rotated by movements of the segment.
     pub fn turned(&self) -> Vec<(f64, Vec<f64>)> {
         let Measure::Way(parts) = &self.measure else { return Vec::new() };
         let of_part = |(index, part): (usize, &Vec2)| {
@@ -370,7 +364,7 @@ impl Elongation {
         parts.iter().enumerate().filter(|(_, part)| part.norm() > 0.0).map(of_part).collect()
     }
 
-    /// Takes everything as it is at the start of the step.
+    /// Evaluates everything at the start of the step.
     pub fn rest(&mut self, bodies: &[Body]) {
         self.locate(bodies);
         self.moved.fill(0.0);
@@ -392,7 +386,6 @@ impl Elongation {
     }
 }
 
-/// The way from one place to the next.
 fn way(ends: &[[f64; 2]]) -> Vec2 {
     Vec2::new(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1])
 }

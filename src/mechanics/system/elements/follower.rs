@@ -1,4 +1,4 @@
-//! Forces that turn with a section.
+//! Follower forces.
 
 use super::{TrialState, WorkAndImpulse, collocation};
 use crate::beams::{BodyPoint, Rotation, RotationIncrement};
@@ -7,19 +7,18 @@ use crate::integrators::Stage;
 use crate::linalg::BandedMatrix;
 use crate::system::bodies::{Body, Tracker};
 
-/// A force that turns with a section: `f = Λτ F`.
+/// Force that rotates with a section: `f = Λτ F`.
 #[derive(Debug, Clone)]
 pub struct Follower {
     tracker: Tracker,
-    /// In the frame of the section.
+    /// Components in the section frame.
     force: Vec2,
-    /// What the method takes from the start of the step, and from the iterate.
+    /// Contributions of the start of the step and of the iterate.
     carried: Vec2,
     current: Vec2,
 }
 
 impl Follower {
-    /// A follower force `force` [force] in the frame of the section at a place.
     pub fn new(place: BodyPoint, force: Vec2) -> Self {
         let tracker = Tracker::new(place);
         Self { tracker, force, carried: Vec2::zeros(), current: Vec2::zeros() }
@@ -29,7 +28,7 @@ impl Follower {
         &bodies[self.tracker.place.body]
     }
 
-    /// The rotation at `τ` and at the end, and `Δω`.
+    /// Rotations at `τ` and at the end, and `Δω`.
     fn rotations(&self, at: TrialState<'_>) -> (Rotation, Rotation, f64) {
         let [.., increment] = self.body(at.bodies).at(&self.tracker.place, at.increments);
         let collocation = collocation(at.stage);
@@ -54,12 +53,11 @@ impl Follower {
         }
     }
 
-    /// The largest component of the follower force [force].
     pub fn largest(&self) -> f64 {
         self.force.amax()
     }
 
-    /// Adds the derivative of minus `weight` times `factor` times the follower force by the increments to the tangent.
+    /// Adds minus the derivative of `weight · factor` times the follower force to the tangent.
     pub fn add_tangent(
         &self,
         at: TrialState<'_>,
@@ -87,7 +85,7 @@ impl Follower {
         }
     }
 
-    /// Adds to a sum the work and impulse of the follower force in the step of the movements that the bodies gathered last.
+    /// Adds the work and impulse of the follower force in the step whose movements the bodies gathered last.
     pub fn add_exchange(&self, bodies: &[Body], duration: f64, sum: &mut WorkAndImpulse) {
         let body = self.body(bodies);
         let force = self.carried + self.current;

@@ -1,4 +1,4 @@
-//! Loads in a step: their values, work and impulse.
+//! Loads in a step: values, work and impulse.
 
 use super::element::{AssemblyContext, BuiltElement, ElementDef, SceneChecks};
 use super::follower::Follower;
@@ -31,7 +31,7 @@ impl ElementDef for Load {
         }
     }
 
-    /// Forces that turn with a rigid body couple a point of it with its rotation, which no span does.
+    /// Forces that rotate with a rigid body couple a point with the rotation of the body.
     fn coupled(&self) -> Vec<Station> {
         match &self.kind {
             LoadKind::Force { station, frame: LoadFrame::Follower, .. }
@@ -89,7 +89,7 @@ impl ElementDef for Load {
     }
 }
 
-/// A load that turns with the sections, by `degree` Gauss points a span.
+/// Distributed follower load with `degree` Gauss points per span.
 fn line_of_followers(
     site: &dyn AssemblyContext,
     beam: usize,
@@ -108,28 +108,27 @@ fn line_of_followers(
     Ok(followers)
 }
 
-/// What a load acts through.
 enum Action {
     Dead(LoadVector),
     Follower(Vec<Follower>),
 }
 
-/// A load of the model with its values in the current step.
+/// Load of the model with its values in the current step.
 struct AppliedLoad {
     name: String,
     schedule: Schedule,
     action: Action,
     factors: StageFactors,
-    /// Weighted factors that the method takes from the start of the step, and from the iterate.
+    /// Weighted schedule factors of the start of the step, and of the iterate.
     carried: f64,
     current: f64,
-    /// What it gives, where it has a name.
+    /// Account of a named load.
     account: Option<LoadAccount>,
-    /// How large it is while the schedule is 1.
+    /// Magnitude at a schedule factor of 1.
     size: f64,
 }
 
-/// Factors of the schedule; not a number at stages that the step did not announce.
+/// Schedule factors by stage; NaN at stages that the step does not use.
 #[derive(Debug, Clone, Copy)]
 struct StageFactors {
     start: f64,
@@ -168,10 +167,10 @@ impl AppliedLoad {
         }
     }
 
-    /// How often a step calls functions of scripts.
+    /// Describes the calls of script functions per step.
     fn calls(&self, methods: &[Method]) -> String {
         let functions = self.schedule.functions();
-        // A controller is asked once a step, by whoever steps.
+        // A controller is sampled once per step by the caller.
         if functions == 0 || self.schedule.is_sampled() {
             return String::new();
         }
@@ -188,7 +187,7 @@ impl ExternalForce for AppliedLoad {
         &self.name
     }
 
-    /// Evaluates the schedule for the stages of the step, and for no other: it may be a function of a script.
+    /// Evaluates the schedule for the stages of the step only, because it may be a script function.
     fn begin_step(&mut self, interval: Interval, stages: &[Stage]) -> Result<(), LoadError> {
         self.factors = StageFactors::default();
         for stage in stages {
@@ -310,7 +309,7 @@ impl ExternalForce for AppliedLoad {
     }
 }
 
-/// The times after the start at which steps end because of a schedule, in their order.
+/// Sorted times after the start at which steps end because of a schedule.
 fn cuts(schedule: &Schedule) -> Vec<f64> {
     let mut times = schedule.breaks();
     times.retain(|time| *time > 0.0);
@@ -319,7 +318,6 @@ fn cuts(schedule: &Schedule) -> Vec<f64> {
     times
 }
 
-/// How many values of a schedule a stage takes.
 fn values_at(stage: &Stage) -> usize {
     match stage {
         Stage::Start | Stage::End => 1,

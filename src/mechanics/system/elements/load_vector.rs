@@ -1,35 +1,31 @@
-//! Forces on control points that do not change with the configuration.
+//! Nodal forces that do not depend on the configuration.
 
 use super::{TrialState, WorkAndImpulse};
 use crate::beams::{BodyPoint, Movement};
 use crate::geometry::{Vec2, cross};
 use crate::system::bodies::Body;
 
-/// Forces and moments on control points, to be multiplied by a factor.
+/// Nodal forces and moments, scaled by a factor.
 #[derive(Debug, Clone, Default)]
 pub struct LoadVector {
     /// Body, control point, force and moment.
     entries: Vec<(usize, usize, Movement)>,
-    /// The largest force and the largest moment on a control point.
     largest: (f64, f64),
 }
 
 impl LoadVector {
-    /// The pattern of a force and a moment at a place.
     pub fn at(place: &BodyPoint, force: Movement) -> Self {
         let mut pattern = Self::default();
         pattern.push_at(place, force);
         pattern
     }
 
-    /// Adds a force and a moment at a place to the pattern, in shares of the functions there.
     pub fn push_at(&mut self, place: &BodyPoint, force: Movement) {
         for (point, share) in place.weights() {
             self.push(place.body, point, force.map(|value| share * value));
         }
     }
 
-    /// Adds a force and a moment on a control point to the pattern.
     pub fn push(&mut self, body: usize, point: usize, force: Movement) {
         let [x, y, moment] = force.map(f64::abs);
         self.largest = (self.largest.0.max(x).max(y), self.largest.1.max(moment));
@@ -44,12 +40,12 @@ impl LoadVector {
         }
     }
 
-    /// The largest force [force] and the largest moment [force·length] on a control point of the pattern times `factor`.
+    /// Largest nodal force [force] and moment [force·length], times `factor`.
     pub fn largest(&self, factor: f64) -> (f64, f64) {
         (factor.abs() * self.largest.0, factor.abs() * self.largest.1)
     }
 
-    /// The work and impulse of the pattern in a step of the movements that the bodies gathered last, acting at their midpoint.
+    /// Work and impulse in the step whose movements the bodies gathered last, acting at the mean positions.
     pub fn exchange(&self, bodies: &[Body], factor: f64, duration: f64) -> WorkAndImpulse {
         let mut sum = WorkAndImpulse::default();
         for (body, point, [fx, fy, moment]) in &self.entries {
@@ -65,12 +61,12 @@ impl LoadVector {
         sum
     }
 
-    /// The sum `Σ f·x` of the pattern's forces times places: minus the potential of these forces, were they constant [energy].
+    /// Sum `Σ f·x` over the loaded points: minus the potential of constant forces [energy].
     pub fn potential_work(&self, bodies: &[Body]) -> f64 {
         self.potential_work_on(bodies, |_| true)
     }
 
-    /// The part of it that belongs to some bodies [energy].
+    /// Part of the sum on selected bodies [energy].
     pub fn potential_work_on(&self, bodies: &[Body], counts: impl Fn(usize) -> bool) -> f64 {
         let work = |(body, point, [fx, fy, _]): &(usize, usize, Movement)| {
             bodies[*body].dynamics.control_points()[*point].dot(&Vec2::new(*fx, *fy))

@@ -1,4 +1,4 @@
-//! The damping of the material of a beam: Kelvin–Voigt, by dashpots beside the quadrature points of its section forces.
+//! Kelvin–Voigt material damping of a beam, by dashpots parallel to the section forces at the quadrature points.
 
 use serde::{Deserialize, Serialize};
 
@@ -15,14 +15,14 @@ use crate::linalg::BandedMatrix;
 use crate::system::SystemError;
 use crate::system::bodies::Body;
 
-/// The relaxation times of the material of a beam, as a scene describes them.
+/// Relaxation times of the material of a beam, as described by a scene.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MaterialDamping {
-    /// The name of the beam, which that of its damping is in columns.
+    /// Name of the beam, used for the columns of its damping.
     pub name: String,
-    /// The beam, by its index.
+    /// Index of the beam.
     pub beam: usize,
-    /// The relaxation times of the material.
+    /// Relaxation times of the material.
     pub relaxation: Relaxation,
 }
 
@@ -56,13 +56,13 @@ impl ElementDef for MaterialDamping {
     }
 }
 
-/// The dashpots of a beam in the steps of a model.
+/// Dashpots of a beam in the steps of a model.
 struct DampedMaterial {
     name: String,
     beam: usize,
     relaxation: Relaxation,
     dashpots: Dashpots,
-    /// The movements of the control points in the iterate.
+    /// Movements of the control points in the iterate.
     moved: Vec<Movement>,
     pace: RateHistory,
     rotations: RotationIncrement,
@@ -76,7 +76,6 @@ impl DampedMaterial {
     }
 }
 
-/// Takes forces on control points to where they stand in a force vector.
 fn scatter<'a>(degrees: &'a [[usize; 3]], out: &'a mut [f64]) -> impl FnMut(usize, Movement) + 'a {
     move |point, force| {
         degrees[point].iter().zip(force).for_each(|(&at, force)| out[at] += force);
@@ -136,7 +135,7 @@ impl InternalForce for DampedMaterial {
         self.dashpots.add_linearised_forces(rates, &self.moved, give, &mut add);
     }
 
-    /// Its forces count once a step, whatever the weight of others.
+    /// Dashpots are evaluated once per step, whatever the weight.
     fn add_mismatch_forces(&self, bodies: &[Body], _weight: f64, out: &mut [f64]) {
         let degrees = &bodies[self.beam].degrees_of_freedom;
         self.dashpots.add_mismatch_forces(&mut scatter(degrees, out));

@@ -1,35 +1,34 @@
-//! The force of an element as an unknown of its own.
+//! Force of an element as an unknown of its own.
 
 use crate::geometry::larger;
 
-/// A force that is an unknown of its own.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct MixedForce {
-    /// The force of the iterate.
+    /// Force in the iterate.
     pub force: f64,
-    /// The force of the last step.
+    /// Force of the last step.
     pub last: f64,
-    /// What the configuration asks for, less the force.
+    /// Target force minus force.
     pub mismatch: f64,
-    /// The derivative by `Δq` of what the configuration asks for, of the last linearisation.
+    /// Derivative of the target with respect to `Δq`, from the last linearisation.
     pub stiffness: f64,
-    /// The same of the configuration that was compared last.
+    /// Derivative of the target at the last comparison.
     asked: f64,
-    /// Where the iteration of the step has been.
+    /// Iteration history of the step.
     search: IterationState,
 }
 
-/// Where the iteration of a step has been: how often it was linearised, and the rate and the force at which it was last.
+/// Number of linearisations in a step, with rate and force at the last one.
 #[derive(Debug, Clone, Copy, Default)]
 struct IterationState {
     linearised: u32,
     at: (f64, f64),
 }
 
-/// So many linearisations find what has no corners, and most of what has.
+/// Number of linearisations after which the impedance is used. Smooth laws and most others converge earlier.
 const PATIENCE: u32 = 4;
 
-/// What a configuration asks of a force: the force, and its derivative by `Δq`.
+/// Target force of a configuration, and its derivative with respect to `Δq`.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ForceTarget {
     pub force: f64,
@@ -37,7 +36,7 @@ pub struct ForceTarget {
 }
 
 impl MixedForce {
-    /// Compares it with a configuration; how far it is off, as a part of such a length or angle.
+    /// Compares the force with its target. Returns the mismatch relative to a length or angle `extent`.
     pub fn compare(&mut self, target: ForceTarget, extent: f64) -> f64 {
         self.mismatch = target.force - self.force;
         self.asked = target.stiffness;
@@ -46,8 +45,7 @@ impl MixedForce {
         if self.mismatch == 0.0 { 0.0 } else { self.mismatch.abs() / size }
     }
 
-    /// The change of `Δq` after which the configuration that was compared last would ask for the force as it is, to first order; infinite where no
-    /// change does.
+    /// Change of `Δq` after which the target would equal the current force, to first order; infinite if no change does.
     pub fn missing_change(&self) -> f64 {
         match self.mismatch == 0.0 {
             true => 0.0,
@@ -56,14 +54,13 @@ impl MixedForce {
         }
     }
 
-    /// Begins a step with the force of the last one.
+    /// Starts a step from the force of the last one.
     pub fn begin_step(&mut self) {
         self.force = self.last;
         self.search = IterationState::default();
     }
 
-    /// How much the force falls where the rate rises, by all that it acts on, as the last two iterates tell: where the search goes on for long, and
-    /// not before.
+    /// Secant estimate of the impedance of the loaded system from the last two iterates; `None` during the first iterations.
     pub fn impedance(&mut self, rate: f64) -> Option<f64> {
         let IterationState { linearised, at: (rate_before, force_before) } = self.search;
         self.search = IterationState { linearised: linearised + 1, at: (rate, self.force) };
@@ -71,13 +68,13 @@ impl MixedForce {
         (linearised >= PATIENCE && impedance > 0.0 && impedance.is_finite()).then_some(impedance)
     }
 
-    /// Keeps what a configuration asks for, with its derivative, until the correction that follows.
+    /// Stores target and derivative for the next correction.
     pub fn linearise(&mut self, target: ForceTarget) {
         self.mismatch = target.force - self.force;
         self.stiffness = target.stiffness;
     }
 
-    /// Carries a correction over, to first order: what the configuration asks for then.
+    /// Updates the force after a correction, to first order.
     pub fn correct(&mut self, change: f64) {
         self.force += self.mismatch + self.stiffness * change;
     }

@@ -1,5 +1,4 @@
-//! What acts on the bodies: point masses, weight, loads, springs and supports. A further kind of element is a file here and a variant of
-//! [`Element`].
+//! Elements that act on bodies: point masses, weight, loads, springs and supports. To add a kind, add a file here and a variant of [`Element`].
 
 mod all;
 mod branch;

@@ -1,24 +1,23 @@
-//! Bends of given motions within a step.
+//! Kinks of prescribed motions within a step.
 
 use crate::integrators::Interval;
 use crate::loads::{MotionInStep, PrescribedMotion};
 
-/// Rates that miss each other by less than this part of them are those of a smooth motion.
+/// Relative rate changes below this value belong to a smooth motion.
 const SHARPEST: f64 = 0.1;
 
-/// A bend of a given motion within a step, which takes it for smooth.
+/// Kink of a prescribed motion within a step that treats it as smooth.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MotionCurvature {
-    /// When the step begins [time].
+    /// Start of the step [time].
     pub time: f64,
-    /// The rate with which the step before ended, and the one with which this one begins [length/time, rad/time].
+    /// Rates at the end of the previous step and at the start of this one [length/time, rad/time].
     pub rates: [f64; 2],
 }
 
 impl MotionCurvature {
-    /// The bend of a function from outside at the start of a step or in it, where the rate of the step before was this one. What smooth steps find
-    /// there agrees to the fifth power of their length; a jump of the rate does not, nor does what is much faster than a step. At times at which a
-    /// function is said to bend it may.
+    /// Detects a kink of a script function at the start of a step or within it. Rates of smooth motions in consecutive steps agree to the fifth power
+    /// of the step length. A jump of the rate, or a motion much faster than the step, does not. Declared breaks of the function are exempt.
     pub fn of(
         motion: &PrescribedMotion,
         interval: Interval,
@@ -41,7 +40,7 @@ impl MotionCurvature {
         Self { time: interval.start, rates: [before, step.first_rate] }
     }
 
-    /// By how much the rate changes [length/time, rad/time].
+    /// Change of the rate [length/time, rad/time].
     pub fn size(&self) -> f64 {
         (self.rates[1] - self.rates[0]).abs()
     }

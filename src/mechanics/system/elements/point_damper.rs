@@ -1,11 +1,12 @@
-//! A damper along the straight way between two places, which may pass through one another.
+//! Damper along the line between two places whose distance may pass through zero.
 //!
 //! ```text
 //! v = Δd/Δt      d̄ = d₀ + ½ Δd      e = d̄/|d̄|      F = φ(e·v) e, opposite at both ends      D grows by F·Δd ≥ 0
 //! ```
 //!
-//! The rate of a length, `Δℓ/Δt`, is none where a way turns round through nothing within a step, though its ends pass each other with all their speed. That
-//! along the mean way is the same to second order elsewhere, and right there; the force is along the mean line of the ends, so that momenta stay.
+//! The rate of a length, `Δℓ/Δt`, vanishes if the connecting vector reverses through zero within a step, although the ends pass each other at full
+//! speed. The rate along the mean vector is correct there, and agrees to second order elsewhere. The force acts along the mean line, so that angular
+//! momentum is conserved.
 
 use super::damping_law::DampingLaw;
 use super::elongation::ElongationEnd;
@@ -19,41 +20,41 @@ use crate::integrators::Interval;
 use crate::linalg::BandedMatrix;
 use crate::system::bodies::Body;
 
-/// A damper between two places, by the rate of their distance.
+/// Damper between two places by the rate of their distance.
 #[derive(Debug, Clone)]
 pub struct PointDamper {
     name: String,
     terminals: [ElongationEnd; 2],
-    /// Where each terminal that is the ground is [length].
+    /// Places of terminals on the ground [length].
     grounds: [Option<Vec2>; 2],
-    /// `d₀`, from the first to the second terminal [length].
+    /// Vector `d₀` from the first to the second terminal [length].
     way: Vec2,
     law: DampingLaw,
-    /// The law that it had before it let go.
+    /// Law before the release.
     released: Option<DampingLaw>,
     pace: RateHistory,
-    /// `Δd/Δt` in the step before [length/time].
+    /// `Δd/Δt` in the previous step [length/time].
     last_velocity: Vec2,
-    /// The largest speed that the rate may be a difference of, at the start of the step [length/time].
+    /// Largest speed of which the rate may be a difference, at the start of the step [length/time].
     speed: f64,
     force: MixedForce,
-    /// The force on the second terminal's side, as it was given last [force].
+    /// Force on the second terminal, as applied last [force].
     given: Vec2,
     linearised: DamperTrial,
     dissipated: f64,
 }
 
-/// The damper in an iterate.
+/// Damper in an iterate.
 #[derive(Debug, Clone, Copy)]
 struct DamperTrial {
-    /// `e`
+    /// Direction `e`.
     direction: Vec2,
-    /// `e·v` [length/time].
+    /// Rate `e·v` [length/time].
     rate: f64,
     target: ForceTarget,
-    /// The derivative of the rate by `Δd` [1/time].
+    /// Derivative of the rate with respect to `Δd` [1/time].
     rate_by_movement: Vec2,
-    /// The derivative of `e` by `Δd` is `(1 - e⊗e)` times this [1/length].
+    /// Factor in `∂e/∂Δd = (1 - e⊗e) · turn` [1/length].
     turn: f64,
 }
 
@@ -66,7 +67,6 @@ impl Default for DamperTrial {
 }
 
 impl PointDamper {
-    /// A damper with a law between two terminals, which are at these places at the start.
     pub fn new(
         name: String,
         terminals: [ElongationEnd; 2],
@@ -96,24 +96,21 @@ impl PointDamper {
         self.pace.at(at.stage, at.weight).filter(|_| acts)
     }
 
-    /// The difference of the values of two places, the second less the first.
     fn difference(&self, of_place: impl Fn(&ElongationEnd) -> Vec2) -> Vec2 {
         of_place(&self.terminals[1]) - of_place(&self.terminals[0])
     }
 
-    /// The difference of values of the unknowns.
     fn apart(&self, bodies: &[Body], values: &[f64]) -> Vec2 {
         let value = |body: usize, point: usize| bodies[body].vector_at(point, values);
         self.difference(|terminal| terminal.combine(value))
     }
 
-    /// The largest size that such a difference is one of.
+    /// Largest magnitude that cancels in the difference.
     fn size(&self, bodies: &[Body], values: &[f64]) -> f64 {
         let value = |body: usize, point: usize| bodies[body].vector_at(point, values);
         self.terminals.iter().map(|terminal| terminal.combine(value).norm()).sum()
     }
 
-    /// The movement from the first to the second terminal in the step of the movements that the bodies gathered last.
     fn movement(&self, bodies: &[Body]) -> Vec2 {
         let moved = |body: usize, point: usize| in_the_plane(bodies[body].moved()[point]);
         self.difference(|terminal| terminal.combine(moved))
@@ -138,7 +135,7 @@ impl PointDamper {
         }
     }
 
-    /// Gives a force on the second terminal, and its opposite on the first.
+    /// Adds a force on the second terminal and its opposite on the first.
     fn scatter(&self, bodies: &[Body], force: Vec2, out: &mut [f64]) {
         for (terminal, sign) in self.terminals.iter().zip([-1.0, 1.0]) {
             let ElongationEnd::Moving(place) = terminal else { continue };
@@ -150,14 +147,14 @@ impl PointDamper {
         }
     }
 
-    /// The force that such a velocity from one terminal to the other meets at the start of the step.
+    /// Damping force for a relative velocity at the start of the step.
     fn resisting(&self, velocity: Vec2) -> Vec2 {
         let direction = direction(self.way, velocity);
         direction * self.law.force(direction.dot(&velocity))
     }
 }
 
-/// The direction of a way, or where there is none that of a movement through it.
+/// Direction of the connecting vector, or of the relative movement if the vector is zero.
 fn direction(way: Vec2, moved: Vec2) -> Vec2 {
     let along = if way == Vec2::zeros() { moved } else { way };
     let length = along.norm();
@@ -214,7 +211,7 @@ impl InternalForce for PointDamper {
         self.force.linearise(target);
         let DamperTrial { direction, rate_by_movement, turn, .. } = met;
         self.scatter(at.bodies, direction * target.force, out);
-        // The way turns with the force of the iterate.
+        // The line rotates with the force of the iterate.
         let turning = self.force.force * turn;
         let terminals = || self.terminals.iter().zip([-1.0, 1.0]);
         for (to, sign) in terminals() {
@@ -243,7 +240,7 @@ impl InternalForce for PointDamper {
         }
     }
 
-    /// It counts once a step, whatever the weight.
+    /// The damper is evaluated once per step, whatever the weight.
     fn add_mismatch_forces(&self, bodies: &[Body], _weight: f64, out: &mut [f64]) {
         self.scatter(bodies, self.linearised.direction * self.force.mismatch, out);
     }
@@ -253,7 +250,7 @@ impl InternalForce for PointDamper {
         self.force.correct(change);
     }
 
-    /// The ground does not move, so that it does no work.
+    /// The ground does not move, so it does no work.
     fn exchange(&self, _bodies: &[Body], duration: f64) -> WorkAndImpulse {
         let mut sum = WorkAndImpulse::default();
         for (ground, sign) in self.grounds.iter().zip([-1.0, 1.0]) {
@@ -289,7 +286,7 @@ impl InternalForce for PointDamper {
         self.scatter(bodies, self.resisting(velocity), out);
     }
 
-    /// Small vibration through a way of no length is damped in whatever direction it is.
+    /// At zero length, small vibrations are damped in every direction.
     fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
         if !self.law.acts() {
             return;

@@ -8,14 +8,14 @@ use crate::geometry::{Vec2, cross};
 use crate::system::bodies::{Body, Momenta};
 use crate::system::{SystemError, Turning};
 
-/// A point mass: a mass at a station, as a scene describes it.
+/// Point mass at a station, as described by a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PointMass {
-    /// The station at which the point mass is.
+    /// Station of the point mass.
     pub station: Station,
-    /// The mass of the point mass [mass].
+    /// Mass [mass].
     pub mass: f64,
-    /// The inertia of the point mass against rotation [mass·length²].
+    /// Rotary inertia [mass·length²].
     pub rotary_inertia: f64,
 }
 
@@ -27,7 +27,7 @@ impl ElementDef for PointMass {
         let refused = |name, value, allowed| {
             Err(SystemError::Value { object: object(), name, value, allowed })
         };
-        // What only turns, as a flywheel on its shaft may be seen, has no mass.
+        // A pure rotary inertia, such as a flywheel on its shaft, has no mass.
         let is_light = *mass == 0.0 && *rotary_inertia > 0.0;
         if !(mass.is_finite() && (*mass > 0.0 || is_light)) {
             let allowed = match station.turns() && *mass == 0.0 {
@@ -57,7 +57,7 @@ impl ElementDef for PointMass {
     }
 }
 
-/// A point mass at a place of a body of a model: it moves with the control points whose functions are not zero there.
+/// Point mass on a body of a model. It moves with the control points whose basis functions are nonzero there.
 #[derive(Debug, Clone, Copy)]
 pub struct NodalMass {
     pub place: BodyPoint,
@@ -70,7 +70,7 @@ impl NodalMass {
         [self.mass, self.mass, self.rotary_inertia]
     }
 
-    /// Adds `factor · M · rates` of the point mass to `out`, one entry for each unknown.
+    /// Adds `factor · M · rates` to `out`, one entry per unknown.
     pub fn add_inertia(&self, bodies: &[Body], factor: f64, rates: &[f64], out: &mut [f64]) {
         let body = &bodies[self.place.body];
         let rate = body.at(&self.place, rates);
@@ -83,7 +83,7 @@ impl NodalMass {
         }
     }
 
-    /// Gives the entries of `factor · M` of the point mass to `add`: row, column and value; several of one place add up.
+    /// Passes the entries of `factor · M` to `add` as row, column and value. Entries of the same place add up.
     pub fn inertia_entries(
         &self,
         bodies: &[Body],
@@ -104,7 +104,6 @@ impl NodalMass {
         }
     }
 
-    /// Momenta and twice the kinetic energy of the point mass.
     pub fn momenta(&self, bodies: &[Body], rates: &[f64]) -> Momenta {
         let body = &bodies[self.place.body];
         let [vx, vy, spin] = body.at(&self.place, rates);

@@ -1,8 +1,7 @@
-//! Supported movements that are prescribed: their increments in a step, and what the drives give by that.
+//! Prescribed movements of supports: increments in a step, and work and impulse of the drives.
 //!
-//! Let `v` be the rates, of which those of prescribed movements are derivatives of the prescribed functions, and `ε = Δx - Δt v̄` by how much a prescribed
-//! increment
-//! differs from its mean rate (of third order in `Δt`; zero for what is unknown). By the proofs of the energy–momentum step
+//! Let `v` be the rates, where those of prescribed movements are derivatives of the prescribed functions. Let `ε = Δx - Δt v̄` be the difference
+//! between a prescribed increment and its mean rate (third order in `Δt`; zero for unknowns). By the proofs of the energy–momentum step
 //!
 //! ```text
 //! ΔE = Σ R·Δx - Σ ε·M Δv/Δt          Δp = Δt Σ R          ΔL = Δt Σ x̄ × R + Σ ε × M v̄          R: what is left of the equations
@@ -22,88 +21,86 @@ use crate::joints::Component;
 use crate::loads::{LoadError, MotionAtStart, PrescribedMotion};
 use crate::system::bodies::Body;
 
-/// A supported movement that is prescribed.
+/// Supported degree of freedom with a prescribed movement.
 pub struct PrescribedMovement {
-    /// The support whose movement is prescribed.
     pub support: Support,
-    /// The number of its drive.
+    /// Index of the drive.
     pub drive: usize,
-    /// What it does.
     pub motion: PrescribedMotion,
 }
 
-/// A drive, and what it has given so far.
+/// Drive and its accumulated work.
 struct Driven {
     name: String,
-    /// Which of x, y and the angle it prescribes, or did before it let go.
+    /// Prescribed components x, y and angle, including released ones.
     prescribed: [bool; 3],
-    /// Since the start [energy].
+    /// Work since the start [energy].
     work: f64,
 }
 
-/// The present of a prescribed movement.
+/// State of a prescribed movement.
 #[derive(Debug, Clone, Copy, Default)]
 struct PresentMotion {
     /// At the end of the last step [length/time², 1/time²].
     acceleration: f64,
-    /// The sharpest bend within a step so far, and that of the present step.
+    /// Sharpest kink so far, and the kink of the current step.
     bend: MotionCurvature,
     bend_in_step: MotionCurvature,
-    /// Mean of the last step; a moment is that which belongs to the angle [force, force·length].
+    /// Reaction, averaged over the last step; moments are conjugate to the angle [force, force·length].
     reaction: f64,
-    /// `M Δv` of the step that is being accepted [force·time, force·length·time].
+    /// `M Δv` of the step being accepted [force·time, force·length·time].
     struck: f64,
-    /// The place or turn that it has at rest under the whole load [length, rad].
+    /// Position or angle at rest under the full load [length, rad].
     goal: f64,
-    /// How far it has been moved there [length, rad].
+    /// Movement towards it so far [length, rad].
     placed: f64,
-    /// `M v̄` at its control point in that step [mass·length/time].
+    /// `M v̄` of its control point in that step [mass·length/time].
     momentum: Vec2,
 }
 
-/// What a drive has given.
+/// Work and reactions of a drive.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DriveState<'a> {
-    /// The name of the drive.
+    /// Name of the drive.
     pub name: &'a str,
-    /// Which of x, y and the angle it gives.
+    /// Prescribed components x, y and angle.
     pub prescribed: [bool; 3],
-    /// The work of the drive since the start [energy].
+    /// Work since the start [energy].
     pub work: f64,
-    /// The force on the station, mean of the last step [force].
+    /// Force on the station, averaged over the last step [force].
     pub force: Vec2,
-    /// The moment on the station, mean of the last step: what its work is with the angle that the section turned by [force·length].
+    /// Moment on the station, averaged over the last step and conjugate to the angle of the section [force·length].
     pub moment: f64,
 }
 
-/// `Δω/Δθ` of an increment of rotation, whatever it stands for: what a moment that works on increments is times, as one that works on angles.
+/// `Δω/Δθ` of a rotation increment: converts moments conjugate to increments into moments conjugate to angles.
 fn per_angle(increment: f64, rotations: RotationIncrement) -> f64 {
     let angle = rotations.angle(increment);
     if angle == 0.0 { 1.0 } else { increment / angle }
 }
 
-/// The movements of a model that are prescribed, in the order of their degrees of freedom.
+/// Prescribed movements of a model, in the order of their degrees of freedom.
 #[derive(Default)]
 pub struct PrescribedMovements {
     movements: Vec<PrescribedMovement>,
     present: Vec<PresentMotion>,
     drives: Vec<Driven>,
-    /// The number of the first degree of freedom among them.
+    /// First prescribed degree of freedom.
     first: usize,
-    /// Entries of constraints in what is prescribed.
+    /// Number of leading constraint entries in the prescribed kinematics.
     constraints: usize,
     prescribed: PrescribedKinematics,
-    /// The largest turn of the step [rad].
+    /// Largest rotation of the step [rad].
     turn: f64,
-    /// Room for rates of everything.
+    /// Buffer for rates of all movements.
     room: Vec<f64>,
 }
 
 impl PrescribedMovements {
-    /// The prescribed movements of drives behind some unknown movements and unknowns of constraints.
+    /// Creates the prescribed movements of drives, numbered after the unknown movements and constraint multipliers.
     ///
     /// # Errors
-    /// When a function has no value at the start: the name of its drive, and why.
+    /// Name of the drive whose function has no value at the start, and the reason.
     pub fn new<'d>(
         movements: Vec<PrescribedMovement>,
         drives: impl Iterator<Item = &'d Drive>,
@@ -127,10 +124,10 @@ impl PrescribedMovements {
         Ok((all, rates))
     }
 
-    /// Takes the rates and accelerations that functions have just after a time.
+    /// Evaluates rates and accelerations just after a time.
     ///
     /// # Errors
-    /// When a function has no value there: the name of its drive, and why.
+    /// Name of the drive whose function has no value there, and the reason.
     pub fn begin_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
         for (at, (movement, present)) in self.movements.iter().zip(&mut self.present).enumerate() {
             let MotionAtStart { rate, acceleration } = movement
@@ -143,8 +140,8 @@ impl PrescribedMovements {
         Ok(())
     }
 
-    /// The same drives with such prescribed movements, those that are left where some let go, behind so many unknown movements. What is known of those
-    /// that stay is kept.
+    /// Replaces the prescribed movements by the given ones after a release, numbered after `unknowns` movements. States of remaining movements are
+    /// kept.
     pub fn with(self, movements: Vec<PrescribedMovement>, unknowns: usize) -> Self {
         let known = |wanted: &PrescribedMovement| {
             let mut all = self.movements.iter().zip(&self.present);
@@ -160,37 +157,35 @@ impl PrescribedMovements {
         Self { movements, present, first, prescribed, room, ..self }
     }
 
-    /// The number of movements that are prescribed.
     pub fn count(&self) -> usize {
         self.movements.len()
     }
 
-    /// Where the prescribed movements are.
     pub fn supports(&self) -> impl Iterator<Item = &Support> {
         self.movements.iter().map(|movement| &movement.support)
     }
 
-    /// What they do in the present step.
+    /// Prescribed kinematics of the current step.
     pub fn in_step(&self) -> &PrescribedKinematics {
         &self.prescribed
     }
 
-    /// Whether something prescribed moves at the start.
+    /// Returns true if a prescribed movement has a nonzero rate at the start.
     pub fn begins_with_a_rate(&self) -> bool {
         self.prescribed.rates.iter().skip(self.constraints).any(|rate| *rate != 0.0)
     }
 
-    /// Begins the sums of what the drives have given.
+    /// Resets the work of the drives.
     pub fn forget_work(&mut self) {
         self.drives.iter_mut().for_each(|drive| drive.work = 0.0);
     }
 
-    /// The largest turn that is prescribed in the present step [rad].
+    /// Largest prescribed rotation in the current step [rad].
     pub fn turn(&self) -> f64 {
         self.turn
     }
 
-    /// What the drives have given, in the order of the scene.
+    /// States of the drives, in the order of the scene.
     pub fn states(&self) -> impl Iterator<Item = DriveState<'_>> {
         self.drives.iter().enumerate().map(|(index, drive)| {
             let own = self.movements.iter().zip(&self.present);
@@ -205,17 +200,17 @@ impl PrescribedMovements {
         })
     }
 
-    /// The drives whose motion bends within a step, each with its sharpest bend.
+    /// Drives whose motion has a kink within a step, with the sharpest kink of each.
     pub fn bends(&self) -> impl Iterator<Item = (&str, MotionCurvature)> {
         let all = self.movements.iter().zip(&self.present);
         let bent = all.filter(|(_, present)| present.bend.size() > 0.0);
         bent.map(|(movement, present)| (self.drives[movement.drive].name.as_str(), present.bend))
     }
 
-    /// Finds what is prescribed in a step, with the rates at its start.
+    /// Evaluates prescribed movements in a step, including the rates at its start.
     ///
     /// # Errors
-    /// When a function has no finite value: the name of its drive, and why.
+    /// Name of the drive whose function has no finite value, and the reason.
     pub fn begin_step(
         &mut self,
         interval: Interval,
@@ -247,11 +242,11 @@ impl PrescribedMovements {
         Ok(())
     }
 
-    /// By how much rates that are prescribed jump at the start of a step, where their degrees of freedom are; none where none of them does. They may at
-    /// times at which a function is said to bend, and wherever a controller speaks.
+    /// Jumps of prescribed rates at the start of a step, by degree of freedom; `None` without a jump. Rates may jump at declared breaks of a function
+    /// and at samples of a controller.
     ///
     /// # Errors
-    /// When a function has no finite value.
+    /// Fails if a function has no finite value.
     pub fn jumps(&self, interval: Interval, rates: &[f64]) -> Result<Option<Vec<f64>>, LoadError> {
         let mut found = None;
         for (at, movement) in self.movements.iter().enumerate() {
@@ -265,7 +260,7 @@ impl PrescribedMovements {
         Ok(found)
     }
 
-    /// Room for rates of all movements, filled by a function of their number.
+    /// Fills the rate buffer from a function of the index.
     pub fn fill(&mut self, rate: impl FnMut(usize) -> f64) -> &[f64] {
         self.room.clear();
         let width = if self.movements.is_empty() { 0 } else { self.first + self.movements.len() };
@@ -273,21 +268,21 @@ impl PrescribedMovements {
         &self.room
     }
 
-    /// The accelerations of what is prescribed at the start of the step, where its degrees of freedom are; zero for what is unknown.
+    /// Prescribed accelerations at the start of the step, by degree of freedom; zero for unknowns.
     pub fn accelerations(&self) -> Vec<f64> {
         let behind = self.present.iter().map(|present| present.acceleration);
         let ahead = if self.movements.is_empty() { 0 } else { self.first };
         std::iter::repeat_n(0.0, ahead).chain(behind).collect()
     }
 
-    /// Takes the part of `M Δv` of a step that belongs to what is prescribed.
+    /// Stores the prescribed part of `M Δv` of a step.
     pub fn take_struck(&mut self, struck: &[f64]) {
         for (present, struck) in self.present.iter_mut().zip(&struck[self.first..]) {
             present.struck = *struck;
         }
     }
 
-    /// Takes the part of `M v̄` of a step that belongs to what is prescribed.
+    /// Stores the prescribed part of `M v̄` of a step.
     pub fn take_momentum(&mut self, bodies: &[Body], momentum: &[f64]) {
         for (movement, present) in self.movements.iter().zip(&mut self.present) {
             let Support { body, point, .. } = movement.support;
@@ -296,9 +291,9 @@ impl PrescribedMovements {
         }
     }
 
-    /// What the drives gave in the step of the movements that the bodies gathered last, with its reactions; their works are kept.
+    /// Work and impulse of the drives in the step whose movements the bodies gathered last. Their works are accumulated.
     ///
-    /// `mean` tells mean rates by degree of freedom.
+    /// `mean` returns the mean rate of a degree of freedom.
     pub fn exchange(
         &mut self,
         bodies: &[Body],
@@ -339,7 +334,7 @@ impl PrescribedMovements {
         sum
     }
 
-    /// What the drives gave in a blow, with its impulses, at these mean rates of everything, of before and after it.
+    /// Work and impulse of the drives in an impact, from its impulses and the mean of the rates before and after it.
     pub fn exchange_in_blow(
         &mut self,
         bodies: &[Body],
@@ -359,7 +354,6 @@ impl PrescribedMovements {
         sum
     }
 
-    /// Appends the state of the prescribed movements at the start of a step.
     pub fn save(&self, state: &mut Vec<f64>) {
         state.extend(
             self.present.iter().flat_map(|now| [now.acceleration, now.reaction, now.placed]),
@@ -369,7 +363,6 @@ impl PrescribedMovements {
         state.extend(self.drives.iter().map(|drive| drive.work));
     }
 
-    /// Takes the state of the prescribed movements back, in the order in which it was appended.
     pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         for present in &mut self.present {
             (present.acceleration, present.reaction) = (next(), next());

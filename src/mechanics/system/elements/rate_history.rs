@@ -1,10 +1,10 @@
-//! The rates of a step, for what resists them.
+//! Collocation of rates in a step, for dissipative elements.
 
 use super::collocation;
 use crate::beams::RateCollocation;
 use crate::integrators::Stage;
 
-/// How long the present step and the one before are [time]; a movement that takes no time has no rates.
+/// Durations of the current step and the previous one [time]. A movement of zero duration has no rates.
 #[derive(Debug, Clone, Copy)]
 pub struct RateHistory {
     duration: f64,
@@ -18,25 +18,23 @@ impl Default for RateHistory {
 }
 
 impl RateHistory {
-    /// Begins a step of a duration [time].
     pub fn begin(&mut self, duration: f64) {
         self.duration = duration;
     }
 
-    /// The duration of the present step, infinite in a movement that takes no time [time].
+    /// Duration of the current step, infinite in a movement of zero duration [time].
     pub fn duration(&self) -> f64 {
         self.duration
     }
 
-    /// Ends the step.
     pub fn end(&mut self) {
         self.before = if self.duration.is_finite() { self.duration } else { 0.0 };
     }
 
-    /// Where rates are taken by a method that takes forces of a stage with a weight; none where it has those of its start from elsewhere.
+    /// Collocation of rates for a stage with a weight; `None` at the start of a step.
     ///
-    /// They are taken once a step. A method that takes forces at both ends of it balances those of one time, `weight` of the step after
-    /// its start: the rate there follows from those in the middles of this step and of the last one.
+    /// Rates are evaluated once per step. A method with forces at both ends balances those at the time `weight` within the step. The rate there is
+    /// extrapolated from the middles of this step and the last one.
     pub fn at(&self, stage: Stage, weight: f64) -> Option<RateCollocation> {
         let by_change = 1.0 / self.duration;
         let rotations = collocation(stage).rotations;
@@ -55,12 +53,10 @@ impl RateHistory {
         }
     }
 
-    /// Appends the rates at the start of a step to a state.
     pub fn save(&self, state: &mut Vec<f64>) {
         state.push(self.before);
     }
 
-    /// Takes the rates at the start of a step back from a state.
     pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         self.before = next();
     }

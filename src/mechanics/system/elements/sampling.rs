@@ -1,32 +1,31 @@
-//! Functions of an elongation, sampled into tables of which the energy is known exactly.
+//! Functions of an elongation, sampled into tables with exactly known energy.
 
 use super::spring_law::SpringLaw;
 use crate::geometry::larger;
 
-/// The part of the largest force by which a polygon may be off a function.
+/// Allowed deviation of the polygon from the function, relative to the largest force.
 const TOLERANCE: f64 = 1e-7;
 
-/// Segments to begin with.
+/// Initial number of segments.
 const SEGMENTS: usize = 32;
 
-/// Most points of a sampled function.
+/// Largest number of points of a sampled function.
 const MOST_POINTS: usize = 20_000;
 
-/// Where a segment is looked at besides its middle, which a function that swings with the segments may meet by chance [-].
+/// Second test point of a segment besides its middle. An oscillating function may match at the middle by chance [-].
 const OFF_MIDDLE: f64 = 0.381_966;
 
-/// How many times the tolerance a polygon may be off there.
+/// Factor of the tolerance at the second test point.
 const OFF_MIDDLE_MARGIN: f64 = 4.0;
 
-/// The points of a polygon, elongation and force.
 type Polygon = Vec<(f64, f64)>;
 
 impl SpringLaw {
-    /// Samples a force over the elongations of a range, as many as make the polygon through them the function to 1e-7 of its largest value, at most
-    /// 20 000.
+    /// Samples a force over a range of elongations. Points are added until the polygon matches the function to 1e-7 of its largest value, up to 20
+    /// 000 points.
     ///
     /// # Errors
-    /// Those of the function.
+    /// Errors of the function.
     pub fn sampled<E>(
         (from, to): (f64, f64),
         mut force: impl FnMut(f64) -> Result<f64, E>,
@@ -55,7 +54,7 @@ impl SpringLaw {
         }
     }
 
-    /// How far a sampled law is off its function [force], and its largest force, where it misses what was promised; none where it keeps it.
+    /// Deviation from the function [force] and largest force, if the deviation exceeds the tolerance.
     pub fn missed(&self) -> Option<(f64, f64)> {
         let Self::Sampled { points, error } = self else { return None };
         let largest = largest_force(points);
@@ -67,8 +66,8 @@ fn largest_force(points: &[(f64, f64)]) -> f64 {
     points.iter().map(|(_, force)| force.abs()).fold(0.0, larger)
 }
 
-/// A polygon with a point more in every segment that is off its function by more than is allowed, where it is looked at: such a part of it after its
-/// beginning; and how far it is off at most.
+/// Polygon with an additional point in every segment that deviates by more than allowed at the given fraction of the segment, and the largest
+/// deviation.
 fn refined<E>(
     points: &[(f64, f64)],
     force: &mut impl FnMut(f64) -> Result<f64, E>,
@@ -108,7 +107,7 @@ mod tests {
             let missed = (law.force(q) - 100.0 * q - 50.0 * q * q * q).abs();
             assert!(missed < 1.2e-5, "{q}: {missed:e}");
         }
-        // Its energy is that of the polygon, and near that of the function.
+        // The energy is that of the polygon, close to that of the function.
         let (low, high) = (law.energy(-0.2), law.energy(0.7));
         let exact = |q: f64| 50.0 * q * q + 12.5 * q * q * q * q;
         assert!((high - low - exact(0.7) + exact(-0.2)).abs() < 1e-5);

@@ -1,4 +1,4 @@
-//! Springs, dampers and tendons as a scene describes them.
+//! Springs, dampers and tendons as described by a scene.
 
 use serde::{Deserialize, Serialize};
 
@@ -13,50 +13,50 @@ use crate::beams::{BodyIndex, Station};
 use crate::geometry::Vec2;
 use crate::system::{SystemError, Turning};
 
-/// Where a spring is attached.
+/// Attachment of a spring.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Anchor {
-    /// A station of a beam, or a particle.
+    /// Station of a beam, or a particle.
     Station(Station),
-    /// A point of the ground [length].
+    /// Point of the ground [length].
     Ground(Vec2),
 }
 
-/// What a spring measures.
+/// Quantity measured by a spring.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum SpringKind {
-    /// The length of the way over these places: two of a spring or a damper, more of a tendon, which slides over those between without friction.
+    /// Length of the path over these places: two for a spring or damper, more for a tendon, which slides over intermediate places without friction.
     Way(Vec<Anchor>),
-    /// The angle of the section of the second place less that of the first one; the ground does not turn.
+    /// Angle of the section of the second place minus that of the first. The ground does not rotate.
     Torsion([Anchor; 2]),
 }
 
-/// What the elongations of a law are counted from.
+/// Origin of the elongations of a law.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Origin {
-    /// Nothing: they are lengths and angles.
+    /// Zero: the law depends on the length or angle itself.
     Zero,
-    /// The length or the angle in the scene as it is built on its meshes: at zero it is as at the start.
+    /// Length or angle in the scene as built on its meshes.
     AsBuilt,
 }
 
-/// A spring, a damper, or both: a force along what it measures.
+/// Spring, damper, or both in parallel.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Spring {
-    /// What it is called in messages and columns.
+    /// Name in messages and columns.
     pub name: String,
-    /// What it measures.
+    /// Measured quantity.
     pub kind: SpringKind,
-    /// The force over what it measures; none of a damper alone.
+    /// Force over the measured quantity; `None` for a pure damper.
     pub law: Option<SpringLaw>,
-    /// What the elongations of the law are counted from.
+    /// Origin of the elongations of the law.
     pub origin: Origin,
-    /// The force of a damper over the rate of what it measures.
+    /// Damping force over the rate of the measured quantity.
     pub damping: DampingLaw,
 }
 
 impl Spring {
-    /// The places where it is attached, in their order.
+    /// Attachments, in their order.
     pub fn anchors(&self) -> &[Anchor] {
         match &self.kind {
             SpringKind::Way(anchors) => anchors,
@@ -64,7 +64,7 @@ impl Spring {
         }
     }
 
-    /// The anchors of the spring that are stations of bodies.
+    /// Attachments that are stations of bodies.
     pub fn stations(&self) -> impl Iterator<Item = &Station> {
         self.anchors().iter().filter_map(|anchor| match anchor {
             Anchor::Station(station) => Some(station),
@@ -219,13 +219,13 @@ impl ElementDef for Spring {
     }
 }
 
-/// The index of the first point of a polygon that is not behind the one before.
+/// Index of the first point whose abscissa does not increase.
 fn falling_behind(points: &[(f64, f64)]) -> Option<usize> {
     points.windows(2).position(|pair| pair[1].0 <= pair[0].0).map(|before| before + 1)
 }
 
 impl Spring {
-    /// Refuses points of a law of damping that make no polygon; where there are none, there is no polygon.
+    /// Rejects points of a damping law that do not form a polygon.
     fn check_damping(&self, points: &[(f64, f64)]) -> Result<(), SystemError> {
         let name = "damping";
         let refused =
@@ -240,7 +240,6 @@ impl Spring {
         }
     }
 
-    /// Refuses numbers of a polygon, called so, that are not finite.
     fn check_finite(&self, name: &'static str, points: &[(f64, f64)]) -> Result<(), SystemError> {
         let wrong = points.iter().flat_map(|(q, f)| [q, f]).find(|x| !x.is_finite());
         wrong.map_or(Ok(()), |wrong| {
@@ -249,7 +248,7 @@ impl Spring {
         })
     }
 
-    /// Refuses one whose ends cannot move against each other: neighbours that are one station, or nothing but ground.
+    /// Rejects springs whose ends cannot move relative to each other: equal neighbouring stations, or ground only.
     fn expect_movement(&self, setting: &dyn SceneChecks) -> Result<(), SystemError> {
         let idle = |[from, to]: [&Anchor; 2], why| {
             let [from, to] = [from, to].map(|anchor| match anchor {
@@ -286,7 +285,7 @@ impl Spring {
         Ok(())
     }
 
-    /// What it is, and its name.
+    /// Kind and name for messages.
     pub fn object(&self) -> String {
         match (&self.kind, &self.law) {
             (_, None) => format!("damper '{}'", self.name),

@@ -1,12 +1,11 @@
-//! How springs resist small movements from rest.
+//! Stiffness of springs at rest.
 
 use super::elongation::Elongation;
 use super::spring_law::SpringLaw;
 use crate::beams::SpanStiffness;
 use crate::system::bodies::Body;
 
-/// The degrees of freedom of a spring with a law along an elongation, in their order, and how it resists their movements: by the slope of its law, and by its
-/// force, which turns with every part of its way.
+/// Degrees of freedom and stiffness of a spring at rest: material part from the slope of the law, geometric part from its force.
 pub fn law_at_rest(
     law: &SpringLaw,
     elongation: &Elongation,

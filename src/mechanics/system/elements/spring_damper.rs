@@ -21,50 +21,50 @@ use crate::integrators::{Interval, Stage};
 use crate::linalg::BandedMatrix;
 use crate::system::bodies::Body;
 
-/// A part of what rounding of an elongation is relative to. Forces of a law with corners are to fit to so small a part of it: what is left does not die out by
-/// itself, as it does where the law is a line, which the next iteration meets.
+/// Tolerance of forces of laws with corners, relative to the rounding scale of the elongation. Mismatches of a linear law vanish in the next
+/// iteration; those of a law with corners do not.
 const SHARP: f64 = 2e-4;
 
-/// A spring, a damper, or both beside each other.
+/// Spring, damper, or both in parallel.
 #[derive(Debug, Clone)]
 pub struct SpringDamper {
     name: String,
     elongation: Elongation,
-    /// Secant, slope and lag of the last linearisation, whose directions corrections take.
+    /// Secant, slope and lag of the last linearisation, used by corrections.
     linearised: [Vec<f64>; 3],
-    /// The derivative of the force by the coordinates, row by row.
+    /// Derivative of the force with respect to the coordinates, row by row.
     tangent: Vec<f64>,
-    /// Where each terminal that is the ground is [length].
+    /// Places of terminals on the ground [length].
     grounds: Vec<Option<Vec2>>,
-    /// Over what the elongation has grown by since the scene was built.
+    /// Law over the growth of the elongation since the scene was built.
     law: Option<SpringLaw>,
-    /// Whether the law has corners and falls nowhere.
+    /// True if the law has corners and is monotonically increasing.
     rises: bool,
-    /// Where the stiffness of the law jumps, over what the elongation has grown by [length, rad].
+    /// Growths at which the stiffness jumps [length, rad].
     corners: Vec<f64>,
-    /// The law in words, over elongations as they are counted in the scene.
+    /// Description of the law in terms of the elongations of the scene.
     words: Option<String>,
     /// `d(q̇)`.
     damping: DampingLaw,
-    /// Law and damping that it had before it let go: one that has let go has neither.
+    /// Law and damping before a release.
     released: Option<(Option<SpringLaw>, DampingLaw)>,
     spring: MixedForce,
     damper: MixedForce,
-    /// `Δt`; infinite in movements that take no time [time].
+    /// `Δt`; infinite in movements of zero duration [time].
     duration: f64,
     /// `Δt` and `Δq/Δt` of the last step.
     last: (f64, f64),
     rotations: RotationIncrement,
-    /// The coordinates of its forces on bodies that the method took from the start of the step, and from the iterate.
+    /// Coordinates of its forces at the start of the step, and in the iterate.
     carried: Vec<f64>,
     current: Vec<f64>,
     dissipated: f64,
-    /// Of a law that is none at times.
+    /// Monitor of contact phases, for laws that can be slack.
     contact: ContactWatch,
 }
 
 impl SpringDamper {
-    /// A spring with a law and what its elongations are counted from, a damper with one, or both, along an elongation.
+    /// Creates a spring with a law and its origin, a damper, or both along an elongation.
     pub fn new(
         name: String,
         elongation: Elongation,
@@ -105,7 +105,7 @@ impl SpringDamper {
         new
     }
 
-    /// Takes an iterate, and where a damper counts at a time of its own its direction there.
+    /// Evaluates an iterate, including the lag of a damper with its own time.
     fn take(&mut self, at: TrialState<'_>) {
         self.elongation.take(at);
         if self.damping.acts() {
@@ -114,7 +114,7 @@ impl SpringDamper {
         }
     }
 
-    /// The damper counts once a step, the spring as the method weighs it.
+    /// Dampers are weighted once per step, springs by the weight of the stage.
     fn weighted(&self, at: TrialState<'_>, spring: f64, damper: f64) -> f64 {
         match at.stage {
             Stage::Start => at.weight * spring,
@@ -122,7 +122,7 @@ impl SpringDamper {
         }
     }
 
-    /// Notes a force along the secant, and that of the damper along the lag.
+    /// Records a force along the secant, and that of the damper along the lag.
     fn note(&mut self, stage: Stage, force: f64, damper: f64) {
         let Self { elongation: Elongation { secant, lag, .. }, carried, current, .. } = self;
         let noted = if stage == Stage::Start { carried } else { current };
@@ -207,7 +207,7 @@ impl InternalForce for SpringDamper {
         if self.damping.acts() {
             self.elongation.scatter(&self.elongation.lag, damping.force, out);
         }
-        // The geometric terms with the force of the iterate.
+        // Geometric terms use the force of the iterate.
         let stiffness = self.weighted(at, restoring.stiffness, damping.stiffness);
         let force = self.weighted(at, self.spring.force, self.damper.force);
         let Elongation { secant, slope, bend, lag, lag_bend, .. } = &self.elongation;
@@ -245,7 +245,7 @@ impl InternalForce for SpringDamper {
         self.damper.correct(change);
     }
 
-    /// The ground does not move, so that it does no work.
+    /// The ground does not move, so it does no work.
     fn exchange(&self, _bodies: &[Body], duration: f64) -> WorkAndImpulse {
         let given = |at: usize| (self.carried[at] + self.current[at]) * duration;
         let mut sum = WorkAndImpulse::default();
@@ -319,7 +319,7 @@ impl InternalForce for SpringDamper {
         }
     }
 
-    /// As a spring that snaps: what it stored rings out in itself.
+    /// The stored energy of a broken spring is dissipated in the spring.
     fn let_go(&mut self) {
         self.dissipated += self.stored();
         self.detach();

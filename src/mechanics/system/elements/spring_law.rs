@@ -1,46 +1,46 @@
-//! Laws of restoring forces: a force over an elongation, with the energy that it stores.
+//! Laws of restoring forces over an elongation, with their stored energy.
 
 use serde::{Deserialize, Serialize};
 
 use super::coordinate::Coordinate;
 use crate::geometry::larger;
 
-/// A force is none that is no more than this part of the largest of its law.
+/// Forces below this fraction of the largest of the law count as zero.
 const ROUNDING: f64 = 1e-12;
 
-/// A corner is sharp where the stiffness changes by more than this part of the largest of its law.
+/// A corner is sharp if the stiffness changes by more than this fraction of the largest.
 const SHARP: f64 = 0.5;
 
-/// A restoring force over an elongation `q`, a length or an angle.
+/// Restoring force over an elongation `q`, a length or an angle.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum SpringLaw {
     /// `k (q - q₀)`
     Linear {
         /// `k` [force/length, or force·length/rad].
         stiffness: f64,
-        /// `q₀`, where it is at ease [length, rad].
+        /// `q₀`, the natural length or angle [length, rad].
         natural: f64,
     },
-    /// A polygon through points, and beyond the first and the last one as in the segment beside them.
+    /// Polygon through points, extrapolated by its first and last segments.
     Table {
-        /// Elongations `q` [length, rad], rising, each with the force there [force, force·length]; at least two.
+        /// Increasing elongations `q` [length, rad] with forces [force, force·length]; at least two.
         points: Vec<(f64, f64)>,
     },
-    /// A function that was asked when the scene was described, and is a table from then on.
+    /// Function that was sampled when the scene was described.
     Sampled {
-        /// As those of a table.
+        /// Increasing elongations with forces, as in a table.
         points: Vec<(f64, f64)>,
-        /// How far the function is from the polygon in the middle of its segments at most [force, force·length].
+        /// Largest deviation of the function from the polygon in the middle of a segment [force, force·length].
         error: f64,
     },
 }
 
-/// The mean force of a step: the discrete gradient of the stored energy (Gonzalez 1996), with its derivative.
+/// Mean force of a step: the discrete gradient of the stored energy (Gonzalez 1996), with its derivative.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeanForce {
-    /// The mean force `G = ΔU/Δq` of a step, or `U'` where nothing changes [force, force·length].
+    /// Mean force `G = ΔU/Δq`, or `U'` for zero change [force, force·length].
     pub force: f64,
-    /// The derivative `∂G/∂q₁` of that force by the coordinate at the end of the step [force/length, force·length/rad].
+    /// Derivative `∂G/∂q₁` with respect to the coordinate at the end of the step [force/length, force·length/rad].
     pub slope: f64,
 }
 
@@ -51,7 +51,7 @@ impl SpringLaw {
         match self {
             Self::Linear { stiffness, natural } => stiffness * (q.value - natural),
             Self::Table { points } | Self::Sampled { points, .. } => {
-                // From the smaller of both forces on: nothing is left of a larger one but its rounding.
+                // Interpolates from the smaller force. From the larger one, only its rounding would remain.
                 let [first, second] = segment(points, q);
                 let (at, force) = if first.1.abs() <= second.1.abs() { first } else { second };
                 force + self.slope(q) * q.beyond(at)
@@ -59,7 +59,7 @@ impl SpringLaw {
         }
     }
 
-    /// The stiffness `U''(q)`; at a corner of a table that of the segment beyond it [force/length, force·length/rad].
+    /// Stiffness `U''(q)`; at a corner that of the upper segment [force/length, force·length/rad].
     pub fn slope(&self, q: impl Into<Coordinate>) -> f64 {
         match self {
             Self::Linear { stiffness, .. } => *stiffness,
@@ -70,7 +70,7 @@ impl SpringLaw {
         }
     }
 
-    /// The largest stiffness of the law, whatever its sign [force/length, force·length/rad].
+    /// Largest absolute stiffness [force/length, force·length/rad].
     pub fn largest_slope(&self) -> f64 {
         match self {
             Self::Linear { stiffness, .. } => stiffness.abs(),
@@ -80,7 +80,7 @@ impl SpringLaw {
         }
     }
 
-    /// Whether it has corners, and a force that falls nowhere.
+    /// Returns true if the law has corners and its force never decreases.
     pub fn rises_with_corners(&self) -> bool {
         match self {
             Self::Linear { .. } => false,
@@ -90,7 +90,7 @@ impl SpringLaw {
         }
     }
 
-    /// The elongations at which the stiffness jumps, by more than half of the largest that the law has [length, rad].
+    /// Elongations at which the stiffness jumps by more than half of its largest value [length, rad].
     pub fn sharp_corners(&self) -> Vec<f64> {
         match self {
             Self::Linear { .. } => Vec::new(),
@@ -106,7 +106,7 @@ impl SpringLaw {
         }
     }
 
-    /// Whether the force is none in a whole segment: slack, or not in touch.
+    /// Returns true if the force vanishes in a whole segment (slack, or no contact).
     pub fn may_be_slack(&self) -> bool {
         match self {
             Self::Linear { .. } => false,
@@ -116,7 +116,7 @@ impl SpringLaw {
         }
     }
 
-    /// Whether there is no force at an elongation, as far as rounding and what was sampled can tell.
+    /// Returns true if the force vanishes at an elongation, within rounding and sampling error.
     pub fn is_at_ease(&self, q: f64) -> bool {
         let off = match self {
             Self::Linear { stiffness, natural } => ROUNDING * (stiffness * natural).abs(),
@@ -126,7 +126,7 @@ impl SpringLaw {
         self.force(q).abs() <= off
     }
 
-    /// The stored energy `U(q)`, zero at ease; where a table has no such place, at its first point [energy].
+    /// Stored energy `U(q)`, zero where the force vanishes, or at the first point of a table without such a place [energy].
     pub fn energy(&self, q: impl Into<Coordinate>) -> f64 {
         let q = q.into();
         match self {
@@ -139,7 +139,7 @@ impl SpringLaw {
         }
     }
 
-    /// The work `∫ F dq` from one elongation of a table to another, corner by corner: no difference of large numbers.
+    /// Work `∫ F dq` between two elongations of a table, summed by segment to avoid differences of large numbers.
     fn work(&self, points: &[(f64, f64)], from: Coordinate, to: Coordinate) -> f64 {
         let rises = to.beyond_other(from) >= 0.0;
         let (low, high) = if rises { (from, to) } else { (to, from) };
@@ -157,7 +157,7 @@ impl SpringLaw {
         if rises { sum } else { -sum }
     }
 
-    /// The mean force between two elongations, the second of which is the first and a change.
+    /// Mean force between the elongations `q` and `q + change`.
     pub fn mean(&self, q: impl Into<Coordinate>, change: f64) -> MeanForce {
         let q = q.into();
         let end = q.after(change);
@@ -179,7 +179,7 @@ impl SpringLaw {
         }
     }
 
-    /// The same law with a corner wherever its force is none, from which it is counted there to all digits.
+    /// Returns the law with a corner at each zero of its force, so that small forces there are exact.
     pub fn with_ease(mut self) -> Self {
         if let Self::Table { points } | Self::Sampled { points, .. } = &mut self {
             let crossing = |pair: &[(f64, f64)]| {
@@ -194,7 +194,7 @@ impl SpringLaw {
         self
     }
 
-    /// The same law with its elongations counted from another origin, which is this far below.
+    /// Returns the law with its elongations shifted by `by`.
     pub fn shifted(&self, by: f64) -> Self {
         match self {
             Self::Linear { stiffness, natural } => {
@@ -207,7 +207,7 @@ impl SpringLaw {
         }
     }
 
-    /// The law in words.
+    /// Description of the law for messages.
     pub fn describe(&self) -> String {
         match self {
             Self::Linear { stiffness, natural } => {
@@ -228,7 +228,7 @@ fn largest(points: &[(f64, f64)]) -> f64 {
     points.iter().map(|(_, force)| force.abs()).fold(0.0, larger)
 }
 
-/// That of a segment [force/length, force·length/rad]; zero of one without length, which no checked law has.
+/// Slope of a segment [force/length, force·length/rad]; zero for an empty segment, which no checked law has.
 fn slope([a, b]: [(f64, f64); 2]) -> f64 {
     if b.0 > a.0 { (b.1 - a.1) / (b.0 - a.0) } else { 0.0 }
 }
@@ -237,14 +237,14 @@ fn moved(points: &[(f64, f64)], by: f64) -> Vec<(f64, f64)> {
     points.iter().map(|(q, force)| (q + by, *force)).collect()
 }
 
-/// The ends of the segment of a table that an elongation lies on, or is nearest to; at a corner the one beyond it.
+/// Ends of the segment at or nearest to an elongation; at a corner the upper one.
 fn segment(points: &[(f64, f64)], q: Coordinate) -> [(f64, f64); 2] {
     let beyond = points.partition_point(|(at, _)| q.beyond(*at) >= 0.0);
     let beyond = beyond.clamp(1, points.len() - 1);
     [points[beyond - 1], points[beyond]]
 }
 
-/// Where the line through two points has no force; the first point of a level line.
+/// Zero of the line through two points; the first point of a level line.
 fn zero((q0, f0): (f64, f64), (q1, f1): (f64, f64)) -> f64 {
     match (f1 == f0, f1 == 0.0) {
         (true, _) => q0,
@@ -253,7 +253,7 @@ fn zero((q0, f0): (f64, f64), (q1, f1): (f64, f64)) -> f64 {
     }
 }
 
-/// Where the force of a table passes from below to above zero, or beyond its ends would: the least energy. The first point if it does not.
+/// Elongation of least energy, where the force of a table or its extrapolation changes from negative to positive; otherwise the first point.
 fn ease(points: &[(f64, f64)]) -> f64 {
     let passes = |pair: &&[(f64, f64)]| pair[0].1 <= 0.0 && pair[1].1 >= 0.0;
     let last = points.len() - 1;
@@ -337,7 +337,7 @@ mod tests {
         assert_eq!(table.sharp_corners(), [0.0, 0.5]);
         let hardening = |q: f64| Ok::<f64, ()>(q + q * q * q);
         assert!(SpringLaw::sampled((-1.0, 1.0), hardening).unwrap().sharp_corners().is_empty());
-        // Nor are there where the stiffness passes zero.
+        // Nor at zeros of the stiffness.
         let cubic = |q: f64| Ok::<f64, ()>(q * q * q);
         let waves = |q: f64| Ok::<f64, ()>((3.0 * q) - q * q * q);
         assert!(SpringLaw::sampled((-1.0, 1.0), cubic).unwrap().sharp_corners().is_empty());

@@ -1,11 +1,11 @@
-//! What supports give.
+//! Supports and their reactions.
 
 use super::{PrescribedMovements, WorkAndImpulse};
 use crate::geometry::{Vec2, cross};
 use crate::joints::Component;
 use crate::system::bodies::Body;
 
-/// A supported degree of freedom: the body, its control point and the component that does not move.
+/// Supported degree of freedom: body, control point and component.
 #[derive(Debug, Clone, Copy)]
 pub struct Support {
     pub body: usize,
@@ -14,7 +14,7 @@ pub struct Support {
 }
 
 impl Support {
-    /// A reaction as a force and a moment.
+    /// Returns a reaction as force and moment.
     pub fn reaction(&self, reaction: f64) -> (Vec2, f64) {
         match self.component {
             Component::X => (Vec2::new(reaction, 0.0), 0.0),
@@ -24,45 +24,39 @@ impl Support {
     }
 }
 
-/// The supports of a model, in the order of their degrees of freedom, which stand last of all: those that move as is prescribed, then those that do not
-/// move.
+/// Supports of a model, numbered after all other degrees of freedom: prescribed ones first, then fixed ones.
 pub struct Supports {
     prescribed: PrescribedMovements,
     held: Vec<Support>,
 }
 
 impl Supports {
-    /// The supports of a model: prescribed movements, and held ones in the order of their degrees of freedom.
     pub fn new(prescribed: PrescribedMovements, held: Vec<Support>) -> Self {
         Self { prescribed, held }
     }
 
-    /// The number of supported degrees of freedom.
     pub fn count(&self) -> usize {
         self.prescribed.count() + self.held.len()
     }
 
-    /// The supports, in the order of their degrees of freedom.
     pub fn iter(&self) -> impl Iterator<Item = &Support> {
         self.prescribed.supports().chain(&self.held)
     }
 
-    /// The supports that hold still.
+    /// Fixed supports.
     pub fn held(&self) -> impl Iterator<Item = &Support> {
         self.held.iter()
     }
 
-    /// The supports whose motion is prescribed.
     pub fn prescribed(&self) -> &PrescribedMovements {
         &self.prescribed
     }
 
-    /// The supports whose motion is prescribed, to be moved.
     pub fn prescribed_mut(&mut self) -> &mut PrescribedMovements {
         &mut self.prescribed
     }
 
-    /// The supports with their reactions, which are the last entries of a residual.
+    /// Supports with their reactions, the last entries of a residual.
     fn with_reactions<'a>(
         &'a self,
         residual: &'a [f64],
@@ -71,9 +65,9 @@ impl Supports {
         self.iter().zip(residual[first..].iter().copied())
     }
 
-    /// The impulse that the supports give that hold still, in the step of the movements that the bodies gathered last, with its reactions.
+    /// Impulse of the fixed supports in the step whose movements the bodies gathered last.
     ///
-    /// What is free moves, as a roller does: they act at the mean place.
+    /// Reactions act at the mean position, as a roller moves in its free direction.
     pub fn exchange(&self, bodies: &[Body], residual: &[f64], duration: f64) -> WorkAndImpulse {
         self.impulse(residual, duration, |body, point| {
             let [x, y, _] = bodies[body].moved()[point];
@@ -81,7 +75,7 @@ impl Supports {
         })
     }
 
-    /// The impulse that these supports give in a blow, which moves nothing, with its impulses.
+    /// Impulse of the fixed supports in an impact.
     pub fn exchange_in_blow(&self, bodies: &[Body], impulses: &[f64]) -> WorkAndImpulse {
         self.impulse(impulses, 1.0, |body, point| bodies[body].dynamics.control_points()[point])
     }
@@ -102,9 +96,8 @@ impl Supports {
         sum
     }
 
-    /// The force [force] and the moment [force·length] on some nodes, bodies and control points, and against the rotation of bodies that turn as a whole,
-    /// with the reactions of a residual; none
-    /// where nothing is held.
+    /// Reaction force [force] and moment [force·length] on some nodes (body and control point) and rigid bodies (rotation); `None` if nothing is
+    /// supported there.
     pub fn force_on(
         &self,
         nodes: &[(usize, usize)],

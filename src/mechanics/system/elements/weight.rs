@@ -1,4 +1,4 @@
-//! The weight of everything.
+//! Weight of the bodies.
 
 use super::load_vector::LoadVector;
 use super::point_mass::NodalMass;
@@ -8,14 +8,13 @@ use crate::geometry::Vec2;
 use crate::integrators::Method;
 use crate::system::bodies::Body;
 
-/// The weight of beams and point masses: constant forces, with a potential of their own.
+/// Weight of beams and point masses: constant forces with a potential.
 pub struct Weight {
     gravity: Vec2,
     forces: LoadVector,
 }
 
 impl Weight {
-    /// The weight of beams in a field of gravity [length/time²].
     pub fn new<'a>(gravity: Vec2, beams: impl Iterator<Item = &'a dyn BodyDynamics>) -> Self {
         let mut forces = LoadVector::default();
         for (index, beam) in beams.enumerate() {
@@ -27,12 +26,11 @@ impl Weight {
         Self { gravity, forces }
     }
 
-    /// The part of the potential that belongs to a body [energy].
+    /// Potential energy of a body [energy].
     pub fn energy_of(&self, bodies: &[Body], body: usize) -> f64 {
         -self.forces.potential_work_on(bodies, |other| other == body)
     }
 
-    /// Adds the weight of a point mass.
     pub fn add(&mut self, mass: &NodalMass) {
         for (point, share) in mass.place.weights() {
             let force = self.gravity * (share * mass.mass);
@@ -51,7 +49,7 @@ impl ExternalForce for Weight {
         self.forces.largest(1.0)
     }
 
-    /// Its work is the change of the potential.
+    /// The work is accounted for as the change of the potential.
     fn exchange(&self, bodies: &[Body], duration: f64) -> WorkAndImpulse {
         WorkAndImpulse { work: 0.0, ..self.forces.exchange(bodies, 1.0, duration) }
     }

@@ -1,26 +1,26 @@
-//! What a model exchanges with its surroundings.
+//! Exchange of a model with its surroundings.
 
 use crate::geometry::Vec2;
 
-/// Work [energy], impulse [force·time] and angular impulse about the origin [force·length·time], summed up.
+/// Sums of work [energy], impulse [force·time] and angular impulse about the origin [force·length·time].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct WorkAndImpulse {
     pub work: f64,
     pub impulse: Vec2,
     pub angular_impulse: f64,
-    /// The sum of the magnitudes of all impulses, which do not cancel [force·time].
+    /// Sum of the magnitudes of all impulses [force·time].
     pub gross_impulse: f64,
     pub gross_angular_impulse: f64,
 }
 
 impl WorkAndImpulse {
-    /// The exchange of a single force or moment: its work, impulse and angular impulse.
+    /// Exchange of a single force or moment.
     pub fn of(work: f64, impulse: Vec2, angular_impulse: f64) -> Self {
         let (gross_impulse, gross_angular_impulse) = (impulse.norm(), angular_impulse.abs());
         Self { work, impulse, angular_impulse, gross_impulse, gross_angular_impulse }
     }
 
-    /// The exchange of a part of a step that leads back in time: it takes away what the other parts give twice.
+    /// Negated gross impulses, for the part of a step that runs back in time.
     pub fn taken_back(self) -> Self {
         Self {
             gross_impulse: -self.gross_impulse,

@@ -1,8 +1,8 @@
-//! Springs whose ends may pass through one another: no force is left where they meet.
+//! Springs of zero natural length, whose ends may coincide.
 //!
-//! A linear one without length at ease pulls with `k` times the way between its ends, a linear law of both its components. Along the way it would be `k ℓ` in
-//! a direction that changes without bound where the ends meet. By components there is no direction: `U = ½ k (x² + y²)`. Any other law is one of the length.
-//! The damper beside either takes the rate along the mean way, as the rate of a length says nothing of ends that pass through one another within a step.
+//! A linear spring of zero natural length acts on both components: `U = ½ k (x² + y²)`. Along the connecting vector its force `k ℓ` would have an
+//! unbounded change of direction where the ends meet. Other laws act on the length. The parallel damper uses the rate along the mean vector, because
+//! the rate of a length fails for ends that pass through each other within a step.
 
 use super::damping_law::DampingLaw;
 use super::elongation::{Elongation, ElongationEnd};
@@ -17,14 +17,14 @@ use crate::integrators::Interval;
 use crate::linalg::BandedMatrix;
 use crate::system::bodies::Body;
 
-/// A spring along x and one along y, which are one, or one along the way; and a damper along the way, if there is one.
+/// Springs along x and y, or one along the length, with an optional damper along the connecting vector.
 pub struct ZeroLengthSpring {
     along: Vec<SpringDamper>,
     damper: Option<PointDamper>,
 }
 
 impl ZeroLengthSpring {
-    /// A spring of a stiffness [force/length] with a damper between two terminals, which are at these places at the start.
+    /// Creates a linear spring [force/length] with a damper between two terminals at the given initial places.
     pub fn new(
         name: &str,
         terminals: [ElongationEnd; 2],
@@ -43,7 +43,7 @@ impl ZeroLengthSpring {
         Self::beside(name, along, terminals, at, grounds, damping)
     }
 
-    /// A spring with a law of the length, counted from an origin, with a damper between two terminals, which are at these places at the start.
+    /// Creates a spring with a law of the length and a damper between two terminals at the given initial places.
     pub fn of_law(
         name: &str,
         terminals: [ElongationEnd; 2],
@@ -81,7 +81,7 @@ impl ZeroLengthSpring {
         along.chain(self.damper.iter_mut().map(|part| part as &mut dyn InternalForce))
     }
 
-    /// What the springs measure and their force: of both components the sizes.
+    /// Elongation and force, as magnitudes of both components.
     fn whole(&self) -> Option<SpringTrialState> {
         let [x, y] = self.along.as_slice() else { return self.along[0].stretched() };
         let (x, y) = (x.stretched()?, y.stretched()?);

@@ -1,369 +1,369 @@
-//! What can be wrong with a scene.
+//! Errors of the description of a scene.
 
 use super::{SliderError, TrackError};
 use crate::beams::BeamError;
 use crate::geometry::GeometryError;
 use crate::loads::LoadError;
 
-/// A scene that cannot be described or built.
+/// Scene that cannot be described or built.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SystemError {
-    /// There is nothing to simulate.
+    /// Scene without bodies.
     #[error("the scene '{scene}' has no beams, no particles and no bodies")]
     Empty {
-        /// The name of the scene with nothing in it.
+        /// Name of the empty scene.
         scene: String,
     },
-    /// A name that nobody could read or type.
+    /// Name that is empty or cannot be read or typed.
     #[error("{name:?} is no name for a {kind}: {why}; use letters, numbers and spaces")]
     Unnamed {
-        /// The kind of thing that should have the unreadable name.
+        /// Kind of the object.
         kind: &'static str,
-        /// The unreadable name.
+        /// Rejected name.
         name: String,
-        /// The reason why the name cannot be read.
+        /// Reason.
         why: &'static str,
     },
-    /// Two things of a scene with the same name.
+    /// Name used by two objects.
     #[error("the scene already has a {kind} '{name}'; give this {new} another name")]
     DuplicateName {
-        /// The kind of thing that has the name already.
+        /// Kind of the existing object.
         kind: &'static str,
-        /// The kind of thing that should have the name as well.
+        /// Kind of the new object.
         new: &'static str,
-        /// The name that two things would share.
+        /// Name of both.
         name: String,
     },
-    /// A station off its beam.
+    /// Station outside its beam.
     #[error("station {station} is outside [0, {length}] of beam '{beam}'")]
     StationOutside {
-        /// The name of the beam whose station was asked for.
+        /// Name of the beam.
         beam: String,
-        /// The arc length asked for, which is off the beam [length].
+        /// Requested arc length [length].
         station: f64,
-        /// The length of the beam whose station was asked for [length].
+        /// Length of the beam [length].
         length: f64,
     },
-    /// An outline of a rigid body that cannot be drawn.
+    /// Outline of a rigid body that cannot be drawn.
     #[error("the outline of body '{body}' cannot be drawn: {why}")]
     Outline {
-        /// The name of the rigid body.
+        /// Name of the rigid body.
         body: String,
-        /// Why.
+        /// Reason.
         why: &'static str,
     },
-    /// A point that a rigid body does not have.
+    /// Unknown point of a rigid body.
     #[error("body '{body}' has no point '{point}'; it has {}", if known.is_empty() { "none but its centre" } else { known })]
     NoPoint {
-        /// The name of the rigid body.
+        /// Name of the rigid body.
         body: String,
-        /// The name that was asked for.
+        /// Requested name.
         point: String,
-        /// The names of its points, in words.
+        /// List of its points.
         known: String,
     },
-    /// Rigid bodies that are held more often than they can move.
+    /// Rigid bodies with redundant restraints.
     #[error(
         "body '{body}' is held more often than it can move: joints of its points ask for the same twice, and their forces are not determined; remove one of them, or let a beam take the place of a body"
     )]
     HeldTwice {
-        /// The name of a rigid body whose forces are not determined.
+        /// Name of a rigid body whose constraint forces are undetermined.
         body: String,
     },
-    /// A rigid body without inertia whose angle nothing holds.
+    /// Rigid body without inertia and without restraint of its angle.
     #[error(
         "body '{body}' has no inertia, and nothing holds its angle or acts on it beside its centre, so that nothing determines how it turns"
     )]
     Inertialess {
-        /// The name of the body that turns against nothing.
+        /// Name of the body.
         body: String,
     },
-    /// A rigid body without mass that nothing holds.
+    /// Rigid body without mass and without restraint.
     #[error(
         "body '{body}' has no mass, and nothing holds it, so that nothing determines how it moves"
     )]
     Massless {
-        /// The name of the body that moves against nothing.
+        /// Name of the body.
         body: String,
     },
-    /// A start velocity of a single point of a rigid body.
+    /// Start velocity of a single point of a rigid body.
     #[error("{object}: the points of a body move with it")]
     PointAlone {
-        /// The start velocity of the point, in words.
+        /// Description of the start velocity.
         object: String,
     },
     /// Section forces of a particle, which has no section.
     #[error("{body} has no cross section")]
     NoSection {
-        /// The particle whose section forces were asked for, in words.
+        /// Description of the particle.
         body: String,
     },
-    /// Forces at a moment at which there are none.
+    /// Forces at a time at which they are undetermined.
     #[error("forces and accelerations at t = {time} cannot be had: {reason}")]
     NoInstant {
-        /// When.
+        /// The time [time].
         time: f64,
-        /// Why.
+        /// Reason.
         reason: String,
     },
-    /// A quantity to record that there is not.
+    /// Unknown quantity.
     #[error("there is no quantity '{name}' to record: {why}")]
     NoSensor {
-        /// What was asked for.
+        /// Requested name.
         name: String,
-        /// What is wrong with it.
+        /// Reason.
         why: String,
     },
-    /// A name that cannot be that of a column.
+    /// Name that is not usable for a column.
     #[error("'{}' cannot be the name of a column: give it one without comma, quotation mark and line break", name.escape_debug())]
     SensorName {
-        /// The name.
+        /// Rejected name.
         name: String,
     },
-    /// A quantity that is recorded already.
+    /// Quantity that is recorded already.
     #[error("'{name}' is a column of the history already; give this one another name")]
     DuplicateSensor {
-        /// Its name.
+        /// Name of the column.
         name: String,
     },
-    /// A joint that would tie a place to itself.
+    /// Joint that connects a place to itself.
     #[error("{joint}: both stations are the same place of {body}; a joint needs two places")]
     JointWithItself {
-        /// The name of the joint that would tie a place to itself.
+        /// Name of the joint.
         joint: String,
-        /// The beam or particle that would be tied to itself, in words.
+        /// Description of the body.
         body: String,
     },
-    /// A spring that can do nothing.
+    /// Spring without effect.
     #[error(
         "{spring}: it would act from {from} to {to}, {why}, and can do nothing; give one of both another place"
     )]
     IdleSpring {
-        /// The spring that can do nothing, in words.
+        /// Description of the spring.
         spring: String,
-        /// Where it would begin, in words.
+        /// Description of its start.
         from: String,
-        /// Where it would end, in words.
+        /// Description of its end.
         to: String,
-        /// Why it can do nothing.
+        /// Reason.
         why: &'static str,
     },
-    /// A table of a spring whose elongations do not rise.
+    /// Table of a spring whose elongations do not increase.
     #[error(
         "{object}: the elongation at index {index} of its table is {elongation}, and the one before is {before}: they must rise from point to point"
     )]
     TableOrder {
-        /// The spring with the table, in words.
+        /// Description of the spring.
         object: String,
-        /// The index of the point whose elongation does not rise, from 0.
+        /// Index of the point whose elongation does not increase, from 0.
         index: usize,
-        /// The elongation there [length, rad].
+        /// Elongation of that point [length, rad].
         elongation: f64,
-        /// The elongation of the point before [length, rad].
+        /// Elongation of the previous point [length, rad].
         before: f64,
     },
-    /// A joint whose partners do not meet.
+    /// Joint whose partners do not meet.
     #[error(
         "{joint}: its stations at {from} and {to} are {gap} apart; they must lie at the same place when the scene starts: move one of them"
     )]
     OpenJoint {
-        /// The name of the joint whose partners do not meet.
+        /// Name of the joint.
         joint: String,
-        /// The first partner of the joint in words.
+        /// Description of the first partner.
         from: String,
-        /// The second partner of the joint in words.
+        /// Description of the second partner.
         to: String,
-        /// The distance between the partners that do not meet [length].
+        /// Distance between the partners [length].
         gap: f64,
     },
-    /// A joint of a place whose movement is already tied in that way.
+    /// Joint at a place that is joined or supported in the same way already.
     #[error("{joint}: {place} is already {how}; remove one of the two joints")]
     AlreadyTied {
-        /// The name of the joint that would tie a place again.
+        /// Name of the joint.
         joint: String,
-        /// The place that is tied already, in words.
+        /// Description of the place.
         place: String,
-        /// What ties the place already, in words.
+        /// Existing joint or support of the place.
         how: String,
     },
-    /// A damper whose law pushes at some rate, or at rest.
+    /// Damping law that adds energy at some rate, or has a force at rest.
     #[error("{damper}: {feeding}")]
     FeedingDamper {
-        /// The damper whose law pushes, in words.
+        /// Description of the damper.
         damper: String,
-        /// Where it does, and what should be given, in words.
+        /// Range that adds energy, and how to correct it.
         feeding: String,
     },
-    /// Something that would hold what a drive moves.
+    /// Support of a component that a drive prescribes.
     #[error(
         "the {component} of {place} is given by '{drive}' already: it cannot be held besides; give or hold each movement once"
     )]
     HeldAndDriven {
-        /// The component that is given, in words.
+        /// Prescribed component.
         component: &'static str,
-        /// The place that is moved, in words.
+        /// Description of the place.
         place: String,
-        /// The name of the drive.
+        /// Name of the drive.
         drive: String,
     },
-    /// A motion that is given to what is held, or moved by another drive, already.
+    /// Prescribed motion of a component that is supported or prescribed already.
     #[error(
         "{drive}: the {component} of {place} is {how} already; give or hold each movement once"
     )]
     AlreadyDriven {
-        /// The name of the drive that cannot have its place.
+        /// Name of the rejected drive.
         drive: String,
-        /// The component that is held or given already, in words.
+        /// Component.
         component: &'static str,
-        /// The place whose motion should be given, in words.
+        /// Description of the place.
         place: String,
-        /// Held or given, in words.
+        /// The word `held` or `given`.
         how: &'static str,
     },
-    /// A given motion that does not begin where its station is.
+    /// Prescribed motion that does not start at its station.
     #[error(
         "{drive}: its {component} is {value} at t = 0, but a given motion is counted from the place as drawn and begins with 0"
     )]
     DriveStart {
-        /// The name of the drive whose motion begins elsewhere.
+        /// Name of the drive.
         drive: String,
-        /// The component in words.
+        /// Component.
         component: &'static str,
-        /// The value at the start [length, rad].
+        /// Initial value [length, rad].
         value: f64,
     },
-    /// A given motion that jumps.
+    /// Prescribed motion that jumps.
     #[error(
         "{drive}: its {component} jumps by {jump} at t = {time}, but a given motion has to be continuous"
     )]
     DriveJump {
-        /// The name of the drive whose motion jumps.
+        /// Name of the drive.
         drive: String,
-        /// The component in words.
+        /// Component.
         component: &'static str,
-        /// The time of the jump [time].
+        /// Time of the jump [time].
         time: f64,
-        /// How far it jumps [length, rad].
+        /// Size of the jump [length, rad].
         jump: f64,
     },
-    /// A given motion without a value.
+    /// Prescribed motion without a value.
     #[error("{drive}: {source}")]
     DriveValue {
-        /// The name of the drive whose motion has no value.
+        /// Name of the drive.
         drive: String,
-        /// Why it has none.
+        /// Reason.
         source: LoadError,
     },
-    /// Something that would let go a second time.
+    /// Object that is released twice.
     #[error("'{name}' lets go already; it can do so once: remove one of the two releases")]
     ReleasedTwice {
-        /// What lets go already.
+        /// Name of the object.
         name: String,
     },
-    /// A scene in which everything is held: nothing moves.
+    /// Scene without free movements.
     #[error("the scene '{scene}' has nothing that can move: every unknown is held by a support")]
     NothingMoves {
-        /// The name of the scene in which nothing moves.
+        /// Name of the scene.
         scene: String,
     },
-    /// Start velocities that tied things do not share.
+    /// Start velocities that contradict each other.
     #[error(
         "{body} starts with a velocity of {velocity} at its {place}, but {other}; give it a start velocity that fits"
     )]
     StartVelocity {
-        /// The beam or particle whose start velocity does not fit, in words.
+        /// Description of the body.
         body: String,
-        /// The component and place whose start velocity does not fit, in words.
+        /// Component and place.
         place: String,
-        /// The start velocity that does not fit [length/time, or 1/time for a rotation].
+        /// Start velocity of the body there [length/time, or 1/time for a rotation].
         velocity: f64,
-        /// What the place is tied to, with its velocity, in words.
+        /// Description of the contradicting velocity.
         other: String,
     },
-    /// A joint, load, inertia or spin that would turn a particle.
+    /// Joint, load, inertia or spin that would rotate a particle.
     #[error("{object}: a particle does not turn")]
     ParticleTurned {
-        /// The joint, load, inertia or spin that would turn a particle, in words.
+        /// Description of the object.
         object: String,
-        /// The thing that would turn the particle.
+        /// Cause of the rotation.
         by: Turning,
     },
-    /// A sliding joint that is impossible.
+    /// Invalid sliding joint.
     #[error(transparent)]
     Slider(Box<SliderError>),
-    /// A track that is impossible.
+    /// Invalid track.
     #[error(transparent)]
     Track(Box<TrackError>),
-    /// A number of a scene that is out of its range.
+    /// Number outside its range.
     #[error("{object}: {name} is {value}, but must be {allowed}")]
     Value {
-        /// The object to which the refused number belongs, in words.
+        /// Description of the object.
         object: String,
-        /// The name of the refused property.
+        /// Name of the property.
         name: &'static str,
-        /// The value of the refused property, in its unit.
+        /// Rejected value.
         value: f64,
-        /// The values that the refused property may have, in words.
+        /// Allowed values.
         allowed: &'static str,
     },
-    /// A stored part of a scene that refers to something that is not there.
+    /// Stored part of a scene that refers to a missing object.
     #[error("{object} is on {kind} number {index}, but the scene has only {count}")]
     Missing {
-        /// The part of the scene that refers to something missing, in words.
+        /// Description of the part.
         object: &'static str,
-        /// The kind of the thing that is missing.
+        /// Kind of the missing object.
         kind: &'static str,
-        /// The index of the thing that is missing.
+        /// Index of the missing object.
         index: usize,
-        /// The number of things of that kind in the scene.
+        /// Number of objects of that kind in the scene.
         count: usize,
     },
-    /// A stored state that is not one of the model.
+    /// Stored state that does not fit the model.
     #[error("the state does not fit the scene: {reason}")]
     State {
-        /// Why the stored state does not fit the model.
+        /// Reason.
         reason: &'static str,
     },
-    /// A beam that cannot be put on its mesh.
+    /// Beam that does not fit its mesh.
     #[error("beam '{beam}': {source}")]
     Beam {
-        /// The name of the beam that cannot be put on its mesh.
+        /// Name of the beam.
         beam: String,
-        /// The reason why the beam cannot be put on its mesh.
+        /// Reason.
         source: BeamError,
     },
 }
 
-/// The thing that would turn a particle.
+/// Cause of a rotation of a particle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Turning {
-    /// A rigid joint would turn the particle.
+    /// Rigid joint.
     RigidJoint,
-    /// The rotary inertia of a point mass would turn with the particle.
+    /// Rotary inertia of a point mass.
     RotaryInertia,
-    /// A moment, or a force that follows a section, would turn the particle.
+    /// Moment or follower force.
     Load,
-    /// A spin at the start would turn the particle.
+    /// Start spin.
     Spin,
-    /// A torsion spring.
+    /// Torsion spring.
     TorsionSpring,
-    /// A drive would give the particle an angle.
+    /// Prescribed angle.
     Drive,
 }
 
 impl SystemError {
-    /// For `map_err`: makes a geometry error one of a beam, by its name.
+    /// Returns a closure for `map_err` that attributes a geometry error to a beam.
     pub(in crate::system) fn geometry(beam: &str) -> impl Fn(GeometryError) -> Self + '_ {
         move |source| Self::Beam { beam: beam.to_owned(), source: source.into() }
     }
 
-    /// For `map_err`: makes an error of a beam one of the model, by the beam's name.
+    /// Returns a closure for `map_err` that attributes an error to a beam.
     pub(in crate::system) fn beam(name: &str) -> impl Fn(BeamError) -> Self + '_ {
         move |source| Self::Beam { beam: name.to_owned(), source }
     }
 }
 
-/// Refuses numbers that are not finite; they are a property, of a name, of an object in words.
+/// Rejects numbers that are not finite.
 pub fn finite(object: &str, name: &'static str, values: &[f64]) -> Result<(), SystemError> {
     match values.iter().find(|value| !value.is_finite()) {
         Some(&value) => {

@@ -1,4 +1,4 @@
-//! What a model says: its errors, what may be a name, and how numbers are told.
+//! Errors of a model, rules for names, and number formats of messages.
 
 mod error;
 mod names;

@@ -1,15 +1,15 @@
-//! What may be a name: it is read by people, stands in column heads of tables, and is asked for by what is typed.
+//! Rules for names, which appear in messages and column heads and are typed by users.
 
 use std::ops::RangeInclusive;
 
-/// Most characters of a name.
+/// Largest number of characters of a name.
 const LONGEST: usize = 100;
 
-/// Signs with which a spreadsheet takes the head of a column for a formula.
+/// First characters by which spreadsheets recognise formulas.
 const FORMULA: [char; 4] = ['=', '+', '-', '@'];
 
-/// Characters without a width or a direction of their own, and copies of letters: Unicode 16, general categories Cf and Mn where they
-/// are invisible, fillers, variation selectors, full-width forms and mathematical alphabets.
+/// Characters without width or direction, and look-alikes of letters: Unicode 16, general categories Cf and Mn where invisible, fillers, variation
+/// selectors, full-width forms and mathematical alphabets.
 const INVISIBLE_OR_COPIES: [RangeInclusive<u32>; 14] = [
     0xAD..=0xAD,
     0x34F..=0x34F,
@@ -27,7 +27,7 @@ const INVISIBLE_OR_COPIES: [RangeInclusive<u32>; 14] = [
     0xE0000..=0x10_FFFF,
 ];
 
-/// Alphabets whose letters look alike.
+/// Alphabets with letters that look alike.
 #[derive(Clone, Copy, PartialEq)]
 enum Alphabet {
     Latin,
@@ -37,7 +37,7 @@ enum Alphabet {
     Cherokee,
 }
 
-/// The reason why nobody could read or type a name; none for a good one.
+/// Returns the reason to reject a name, or `None`.
 pub fn refusal(name: &str) -> Option<&'static str> {
     let code = |letter: char| u32::from(letter);
     let is_hidden = |letter: char| {
@@ -69,7 +69,7 @@ fn mixes_alphabets(word: &str) -> bool {
     alphabets.any(|other| Some(other) != first)
 }
 
-/// The alphabet of a letter, if letters of others look like some of its own. Greek letters that are used as symbols do not.
+/// Alphabet of a letter that resembles letters of other alphabets. Greek symbols do not.
 fn alphabet(letter: char) -> Option<Alphabet> {
     const SYMBOLS: &str = "αβγδεζηθλμξπρστφχψωΓΔΘΛΞΠΣΦΨΩ";
     match u32::from(letter) {

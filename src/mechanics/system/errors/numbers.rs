@@ -1,22 +1,22 @@
-//! Numbers, places, times and counts as they stand in messages.
+//! Formats of numbers, places, times and counts in messages.
 
 use crate::geometry::Vec2;
 
-/// More beams, loads or times than this are told of together.
+/// Largest number of objects listed in a message.
 pub const MOST: usize = 6;
 
-/// A number in words, of seven digits at most.
+/// Formats a number with at most seven digits.
 pub fn rounded(number: f64) -> String {
     let rounded: f64 = format!("{number:.6e}").parse().unwrap_or(number);
     rounded.to_string()
 }
 
-/// A point in words, such as `(1.570796, 2.8)`.
+/// Formats a point as in `(1.570796, 2.8)`.
 pub fn written(at: Vec2) -> String {
     format!("({}, {})", rounded(at.x), rounded(at.y))
 }
 
-/// The first few of some times in words; none where there are none.
+/// Lists the first times; `None` if there are none.
 pub fn in_words(times: &[f64]) -> Option<String> {
     match times {
         [] => None,
@@ -27,7 +27,7 @@ pub fn in_words(times: &[f64]) -> Option<String> {
     }
 }
 
-/// A count of things in words: `1 hinge`, `2 hinges`.
+/// Formats a count as in `1 hinge`, `2 hinges`.
 pub fn plural(count: usize, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }

@@ -1,35 +1,35 @@
-//! What can be wrong with a sliding joint.
+//! Errors of sliding joints.
 
 use std::fmt;
 
-/// The parts of a slider in words, for messages.
+/// Descriptions of the parts of a slider.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SliderParts {
-    /// The name of the slider.
+    /// Name of the slider.
     pub slider: String,
-    /// The slave of the slider, the point that slides, in words.
+    /// Description of the slave.
     pub slave: String,
-    /// What the slider slides on, in words: `beam 'rod'`, `track 'ring'`.
+    /// Description of the master, such as `beam 'rod'` or `track 'ring'`.
     pub guide: String,
 }
 
-/// The place of a beam or a track that is nearest to a point.
+/// Place of a beam or track nearest to a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Approach {
     /// The point lies on it.
     On {
-        /// The place of the point, as a part of the length of what it is on [-].
+        /// Relative position of the point along the master [-].
         place: f64,
-        /// What it is on: a beam or a track.
+        /// The word `beam` or `track`.
         guide: &'static str,
     },
     /// The point does not lie on it.
     Apart {
-        /// The place that is nearest to the point, as a part of the length of what it is on [-].
+        /// Relative position of the nearest place along the master [-].
         place: f64,
-        /// What it is on: a beam or a track.
+        /// The word `beam` or `track`.
         guide: &'static str,
-        /// How far that is [length].
+        /// Distance to that place [length].
         distance: f64,
     },
 }
@@ -50,84 +50,84 @@ impl fmt::Display for Approach {
     }
 }
 
-/// A sliding joint that cannot be described or built.
+/// Sliding joint that cannot be described or built.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SliderError {
-    /// A slider whose slave is a part of its master.
+    /// Slave that is a part of its master.
     #[error(
         "slider '{}': {} is on the {} itself; a beam cannot slide on itself, choose another beam",
         _0.slider, _0.slave, _0.guide
     )]
     OnItself(SliderParts),
-    /// A slider whose slave is not on its master.
+    /// Slave that is not on its master.
     #[error(
         "slider '{}': {} is at {from}, {gap:.3e} from its place {to} on the {}; {nearest}",
         parts.slider, parts.slave, parts.guide
     )]
     Open {
-        /// The slider whose slave is not on its master.
+        /// Description of the slider.
         parts: SliderParts,
-        /// The place of the slave, in words.
+        /// Description of the place of the slave.
         from: String,
-        /// The place on the master where the slave should be, in words.
+        /// Description of the intended place on the master.
         to: String,
-        /// The distance of the slave from that place on the master [length].
+        /// Distance between both places [length].
         gap: f64,
-        /// The place where the beam comes nearest to the slave.
+        /// Place of the master nearest to the slave.
         nearest: Approach,
     },
-    /// A slider whose slave slides on the same master already.
+    /// Slave that slides on the same master already.
     #[error(
         "slider '{}': {} already slides on the {}; remove one of the two sliders",
         _0.slider, _0.slave, _0.guide
     )]
     Twice(SliderParts),
-    /// A slider whose slave is tied to its master as well.
+    /// Slave that is also joined to its master.
     #[error(
         "slider '{}': {} is also joined to the {}, on which it then cannot slide; remove the joint or the slider",
         _0.slider, _0.slave, _0.guide
     )]
     Tied(SliderParts),
-    /// A slider on a track under a rule that is for one beam.
+    /// Slider on a track with a rule for single beams.
     #[error("slider '{}': the {rule} rule is for one beam: at the seams of the {} {why}", parts.slider, parts.guide)]
     RuleOfOneBeam {
-        /// The slider on a track.
+        /// Description of the slider.
         parts: SliderParts,
-        /// The name of the rule that is for one beam.
+        /// Name of the rule.
         rule: &'static str,
-        /// What happens at seams under that rule, in words.
+        /// Behaviour at seams under that rule.
         why: &'static str,
     },
-    /// A coefficient of restitution that is none.
+    /// Coefficient of restitution outside its range.
     #[error("slider '{slider}': a restitution of {restitution} is outside [0, 1]")]
     Restitution {
-        /// The name of the slider with such a coefficient.
+        /// Name of the slider.
         slider: String,
-        /// The coefficient of restitution that is none [-].
+        /// Rejected coefficient [-].
         restitution: f64,
     },
-    /// Start velocities with which a slider would leave its master.
+    /// Start velocities across the master.
     #[error(
         "slider '{slider}': at the start its point moves across its beam with a speed of {speed}"
     )]
     LeavesMaster {
-        /// The name of the slider with such start velocities.
+        /// Name of the slider.
         slider: String,
-        /// The speed of the slave relative to its master, across it [length/time].
+        /// Velocity of the slave relative to the master, across it [length/time].
         speed: f64,
     },
-    /// A slider between places that are held already.
+    /// Slider between places that are both supported.
     #[error(
         "slider '{}': {} and its place on the {} are both held already, so that the contact force is not determined; remove the slider or a support",
         _0.slider, _0.slave, _0.guide
     )]
     HeldBesides(SliderParts),
-    /// Sliders that do not determine their forces.
+    /// Sliders with undetermined contact forces.
     #[error(
         "the sliders '{sliders}' hold each other: their contact forces are not determined; remove one of them, or a support"
     )]
     Overdetermined {
-        /// The names of the sliders whose forces are not determined.
+        /// Names of the sliders.
         sliders: String,
     },
 }

@@ -1,66 +1,66 @@
-//! What can be wrong with a track.
+//! Errors of tracks.
 
-/// A track that cannot be described.
+/// Track that cannot be described.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TrackError {
-    /// A track of no beams.
+    /// Track without beams.
     #[error("track '{track}' has no beams")]
     Empty {
-        /// The name of the track without beams.
+        /// Name of the track.
         track: String,
     },
-    /// A track that leads along a beam twice.
+    /// Track that contains a beam twice.
     #[error(
         "track '{track}': beam '{beam}' is in it twice; a track leads along each of its beams once"
     )]
     Again {
-        /// The name of the track.
+        /// Name of the track.
         track: String,
-        /// The name of the beam that is in it twice.
+        /// Name of the beam.
         beam: String,
     },
-    /// A track whose next beam does not touch where the track has come to.
+    /// Track with a gap between consecutive beams.
     #[error(
         "track '{track}': beam '{before}' leads to {here}, where beam '{next}' neither starts nor ends: its ends are at {start} and {end}"
     )]
     Apart {
-        /// The name of the track.
+        /// Name of the track.
         track: String,
-        /// The name of the beam along which the track has come.
+        /// Name of the beam before the gap.
         before: String,
-        /// The name of the beam that should go on there.
+        /// Name of the beam after the gap.
         next: String,
-        /// The place to which the track has come, in words.
+        /// End of the beam before the gap.
         here: String,
-        /// The place where the next beam starts, in words.
+        /// Start of the next beam.
         start: String,
-        /// The place where the next beam ends, in words.
+        /// End of the next beam.
         end: String,
     },
-    /// A closed track whose last beam does not come back to where the first one begins.
+    /// Closed track with a gap between its last and first beams.
     #[error(
         "track '{track}' is closed, but it leads to {here}, {gap:.3e} from {start}, where it begins"
     )]
     Open {
-        /// The name of the track.
+        /// Name of the track.
         track: String,
-        /// The place to which the last beam leads, in words.
+        /// End of the last beam.
         here: String,
-        /// The place where the first beam begins, in words.
+        /// Start of the first beam.
         start: String,
-        /// The distance of both [length].
+        /// Distance between both [length].
         gap: f64,
     },
-    /// Two beams of a track that touch and are not joined.
+    /// Consecutive beams of a track that touch but are not joined.
     #[error("track '{track}': {one} and {other} are both at {here}, but not joined")]
     Loose {
-        /// The name of the track.
+        /// Name of the track.
         track: String,
-        /// The end of the one beam, in words.
+        /// End of the first beam.
         one: String,
-        /// The end of the other beam, in words.
+        /// End of the second beam.
         other: String,
-        /// The place where both are, in words.
+        /// Place of both.
         here: String,
     },
 }

@@ -7,7 +7,7 @@ use crate::geometry::{Vec2, larger};
 use crate::linalg::BandedMatrix;
 use crate::system::bodies::Bodies;
 
-/// The rigid links of a model, in the order of its rigid bodies and their points, and its inclined rollers, in the order of the joints of the scene.
+/// Rigid links, in the order of bodies and points, and inclined rollers, in the order of joints.
 pub struct Links {
     rigid: Vec<RigidLink>,
     rollers: Vec<InclinedRoller>,
@@ -15,12 +15,11 @@ pub struct Links {
 }
 
 impl Links {
-    /// The rigid links and the inclined rollers of a model.
     pub fn new(rigid: Vec<RigidLink>, rollers: Vec<InclinedRoller>) -> Self {
         Self { rigid, rollers, acting: ForceUnknowns::AtRest }
     }
 
-    /// Gives the forces of all rigid links and rollers other unknowns, in their order; a roller that lets go gets none.
+    /// Renumbers the force unknowns of all links and rollers; `None` for a released roller.
     pub fn renumber(
         &mut self,
         rigid: impl Iterator<Item = [usize; 2]>,
@@ -30,7 +29,7 @@ impl Links {
         self.rollers.iter_mut().zip(rollers).for_each(|(roller, own)| roller.unknown = own);
     }
 
-    /// Exchanges the unknowns of the forces of all rigid links and rollers for others, in their order.
+    /// Swaps the force unknowns of all links and rollers.
     pub fn exchange_unknowns(&mut self, rigid: &mut [[usize; 2]], rollers: &mut [Option<usize>]) {
         let links = self.rigid.iter_mut().zip(rigid);
         links.for_each(|(link, own)| std::mem::swap(&mut link.unknowns, own));
@@ -38,32 +37,31 @@ impl Links {
         all.for_each(|(roller, own)| std::mem::swap(&mut roller.unknown, own));
     }
 
-    /// All inclined rollers, also those that have let go.
+    /// All inclined rollers, including released ones.
     pub fn all_rollers(&self) -> &[InclinedRoller] {
         &self.rollers
     }
 
-    /// The number of rigid links.
     pub fn count(&self) -> usize {
         self.rigid.len()
     }
 
-    /// The rigid links, in the order of rigid bodies and points.
+    /// Rigid links, in the order of rigid bodies and points.
     pub fn iter(&self) -> impl Iterator<Item = &RigidLink> {
         self.rigid.iter()
     }
 
-    /// The inclined rollers that hold, with the unknowns of their forces.
+    /// Attached inclined rollers with their force unknowns.
     pub fn rollers(&self) -> impl Iterator<Item = (usize, &InclinedRoller)> {
         self.rollers.iter().filter_map(|roller| Some((roller.unknown?, roller)))
     }
 
-    /// The number of forces that are unknowns.
+    /// Number of force unknowns.
     pub fn forces(&self) -> usize {
         2 * self.rigid.len() + self.rollers().count()
     }
 
-    /// The force of the rollers on some nodes, bodies and control points, by the force of each, by its index [force]; none where there is no roller.
+    /// Force of the rollers on some nodes, given the multiplier of each roller [force]; `None` without a roller there.
     pub fn force_of_rollers(
         &self,
         nodes: &[(usize, usize)],
@@ -74,17 +72,17 @@ impl Links {
         there.map(|(index, _)| force(index)).reduce(|sum, force| sum + force)
     }
 
-    /// Prepares a step of some duration [time].
+    /// Prepares a step of a duration [time].
     pub fn begin_step(&mut self, duration: f64) {
         self.acting = ForceUnknowns::Step(duration);
     }
 
-    /// Prepares a movement between two places at rest.
+    /// Prepares a movement between two equilibria.
     pub fn begin_movement(&mut self) {
         self.acting = ForceUnknowns::AtRest;
     }
 
-    /// Adds the forces of an iterate, and by how much points are off their places and lines; the largest that was met.
+    /// Adds the forces and constraint violations of an iterate. Returns the largest force.
     pub fn add(
         &mut self,
         bodies: &Bodies,
@@ -101,7 +99,7 @@ impl Links {
         }
     }
 
-    /// Adds the derivatives of what [`add`](Self::add) adds; there are so many unknowns.
+    /// Adds the derivatives of [`add`](Self::add).
     pub fn add_tangent(
         &self,
         bodies: &Bodies,
@@ -118,14 +116,13 @@ impl Links {
         }
     }
 
-    /// Couples the forces with movements as at the start of a step; there are so many unknowns.
+    /// Adds the coupling of forces and movements at the start of a step.
     pub fn add_coupling(&self, bodies: &Bodies, unknowns: usize, matrix: &mut BandedMatrix) {
         self.rigid.iter().for_each(|link| link.add_coupling(bodies, unknowns, matrix));
         self.rollers.iter().for_each(|roller| roller.add_coupling(bodies, unknowns, matrix));
     }
 
-    /// Puts the centripetal accelerations of points, and what prescribed accelerations add to them, where the equations of the rigid links stand; a
-    /// roller has none.
+    /// Sets the right-hand sides of the acceleration constraints: centripetal terms and prescribed accelerations. Rollers have none.
     pub fn set_acceleration_bias(
         &self,
         bodies: &Bodies,
@@ -141,7 +138,7 @@ impl Links {
         self.rollers().for_each(|(unknown, _)| out[unknown] = 0.0);
     }
 
-    /// Puts a multiple of the velocities of points relative to their places in bodies, and across the lines of rollers, where these equations stand.
+    /// Sets multiples of the velocity violations of links and rollers on their rows.
     pub fn set_velocity_violation(
         &self,
         bodies: &Bodies,
@@ -167,13 +164,13 @@ impl Links {
         self.rollers().for_each(|(at, roller)| roller.transmit(bodies, unknowns[at], out));
     }
 
-    /// Makes the forces among the unknowns zero.
+    /// Clears the force unknowns.
     pub fn clear(&self, unknowns: &mut [f64]) {
         self.rigid.iter().flat_map(|link| link.unknowns).for_each(|at| unknowns[at] = 0.0);
         self.rollers().for_each(|(at, _)| unknowns[at] = 0.0);
     }
 
-    /// Puts the forces where their unknowns stand: their rates, from which the next step is guessed.
+    /// Writes the forces to the rates, from which the next step is predicted.
     pub fn write_forces(&self, rates: &mut [f64]) {
         for link in &self.rigid {
             let force = link.force();
@@ -182,24 +179,24 @@ impl Links {
         self.rollers().for_each(|(at, roller)| rates[at] = roller.multiplier());
     }
 
-    /// Exchanges the forces of all rigid links for others, in their order [force].
+    /// Swaps the forces of all rigid links [force].
     pub fn exchange_forces(&mut self, others: &mut [Vec2]) {
         self.rigid.iter_mut().zip(others).for_each(|(link, other)| link.exchange_force(other));
     }
 
-    /// The largest distance of a point from its place or its line by a residual, relative to its movements and its arm, or the scene [-].
+    /// Largest constraint violation in a residual, relative to movements and arm, or to the size of the scene [-].
     pub fn violation(&self, residual: &[f64]) -> f64 {
         let most = self.rigid.iter().fold(0.0, |most, link| larger(most, link.violation(residual)));
         self.rollers.iter().fold(most, |most, roller| larger(most, roller.violation(residual)))
     }
 
-    /// The largest distance of a point from its place or its line [length].
+    /// Largest distance of a point from its place or line [length].
     pub fn largest_gap(&self, bodies: &Bodies) -> f64 {
         let most = self.rigid.iter().fold(0.0, |most, link| larger(most, link.gap(bodies)));
         self.rollers.iter().fold(most, |most, roller| larger(most, roller.gap(bodies)))
     }
 
-    /// Lets all of them accept the unknowns of a step or a movement.
+    /// Accepts the unknowns of a step or a movement.
     pub fn advance(&mut self, bodies: &Bodies, arms: ArmRule, values: &[f64]) {
         for link in &mut self.rigid {
             link.advance(bodies, self.acting, arms, values);
@@ -207,7 +204,7 @@ impl Links {
         self.rollers.iter_mut().for_each(|roller| roller.advance(self.acting, values));
     }
 
-    /// Gives how all of them resist small movements, were they as stiff as that [force/length].
+    /// Passes the stiffness of all constraints at rest to the callback, for a penalty stiffness [force/length].
     pub fn each_at_rest(
         &self,
         bodies: &Bodies,
@@ -219,13 +216,11 @@ impl Links {
         self.rollers.iter().for_each(|roller| roller.at_rest(bodies, stiffness, &mut span, take));
     }
 
-    /// Appends the state of all of them at the start of a step.
     pub fn save(&self, state: &mut Vec<f64>) {
         self.rigid.iter().for_each(|link| link.save(state));
         self.rollers.iter().for_each(|roller| roller.save(state));
     }
 
-    /// Takes the state of all of them back, in the order in which it was appended.
     pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         self.rigid.iter_mut().for_each(|link| link.restore(next));
         self.rollers.iter_mut().for_each(|roller| roller.restore(next));

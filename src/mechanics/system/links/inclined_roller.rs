@@ -1,11 +1,11 @@
-//! An inclined roller in a step: a point that keeps to a straight line, and the force across the line by which it does.
+//! Inclined roller in a step: a point constrained to a straight line by a force across it.
 //!
 //! ```text
 //! n·Δx = 0          on the point -λ n,   n across the line, of length one
 //! ```
 //!
-//! The equation is linear in increments, so that the work `-λ n·Δx` of the force vanishes, whatever the increments; it gives the impulse `-Δt λ n` at the
-//! mean place of the point, as other supports do. Velocities of methods that take `v1 = 2 Δx/Δt - v0` stay along the line if they begin so.
+//! The equation is linear in the increments, so the work `-λ n·Δx` of the force vanishes for all increments. Its impulse `-Δt λ n` acts at the mean
+//! place of the point, as for other supports. For methods with `v1 = 2 Δx/Δt - v0`, velocities stay along the line if they start so.
 
 use super::rigid_link::ForceUnknowns;
 use crate::beams::{ForceSummary, SpanStiffness};
@@ -13,28 +13,28 @@ use crate::geometry::{Vec2, larger};
 use crate::linalg::BandedMatrix;
 use crate::system::bodies::Bodies;
 
-/// A point of a body that keeps to a straight line.
+/// Point of a body constrained to a straight line.
 #[derive(Debug, Clone)]
 pub struct InclinedRoller {
-    /// The joint of the scene that it is, by its index.
+    /// Index of the joint in the scene.
     pub joint: usize,
-    /// The body, and the control point of it that keeps to the line.
+    /// Body and control point of the constrained point.
     pub node: (usize, usize),
-    /// The unknown of the force; none after the roller has let go.
+    /// Force unknown; `None` after a release.
     pub unknown: Option<usize>,
-    /// `n` [-].
+    /// Unit normal `n` [-].
     across: Vec2,
-    /// The place of the point as drawn, which is on the line [length].
+    /// Place of the point as drawn, on the line [length].
     on_line: Vec2,
-    /// The size of the scene, which the violation is relative to, with the movements of the iterate [length].
+    /// Scale of the violation: the size of the scene plus the movements of the iterate [length].
     size: f64,
     moved: f64,
-    /// `λ`: that of the last step, or at rest [force].
+    /// Multiplier `λ` of the last step, or at rest [force].
     force: f64,
 }
 
 impl InclinedRoller {
-    /// A roller at a control point of a body, which is at a place of its line, in a scene of some size [length]; `across` is a unit vector.
+    /// Creates a roller at a control point on its line, in a scene of some size [length]; `across` is a unit vector.
     pub fn new(
         joint: usize,
         node: (usize, usize),
@@ -46,35 +46,35 @@ impl InclinedRoller {
         Self { joint, node, unknown, across, on_line, size, moved: 0.0, force: 0.0 }
     }
 
-    /// The unknowns of the movements of the point along both axes.
+    /// Degrees of freedom x and y of the point.
     pub fn degrees(&self, bodies: &Bodies) -> [usize; 2] {
         let (body, point) = self.node;
         let [x, y, _] = bodies[body].degrees_of_freedom[point];
         [x, y]
     }
 
-    /// The force on the point, where its unknown has such a value [force].
+    /// Force on the point for a value of the multiplier [force].
     pub fn force_of(&self, unknown: f64) -> Vec2 {
         self.across * -unknown
     }
 
-    /// The force on the point in the last step, or at rest; none after it has let go [force].
+    /// Force on the point in the last step or at rest; zero after a release [force].
     pub fn force(&self) -> Vec2 {
         self.force_of(if self.unknown.is_some() { self.force } else { 0.0 })
     }
 
-    /// `λ` of the last step, or at rest [force].
+    /// Multiplier `λ` of the last step, or at rest [force].
     pub fn multiplier(&self) -> f64 {
         self.force
     }
 
-    /// The values that belong to the movements of the point along both axes; none of those that are supported.
+    /// Values at the degrees of freedom x and y; zero for supported movements.
     fn values_at(&self, bodies: &Bodies, values: &[f64]) -> Vec2 {
         let [x, y] = self.degrees(bodies).map(|at| values.get(at).copied().unwrap_or(0.0));
         Vec2::new(x, y)
     }
 
-    /// Adds the force of an iterate to a residual, and in the place of its unknown how far the point leaves the line.
+    /// Adds the force of an iterate to a residual, and the constraint violation to its row.
     pub fn add(
         &mut self,
         bodies: &Bodies,
@@ -91,7 +91,7 @@ impl InclinedRoller {
         ForceSummary { force: force.abs(), ..ForceSummary::default() }
     }
 
-    /// Adds the derivatives of what [`add`](Self::add) adds; supported movements have none.
+    /// Adds the derivatives of [`add`](Self::add), restricted to unknown movements.
     pub fn add_tangent(
         &self,
         bodies: &Bodies,
@@ -102,7 +102,7 @@ impl InclinedRoller {
         self.couple(bodies, acting.share(), movements, tangent);
     }
 
-    /// Couples force and movements in the manner of a matrix of inertia: an impulse of the force and rates.
+    /// Adds the coupling of impulse and rates to a mass matrix.
     pub fn add_coupling(&self, bodies: &Bodies, movements: usize, matrix: &mut BandedMatrix) {
         self.couple(bodies, 1.0, movements, matrix);
     }
@@ -117,20 +117,20 @@ impl InclinedRoller {
         }
     }
 
-    /// Adds the force `λ` to a residual.
+    /// Adds the force of multiplier `λ` to a residual.
     pub fn transmit(&self, bodies: &Bodies, force: f64, out: &mut [f64]) {
         let [x, y] = self.degrees(bodies);
         out[x] += force * self.across.x;
         out[y] += force * self.across.y;
     }
 
-    /// How far the point leaves its line by a residual, relative to the scene and its movements [-].
+    /// Constraint violation in a residual, relative to the scene and the movements [-].
     pub fn violation(&self, residual: &[f64]) -> f64 {
         let off = self.unknown.map_or(0.0, |at| residual[at].abs());
         if off == 0.0 { 0.0 } else { off / (self.size + self.moved) }
     }
 
-    /// How far the point is from its line [length].
+    /// Distance of the point from its line [length].
     pub fn gap(&self, bodies: &Bodies) -> f64 {
         match self.unknown {
             Some(_) => self.across.dot(&(self.place(bodies) - self.on_line)).abs(),
@@ -138,20 +138,20 @@ impl InclinedRoller {
         }
     }
 
-    /// Where the point is at the start of a step [length].
+    /// Place of the point at the start of a step [length].
     pub fn place(&self, bodies: &Bodies) -> Vec2 {
         let (body, point) = self.node;
         bodies[body].dynamics.control_points()[point]
     }
 
-    /// Where the point is in the middle of the step of the movements that the bodies gathered last [length].
+    /// Mean place of the point in the step whose movements the bodies gathered last [length].
     pub fn mean_place(&self, bodies: &Bodies) -> Vec2 {
         let (body, point) = self.node;
         let [x, y, _] = bodies[body].moved()[point];
         self.place(bodies) + 0.5 * Vec2::new(x, y)
     }
 
-    /// The velocity of the point across its line, by rates of all movements [length/time].
+    /// Velocity of the point across its line [length/time].
     pub fn velocity_violation(&self, bodies: &Bodies, rates: &[f64]) -> f64 {
         self.across.dot(&self.values_at(bodies, rates))
     }
@@ -163,7 +163,7 @@ impl InclinedRoller {
         }
     }
 
-    /// Gives how the roller resists small movements, were it as stiff as that [force/length].
+    /// Passes the stiffness at rest to the callback, for a penalty stiffness [force/length].
     pub fn at_rest(
         &self,
         bodies: &Bodies,
@@ -176,19 +176,17 @@ impl InclinedRoller {
         span.strains.extend([self.across.x, self.across.y]);
         span.stiffness.push(stiffness);
         take(&self.degrees(bodies), span);
-        // Nothing asks for the force itself.
+        // The force itself is not needed.
         span.begin(0);
         span.strains.push(1.0);
         span.stiffness.push(stiffness);
         take(&[unknown], span);
     }
 
-    /// Appends the state of the roller at the start of a step.
     pub fn save(&self, state: &mut Vec<f64>) {
         state.push(self.force);
     }
 
-    /// Takes the state of the roller back, in the order in which it was appended.
     pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         self.force = next();
     }

@@ -1,4 +1,4 @@
-//! What ties movements by forces that are unknowns among them: rigid links, which hold the points of rigid bodies to their centres, and inclined rollers.
+//! Constraints with force unknowns: rigid links between the points of rigid bodies and their centres, and inclined rollers.
 
 mod all;
 mod inclined_roller;

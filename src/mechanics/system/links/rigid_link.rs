@@ -1,12 +1,12 @@
-//! A rigid link in a step: a point that keeps its place in the frame of a rigid body, and the force by which it does.
+//! Rigid link in a step: a point fixed in the frame of a rigid body, and its constraint force.
 //!
 //! ```text
 //! Δx_p - Δx_b - χ J ā = 0        a = Λ r,   ā = ½ (a0 + a1),   χ = 2 tan(Δθ/2), the tangent-scaled increment itself
 //! on the point -λ,   on the body λ and aτ × λ        aτ = (1-τ) a0 + τ a1,   τ = ½ but for generalized-α and at rest
 //! ```
 //!
-//! `χ J ā = a1 - a0` whatever the increment, so that the point is in its place at every end of a step. With tangent-scaled increments and `τ = ½` the work
-//! `λ·Δx_b + (ā × λ) Δω - λ·Δx_p` of the force vanishes; with `τ = ½` so do the sums of forces and of moments in the mean configuration.
+//! `χ J ā = a1 - a0` holds for every increment, so the point is in its place at the ends of every step. With tangent-scaled increments and `τ = ½`,
+//! the work `λ·Δx_b + (ā × λ) Δω - λ·Δx_p` of the force vanishes, and so do the sums of forces and moments in the mean configuration.
 
 use std::ops::{Add, Div};
 
@@ -15,17 +15,17 @@ use crate::geometry::{Vec2, cross, larger, perpendicular};
 use crate::linalg::BandedMatrix;
 use crate::system::bodies::Bodies;
 
-/// What the unknowns of the force of a rigid link are.
+/// Meaning of the force unknowns of a rigid link.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ForceUnknowns {
-    /// In a step of some duration: the impulse of the force [time].
+    /// In a step of a duration: the impulse of the force [time].
     Step(f64),
-    /// In a movement between two places at rest: the change of the force.
+    /// In a movement between two equilibria: the change of the force.
     AtRest,
 }
 
 impl ForceUnknowns {
-    /// The force for such an unknown, where the last one was that [force].
+    /// Force for a value of the unknown, given the last force [force].
     pub fn force<F>(self, last: F, unknown: F) -> F
     where
         F: Add<Output = F> + Div<f64, Output = F>,
@@ -36,7 +36,7 @@ impl ForceUnknowns {
         }
     }
 
-    /// The derivative of the force by the unknown [1/time, -].
+    /// Derivative of the force with respect to the unknown [1/time, -].
     pub fn share(self) -> f64 {
         match self {
             Self::Step(duration) => 1.0 / duration,
@@ -45,43 +45,43 @@ impl ForceUnknowns {
     }
 }
 
-/// How a method takes the arms of rigid links.
+/// Treatment of the arms of rigid links by a method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ArmRule {
-    /// What rotation increments of the step stand for.
+    /// Kind of rotation increments of the step.
     pub rotations: RotationIncrement,
-    /// The share `τ` of the step at which the arm of the force is taken [-].
+    /// Fraction `τ` of the step at which the arm of the force is taken [-].
     pub share: f64,
 }
 
-/// A point of a rigid body that is off its centre of mass.
+/// Point of a rigid body off its centre of mass.
 #[derive(Debug, Clone)]
 pub struct RigidLink {
-    /// The number of the body.
+    /// Index of the body.
     pub body: usize,
-    /// The control point of the body that is held to its first one, the centre of mass.
+    /// Control point that is linked to the first one, the centre of mass.
     pub point: usize,
-    /// The unknowns of the force.
+    /// Force unknowns.
     pub unknowns: [usize; 2],
-    /// The place of the point in the frame of the body [length].
+    /// Place of the point in the body frame [length].
     arm: Vec2,
-    /// That of the body at the start of the step.
+    /// Rotation of the body at the start of the step.
     rotation: Rotation,
-    /// `-λ` on the point: that of the last step, or at rest [force].
+    /// Force `-λ` on the point in the last step, or at rest [force].
     force: Vec2,
-    /// The movements of the iterate, which the violation is relative to [length].
+    /// Scale of the violation: the movements of the iterate [length].
     size: f64,
 }
 
-/// A rigid link in an iterate of a step.
+/// Rigid link in an iterate of a step.
 struct Iterated {
-    /// `a0`, `a1` and the arm of the force [length].
+    /// Arms `a0`, `a1`, and the arm of the force [length].
     start: Vec2,
     end: Vec2,
     force_arm: Vec2,
-    /// `λ` [force].
+    /// Force `λ` [force].
     force: Vec2,
-    /// How much of the force one of its unknowns is.
+    /// Derivative of the force with respect to its unknown.
     share: f64,
     /// `dΔθ/dΔω` [-].
     rate: f64,
@@ -89,7 +89,7 @@ struct Iterated {
 }
 
 impl RigidLink {
-    /// A rigid link to a control point of a body whose frame is turned by an angle [rad], with the unknowns of its force.
+    /// Creates a rigid link to a control point of a body with a frame angle [rad].
     pub fn new(body: usize, point: usize, unknowns: [usize; 2], at: [Vec2; 2], angle: f64) -> Self {
         let rotation = Rotation::by(angle);
         let [centre, end] = at;
@@ -97,22 +97,21 @@ impl RigidLink {
         Self { body, point, unknowns, arm, rotation, force: Vec2::zeros(), size: arm.norm() }
     }
 
-    /// The arm from the centre to the point at the start of the step [length].
+    /// Arm from the centre to the point at the start of the step [length].
     pub fn arm(&self) -> Vec2 {
         self.rotation.to_space(self.arm)
     }
 
-    /// The force of the rigid link in the last step, or at rest [force].
+    /// Force in the last step, or at rest [force].
     pub fn force(&self) -> Vec2 {
         self.force
     }
 
-    /// Exchanges the force for another [force].
     pub fn exchange_force(&mut self, other: &mut Vec2) {
         std::mem::swap(&mut self.force, other);
     }
 
-    /// The unknowns of the centre and the point: x, y, and the rotation of the body.
+    /// Degrees of freedom of the centre and of the point, including the rotation of the body.
     fn degrees(&self, bodies: &Bodies) -> ([usize; 3], [usize; 3]) {
         let of_body = &bodies[self.body].degrees_of_freedom;
         (of_body[0], of_body[self.point])
@@ -143,7 +142,7 @@ impl RigidLink {
         }
     }
 
-    /// Adds the force of an iterate to a residual, and in the place of its unknowns by how much the point is off its place.
+    /// Adds the force of an iterate to a residual, and the constraint violation to its rows.
     pub fn add(
         &mut self,
         bodies: &Bodies,
@@ -172,7 +171,7 @@ impl RigidLink {
         }
     }
 
-    /// Adds the derivatives of what [`add`](Self::add) adds; supported movements have none.
+    /// Adds the derivatives of [`add`](Self::add), restricted to unknown movements.
     pub fn add_tangent(
         &self,
         bodies: &Bodies,
@@ -192,7 +191,7 @@ impl RigidLink {
         }
     }
 
-    /// Couples force and movements as at the start of a step, in the manner of a matrix of inertia: an impulse of the force and rates.
+    /// Adds the coupling of impulse and rates at the start of a step to a mass matrix.
     pub fn add_coupling(&self, bodies: &Bodies, movements: usize, matrix: &mut BandedMatrix) {
         let arm = perpendicular(self.arm());
         self.couple(bodies, 1.0, arm, arm, movements, matrix);
@@ -222,7 +221,7 @@ impl RigidLink {
         }
     }
 
-    /// Adds a force `λ` that acts on point and body with an arm to a residual.
+    /// Adds a force `λ` on point and body with an arm to a residual.
     pub fn transmit(&self, bodies: &Bodies, force: Vec2, arm: Vec2, out: &mut [f64]) {
         let ([x, y, rotation], [point_x, point_y, _]) = self.degrees(bodies);
         out[point_x] += force.x;
@@ -232,28 +231,27 @@ impl RigidLink {
         out[rotation] -= cross(arm, force);
     }
 
-    /// How far the point is off its place by a residual, relative to its movements and its arm [-].
+    /// Constraint violation in a residual, relative to movements and arm [-].
     pub fn violation(&self, residual: &[f64]) -> f64 {
         let off = larger(residual[self.unknowns[0]].abs(), residual[self.unknowns[1]].abs());
         if off == 0.0 { 0.0 } else { off / self.size }
     }
 
-    /// How far the point is from its place [length].
+    /// Distance of the point from its place [length].
     pub fn gap(&self, bodies: &Bodies) -> f64 {
         let points = bodies[self.body].dynamics.control_points();
         ((points[self.point] - points[0]) - self.arm()).norm()
     }
 
-    /// The centripetal acceleration `-ω² a` of the point about the centre of mass, at some rates [length/time²].
+    /// Centripetal acceleration `-ω² a` of the point about the centre of mass [length/time²].
     pub fn centripetal(&self, bodies: &Bodies, rates: &[f64]) -> Vec2 {
         let ([.., rotation], _) = self.degrees(bodies);
         let spin = rates.get(rotation).copied().unwrap_or(0.0);
         self.arm() * (-spin * spin)
     }
 
-    /// The velocity of the point relative to its place in the frame of the body: as the velocities at the ends of steps are made, that is of second order and
-    /// alternates [length/time]; so for
-    /// accelerations, the turn of the arm set aside.
+    /// Velocity of the point relative to its place in the body frame [length/time]. With the velocities at the ends of steps it is of second order
+    /// and alternates. For accelerations, the rotation of the arm is excluded.
     pub fn velocity_violation(&self, bodies: &Bodies, rates: &[f64]) -> Vec2 {
         let body = &bodies[self.body];
         let ([.., rotation], _) = self.degrees(bodies);
@@ -262,7 +260,7 @@ impl RigidLink {
         relative - perpendicular(self.arm()) * spin
     }
 
-    /// Accepts the unknowns of a step or a movement, in which the body turned by an increment.
+    /// Accepts the unknowns of a step or a movement with a rotation increment of the body.
     pub fn advance(
         &mut self,
         bodies: &Bodies,
@@ -275,8 +273,8 @@ impl RigidLink {
         self.rotation = self.rotation.turned(arms.rotations, now.increment).normalised();
     }
 
-    /// Gives how the rigid link resists small movements, were it as stiff as that [force/length]: the point is held to its place, and its force turns with
-    /// the body.
+    /// Passes the stiffness at rest to the callback: a penalty stiffness [force/length] at the place of the point, and the geometric stiffness of the
+    /// force.
     pub fn at_rest(
         &self,
         bodies: &Bodies,
@@ -297,7 +295,7 @@ impl RigidLink {
         span.doubts.clear();
         span.doubts.push(0.0);
         take(&[point_x, point_y, x, y, rotation], span);
-        // Nothing asks for the force itself.
+        // The force itself is not needed.
         let own = SpanStiffness {
             strains: vec![1.0],
             stiffness: vec![stiffness],
@@ -306,12 +304,10 @@ impl RigidLink {
         self.unknowns.iter().for_each(|at| take(&[*at], &own));
     }
 
-    /// Appends the state of the rigid link at the start of a step.
     pub fn save(&self, state: &mut Vec<f64>) {
         state.extend([self.rotation.cos, self.rotation.sin, self.force.x, self.force.y]);
     }
 
-    /// Takes the state of the rigid link back, in the order in which it was appended.
     pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         self.rotation = Rotation { cos: next(), sin: next() };
         self.force = Vec2::new(next(), next());

@@ -1,4 +1,4 @@
-//! Beams sampled along their axes, again and again at the same places.
+//! Repeated sampling of beams at the same places.
 
 use std::f64::consts::PI;
 
@@ -7,59 +7,59 @@ use crate::elementary::atan2;
 use crate::geometry::{Vec2, corresponding};
 use crate::system::{Scene, System, SystemError};
 
-/// Places along a beam, found once, to be asked often: those at its knots, and so many between each two of them.
+/// Places along a beam, precomputed for repeated sampling: its knots, and a number of places between consecutive knots.
 ///
-/// Where a joint cuts the beam there are two of the same arc length, the end of the part before and the start of the part behind.
+/// At a joint inside the beam there are two places of the same arc length, at the end of one part and the start of the next.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BeamPlaces {
     beam: usize,
     places: Vec<(f64, BodyPoint, SectionPlace)>,
 }
 
-/// What a beam does at one of its places.
+/// State of a beam at one of its places.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BeamSample {
-    /// From the start of the beam as drawn [length].
+    /// Arc length as drawn [length].
     pub arc_length: f64,
-    /// The place of the sample in the plane [length].
+    /// Position [length].
     pub position: Vec2,
-    /// How fast it moves [length/time].
+    /// Velocity [length/time].
     pub velocity: Vec2,
-    /// The angle of the section; unwrapped, as that at the start of the beam is followed [rad].
+    /// Section angle, unwrapped from the tracked angle at the start of the beam [rad].
     pub angle: f64,
-    /// What is transmitted there, by strains and, where the material is damped, by their rates.
+    /// Section forces, including those of material damping.
     pub forces: SectionForces,
-    /// The energy that the strains there store, per length as drawn [energy/length].
+    /// Strain energy per length as drawn [energy/length].
     pub strain_energy: f64,
 }
 
 impl BeamPlaces {
-    /// Places between two knots that tell what section forces do there.
+    /// Number of places between two knots that resolves the variation of section forces.
     pub const WITHIN_A_SPAN: usize = 3;
 
-    /// Leaves, of two places with the same arc length at a joint that cuts the beam, that of the part behind alone.
+    /// Keeps only the second of two places with the same arc length at a joint inside the beam.
     pub fn one_at_each_arc_length(mut self) -> Self {
         let mut behind = self.arc_lengths().skip(1).collect::<Vec<_>>().into_iter();
         self.places.retain(|(arc_length, ..)| behind.next() != Some(*arc_length));
         self
     }
 
-    /// From the start of the beam as drawn, in rising order [length].
+    /// Increasing arc lengths as drawn [length].
     pub fn arc_lengths(&self) -> impl Iterator<Item = f64> + '_ {
         self.places.iter().map(|(arc_length, ..)| *arc_length)
     }
 
-    /// Where the places are when the control points of the beam are these [length].
+    /// Positions of the places for given control points of the beam [length].
     pub fn positions(&self, control_points: &[Vec2]) -> impl Iterator<Item = Vec2> {
         self.places.iter().map(|(_, place, _)| place.interpolate(control_points))
     }
 }
 
 impl System {
-    /// The places of a beam at which [`sample_along`](Self::sample_along) looks: its knots, and so many between each two of them.
+    /// Places of a beam for [`sample_along`](Self::sample_along): its knots, and a number of places between consecutive knots.
     ///
     /// # Errors
-    /// When an axis has a point without a tangent.
+    /// Fails if an axis has a point without a tangent.
     pub fn places_along(
         &self,
         scene: &Scene,
@@ -79,7 +79,7 @@ impl System {
         Ok(BeamPlaces { beam, places: places.map_err(of_geometry)? })
     }
 
-    /// What a beam does in the present configuration, from its start to its end.
+    /// Samples a beam in the present configuration, from start to end.
     pub fn sample_along(&self, along: &BeamPlaces) -> Vec<BeamSample> {
         let dynamics = &self.bodies()[along.beam].dynamics;
         let mut angle = self.end_angles(along.beam).0;
@@ -100,7 +100,7 @@ impl System {
     }
 }
 
-/// The angle that differs from `angle` by whole turns and is nearest to another one [rad].
+/// Angle that differs from `angle` by whole turns and is nearest to `other` [rad].
 fn nearest_turn(angle: f64, other: f64) -> f64 {
     angle + 2.0 * PI * ((other - angle) / (2.0 * PI)).round()
 }

@@ -1,4 +1,4 @@
-//! What a scene uses, and what it therefore leaves out.
+//! Summary of the features that a scene uses and omits.
 
 use crate::beams::{PointCounts, SectionVariation};
 use crate::geometry::Vec2;
@@ -11,47 +11,47 @@ use crate::system::elements::{ExternalForce, InternalForce};
 use crate::system::errors::{MOST, in_words, plural};
 use crate::system::{BeamDefinition, Drive, Scene, System, SystemError};
 
-/// A part of the mechanics, and whether a simulation uses it.
+/// Part of the mechanics, with its use in a simulation.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SystemFeature {
-    /// The part of the mechanics in words.
+    /// Description of the part.
     pub name: String,
-    /// Whether the part is used, and how or what is saved.
+    /// Use of the part.
     pub usage: Usage,
 }
 
-/// Whether a part of the mechanics is used.
+/// Use of a part of the mechanics.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Usage {
-    /// The part is used: how much, or why.
+    /// The part is used; the text says how.
     Used(String),
-    /// The part is not used: what is saved by that.
+    /// The part is omitted; the text says what is saved.
     LeftOut(String),
 }
 
 impl SystemFeature {
-    /// A part of the mechanics that is used, and how.
+    /// Returns a feature in use.
     pub fn used(name: impl Into<String>, how: impl Into<String>) -> Self {
         Self { name: name.into(), usage: Usage::Used(how.into()) }
     }
 
-    /// The steps of a simulation as a part that is used: their size in words, and the times at which they are cut.
+    /// Returns the feature of the time steps: their size, and the times at which they are cut.
     pub fn steps(size: &str, cuts: &[f64]) -> Self {
         let cut = in_words(cuts).map(|times| format!("cut ahead at t = {times}"));
         Self::used("steps", format!("{size}, {}", cut.unwrap_or("no cuts ahead".to_owned())))
     }
 
-    /// A part of the mechanics that is left out, and what is saved by that.
+    /// Returns an omitted feature.
     pub fn left_out(name: impl Into<String>, saved: impl Into<String>) -> Self {
         Self { name: name.into(), usage: Usage::LeftOut(saved.into()) }
     }
 }
 
 impl Scene {
-    /// What a simulation of this scene uses and what it leaves out, with any integrator.
+    /// Features that a simulation of this scene uses and omits, with any integrator.
     ///
     /// # Errors
-    /// When the scene cannot be assembled.
+    /// Fails if the scene cannot be assembled.
     pub fn explain(&self) -> Result<Vec<SystemFeature>, SystemError> {
         let methods: Vec<Method> = INTEGRATORS.iter().map(|entry| entry.method).collect();
         Ok(System::assemble(self)?.explain(self, &methods))
@@ -59,7 +59,7 @@ impl Scene {
 }
 
 impl System {
-    /// What this model of a scene uses and what it leaves out; `methods` are those that may advance it.
+    /// Features that this model of a scene uses and omits; `methods` are the candidates to advance it.
     pub fn explain(&self, scene: &Scene, methods: &[Method]) -> Vec<SystemFeature> {
         let mut parts = vec![self.explain_matrix()];
         parts.extend(self.explain_beams(scene));
@@ -97,7 +97,6 @@ impl System {
         SystemFeature::used("unknowns", how)
     }
 
-    /// The unknowns that are movements.
     fn movements(&self) -> usize {
         self.unknowns() - self.links().forces()
     }
@@ -156,7 +155,6 @@ impl System {
         parts
     }
 
-    /// The joints that have not let go.
     fn holding<'s>(&'s self, scene: &'s Scene) -> impl Iterator<Item = &'s Joint> {
         let unknowns = self.unknown_movements();
         let joints = scene.joints.iter().enumerate();
@@ -311,7 +309,6 @@ fn explain_drive(scene: &Scene, drive: &Drive) -> SystemFeature {
     SystemFeature::used(format!("{} '{}'", drive.kind.name(), drive.name), how)
 }
 
-/// What lets go in the course of a run; nothing where nothing does.
 fn explain_releases(scene: &Scene) -> Option<SystemFeature> {
     let told = scene.releases.iter().map(|release| {
         let name = scene.name_of_hold(release.hold);
@@ -350,7 +347,7 @@ fn explain_particles(scene: &Scene) -> SystemFeature {
     }
 }
 
-/// Masses besides those of the particles themselves.
+/// Masses other than those of particles and rigid bodies.
 fn explain_masses(scene: &Scene) -> SystemFeature {
     match scene.masses().count().saturating_sub(scene.particles.len() + scene.rigid_bodies.len()) {
         0 => SystemFeature::left_out("point masses", "the mass matrix is that of the bodies"),
@@ -362,7 +359,7 @@ fn explain_masses(scene: &Scene) -> SystemFeature {
     }
 }
 
-/// `2 hinges, 1 clamp`.
+/// Text such as `2 hinges, 1 clamp`.
 fn counted<'a>(joints: impl Iterator<Item = &'a Joint>) -> String {
     let mut kinds: Vec<(&str, usize)> = Vec::new();
     for joint in joints {

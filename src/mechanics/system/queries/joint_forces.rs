@@ -1,34 +1,34 @@
-//! What joints transmit.
+//! Forces transmitted by joints.
 //!
-//! A joint holds two sets of nodes at one place together. What it gives to one of them is what joints and supports give to all nodes of that side,
-//! as other joints on the same side only pass on among them; with the ground on that side, it is the opposite of what the other gets. A scene refuses
-//! joints that hold a place twice, so that no other joint leads from one side to the other.
+//! A joint connects two sets of nodes at one place. The force on one side is the sum of the forces of joints and supports on all nodes of that side,
+//! as joints within the side cancel. If one side is the ground, the force is the opposite of that on the other side. Scenes reject redundant joints,
+//! so no other joint connects both sides.
 
 use crate::geometry::Vec2;
 use crate::joints::{Component, Joint, JointKind, Partner, Releasable};
 use crate::system::{Reactions, Scene, System, SystemError};
 
-/// A node of a body, or the ground.
+/// Node of a body, or the ground.
 type Node = Option<(usize, usize)>;
 
-/// The nodes that get what a joint gives, and whether they get it with the opposite sign.
+/// Nodes on one side of a joint, and the sign of the force.
 #[derive(Debug, Clone, PartialEq)]
 struct JointSide {
     nodes: Vec<(usize, usize)>,
     sign: f64,
 }
 
-/// A joint, found among the nodes of a model once, to be asked often.
+/// Joint whose nodes were located for repeated queries.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Transmission {
-    /// For each component of movement, if the joint ties it.
+    /// Sides by component, for components that the joint connects.
     sides: [Option<JointSide>; 3],
-    /// The index of the inclined roller that the joint is, if it is one.
+    /// Index of the inclined roller, if the joint is one.
     roller: Option<usize>,
 }
 
 impl Transmission {
-    /// Force [force] and moment [force·length] on the first of the two stations of the joint, at the moment or in the step of what is given.
+    /// Force [force] and moment [force·length] on the first station of the joint, at the time or over the step of the reactions.
     pub fn read(&self, given: &Reactions) -> (Vec2, f64) {
         let sum = |component: Component| {
             let at = component as usize;
@@ -43,10 +43,10 @@ impl Transmission {
 }
 
 impl System {
-    /// What a joint holds together, by its index in the scene; nothing after it has let go.
+    /// Locates the nodes of a joint; empty after its release.
     ///
     /// # Errors
-    /// When a station is off its beam, which it was not when the scene was described.
+    /// Fails if a station lies off its beam, which the scene excludes.
     pub fn transmission(&self, scene: &Scene, joint: usize) -> Result<Transmission, SystemError> {
         let ends = |joint: &Joint| -> Result<(Node, Node), SystemError> {
             let node = |station| -> Result<Node, SystemError> {
@@ -63,7 +63,7 @@ impl System {
         let has_let_go = |hold: Releasable| unknowns.are_free_of(hold);
         let all = scene.joints.iter().map(|joint| Ok((joint.kind, ends(joint)?)));
         let all = all.collect::<Result<Vec<_>, SystemError>>()?;
-        // A rigid body turns as a whole.
+        // A rigid body transmits as a whole.
         let links = self.links().iter();
         let turning = links.map(|link| (Some((link.body, 0)), Some((link.body, link.point))));
         let turning: Vec<(Node, Node)> = turning.collect();
@@ -102,7 +102,7 @@ impl System {
     }
 }
 
-/// The nodes that pairs connect with one; what hangs on the ground elsewhere does not.
+/// Nodes connected to one by pairs, without passing through the ground.
 fn reached(from: Node, pairs: &[(Node, Node)]) -> Vec<Node> {
     let mut found = vec![from];
     let mut next = 0;

@@ -1,4 +1,4 @@
-//! Looking at a model: where it is, how it moves, and what it uses.
+//! Queries of a model: positions, motion and features in use.
 
 mod beam_places;
 mod drives;

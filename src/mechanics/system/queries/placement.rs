@@ -1,27 +1,27 @@
-//! Where everything is, to be compared with where it is by another way.
+//! Comparison of two configurations.
 
 use crate::elementary::atan2;
 use crate::geometry::{Vec2, cross, larger};
 use crate::system::System;
 
-/// The placement of a model: where its control points are, and the normals of its sections.
+/// Control points and section normals of a model.
 #[derive(Debug, Clone, Default)]
 pub struct Placement {
     points: Vec<Vec2>,
     normals: Vec<Vec2>,
 }
 
-/// The distance between two placements of a model.
+/// Distance between two placements of a model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Distance {
-    /// The largest distance between control points [length].
+    /// Largest distance between control points [length].
     pub length: f64,
-    /// The largest angle between normals [rad].
+    /// Largest angle between normals [rad].
     pub angle: f64,
 }
 
 impl Placement {
-    /// The largest distances from another placement of the same model; NaN when there is one.
+    /// Largest distances from another placement of the same model; NaN if any is NaN.
     pub fn distance(&self, other: &Self) -> Distance {
         let points = self.points.iter().zip(&other.points);
         let normals = self.normals.iter().zip(&other.normals);
@@ -33,7 +33,7 @@ impl Placement {
 }
 
 impl System {
-    /// Writes where everything in the model is over what a placement holds.
+    /// Overwrites `placement` with the present configuration.
     pub fn write_placement(&self, placement: &mut Placement) {
         placement.points.clear();
         placement.normals.clear();
@@ -43,7 +43,7 @@ impl System {
         }
     }
 
-    /// Whether the loads may have other values just after the present time than just before it.
+    /// Returns true if loads may jump at the present time.
     pub fn loads_may_jump(&self) -> bool {
         self.elements().may_jump_at(self.time())
     }

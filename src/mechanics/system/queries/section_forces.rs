@@ -1,31 +1,31 @@
-//! What the cross sections of a beam transmit.
+//! Section forces of a beam.
 
 use super::beam_places::{BeamPlaces, BeamSample};
 use crate::beams::{BodyIndex, SectionForces, SectionPlace, SectionPoints, Station};
 use crate::integrators::Mechanism;
 use crate::system::{Scene, System, SystemError};
 
-/// A station of a beam, found among the quadrature points once, to be asked often.
+/// Station of a beam, located among the quadrature points for repeated queries.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CrossSection {
     body: usize,
     place: SectionPlace,
 }
 
-/// The section forces at a place along a beam.
+/// Section forces at a place along a beam.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SectionSample {
-    /// The arc length of the place from the start of the beam as drawn [length].
+    /// Arc length as drawn [length].
     pub arc_length: f64,
-    /// The section forces and strains at the place.
+    /// Section forces and strains at the place.
     pub forces: SectionForces,
 }
 
 impl System {
-    /// A station of a beam as section forces need it; where a joint cuts the beam, the side that begins there.
+    /// Locates a station of a beam for section forces. At a joint inside the beam it is the start of the second part.
     ///
     /// # Errors
-    /// When the station lies outside its beam, or on a particle.
+    /// Fails if the station lies outside its beam or on a particle.
     pub fn cross_section(
         &self,
         scene: &Scene,
@@ -43,19 +43,17 @@ impl System {
         Ok(CrossSection { body: beam, place })
     }
 
-    /// Section forces in the present configuration, by the law of the material from the strains there, as they balance loads and inertia:
-    /// see [`SectionPlace`].
+    /// Section forces in the present configuration from the material law, in balance with loads and inertia: see [`SectionPlace`].
     ///
-    /// In a step of the energy-momentum method the balance has those of its middle, which are the mean of those at its ends: where a stiff beam rings
-    /// from step to step, the mean of two neighbouring steps does not.
+    /// A step of the energy–momentum method balances the section forces at its middle, the mean of those at its ends. In a stiff beam that oscillates
+    /// from step to step, only this mean is free of the oscillation.
     ///
-    /// A material that is damped adds what the present rates ask for; strains are those there are, whatever the rates.
+    /// Material damping contributes at the present rates. Strains do not depend on rates.
     pub fn section_forces(&self, at: &CrossSection) -> SectionForces {
         let of_strains = self.bodies()[at.body].dynamics.section_forces(&at.place);
         self.with_damping(of_strains, at.body, &at.place)
     }
 
-    /// Section forces of strains with those of the damping of the material.
     pub(super) fn with_damping(
         &self,
         of_strains: SectionForces,
@@ -70,11 +68,11 @@ impl System {
         viscous.fold(of_strains, SectionForces::with_viscous)
     }
 
-    /// The section forces along a beam, from its start to its end: at the knots and at three places between. Where a joint cuts the beam there are two
-    /// rows of the same arc length, that of the part before and that of the part behind.
+    /// Section forces along a beam from start to end, at the knots and three places between consecutive knots. A joint inside the beam has two rows
+    /// of the same arc length, one for each part.
     ///
     /// # Errors
-    /// When an axis has a point without a tangent.
+    /// Fails if an axis has a point without a tangent.
     pub fn section_forces_along(
         &self,
         scene: &Scene,

@@ -1,4 +1,4 @@
-//! Reading the sensors of a scene.
+//! Evaluation of the sensors of a scene.
 
 use crate::beams::{BodyIndex, BodyPoint, Station};
 use crate::geometry::Vec2;
@@ -8,13 +8,13 @@ use crate::system::{
     Value,
 };
 
-/// The sensors of a scene, found in its model once.
+/// Sensors of a scene, located in its model.
 #[derive(Debug, Clone, Default)]
 pub struct SensorReader {
     readings: Vec<SensorReading>,
-    /// Whether one of them needs accelerations or forces.
+    /// True if a sensor needs accelerations or forces.
     needs_instant: bool,
-    /// Whether one of them needs what was given in the mean of a step.
+    /// True if a sensor needs averages over a step.
     needs_mean: bool,
     values: Vec<f64>,
 }
@@ -32,10 +32,10 @@ enum SensorReading {
 }
 
 impl SensorReader {
-    /// The sensors of a scene.
+    /// Locates the sensors of a scene.
     ///
     /// # Errors
-    /// When the force of a joint is not determined.
+    /// Fails if the force of a joint is not determined.
     pub fn of(scene: &Scene, model: &System) -> Result<Self, SystemError> {
         let readings = scene.sensors.iter().map(|sensor| match &sensor.probe {
             Probe::Station(station, quantity) => at_station(scene, model, station, quantity.value),
@@ -75,12 +75,12 @@ impl SensorReader {
         Ok(Self { values, readings, needs_instant, needs_mean })
     }
 
-    /// Whether they need what joints and supports gave in the mean of a step.
+    /// Returns true if sensors need the mean forces of joints and supports over a step.
     pub fn need_mean(&self) -> bool {
         self.needs_mean
     }
 
-    /// Reads all; what cannot be had, and what somebody outside is to fill in, is not a number.
+    /// Evaluates all sensors; NaN for unavailable values and for those that the caller provides.
     pub fn read(&mut self, model: &mut System) -> &[f64] {
         self.values.clear();
         let now = if self.needs_instant { model.instant().ok() } else { None };
@@ -114,7 +114,7 @@ fn at_station(
     })
 }
 
-/// What is known when sensors are read, as far as one of them needs it.
+/// Precomputed data for the sensors, as far as needed.
 #[derive(Clone, Copy)]
 struct SensorContext<'a> {
     now: Option<&'a Instant>,
@@ -182,7 +182,7 @@ fn of_energy(energy: &BodyEnergy, value: Value) -> f64 {
 }
 
 impl System {
-    /// The angular velocity of the section at a place [1/time].
+    /// Angular velocity of the section at a place [1/time].
     pub fn spin(&self, place: &BodyPoint) -> f64 {
         let [_, _, spin] = self.bodies()[place.body].at(place, self.rates());
         spin

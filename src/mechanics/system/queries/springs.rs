@@ -1,28 +1,28 @@
-//! Looking at springs and dampers: what they measure, their forces, and their part of the ledger.
+//! Queries of springs and dampers: elongations, forces and energies.
 
 use crate::integrators::Mechanism;
 use crate::system::System;
 use crate::system::elements::{Branch, InternalForce, ShortBounce, SpringTrialState};
 
-/// What a spring measures is right to this part of it.
+/// Relative accuracy of an elongation.
 const ROUNDING: f64 = 1e-14;
 
-/// What a spring or a damper is in, in the present state.
+/// State of a spring or a damper.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpringState {
-    /// What it measures: the length of its way [length], or of a torsion spring the angle [rad].
+    /// Length [length], or angle of a torsion spring [rad].
     pub elongation: f64,
-    /// The force of the spring, positive where it pulls, or its moment; the mean of the last step, or of methods that take forces at the ends of steps that at
-    /// its end [force, force·length].
+    /// Force (positive in tension) or moment. It is the mean over the last step, or the value at its end for methods that take forces at the ends of
+    /// steps [force, force·length].
     pub force: f64,
-    /// The energy that it stores [energy].
+    /// Stored energy [energy].
     pub stored: f64,
-    /// What it has dissipated since the start [energy].
+    /// Dissipated energy since the start [energy].
     pub dissipated: f64,
 }
 
 impl System {
-    /// The states of all springs and dampers, in the order of the scene.
+    /// States of all springs and dampers, in the order of the scene.
     pub fn springs(&self) -> impl Iterator<Item = SpringState> {
         self.elements().resistances().filter_map(|spring: &dyn InternalForce| {
             let SpringTrialState { elongation, force, .. } = spring.stretched()?;
@@ -31,7 +31,7 @@ impl System {
         })
     }
 
-    /// Whether a spring has a force, and not only the rounding of what it measures.
+    /// Returns true if a spring carries a force beyond rounding.
     pub fn is_strung(&self) -> bool {
         let all = self.elements().resistances();
         all.filter_map(|one: &dyn InternalForce| one.stretched()).any(|spring| {
@@ -39,31 +39,31 @@ impl System {
         })
     }
 
-    /// What winds have given since the start, in the order of the scene [energy].
+    /// Work of winds since the start, in the order of the scene [energy].
     pub fn works_of_wind(&self) -> impl Iterator<Item = f64> {
         self.elements().resistances().filter_map(InternalForce::wind_work)
     }
 
-    /// Writes the branches on which the springs are whose laws have sharp corners, in the order of the scene, over what a list holds.
+    /// Overwrites `branches` with those of all springs whose laws have sharp corners, in the order of the scene.
     pub fn write_branches(&self, branches: &mut Vec<Branch>) {
         let all = self.elements().resistances();
         branches.clear();
         branches.extend(all.filter_map(|one| one.branch(self.bodies(), self.rates())));
     }
 
-    /// The springs on which a bounce lasted so few steps that they do not resolve it, by name.
+    /// Springs with a bounce that the steps did not resolve, by name.
     pub fn short_bounces(&self) -> impl Iterator<Item = (&str, ShortBounce)> {
         self.elements().resistances().filter_map(|one| Some((one.name(), one.short_bounce()?)))
     }
 
-    /// The spring of the largest stiffness at present, by name [force/length, force·length/rad].
+    /// Name and present stiffness of the stiffest spring [force/length, force·length/rad].
     pub fn stiffest_spring(&self) -> Option<(&str, f64)> {
         let all = self.elements().resistances();
         let all = all.filter_map(|one| Some((one.name(), one.stretched()?.stiffness)));
         all.filter(|(_, stiffness)| *stiffness > 0.0).max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// What has dissipated most, or was given most by the wind, by name, and how much that is [energy].
+    /// Element with the largest dissipation or work of the wind: its name and that energy [energy].
     pub fn most_damping(&self) -> Option<(&str, f64)> {
         let turned_over =
             |one: &dyn InternalForce| one.dissipated() + one.wind_work().map_or(0.0, f64::abs);
@@ -71,7 +71,8 @@ impl System {
         all.filter(|(_, energy)| *energy > 0.0).max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// What else has dissipated since the start, in the order of the scene: damping of materials, drag, blows of sliders that lose by them [energy].
+    /// Dissipated energies of other elements since the start, in the order of the scene: material damping, drag, impacts of sliders with restitution
+    /// below 1 [energy].
     pub fn dissipations(&self) -> impl Iterator<Item = f64> {
         let others = self.elements().resistances().filter(|other| other.stretched().is_none());
         let losing = self.sliders().iter().filter(|slider| slider.restitution < 1.0);

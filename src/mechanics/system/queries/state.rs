@@ -1,4 +1,4 @@
-//! Looking at a model: places, velocities and angles.
+//! Queries of places, velocities and angles.
 
 use crate::beams::{BodyIndex, BodyPoint, Mesh, Station};
 use crate::geometry::Vec2;
@@ -7,17 +7,17 @@ use crate::system::bodies::Body;
 use crate::system::{Scene, System, UnknownKind};
 
 impl System {
-    /// The meshes of the beams, with breaks where joints are.
+    /// Meshes of the beams, with breaks at joints.
     pub fn meshes(&self) -> &[Mesh] {
         self.bodies().meshes()
     }
 
-    /// The control points of all bodies: beams first, then particles, then rigid bodies [length].
+    /// Control points of all bodies: beams, then particles, then rigid bodies [length].
     pub fn control_points(&self) -> impl Iterator<Item = &[Vec2]> {
         self.bodies().iter().map(|body| body.dynamics.control_points())
     }
 
-    /// Which body, control point and component, x, y or the angle, an unknown is the movement of, by its number; the first of those that share it.
+    /// Body, control point and component (x, y or angle) of an unknown; the first one if several share it.
     pub fn movement(&self, unknown: usize) -> Option<(usize, usize, usize)> {
         self.bodies().iter().enumerate().find_map(|(body, one)| {
             let all = one.degrees_of_freedom.as_flattened();
@@ -26,39 +26,39 @@ impl System {
         })
     }
 
-    /// The body and its point whose rigid link an unknown is the force of, by its number.
+    /// Body and point of the rigid link whose force is the given unknown.
     pub fn linked_by(&self, unknown: usize) -> Option<(usize, usize)> {
         let link = self.links().iter().find(|link| link.unknowns.contains(&unknown))?;
         Some((link.body, link.point))
     }
 
-    /// The number of unknowns that are no unknowns of contacts: movements, and forces of rigid links.
+    /// Number of movements and link forces among the unknowns, without contact multipliers.
     pub fn unknown_count(&self) -> usize {
         self.unknown_movements().count()
     }
 
-    /// The point where a place of the model is [length].
+    /// Position of a place [length].
     pub fn position(&self, place: &BodyPoint) -> Vec2 {
         self.bodies().position(place)
     }
 
-    /// The velocity of a place of the model [length/time].
+    /// Velocity of a place [length/time].
     pub fn velocity(&self, place: &BodyPoint) -> Vec2 {
         let [x, y, _] = self.bodies()[place.body].at(place, self.rates());
         Vec2::new(x, y)
     }
 
-    /// The angle of the section at a station, unwrapped [rad]; none when the scene did not know it at the start.
+    /// Unwrapped section angle at a station [rad]; `None` if it is not tracked.
     pub fn angle(&self, scene: &Scene, station: &Station) -> Option<f64> {
         self.section_angle(self.followed_section(scene, station)?)
     }
 
-    /// The angle of a section that is followed, by its number, unwrapped [rad].
+    /// Unwrapped angle of a tracked section [rad].
     pub fn section_angle(&self, section: usize) -> Option<f64> {
         self.bodies().angle(section)
     }
 
-    /// The number of the section at a station among those that are followed; none when the scene did not know it at the start.
+    /// Index of the tracked section at a station; `None` if it is not tracked.
     pub fn followed_section(&self, scene: &Scene, station: &Station) -> Option<usize> {
         let beam = match station.body {
             BodyIndex::Beam(beam) => beam,
@@ -79,18 +79,18 @@ impl System {
         })
     }
 
-    /// The angles of the sections at the start and the end of a beam, unwrapped [rad].
+    /// Unwrapped section angles at the start and end of a beam [rad].
     pub fn end_angles(&self, beam: usize) -> (f64, f64) {
         let angle = |section| self.bodies().angle(section).unwrap_or(f64::NAN);
         (angle(2 * beam), angle(2 * beam + 1))
     }
 
-    /// What the unknowns of the model are, one entry for each.
+    /// Kinds of all unknowns.
     pub fn unknown_kinds(&self) -> &[UnknownKind] {
         self.unknown_movements().kinds()
     }
 
-    /// The displacements of the control points of all bodies in a movement [length].
+    /// Displacements of the control points of all bodies in a movement [length].
     pub fn displacements(&self, movements: &[f64]) -> Vec<Vec<Vec2>> {
         let of_body = |body: &Body| {
             (0..body.degrees_of_freedom.len()).map(|at| body.vector_at(at, movements)).collect()
@@ -98,7 +98,7 @@ impl System {
         self.bodies().iter().map(of_body).collect()
     }
 
-    /// The name of the first load of the model that turns with a section, which has no potential.
+    /// Name of the first follower load, which has no potential.
     pub fn follower(&self) -> Option<&str> {
         self.elements().forces().find(|element| element.turns()).map(|element| element.name())
     }

@@ -1,4 +1,4 @@
-//! The editable description of what is simulated. Nothing is assembled here.
+//! Editable description of what is simulated. Nothing is assembled here.
 
 use std::collections::HashSet;
 
@@ -15,60 +15,59 @@ use crate::system::SystemError;
 use crate::system::elements::{Drive, Element, MaterialDamping, PointMass, SceneChecks, Spring};
 use crate::system::errors::{refusal, rounded};
 
-/// What is simulated: beams, particles, rigid bodies, joints, masses and loads.
+/// Beams, particles, rigid bodies, joints, masses and loads to be simulated.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(try_from = "StoredScene")]
 pub struct Scene {
-    /// The name of the scene, for messages and reports.
+    /// Name in messages and reports.
     pub name: String,
-    /// The beams of the scene, in the order in which they were added.
+    /// Beams, in the order of addition.
     pub beams: Vec<BeamDefinition>,
-    /// The particles of the scene, in the order in which they were added.
+    /// Particles, in the order of addition.
     pub particles: Vec<ParticleDefinition>,
-    /// The rigid bodies of the scene, in the order in which they were added.
+    /// Rigid bodies, in the order of addition.
     pub rigid_bodies: Vec<RigidBodyDefinition>,
-    /// The stations whose angle is followed, besides the ends of all beams.
+    /// Stations whose section angle is tracked, in addition to the ends of beams.
     pub stations: Vec<Station>,
-    /// The joints of the scene: supports and joints between beams.
+    /// Supports, and joints between bodies.
     pub joints: Vec<Joint>,
-    /// The tracks of the scene, along which sliders pass from beam to beam.
+    /// Tracks along which sliders pass from beam to beam.
     pub tracks: Vec<Track>,
-    /// The sliding joints of the scene.
+    /// Sliding joints.
     pub sliders: Vec<Slider>,
-    /// The motions that are given to stations, in the order in which they were added.
+    /// Prescribed motions of stations, in the order of addition.
     pub drives: Vec<Drive>,
-    /// What lets go in the course of a run, in the order in which it was said.
+    /// Releases during a run, in the order of addition.
     pub releases: Vec<Release>,
-    /// The start velocities of single nodes.
+    /// Start velocities of single nodes.
     pub velocities: Vec<StationVelocity>,
-    /// Masses, loads and springs, in the order in which they were added.
+    /// Masses, loads, springs and other elements, in the order of addition.
     pub elements: Vec<Element>,
-    /// The acceleration of free fall [length/time²].
+    /// Gravitational acceleration [length/time²].
     pub gravity: Vec2,
-    /// Quantities that are recorded besides those that every history has.
+    /// Recorded quantities in addition to the standard ones.
     pub sensors: Vec<Sensor>,
 }
 
 impl Scene {
-    /// The length of the longest beam of the scene, if there is one [length].
+    /// Length of the longest beam [length].
     pub fn longest_beam(&self) -> Option<f64> {
         self.beams.iter().map(|beam| beam.axis.length()).reduce(f64::max)
     }
 
-    /// The mass of the scene as it is drawn [mass].
+    /// Total mass [mass].
     pub fn mass(&self) -> f64 {
         let beams: f64 = self.beams.iter().map(BeamDefinition::mass).sum();
         beams + self.masses().map(|mass| mass.mass).sum::<f64>()
     }
 
-    /// The speed of the fastest axial wave in the scene's beams; zero where there are no beams [length/time].
     pub(in crate::system) fn fastest_wave(&self) -> f64 {
         let sections = self.beams.iter().flat_map(|beam| beam.section.sections());
         let squares = sections.map(|section| section.axial_stiffness / section.mass_per_length);
         squares.fold(0.0, f64::max).sqrt()
     }
 
-    /// The joints that hold a beam, by its index.
+    /// Joints at a beam.
     pub fn joints_of(&self, beam: usize) -> impl Iterator<Item = &Joint> {
         self.joints.iter().filter(move |joint| {
             let other = match joint.partner {
@@ -79,7 +78,7 @@ impl Scene {
         })
     }
 
-    /// The point masses of the scene, those of particles among them, in the order in which they were added.
+    /// Point masses, including those of particles, in the order of addition.
     pub fn masses(&self) -> impl Iterator<Item = &PointMass> + Clone {
         self.elements.iter().filter_map(|element| match element {
             Element::PointMass(mass) => Some(mass),
@@ -87,7 +86,7 @@ impl Scene {
         })
     }
 
-    /// The loads of the scene, in the order in which they were added.
+    /// Loads, in the order of addition.
     pub fn loads(&self) -> impl Iterator<Item = &Load> + Clone {
         self.elements.iter().filter_map(|element| match element {
             Element::Load(load) => Some(load),
@@ -95,7 +94,7 @@ impl Scene {
         })
     }
 
-    /// Springs, dampers and tendons, in the order in which they were added.
+    /// Springs, dampers and tendons, in the order of addition.
     pub fn springs(&self) -> impl Iterator<Item = &Spring> + Clone {
         self.elements.iter().filter_map(|element| match element {
             Element::Spring(spring) => Some(spring),
@@ -103,7 +102,7 @@ impl Scene {
         })
     }
 
-    /// The schedules of the scene's elements and drives, each with the name of its owner.
+    /// Schedules of elements and drives with the names of their owners.
     pub fn schedules(&self) -> impl Iterator<Item = (&str, &Schedule)> {
         let of_elements = self.elements.iter();
         let of_elements = of_elements.filter_map(|element| element.description().schedule());
@@ -113,7 +112,7 @@ impl Scene {
         of_elements.chain(of_drives)
     }
 
-    /// An empty scene of a name.
+    /// Returns an empty scene.
     pub fn new(name: impl Into<String>) -> Self {
         Self {
             name: name.into(),
@@ -133,20 +132,20 @@ impl Scene {
         }
     }
 
-    /// Adds a beam to the scene and returns its index.
+    /// Adds a beam and returns its index.
     ///
     /// # Errors
-    /// When something of that name exists, or the name is empty or cannot be printed.
+    /// Fails if the name is taken, empty or not printable.
     pub fn add_beam(&mut self, beam: BeamDefinition) -> Result<usize, SystemError> {
         self.check_name("beam", &beam.name)?;
         self.beams.push(beam);
         Ok(self.beams.len() - 1)
     }
 
-    /// Adds a particle to the scene and returns its station.
+    /// Adds a particle and returns its station.
     ///
     /// # Errors
-    /// When something of that name exists, the name is empty or cannot be printed, or the mass is not positive and finite.
+    /// Fails if the name is taken, empty or not printable, or the mass is not positive and finite.
     pub fn add_particle(
         &mut self,
         particle: ParticleDefinition,
@@ -161,10 +160,10 @@ impl Scene {
         Ok(station)
     }
 
-    /// Adds a sliding joint to the scene and returns its index.
+    /// Adds a sliding joint and returns its index.
     ///
     /// # Errors
-    /// When something of that name exists, the slave is not on the master or part of it, or it slides there already.
+    /// Fails if the name is taken, or if the slave is off the master, a part of it, or sliding on it already.
     pub fn add_slider(&mut self, slider: Slider) -> Result<usize, SystemError> {
         self.check_name("slider", &slider.name)?;
         self.check_slider(&slider)?;
@@ -172,7 +171,6 @@ impl Scene {
         Ok(self.sliders.len() - 1)
     }
 
-    /// What everything with a name is, and its name.
     fn names(&self) -> impl Iterator<Item = (&'static str, &String)> {
         let beams = self.beams.iter().map(|beam| ("beam", &beam.name));
         let particles = self.particles.iter().map(|particle| ("particle", &particle.name));
@@ -201,7 +199,7 @@ impl Scene {
         }
     }
 
-    /// The first of `kind1`, `kind2`, … that nothing in the scene is called.
+    /// First of the names `kind1`, `kind2`, … that is free.
     pub fn free_name(&self, kind: &str) -> String {
         let numbered = self.names().filter_map(|(_, name)| name.strip_prefix(kind)?.parse().ok());
         let taken: HashSet<u64> = numbered.collect();
@@ -209,10 +207,10 @@ impl Scene {
         format!("{kind}{free}")
     }
 
-    /// The station of a beam at an arc length [length]; its angle is followed from the start.
+    /// Returns the station of a beam at an arc length [length] and starts tracking its angle.
     ///
     /// # Errors
-    /// When the station lies outside the beam.
+    /// Fails if the station lies outside the beam.
     pub fn station(&mut self, beam: usize, arc_length: f64) -> Result<Station, SystemError> {
         self.check_station("a station", &Station::on_beam(beam, arc_length))?;
         let length = self.beams[beam].axis.length();
@@ -223,10 +221,10 @@ impl Scene {
         Ok(station)
     }
 
-    /// Ties a station of the scene to the ground or to another station.
+    /// Joins a station to the ground or to another station.
     ///
     /// # Errors
-    /// When both stations are one, do not meet, or one is tied already.
+    /// Fails if the stations are equal, do not meet, or one of them is joined already.
     pub fn join(
         &mut self,
         kind: JointKind,
@@ -246,18 +244,18 @@ impl Scene {
         })
     }
 
-    /// Puts a point mass on a station of the scene.
+    /// Adds a point mass at a station.
     ///
     /// # Errors
-    /// When the mass is not positive and finite, or its inertia negative.
+    /// Fails if the mass is not positive and finite, or the inertia is negative.
     pub fn add_mass(&mut self, mass: PointMass) -> Result<(), SystemError> {
         self.add_element(Element::PointMass(mass))
     }
 
-    /// Adds an element of any kind to the scene.
+    /// Adds an element.
     ///
     /// # Errors
-    /// When a number of it is out of its range, or a station is none of the scene.
+    /// Fails if a number is out of range or a station does not exist.
     pub fn add_element(&mut self, element: Element) -> Result<(), SystemError> {
         element.description().check(self)?;
         if let Element::Damping(MaterialDamping { name, .. }) = &element
@@ -273,13 +271,13 @@ impl Scene {
     /// Adds a spring, a damper or a tendon.
     ///
     /// # Errors
-    /// When something of that name exists, a number of it is out of its range, or a station is none of the scene.
+    /// Fails if the name is taken, a number is out of range, or a station does not exist.
     pub fn add_spring(&mut self, spring: Spring) -> Result<(), SystemError> {
         self.check_name("spring", &spring.name)?;
         self.add_element(Element::Spring(spring))
     }
 
-    /// The length of the beam that a station is on, as drawn; the size of a rigid body, zero for a particle [length].
+    /// Length of the beam, or size of the rigid body, of a station; zero for particles [length].
     pub fn length_at(&self, station: &Station) -> f64 {
         match station.body {
             BodyIndex::Beam(beam) => self.beams[beam].axis.length(),
@@ -288,10 +286,10 @@ impl Scene {
         }
     }
 
-    /// The point where a station is as drawn [length].
+    /// Place of a station as drawn [length].
     ///
     /// # Errors
-    /// When the station lies outside its beam.
+    /// Fails if the station lies outside its beam.
     pub fn drawn_at(&self, station: &Station) -> Result<Vec2, SystemError> {
         match station.body {
             BodyIndex::Beam(beam) => {
@@ -304,10 +302,10 @@ impl Scene {
         }
     }
 
-    /// The place of a station on its body, given the meshes of the beams.
+    /// Place of a station on its body for the given meshes of the beams.
     ///
     /// # Errors
-    /// When the station lies outside its beam.
+    /// Fails if the station lies outside its beam.
     pub fn place(&self, station: &Station, meshes: &[Mesh]) -> Result<BodyPoint, SystemError> {
         match station.body {
             BodyIndex::Beam(index) => {
@@ -328,7 +326,7 @@ impl Scene {
         }
     }
 
-    /// The body that a station is on, in words such as `beam 'arm'`.
+    /// Description of the body of a station, such as `beam 'arm'`.
     pub fn name_of_body(&self, station: &Station) -> String {
         match station.body {
             BodyIndex::Beam(beam) => format!("beam '{}'", self.beams[beam].name),
@@ -339,7 +337,7 @@ impl Scene {
         }
     }
 
-    /// A station in words.
+    /// Description of a station.
     pub fn describe(&self, station: &Station) -> String {
         if let BodyIndex::Rigid(body, point) = station.body {
             return self.describe_point(body, point);

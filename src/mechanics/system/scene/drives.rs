@@ -1,4 +1,4 @@
-//! Whether motions can be given as they are.
+//! Validation of prescribed motions.
 
 use super::Scene;
 use super::ties::check_ties;
@@ -7,18 +7,18 @@ use crate::loads::{LimitSide, PrescribedMotion};
 use crate::system::SystemError;
 use crate::system::elements::{Drive, SceneChecks};
 
-/// By how much of its size a given motion may miss its start: what rounding makes of functions.
+/// Relative tolerance of the initial value of a prescribed displacement.
 const CLOSED_AT_START: f64 = 1e-12;
 
-/// By how much of its size and of where it is a given motion may differ on both sides of a place where it may jump.
+/// Relative tolerance of jumps of a prescribed motion at declared breaks.
 const LARGEST_JUMP: f64 = 1e-9;
 
 impl Scene {
-    /// Gives a station a motion.
+    /// Prescribes the motion of a station.
     ///
     /// # Errors
-    /// When something of that name exists, the station is none of the scene, a movement is held or given already, or a motion has no value at its start,
-    /// does not begin where the station is, or jumps.
+    /// Fails if the name is taken, the station does not exist, a component is supported or prescribed already, or a motion is undefined at its start,
+    /// does not start at the station, or jumps.
     pub fn add_drive(&mut self, drive: Drive) -> Result<(), SystemError> {
         self.check_name(drive.kind.name(), &drive.name)?;
         self.check_station("a drive", &drive.station)?;

@@ -1,4 +1,4 @@
-//! How large a scene without beams is, wherever it is, and what rounding is worth in one.
+//! Size of a scene without beams, independent of its location, and its rounding scale.
 
 use super::{Scene, Ties};
 use crate::beams::{BodyIndex, Station};
@@ -7,20 +7,19 @@ use crate::joints::Partner;
 use crate::loads::LoadKind;
 use crate::system::elements::{Anchor, Origin, Spring, SpringKind, SpringLaw};
 
-/// Places that differ by less than this part of how far off they are, are one.
+/// Relative tolerance for equal places.
 const ROUNDED: f64 = 1e-9;
 
-/// Particles and rigid bodies that springs and joints hold together, with the ground that springs go to.
+/// Particles and rigid bodies connected by springs and joints, with the ground anchors of the springs.
 #[derive(Default)]
 struct Group {
     points: Vec<Vec2>,
-    /// The longest length at ease of a spring in it [length].
+    /// Longest natural length of its springs [length].
     at_ease: f64,
 }
 
 impl Group {
-    /// Twice the largest distance of a point from the mean of all, if it is no rounding, or a length at ease that is larger: of two points their distance
-    /// [length].
+    /// Twice the largest distance of a point from the mean of all, unless it is rounding, or a larger natural length [length].
     fn extent(&self) -> f64 {
         let count = self.points.len().max(1) as f64;
         let centre = self.points.iter().sum::<Vec2>() / count;
@@ -33,8 +32,8 @@ impl Group {
 }
 
 impl Scene {
-    /// The largest extent of particles and rigid bodies that springs or joints hold together, as drawn: it is the same wherever the scene is. Zero where
-    /// each particle is by itself, and nothing has a size [length].
+    /// Largest extent of a group of particles and rigid bodies connected by springs or joints, as drawn. It is independent of the location of the
+    /// scene, and zero for isolated particles without size [length].
     pub fn extent(&self) -> f64 {
         let mut groups = self.groups();
         for (index, particle) in self.particles.iter().enumerate() {
@@ -55,8 +54,7 @@ impl Scene {
         groups.all.iter().map(Group::extent).fold(0.0, larger)
     }
 
-    /// How far strain energies of the scene may be off by rounding: `ε Σ (EA L + EI/L)`; without beams the energy of places that are off by it, under
-    /// the forces on them as drawn [energy].
+    /// Rounding error of strain energies, `ε Σ (EA L + EI/L)`; without beams the work of the forces as drawn over the rounding of places [energy].
     pub fn rounding_energy(&self) -> f64 {
         if self.beams.is_empty() {
             return f64::EPSILON * self.rounded_work();
@@ -69,7 +67,7 @@ impl Scene {
         f64::EPSILON * stiffness.sum::<f64>()
     }
 
-    /// The sum of all forces as drawn, weights, loads and springs, times the lengths that are rounded where they act [energy].
+    /// Sum of all weights, loads and spring forces as drawn, times the rounding of lengths at their places [energy].
     fn rounded_work(&self) -> f64 {
         let extent = self.extent();
         let reach = |at: &Station| extent + self.drawn_at(at).map_or(0.0, |place| place.norm());
@@ -84,7 +82,7 @@ impl Scene {
         weights.chain(loads).chain(springs).sum()
     }
 
-    /// The force of a spring along a way as drawn [force].
+    /// Force of a spring as drawn [force].
     fn held_by(&self, spring: &Spring) -> Option<f64> {
         let SpringKind::Way(anchors) = &spring.kind else { return None };
         let places = anchors.iter().map(|anchor| match anchor {
@@ -97,7 +95,6 @@ impl Scene {
         Some(spring.law.as_ref()?.force(drawn).abs())
     }
 
-    /// Which particles and rigid bodies springs and joints hold together.
     fn groups(&self) -> Groups {
         let mut groups = Groups::new(self.particles.len() + self.rigid_bodies.len());
         for joint in &self.joints {
@@ -111,7 +108,7 @@ impl Scene {
         groups
     }
 
-    /// The number of a particle or a rigid body among both.
+    /// Index among particles and rigid bodies.
     fn member(&self, station: &Station) -> Option<usize> {
         match station.body {
             BodyIndex::Beam(_) => None,
@@ -121,7 +118,7 @@ impl Scene {
     }
 }
 
-/// The length at which a spring has no force and begins to have one; zero of an angle, and where there is none [length].
+/// Natural length of a spring; zero for angles and laws without one [length].
 fn at_ease(spring: &Spring) -> f64 {
     match (&spring.kind, &spring.law) {
         (SpringKind::Torsion(_), _) | (_, None) => 0.0,
@@ -133,7 +130,7 @@ fn at_ease(spring: &Spring) -> f64 {
     }
 }
 
-/// What members are tied to each other, and the group of each set of them.
+/// Union of connected members, and the group of each set.
 struct Groups {
     ties: Ties,
     all: Vec<Group>,

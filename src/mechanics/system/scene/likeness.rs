@@ -1,17 +1,16 @@
-//! Whether two scenes describe the same mechanism.
+//! Comparison of scenes.
 
 use serde_json::Value;
 
 use super::Scene;
 use crate::system::Element;
 
-/// Numbers that differ by no more than this part of them count as the same: they may have been computed by another formula.
+/// Relative tolerance for equal numbers, which may come from different formulas.
 const TOLERANCE: f64 = 1e-9;
 
 impl Scene {
-    /// Whether another scene has the same beams, particles, rigid bodies, joints, tracks, sliders, masses, velocities and loads, in the same order. Names do
-    /// not count, nor do places that are only looked at. Functions from outside, as in schedules, cannot be compared: a scene
-    /// with one of them is like no other.
+    /// Returns true if both scenes have equal beams, particles, rigid bodies, joints, tracks, sliders, masses, velocities and loads, in the same
+    /// order. Names and observed stations are ignored. Script functions cannot be compared, so scenes that contain them are never equal.
     pub fn is_like(&self, other: &Self) -> bool {
         match (self.without_names(), other.without_names()) {
             (Ok(own), Ok(others)) => is_near(&own, &others),
@@ -32,7 +31,7 @@ impl Scene {
             .chain(plain.elements.iter_mut().filter_map(Element::name_mut));
         names.for_each(String::clear);
         plain.rigid_bodies.iter_mut().for_each(|body| body.outline.clear());
-        // What stands in one list is of several kinds, between which the order is nobody's choice.
+        // The order between elements of different kinds is irrelevant.
         plain.elements.sort_by_key(Element::kind);
         serde_json::to_value(plain)
     }

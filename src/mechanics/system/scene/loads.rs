@@ -1,4 +1,4 @@
-//! Loads as they are added to a scene.
+//! Loads of a scene.
 
 use super::Scene;
 use crate::loads::{Load, LoadKind, Schedule};
@@ -6,16 +6,16 @@ use crate::system::SystemError;
 use crate::system::elements::Element;
 
 impl Scene {
-    /// Adds a load to the scene; its name is made of its kind.
+    /// Adds a load with a generated name.
     pub fn add_load(&mut self, kind: LoadKind, schedule: Schedule) {
         let name = self.name_of_load(&kind);
         self.elements.push(Element::Load(Load { name, kind, schedule, title: None }));
     }
 
-    /// Adds a load with a name, by which columns of the history have its work.
+    /// Adds a named load. Its work is a column of the history.
     ///
     /// # Errors
-    /// When something of that name exists, or a number of it is out of its range.
+    /// Fails if the name is taken or a number is out of range.
     pub fn add_named_load(
         &mut self,
         title: String,
@@ -27,7 +27,7 @@ impl Scene {
         self.add_element(Element::Load(Load { name, kind, schedule, title: Some(title) }))
     }
 
-    /// What gives a schedule, in words, by the name under which [`schedules`](Self::schedules) has it: with its title, if it is a load that has one.
+    /// Description of the owner of a schedule by its name in [`schedules`](Self::schedules), with the title of a load.
     pub fn source_of_schedule(&self, name: &str) -> String {
         let titles = self.loads().filter(|load| load.name == name);
         let title = titles.filter_map(|load| load.title.as_ref()).next();

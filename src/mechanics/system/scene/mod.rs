@@ -1,4 +1,4 @@
-//! The description of what is simulated, and its checks.
+//! Description of what is simulated, and its checks.
 
 mod definitions;
 mod description;

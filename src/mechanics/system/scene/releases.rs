@@ -1,14 +1,14 @@
-//! What a scene lets go in the course of a run.
+//! Releases of a scene.
 
 use super::Scene;
 use crate::joints::{Releasable, Release, Trigger};
 use crate::system::SystemError;
 
 impl Scene {
-    /// Lets something go in the course of a run.
+    /// Adds a release during a run.
     ///
     /// # Errors
-    /// When there is no such thing, it lets go already, or the time is not positive and finite.
+    /// Fails if the object does not exist, is released already, or the time is not positive and finite.
     pub fn add_release(&mut self, release: Release) -> Result<(), SystemError> {
         let (kind, index, count) = match release.hold {
             Releasable::Joint(index) => ("joint", index, self.joints.len()),
@@ -37,7 +37,7 @@ impl Scene {
         Ok(())
     }
 
-    /// The times at which something lets go, as far as they are known beforehand [time].
+    /// Release times that are known in advance [time].
     pub fn release_times(&self) -> impl Iterator<Item = f64> {
         self.releases.iter().filter_map(|release| match release.trigger {
             Trigger::Time(time) => Some(time),
@@ -45,7 +45,7 @@ impl Scene {
         })
     }
 
-    /// What something is called that may let go: a joint as in [`joint_names`](Self::joint_names), everything else by its own name.
+    /// Name of a releasable object; joints are named as in [`joint_names`](Self::joint_names).
     pub fn name_of_hold(&self, hold: Releasable) -> String {
         let name = match hold {
             Releasable::Joint(index) => self.joint_names().into_iter().nth(index),
@@ -58,7 +58,7 @@ impl Scene {
         name.unwrap_or_default()
     }
 
-    /// Everything that may let go, with its name: joints, sliders, springs, drives.
+    /// Releasable objects (joints, sliders, springs, drives) with their names.
     pub fn holds(&self) -> Vec<(String, Releasable)> {
         let joints = self.joint_names().into_iter().enumerate();
         let joints = joints.map(|(at, name)| (name, Releasable::Joint(at)));

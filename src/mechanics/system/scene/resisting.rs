@@ -1,4 +1,4 @@
-//! What resists rates in a scene: damped materials and drag.
+//! Dissipation in a scene: damped materials and drag.
 
 use super::Scene;
 use crate::beams::Relaxation;
@@ -8,7 +8,7 @@ use crate::system::SystemError;
 use crate::system::elements::{Drag, Element, MaterialDamping};
 
 impl Scene {
-    /// Drags, in the order in which they were added.
+    /// Drag elements, in the order of addition.
     pub fn drags(&self) -> impl Iterator<Item = &Drag> + Clone {
         self.elements.iter().filter_map(|element| match element {
             Element::Drag(drag) => Some(drag),
@@ -16,7 +16,7 @@ impl Scene {
         })
     }
 
-    /// The names of what dissipates besides springs and dampers, in the order in which it was added: of a damped material that of the beam.
+    /// Names of dissipative elements other than springs and dampers, in the order of addition. Material damping has the name of its beam.
     pub fn dissipating(&self) -> impl Iterator<Item = &str> + Clone {
         let own = self.elements.iter().filter_map(|element| match element {
             Element::Damping(damping) => Some(&*damping.name),
@@ -26,12 +26,12 @@ impl Scene {
         own.chain(self.losing_sliders().map(|slider| slider.name.as_str()))
     }
 
-    /// The sliders that lose energy where they bounce.
+    /// Sliders that lose energy in impacts.
     pub fn losing_sliders(&self) -> impl Iterator<Item = &Slider> + Clone {
         self.sliders.iter().filter(|slider| slider.restitution < 1.0)
     }
 
-    /// The names of what drags in a wind.
+    /// Names of drag elements with a wind.
     pub fn blown(&self) -> impl Iterator<Item = &str> + Clone {
         self.elements.iter().filter_map(|element| match element {
             Element::Drag(drag) if drag.wind != Vec2::zeros() => Some(&*drag.name),
@@ -39,10 +39,10 @@ impl Scene {
         })
     }
 
-    /// Gives the material of a beam, by its index, relaxation times: Kelvin–Voigt damping.
+    /// Adds Kelvin–Voigt material damping to a beam.
     ///
     /// # Errors
-    /// When a time is negative or not finite, there is no such beam, or it has damping already.
+    /// Fails if a relaxation time is negative or not finite, or the beam does not exist or is damped already.
     pub fn add_damping(&mut self, beam: usize, relaxation: Relaxation) -> Result<(), SystemError> {
         let name = self.beams.get(beam).map(|beam| beam.name.clone()).unwrap_or_default();
         self.add_element(Element::Damping(MaterialDamping { name, beam, relaxation }))
@@ -51,7 +51,7 @@ impl Scene {
     /// Adds drag.
     ///
     /// # Errors
-    /// When something of that name exists, a number of it is out of its range, or a body is none of the scene.
+    /// Fails if the name is taken, a number is out of range, or a body does not exist.
     pub fn add_drag(&mut self, drag: Drag) -> Result<(), SystemError> {
         self.check_name("drag", &drag.name)?;
         self.add_element(Element::Drag(drag))

@@ -1,4 +1,4 @@
-//! Rigid bodies of a scene: added, and found by the names of their points.
+//! Rigid bodies of a scene, and access to their points by name.
 
 use super::{RigidBodyDefinition, Scene};
 use crate::beams::Station;
@@ -7,22 +7,22 @@ use crate::system::SystemError;
 use crate::system::elements::PointMass;
 use crate::system::errors::{finite, refusal};
 
-/// What the language calls the centre of mass of a body: no other point may be called so.
+/// Reserved name of the centre of mass in the scripting language.
 const CENTRE: &str = "centre";
 
 impl Scene {
-    /// The number of the first rigid body among all bodies: beams come first, then particles.
+    /// Index of the first rigid body among all bodies, after beams and particles.
     pub fn first_rigid_body(&self) -> usize {
         self.beams.len() + self.particles.len()
     }
 
-    /// Adds a rigid body with a mass [mass] and an inertia about its centre of mass [mass·length²] to the scene and returns its index.
+    /// Adds a rigid body with a mass [mass] and an inertia about its centre of mass [mass·length²], and returns its index.
     ///
-    /// One of both may be zero: what has no inertia against a movement must be held in it by something else.
+    /// One of both may be zero. Movements without inertia must be restrained by another element.
     ///
     /// # Errors
-    /// When something of that name exists, two points have one name, a number is not finite or negative, an outline is no polygon or cannot be turned, or
-    /// mass and inertia are both zero.
+    /// Fails if the name is taken, two points share a name, a number is not finite or negative, the outline is not a polygon or has no point to show
+    /// its rotation, or mass and inertia are both zero.
     pub fn add_rigid_body(
         &mut self,
         body: RigidBodyDefinition,
@@ -70,10 +70,10 @@ impl Scene {
         Ok(())
     }
 
-    /// The station of a rigid body, by its index, at one of its points, by its name.
+    /// Returns the station of a rigid body at a named point.
     ///
     /// # Errors
-    /// When the body has no such point: its points are told.
+    /// Fails if the point does not exist. The error lists the points of the body.
     pub fn point_of_body(&self, body: usize, point: &str) -> Result<Station, SystemError> {
         let definition = &self.rigid_bodies[body];
         let found = definition.control_point(point);
@@ -88,7 +88,6 @@ impl Scene {
         Ok(Station::on_rigid_body(body, found))
     }
 
-    /// A station of a rigid body in words.
     pub(super) fn describe_point(&self, body: usize, point: usize) -> String {
         let RigidBodyDefinition { name, points, .. } = &self.rigid_bodies[body];
         match point.checked_sub(1).and_then(|at| points.get(at)) {

@@ -1,6 +1,6 @@
-//! Quantities that a scene records besides those that every history has.
+//! Recorded quantities of a scene in addition to the standard ones.
 //!
-//! A ready one is called by the object, the place on it and the quantity: `rod.end.x`, `rod[0.5].M`, `rod.energy`, `hinge1.force`.
+//! Built-in sensors are named by object, place and quantity: `rod.end.x`, `rod[0.5].M`, `rod.energy`, `hinge1.force`.
 
 use serde::{Serialize, Serializer};
 
@@ -9,42 +9,42 @@ use crate::beams::{BodyIndex, Station};
 use crate::joints::{Joint, JointKind, Partner};
 use crate::system::SystemError;
 
-/// A quantity that is recorded.
+/// Recorded quantity.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sensor {
-    /// The name of its column.
+    /// Name of the column.
     pub name: String,
-    /// What is read.
+    /// Source of the values.
     pub probe: Probe,
 }
 
-/// What a sensor reads.
+/// Source of the values of a sensor.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Probe {
-    /// Something of the place of a station, or of what holds it.
+    /// Quantity of a station or of its support.
     Station(Station, Quantity),
-    /// Something of a beam, a particle or a rigid body as a whole.
+    /// Quantity of a beam, particle or rigid body as a whole.
     Body(BodyIndex, Quantity),
-    /// Something of a joint, by its index.
+    /// Quantity of a joint.
     Joint(usize, Quantity),
-    /// Something of the contact of a slider, by its index.
+    /// Quantity of the contact of a slider.
     Slider(usize, Quantity),
-    /// What somebody outside reads after every row.
+    /// Value that the caller provides after every row.
     Outside,
 }
 
-/// A quantity: what it is called, its dimension, and which value of its subject it is.
+/// Quantity with name, dimension and value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Quantity {
-    /// In names of sensors.
+    /// Name as part of sensor names.
     pub name: &'static str,
-    /// The dimension of what is sensed.
+    /// Dimension of the quantity.
     pub dimension: &'static str,
-    /// What is read.
+    /// Value of the subject.
     pub value: Value,
 }
 
-/// What is read of a subject.
+/// Value of a subject.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[allow(missing_docs, reason = "the names of the quantities say it")]
 pub enum Value {
@@ -81,7 +81,7 @@ pub enum Value {
 }
 
 impl Value {
-    /// Whether it belongs to the last step as a whole, and not to the present moment.
+    /// Returns true if the value is an average over the last step, not an instantaneous one.
     pub fn is_of_step(self) -> bool {
         matches!(self, Self::MeanForce | Self::MeanForceX | Self::MeanForceY | Self::MeanCouple)
     }
@@ -91,7 +91,7 @@ const fn quantity(name: &'static str, dimension: &'static str, value: Value) -> 
     Quantity { name, dimension, value }
 }
 
-/// What can be read of any station; the first seven of a particle too, the first nine of a rigid body.
+/// Quantities of stations. Particles have the first seven, points of rigid bodies the first nine.
 pub const OF_STATIONS: &[Quantity] = &[
     quantity("x", "length", Value::X),
     quantity("y", "length", Value::Y),
@@ -110,13 +110,11 @@ pub const OF_STATIONS: &[Quantity] = &[
     quantity("curvature", "1/length", Value::Curvature),
 ];
 
-/// How many of them a particle has.
 const OF_PARTICLES: usize = 7;
 
-/// How many of them a point of a rigid body has.
 const OF_POINTS: usize = 9;
 
-/// What can be read of a joint: what it gives to its first station, at the present moment and in the mean of the last step.
+/// Quantities of joints: the force on the first station, instantaneous and averaged over the last step.
 pub const OF_JOINTS: &[Quantity] = &[
     quantity("force", "force", Value::Force),
     quantity("fx", "force", Value::ForceX),
@@ -128,14 +126,14 @@ pub const OF_JOINTS: &[Quantity] = &[
     quantity("mean_moment", "force·length", Value::MeanCouple),
 ];
 
-/// What can be read of a slider besides what every history has of it: its force on its master at the present moment.
+/// Quantities of sliders in addition to those of every history: the instantaneous force on the master.
 pub const OF_SLIDERS: &[Quantity] = &[
     quantity("present_force", "force", Value::Force),
     quantity("present_force_x", "force", Value::ForceX),
     quantity("present_force_y", "force", Value::ForceY),
 ];
 
-/// What can be read of a body as a whole.
+/// Quantities of a body as a whole.
 pub const OF_BODIES: &[Quantity] = &[
     quantity("energy", "energy", Value::Energy),
     quantity("kinetic", "energy", Value::Kinetic),
@@ -147,7 +145,7 @@ pub const OF_BODIES: &[Quantity] = &[
 ];
 
 impl Sensor {
-    /// The dimension of what it reads.
+    /// Dimension of the values.
     pub fn dimension(&self) -> &'static str {
         match &self.probe {
             Probe::Station(_, quantity)
@@ -158,12 +156,12 @@ impl Sensor {
         }
     }
 
-    /// Whether what it reads belongs to the last step as a whole.
+    /// Returns true if the values are averages over the last step.
     pub fn is_of_step(&self) -> bool {
         matches!(&self.probe, Probe::Joint(_, quantity) if quantity.value.is_of_step())
     }
 
-    /// Whether it can be stored: its name says all.
+    /// Returns true if the sensor can be stored, that is, if its name defines it.
     pub fn can_be_stored(&self) -> bool {
         self.probe != Probe::Outside
     }
@@ -180,10 +178,10 @@ impl Serialize for Sensor {
 }
 
 impl Scene {
-    /// Records a ready quantity, by its name.
+    /// Records a built-in quantity by its name.
     ///
     /// # Errors
-    /// When there is no such object, place or quantity, or it is recorded already.
+    /// Fails if the object, place or quantity does not exist or is recorded already.
     pub fn record(&mut self, name: &str) -> Result<(), SystemError> {
         self.check_column(name)?;
         let probe = self.probe(name)?;
@@ -196,10 +194,10 @@ impl Scene {
         Ok(())
     }
 
-    /// Makes a column that somebody outside fills after every row.
+    /// Adds a column that the caller fills after every row.
     ///
     /// # Errors
-    /// When there is a column of that name.
+    /// Fails if the column exists.
     pub fn record_outside(&mut self, name: &str) -> Result<(), SystemError> {
         self.check_column(name)?;
         self.sensors.push(Sensor { name: name.to_owned(), probe: Probe::Outside });
@@ -216,7 +214,7 @@ impl Scene {
         }
     }
 
-    /// The names of all ready sensors; of the places inside beams none.
+    /// Names of all built-in sensors, except those at places inside beams.
     pub fn sensor_names(&self) -> Vec<String> {
         let listed = |object: String, quantities: &'static [Quantity]| {
             quantities.iter().map(move |quantity| format!("{object}.{}", quantity.name))
@@ -242,7 +240,7 @@ impl Scene {
         beams.chain(particles).chain(rigid).chain(joints).chain(sliders).collect()
     }
 
-    /// What joints are called in names of sensors, in their order: `hinge1`, `clamp1`, `hinge2`, `rigid1`, `support1`.
+    /// Names of the joints in sensors, in their order: `hinge1`, `clamp1`, `hinge2`, `rigid1`, `support1`.
     pub fn joint_names(&self) -> Vec<String> {
         let mut counts = [0; 4];
         let name = |joint: &Joint| {
@@ -282,7 +280,7 @@ impl Scene {
         let sliders = self.sliders.iter().enumerate();
         let sliders =
             sliders.filter_map(|(at, slider)| Some((of(&slider.name)?, Object::Slider(at))));
-        // Names may begin alike; the first of equal ones counts.
+        // Names may share a prefix. The first of equal names wins.
         let all = beams.chain(particles).chain(rigid).chain(joints).chain(sliders);
         let longest = all.reduce(|best, other| if other.0.0 > best.0.0 { other } else { best });
         let mut others = self.springs().map(|spring| &spring.name);
@@ -381,7 +379,6 @@ impl Scene {
     }
 }
 
-/// What the name of a sensor begins with.
 enum Object {
     Beam(usize),
     Particle(usize),

@@ -1,4 +1,4 @@
-//! Whether sliders are where they should be.
+//! Validation of sliders.
 
 use super::Scene;
 use super::ties::same_place;
@@ -8,11 +8,11 @@ use crate::joints::{Slider, SlidingRule};
 use crate::system::SystemError;
 use crate::system::errors::{Approach, SliderError, SliderParts, written};
 
-/// Largest distance of a slave from its master when the scene starts, relative to the length of the master and the distance
-/// from the origin: a scene may be drawn in six digits, and the slave is moved onto its master exactly.
+/// Largest initial distance of a slave from its master, relative to the length of the master and the distance from the origin. It admits scenes drawn
+/// with six digits. The slave is moved onto its master exactly.
 const CLOSED: f64 = 1e-6;
 
-/// Why a law of sliding is not one for tracks, where it is not.
+/// Reason why a sliding rule is unavailable on tracks, if it is.
 fn at_seams(rule: SlidingRule) -> Option<&'static str> {
     match rule {
         SlidingRule::Conserving | SlidingRule::Exact => None,
@@ -24,10 +24,10 @@ fn at_seams(rule: SlidingRule) -> Option<&'static str> {
 }
 
 impl Scene {
-    /// The arc length at which a beam comes nearest to a station, both as drawn [length].
+    /// Arc length of the point of a beam nearest to a station, both as drawn [length].
     ///
     /// # Errors
-    /// When the station lies outside its beam.
+    /// Fails if the station lies outside its beam.
     pub fn nearest_arc_length(&self, beam: usize, station: &Station) -> Result<f64, SystemError> {
         let definition = &self.beams[beam];
         let point = self.drawn_at(station)?;
@@ -36,7 +36,6 @@ impl Scene {
             .map_err(SystemError::geometry(&definition.name))
     }
 
-    /// The place of several beams that is nearest to a station, all as drawn: the first such beam, and the arc length along it [length].
     pub(super) fn nearest_of(
         &self,
         beams: impl Iterator<Item = usize>,

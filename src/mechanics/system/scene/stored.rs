@@ -1,4 +1,4 @@
-//! Scenes from a file: whatever it holds, it is checked as if a person had written it.
+//! Loading of scenes, with the same checks as for scenes that are built by a script.
 
 use serde::Deserialize;
 
@@ -11,16 +11,16 @@ use crate::system::SystemError;
 use crate::system::elements::{Drive, Element, SceneChecks};
 use crate::system::errors::finite;
 
-/// Most sliders of a stored scene: the matrix of a step grows with their square, and a small file must not make it huge.
+/// Largest number of sliders in a stored scene. The matrix of a step grows with its square.
 const MOST_SLIDERS: usize = 2000;
 
-/// Most tracks of a stored scene.
+/// Largest number of tracks in a stored scene.
 const MOST_TRACKS: usize = 1000;
 
-/// Most quantities that a stored scene records.
+/// Largest number of sensors in a stored scene.
 const MOST_SENSORS: usize = 10_000;
 
-/// A [`Scene`] as it is stored in a file, not yet checked.
+/// Unchecked [`Scene`] as read from a file.
 #[derive(Deserialize)]
 pub struct StoredScene {
     name: String,
@@ -36,7 +36,7 @@ pub struct StoredScene {
     velocities: Vec<StationVelocity>,
     elements: Vec<Element>,
     gravity: Vec2,
-    /// Their names.
+    /// Names of the sensors.
     sensors: Vec<String>,
 }
 
@@ -124,7 +124,6 @@ impl TryFrom<StoredScene> for Scene {
 }
 
 impl Scene {
-    /// Checks how many there are of something that a file could hold too much of.
     fn check_count(
         &self,
         count: usize,

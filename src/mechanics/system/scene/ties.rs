@@ -1,4 +1,4 @@
-//! Which places joints tie to each other or to the ground.
+//! Places that joints connect to each other or to the ground.
 
 use super::Scene;
 use crate::beams::{BodyIndex, Station};
@@ -7,14 +7,13 @@ use crate::joints::{Component, JointKind, Partner};
 use crate::system::SystemError;
 use crate::system::errors::{Turning, written};
 
-/// Largest gap of a joint when the scene starts, relative to the length of its beam and its distance from the origin.
+/// Largest initial gap of a joint, relative to the length of its beam and its distance from the origin.
 const CLOSED: f64 = 1e-12;
 
-/// Inclined rollers are parallel whose directions differ by less than this angle [rad].
+/// Angle below which two inclined rollers count as parallel [rad].
 const PARALLEL: f64 = 1e-9;
 
-/// Sets of things, by their numbers, that are one: union–find with path halving (R. E. Tarjan, Efficiency of a good but not linear set union
-/// algorithm, J. ACM 22 (1975) 215–225).
+/// Disjoint sets: union–find with path halving (R. E. Tarjan, Efficiency of a good but not linear set union algorithm, J. ACM 22 (1975) 215–225).
 pub struct Ties {
     parent: Vec<usize>,
 }
@@ -32,16 +31,16 @@ impl Ties {
         at
     }
 
-    /// Makes two things, by their numbers, one; false when they were one already.
+    /// Unites two sets. Returns false if they were united already.
     pub fn tie(&mut self, a: usize, b: usize) -> bool {
         let (a, b) = (self.root(a), self.root(b));
-        // The smaller index stays the root, so that index 0, the ground, always is one.
+        // The smaller index stays the root, so that the ground, index 0, is always a root.
         self.parent[a.max(b)] = a.min(b);
         a != b
     }
 }
 
-/// Checks that the joints of a scene close and do not tie a place twice, without building anything.
+/// Checks that the joints of a scene are closed and connect no place twice.
 pub fn check_ties(scene: &Scene) -> Result<(), SystemError> {
     let mut places: Vec<Station> = Vec::new();
     let mut index = |station: &Station| {
@@ -60,7 +59,7 @@ pub fn check_ties(scene: &Scene) -> Result<(), SystemError> {
         .collect();
     let driven: Vec<usize> = scene.drives.iter().map(|drive| index(&drive.station)).collect();
     let mut ties = Ties::new(1 + 3 * places.len());
-    // The points of a rigid body turn with it.
+    // The points of a rigid body rotate with it.
     for (at, place) in places.iter().enumerate() {
         let is_own = |other: &Station| match (place.body, other.body) {
             (BodyIndex::Rigid(body, _), BodyIndex::Rigid(other, _)) => body == other,
@@ -134,7 +133,7 @@ pub fn check_ties(scene: &Scene) -> Result<(), SystemError> {
     Ok(())
 }
 
-/// Checks that inclined rollers hold what may move across them, and no two of them the same: the positions that they hold, as tied.
+/// Checks that inclined rollers restrain a free direction, and that no two of them restrain the same one.
 fn check_rollers(
     scene: &Scene,
     places: &[usize],
@@ -167,12 +166,11 @@ fn check_rollers(
 }
 
 impl Scene {
-    /// Whether supports hold a component of a station, directly or by way of joints.
+    /// Returns true if supports fix a component of a station, directly or through joints.
     pub fn is_held(&self, station: &Station, component: Component) -> bool {
         self.held_with(station, component).1
     }
 
-    /// Whether two stations have the position of each other, whatever moves: joints tie them, directly or by way of others, or both are held.
     pub(super) fn moves_with(&self, station: &Station, other: &Station) -> bool {
         [Component::X, Component::Y].into_iter().all(|component| {
             let (places, is_held) = self.held_with(station, component);
@@ -181,7 +179,7 @@ impl Scene {
         })
     }
 
-    /// The stations to which joints tie a component of one, with that itself, as far as is known where the ground holds it; and whether that does.
+    /// Stations joined to a component of a station, including itself, and whether the ground fixes it. The search ends at the ground.
     fn held_with(&self, station: &Station, component: Component) -> (Vec<Station>, bool) {
         let mut places = vec![*station];
         let mut next = 0;
@@ -209,12 +207,12 @@ impl Scene {
     }
 }
 
-/// Whether two stations are one place, but for rounding.
+/// Returns true if two stations coincide within rounding.
 pub fn same_place(a: &Station, b: &Station, scene: &Scene) -> bool {
     a.body == b.body && (a.arc_length - b.arc_length).abs() <= 1e-10 * scene.length_at(a)
 }
 
-/// Whether a gap is none, but for rounding, at a place of a beam of such a length [length].
+/// Returns true if a gap at a place of a beam is within the tolerance [length].
 pub fn is_closed(gap: f64, length: f64, at: Vec2) -> bool {
     gap <= CLOSED * (length + at.norm())
 }

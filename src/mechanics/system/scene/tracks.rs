@@ -1,4 +1,4 @@
-//! Tracks of a scene: whether their beams lead on from one to the next, and places along them.
+//! Tracks of a scene: connections of their beams, and places along them.
 
 use super::Scene;
 use super::ties::is_closed;
@@ -9,11 +9,11 @@ use crate::system::SystemError;
 use crate::system::errors::{TrackError, written};
 
 impl Scene {
-    /// Adds a track along beams, by their indices, in the order in which it leads along them, and returns its index. Along which way it leads along each
-    /// follows from which ends touch; along the first one, where both ways are possible, from its start to its end.
+    /// Adds a track along consecutive beams and returns its index. The direction on each beam follows from the ends that touch. If both directions of
+    /// the first beam are possible, it is passed from start to end.
     ///
     /// # Errors
-    /// When something of that name exists, or one of the beams does not begin where the one before ends, or is not joined there.
+    /// Fails if the name is taken, or a beam does not start where the previous one ends or is not joined to it.
     pub fn add_track(
         &mut self,
         name: String,
@@ -26,12 +26,12 @@ impl Scene {
         Ok(self.tracks.len() - 1)
     }
 
-    /// The length of a track as drawn, by its index [length].
+    /// Length of a track as drawn [length].
     pub fn track_length(&self, track: usize) -> f64 {
         self.tracks[track].beams().map(|beam| self.beams[beam].axis.length()).sum()
     }
 
-    /// The place of a track at an arc length along it: the beam, and the arc length along that [length].
+    /// Place of a track at an arc length along it: beam and arc length along the beam [length].
     pub fn place_on_track(&self, track: usize, arc_length: f64) -> (usize, f64) {
         let mut left = arc_length;
         let (last, before) = self.tracks[track].legs.split_last().expect("a track has beams");
@@ -46,10 +46,10 @@ impl Scene {
         (last.beam, last.heading.along(length, left.min(length)))
     }
 
-    /// The place of a track that is nearest to a station, both as drawn: the beam, and the arc length along that [length].
+    /// Place of a track nearest to a station, as drawn: beam and arc length along the beam [length].
     ///
     /// # Errors
-    /// When the station lies outside its beam.
+    /// Fails if the station lies outside its beam.
     pub fn nearest_on_track(
         &self,
         track: usize,
@@ -58,7 +58,7 @@ impl Scene {
         self.nearest_of(self.tracks[track].beams(), station)
     }
 
-    /// How far a place on a beam of a track is along the track [length].
+    /// Distance along a track of a place on one of its beams [length].
     pub fn length_along_track(&self, track: usize, beam: usize, arc_length: f64) -> f64 {
         let legs = &self.tracks[track].legs;
         let length = |leg: &TrackBeam| self.beams[leg.beam].axis.length();
@@ -68,13 +68,12 @@ impl Scene {
         before.map(length).sum::<f64>() + own
     }
 
-    /// Whether a slider is on a closed track, by its index.
+    /// Returns true if a slider is on a closed track.
     pub fn goes_round(&self, slider: usize) -> bool {
         let track = self.sliders[slider].track.map(|track| &self.tracks[track]);
         track.is_some_and(|track| track.course == TrackEnd::Closed)
     }
 
-    /// The beams along which a slider may slide.
     pub(in crate::system) fn masters(&self, slider: &Slider) -> Vec<usize> {
         match slider.track {
             Some(track) => self.tracks[track].beams().collect(),
@@ -82,14 +81,13 @@ impl Scene {
         }
     }
 
-    /// How often sliders may come to lean on stops or seams and leave them in the search for one equilibrium.
+    /// Largest number of stop and seam contact changes allowed in the search for one equilibrium.
     pub fn most_settlings(&self) -> usize {
         let on_tracks = self.sliders.iter().filter(|slider| slider.track.is_some());
         2 * self.sliders.len()
             + 2 * on_tracks.map(|slider| self.masters(slider).len()).sum::<usize>()
     }
 
-    /// Adds a track from a file.
     pub(super) fn add_stored_track(&mut self, track: Track) -> Result<(), SystemError> {
         let count = self.beams.len();
         if let Some(index) = track.beams().find(|beam| *beam >= count) {
@@ -99,7 +97,6 @@ impl Scene {
         self.add_track(track.name, &beams, track.course).map(|_| ())
     }
 
-    /// Checks that the track of a slider from a file is there, and has the beam on which it starts.
     pub(super) fn check_stored_track(&self, slider: &Slider) -> Result<(), SystemError> {
         let Some(index) = slider.track else { return Ok(()) };
         let (object, count) = ("a slider", self.tracks.len());
@@ -177,7 +174,7 @@ impl Scene {
         Ok(legs)
     }
 
-    /// A beam as the track goes on along it behind a leg, if it can; where two ways touch, that which is joined.
+    /// Next leg of a track along a beam; if both ends touch, the joined one.
     fn next_leg(&self, before: TrackBeam, beam: usize) -> Option<TrackBeam> {
         let ways = [TrackDirection::Forward, TrackDirection::Backward]
             .map(|heading| TrackBeam { beam, heading });
@@ -191,7 +188,7 @@ impl Scene {
         is_closed((there - here).norm(), self.beams[next.beam].axis.length(), here)
     }
 
-    /// The end of a beam at which a track leaves it, and where it is drawn [length].
+    /// End of a beam where a track leaves it, and its place as drawn [length].
     fn end(&self, leg: TrackBeam) -> (Station, Vec2) {
         self.begin(TrackBeam { heading: leg.heading.reversed(), ..leg })
     }
@@ -200,7 +197,7 @@ impl Scene {
         self.end(leg).1
     }
 
-    /// The end of a beam at which a track comes to it, and where it is drawn [length].
+    /// End of a beam where a track enters it, and its place as drawn [length].
     fn begin(&self, leg: TrackBeam) -> (Station, Vec2) {
         let axis = &self.beams[leg.beam].axis;
         let station = Station::on_beam(leg.beam, leg.heading.along(axis.length(), 0.0));

@@ -1,6 +1,6 @@
-//! Accelerations, for methods whose state they are a part of.
+//! Accelerations, for methods that have them in their state.
 
-/// The accelerations of the unknowns at the start of a step; no numbers at all where no method asks for them.
+/// Accelerations of the unknowns at the start of a step; empty if no method needs them.
 #[derive(Debug, Clone, Default)]
 pub struct Accelerations {
     values: Vec<f64>,
@@ -8,12 +8,12 @@ pub struct Accelerations {
 }
 
 impl Accelerations {
-    /// Takes room for the accelerations of so many unknowns, which are not known yet.
+    /// Allocates accelerations of `unknowns` entries, marked unknown.
     pub fn keep(&mut self, unknowns: usize) {
         *self = Self { values: vec![0.0; unknowns], are_known: false };
     }
 
-    /// Takes room for those of so many unknowns, if they are kept; they are not known any more.
+    /// Resizes the accelerations, if they are kept, and marks them unknown.
     pub fn resize(&mut self, unknowns: usize) {
         if !self.values.is_empty() {
             self.keep(unknowns);
@@ -31,13 +31,13 @@ impl Accelerations {
         }
     }
 
-    /// Forgets accelerations that hold no longer after a sudden change.
+    /// Marks the accelerations unknown after a jump.
     pub fn forget(&mut self) {
         self.values.fill(0.0);
         self.are_known = false;
     }
 
-    /// Whether accelerations are kept, and known.
+    /// Returns true if accelerations are kept and known.
     pub fn are_known(&self) -> bool {
         self.are_known
     }

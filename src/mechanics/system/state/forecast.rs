@@ -1,41 +1,40 @@
-//! With which rates the next step is best guessed.
+//! Selection of the rates that predict the next step.
 
 use serde::{Deserialize, Serialize};
 
 use super::resolution::GuessErrors;
 
-/// What the next step of a model is best guessed from.
+/// Basis of the prediction of the next step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Trend {
-    /// No step has been taken: the rates at the start of the next one are all there is.
+    /// No step has been taken. Only the start rates are available.
     #[default]
     Unknown,
-    /// The next step is best guessed from the rates at its start.
+    /// Prediction from the rates at the start of the step.
     Smooth,
-    /// The next step is best guessed from the mean rates of the last one: those at its end alternate from step to step.
+    /// Prediction from the mean rates of the last step, because the rates at its end alternate from step to step.
     Rough,
 }
 
-/// By how much the mean of the last step must have been the better guess, in squares, to be taken for the next.
+/// Ratio of squared errors below which the mean rates are selected.
 const CLEARLY_LESS: f64 = 0.8;
 
-/// The mean motion of the last step, and whether that or its end tells more about the next one.
+/// Mean motion of the last step, with the selected prediction.
 #[derive(Debug, Clone)]
 pub struct Forecast {
-    /// Increments over duration.
+    /// Increments divided by the duration.
     mean_rates: Vec<f64>,
     trend: Trend,
-    /// The diagonal of the inertia matrix.
+    /// Diagonal of the inertia matrix.
     inertia: Vec<f64>,
 }
 
 impl Forecast {
-    /// The forecast before the first step.
     pub fn new(rates: &[f64], inertia: Vec<f64>) -> Self {
         Self { mean_rates: rates.to_vec(), trend: Trend::Unknown, inertia }
     }
 
-    /// The rates to guess the next step with, given those at its start [length/time, 1/time].
+    /// Rates that predict the next step, given those at its start [length/time, 1/time].
     pub fn rates<'a>(&'a self, at_start: &'a [f64]) -> &'a [f64] {
         match self.trend {
             Trend::Unknown | Trend::Smooth => at_start,
@@ -43,8 +42,8 @@ impl Forecast {
         }
     }
 
-    /// Learns from the increments of a step and the rates at its start which guess would have been the better one for it,
-    /// in a norm with the diagonal of the inertia matrix; tells how far both missed.
+    /// Selects the better prediction from the increments of a step and the rates at its start, in the norm of the diagonal inertia. Returns the
+    /// errors of both.
     pub fn learn(&mut self, at_start: &[f64], increments: &[f64], duration: f64) -> GuessErrors {
         let inverse = 1.0 / duration;
         let mut missed = GuessErrors::default();
@@ -55,7 +54,7 @@ impl Forecast {
             *mean = found;
         }
         self.trend = match self.trend {
-            // Start velocities may be those of single nodes; how these go on, the first step has told.
+            // Start velocities may be those of single nodes, so the mean rates of the first step predict better.
             Trend::Unknown => Trend::Rough,
             _ if missed.by_mean < CLEARLY_LESS * missed.by_start => Trend::Rough,
             _ => Trend::Smooth,
@@ -63,12 +62,12 @@ impl Forecast {
         missed
     }
 
-    /// Takes over a sudden change of all rates [length/time, 1/time].
+    /// Applies a jump of all rates [length/time, 1/time].
     pub fn jump(&mut self, change: &[f64]) {
         self.mean_rates.iter_mut().zip(change).for_each(|(rate, change)| *rate += change);
     }
 
-    /// How far the guesses for a step missed some of the movements, before this learns from it.
+    /// Prediction errors of selected movements, before the selection is updated.
     pub fn missed(
         &self,
         movements: &[usize],
@@ -85,7 +84,6 @@ impl Forecast {
         missed
     }
 
-    /// What the next step is best guessed from.
     pub fn trend(&self) -> Trend {
         self.trend
     }

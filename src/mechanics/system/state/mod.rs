@@ -1,4 +1,4 @@
-//! How a model moves: its rates, what its last steps tell of the next, and what is met in the present one.
+//! Motion of a model: rates, prediction of the next step, and measures of the present step.
 
 mod accelerations;
 mod forecast;

@@ -1,21 +1,21 @@
-//! How well steps resolve the motion: measured while they are taken, from numbers that are there anyway.
+//! Resolution of the motion by time steps, measured from data that each step computes anyway.
 
 use crate::beams::RotationIncrement;
 use crate::elementary::square;
 
-/// What the guesses for a step were worth, in the norm of the diagonal of the inertia matrix: twice an energy each [energy].
+/// Squared prediction errors of a step in the norm of the diagonal inertia: each is twice an energy [energy].
 #[derive(Debug, Clone, Copy, Default)]
 pub struct GuessErrors {
-    /// The miss `Σ m (v̄ - v0)²` of a guess from the rates `v0` at the start of the step; `v̄` are the mean rates of the step [energy].
+    /// Error `Σ m (v̄ - v0)²` of the rates `v0` at the start of the step; `v̄` are the mean rates of the step [energy].
     pub by_start: f64,
-    /// The miss `Σ m (v̄ - v̄₋)²` of a guess from the mean rates `v̄₋` of the step before [energy].
+    /// Error `Σ m (v̄ - v̄₋)²` of the mean rates `v̄₋` of the previous step [energy].
     pub by_mean: f64,
-    /// The motion `Σ m v̄²` of the step itself [energy].
+    /// Motion `Σ m v̄²` of the step itself [energy].
     pub moved: f64,
 }
 
 impl GuessErrors {
-    /// Adds the misses of a movement with an inertia, found at a mean rate, by its two guesses.
+    /// Adds the errors of one movement: its inertia, its mean rate and both predictions.
     pub fn add(&mut self, inertia: f64, found: f64, [at_start, mean]: [f64; 2]) {
         self.by_start += inertia * square(found - at_start);
         self.by_mean += inertia * square(found - mean);
@@ -23,35 +23,33 @@ impl GuessErrors {
     }
 }
 
-/// Steps whose lengths differ by less than this, as a part of them, are equally long.
+/// Relative difference below which steps count as equally long.
 const EQUALLY_LONG: f64 = 1e-3;
 
-/// How far the steps behind the present resolve the motion. It is a part of the state: steps that are taken back do not count.
+/// Resolution of the motion by the steps so far. It is part of the state, so that undone steps do not count.
 ///
-/// A vibration `v = a cos ωt` that steps of the energy–momentum method turn by `φ` each, `tan(φ/2) = ω h/2`, has in the mean over its
-/// phases `Σ m v̄² = ½ m a² cos²(φ/2)`, `S = Σ m (v̄ - v0)² = ½ m a² sin²(φ/2)` and `M = Σ m (v̄ - v̄₋)² = ½ m a² sin²φ`. So
-/// `S - M/4 = ½ m a² sin⁴(φ/2)`: the energy of what steps do not follow, with hardly anything of what they do. Of motions at several
-/// frequencies all these sums are the sums of theirs (theory.md, section 13).
+/// A vibration `v = a cos ωt` rotates in steps of the energy–momentum method by `φ` each, `tan(φ/2) = ω h/2`. Averaged over its phases,
+/// `Σ m v̄² = ½ m a² cos²(φ/2)`, `S = Σ m (v̄ - v0)² = ½ m a² sin²(φ/2)` and `M = Σ m (v̄ - v̄₋)² = ½ m a² sin²φ`. So `S - M/4 = ½ m a² sin⁴(φ/2)` is
+/// the energy of unresolved motion, with hardly any of the resolved one. For motions at several frequencies, the sums add up (theory.md, section 13).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Resolution {
-    /// `Σ (m v̄² + S)` over the steps that are as long as the one before [energy].
+    /// `Σ (m v̄² + S)` over steps as long as the previous one [energy].
     kinetic: f64,
-    /// `Σ (S - M/4)` over these [energy].
+    /// `Σ (S - M/4)` over these steps [energy].
     unresolved: f64,
-    /// `Σ h² M/16` over these: `ω²` is the quotient of the two [energy·time²].
+    /// `Σ h² M/16` over these steps; `ω²` is `unresolved / bent` [energy·time²].
     bent: f64,
-    /// The length of the last step [time].
+    /// Length of the last step [time].
     last: f64,
-    /// The largest rotation of a section in a step [rad].
+    /// Largest rotation of a section in a step [rad].
     rotation: f64,
-    /// How long the step was, or the part of one, in which a section turned so far; negative of one that went back [time].
+    /// Length of the step, or substep, with this rotation; negative for a backward substep [time].
     turned_in: f64,
-    /// Motions below this are those of rounding [energy].
+    /// Energy below which motions are rounding [energy].
     noise: f64,
 }
 
 impl Resolution {
-    /// The resolution before the first step, with the energy below which all motion is rounding [energy].
     pub(super) fn above(noise: f64) -> Self {
         Self {
             kinetic: 0.0,
@@ -64,12 +62,12 @@ impl Resolution {
         }
     }
 
-    /// The energy below which all motion is rounding [energy].
+    /// Energy below which motions are rounding [energy].
     pub(super) fn noise(&self) -> f64 {
         self.noise
     }
 
-    /// Takes in a step, or a part of one, of some length [time], in which sections turned by such increments at most.
+    /// Records a step or substep of a length [time] with its largest rotation increment.
     pub(super) fn add(
         &mut self,
         missed: &GuessErrors,
@@ -77,7 +75,7 @@ impl Resolution {
         increment: f64,
         rotations: RotationIncrement,
     ) {
-        // An increment is no smaller than its angle, which costs more.
+        // An increment is at least as large as its angle, which is more expensive.
         if increment > self.rotation {
             let angle = rotations.angle(increment);
             if angle > self.rotation {
@@ -94,29 +92,28 @@ impl Resolution {
         }
     }
 
-    /// The part of the kinetic energy that belongs to vibration which steps do not follow, in the mean over all steps: of a
-    /// single vibration `sin⁴(φ/2)` [-].
+    /// Unresolved fraction of the kinetic energy, averaged over all steps; `sin⁴(φ/2)` for a single vibration [-].
     pub fn unresolved_share(&self) -> f64 {
         if self.kinetic > 0.0 { (self.unresolved / self.kinetic).max(0.0) } else { 0.0 }
     }
 
-    /// The kinetic energy of all steps that count, together [energy].
+    /// Sum of the kinetic energies of the counted steps [energy].
     pub fn kinetic(&self) -> f64 {
         self.kinetic
     }
 
-    /// The angular frequency `ω` of what accelerates the scene, in the mean over accelerations; exact for a single vibration, infinite
-    /// where nothing but rounding is left of its period, zero for what does not vibrate [rad/time].
+    /// Angular frequency `ω`, averaged over accelerations. It is exact for a single vibration, infinite if the period is lost in rounding, and zero
+    /// without vibration [rad/time].
     pub fn angular_frequency(&self) -> f64 {
         if self.unresolved <= 0.0 { 0.0 } else { (self.unresolved / self.bent).sqrt() }
     }
 
-    /// The largest rotation of a section in a step, or in a part of one where a method has parts [rad].
+    /// Largest rotation of a section in a step or substep [rad].
     pub fn rotation(&self) -> f64 {
         self.rotation
     }
 
-    /// How long the step was in which a section turned so far, or the part of one; negative of one that went back [time].
+    /// Length of the step or substep with the largest rotation; negative for a backward substep [time].
     pub fn turned_in(&self) -> f64 {
         self.turned_in
     }
@@ -146,7 +143,7 @@ impl Resolution {
 mod tests {
     use super::*;
 
-    /// Steps of the energy–momentum method over vibrations, each with a mass, an amplitude of its velocity and `ω h`.
+    /// Steps of the energy–momentum method for vibrations given as (mass, velocity amplitude, `ω h`).
     fn vibrating(vibrations: &[(f64, f64, f64)], steps: usize) -> Resolution {
         let mut resolution = Resolution::above(0.0);
         let mut mean: Option<Vec<f64>> = None;

@@ -1,36 +1,33 @@
-//! Bodies whose motion is judged by itself: what steps do not resolve of a small one is nothing beside what a large one does.
+//! Resolution of single bodies. The unresolved motion of a small body is negligible in the total of a scene with a large one.
 
 use super::Resolution;
 use super::forecast::Forecast;
 use crate::beams::RotationIncrement;
 
-/// A body with its own movements among the unknowns, and how well steps resolve these.
+/// Body with its degrees of freedom and resolution measures.
 #[derive(Debug, Clone)]
 pub struct MonitoredBody {
-    /// The body, by its number.
+    /// Index of the body.
     pub body: usize,
-    /// Where its movements stand among the unknowns; those that are none are left out.
+    /// Unknown degrees of freedom of the body.
     degrees: Vec<usize>,
     resolution: Resolution,
 }
 
 impl MonitoredBody {
-    /// A body that has not moved, whose motions below an energy are rounding [energy].
     pub fn new(body: usize, degrees: Vec<usize>, noise: f64) -> Self {
         Self { body, degrees, resolution: Resolution::above(noise) }
     }
 
-    /// Goes on where its movements stand elsewhere.
     pub fn renumber(&mut self, degrees: Vec<usize>) {
         self.degrees = degrees;
     }
 
-    /// How far the steps so far resolve the motion of the body.
     pub fn resolution(&self) -> &Resolution {
         &self.resolution
     }
 
-    /// Takes in the increments of a step of a duration [time] before the forecast learns from them, with the rates at its start.
+    /// Records the increments of a step of a duration [time] with the rates at its start, before the prediction is updated.
     pub(super) fn add(
         &mut self,
         forecast: &Forecast,

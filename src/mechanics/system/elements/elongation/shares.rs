@@ -1,10 +1,10 @@
-//! Where the coordinates of an elongation stand among the degrees of freedom, by the functions at its terminals.
+//! Shares of the degrees of freedom in the coordinates of an elongation, from the basis functions at its terminals.
 
 use super::{Elongation, ElongationEnd};
 use crate::linalg::BandRows;
 use crate::system::bodies::Body;
 
-/// The part that a degree of freedom has in a coordinate: the value of its function at the terminal [-].
+/// Share of a degree of freedom in a coordinate: the value of its basis function at the terminal [-].
 #[derive(Debug, Clone, Copy)]
 pub struct CoordinateShare {
     pub degree: usize,
@@ -13,7 +13,7 @@ pub struct CoordinateShare {
 }
 
 impl Elongation {
-    /// Finds where the coordinates stand, as the movements of the bodies are numbered.
+    /// Finds the degrees of freedom of the coordinates in the current numbering.
     pub(super) fn locate(&mut self, bodies: &[Body]) {
         let components = self.components();
         let Self { terminals, shares, .. } = self;
@@ -33,31 +33,29 @@ impl Elongation {
         }
     }
 
-    /// Takes the movements of the terminals from values of the unknowns; what is no unknown does not move.
+    /// Gathers the movements of the terminals from values of the unknowns. Supported degrees of freedom do not move.
     pub(super) fn gather(&mut self, values: &[f64]) {
         combine(&self.shares, values, &mut self.moved);
     }
 
-    /// The product of a slope and a correction of the increments: a change of `q`, to first order [length, rad].
+    /// Product of a slope and a correction of the increments: a first-order change of `q` [length, rad].
     pub fn along(&mut self, slope: &[f64], correction: &[f64]) -> f64 {
         let Self { shares, corrected, .. } = self;
         combine(shares, correction, corrected);
         slope.iter().zip(corrected).fold(0.0, |sum, (slope, by)| sum + slope * *by)
     }
 
-    /// The parts of the degrees of freedom in the coordinates, where they were located last.
     pub fn shares(&self) -> &[CoordinateShare] {
         &self.shares
     }
 
-    /// Adds a force along some direction of the coordinates.
     pub fn scatter(&self, direction: &[f64], force: f64, out: &mut [f64]) {
         for CoordinateShare { degree, coordinate, share } in &self.shares {
             out[*degree] += share * direction[*coordinate] * force;
         }
     }
 
-    /// Adds the derivative of a force by the coordinates, row by row, as far as they belong to unknowns.
+    /// Adds the derivative of a force with respect to the coordinates, row by row, restricted to unknowns.
     pub fn scatter_tangent(&self, derivative: &[f64], unknowns: usize, rows: &mut BandRows<'_>) {
         let known = || self.shares.iter().filter(|share| share.degree < unknowns);
         let width = self.secant.len();
@@ -71,7 +69,7 @@ impl Elongation {
     }
 }
 
-/// The coordinates that belong to values of the unknowns, none to what is no unknown.
+/// Coordinates of values of the unknowns; supported degrees of freedom contribute nothing.
 fn combine(shares: &[CoordinateShare], values: &[f64], coordinates: &mut [f64]) {
     coordinates.fill(0.0);
     for CoordinateShare { degree, coordinate, share } in shares {

@@ -1,18 +1,18 @@
-//! A part of a way, and the relative turn of two sections, in an iterate.
+//! Terms of an elongation in an iterate: one segment of a path, or the relative rotation of two sections.
 
 use crate::beams::RotationIncrement;
 use crate::elementary::atan;
 use crate::geometry::Vec2;
 
-/// Rotation increments of two sections that differ by less are taken as one, to second order [rad].
+/// Rotation increments that differ by less are treated as equal, to second order [rad].
 const SAME_TURN: f64 = 1e-5;
 
-/// A part of a way in an iterate.
+/// Segment of a path in an iterate.
 pub(super) struct ElongationTerm {
     pub(super) change: f64,
     pub(super) secant: Vec2,
     pub(super) slope: Vec2,
-    /// `∂e/∂d₁ = (I - e⊗s) by this` [1/length].
+    /// Factor in `∂e/∂d₁ = (I - e⊗s) · inverse` [1/length].
     inverse: f64,
 }
 
@@ -25,7 +25,7 @@ impl ElongationTerm {
         let both = before + after;
         let mean = direction(start + end, both);
         let slope = direction(end, after);
-        // Increments of angles are taken where forces are taken at the end.
+        // Angle increments are used by methods that take forces at the end of a step.
         let (secant, inverse) = match rotations {
             RotationIncrement::TangentScaled => (mean, both),
             RotationIncrement::Angle => (slope, after),
@@ -53,11 +53,11 @@ impl RelativeTurn {
         }
         let (difference, mean) = (b - a, 0.5 * (a + b));
         if difference.abs() < SAME_TURN {
-            // The mean of dθ/dω between both, by its value in their middle.
+            // The mean of dθ/dω between both is approximated at the midpoint.
             let (rate, slope) = rotations.rates(mean);
             return Self { ratio: rate, derivatives: [0.5 * slope; 2] };
         }
-        // 2 atan x - 2 atan y = 2 atan((x - y)/(1 + x y)), but for the other side of the circle.
+        // 2 atan x - 2 atan y = 2 atan((x - y)/(1 + x y)), up to a full turn.
         let product = 1.0 + 0.25 * a * b;
         let turned = match product > 0.0 {
             true => 2.0 * atan(0.5 * difference / product),

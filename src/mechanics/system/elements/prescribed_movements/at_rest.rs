@@ -1,4 +1,4 @@
-//! Prescribed movements at rest: their places at a time, which equilibria put on with their loads.
+//! Prescribed movements at rest: their positions at a time, applied together with the loads of an equilibrium.
 
 use std::borrow::Cow;
 
@@ -6,14 +6,14 @@ use super::PrescribedMovements;
 use crate::geometry::larger;
 use crate::loads::{LimitSide, LoadError, PrescribedMotion};
 
-/// Places that differ by less than this, or this part of them, are one [length, rad; -].
+/// Tolerance for equal positions, absolute and relative [length, rad; -].
 const SAME_PLACE: f64 = 1e-12;
 
 impl PrescribedMovements {
-    /// Takes the places that are prescribed at a time, which equilibria put on with their loads.
+    /// Evaluates the prescribed positions at a time. Equilibria apply them together with their loads.
     ///
     /// # Errors
-    /// When a function has no finite value: the name of its drive, and why.
+    /// Name of the drive whose function has no finite value, and the reason.
     pub fn hold_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
         for (movement, present) in self.movements.iter().zip(&mut self.present) {
             if let PrescribedMotion::Place(schedule) = &movement.motion {
@@ -25,11 +25,11 @@ impl PrescribedMovements {
         Ok(())
     }
 
-    /// The first drive that rests under a part of the load at another place than that which its function has just after a time: its name, and both places.
+    /// First drive whose position under a fraction of the load differs from its function just after a time: its name and both positions.
     pub fn rests_elsewhere(&self, load_factor: f64, time: f64) -> Option<(&str, [f64; 2])> {
         self.movements.iter().zip(&self.present).find_map(|(movement, present)| {
             let PrescribedMotion::Place(schedule) = &movement.motion else { return None };
-            // What has no value is refused when the scene is built, or when it is put on.
+            // Functions without a value are rejected earlier, while the scene is built or the position is applied.
             let (rests, wanted) =
                 (load_factor * present.goal, schedule.value(time, LimitSide::After).ok()?);
             let size = larger(wanted.abs(), rests.abs());
@@ -39,12 +39,12 @@ impl PrescribedMovements {
         })
     }
 
-    /// Whether something is prescribed that an equilibrium has to put on.
+    /// Returns true if an equilibrium has to apply prescribed positions.
     pub fn moves_at_rest(&self) -> bool {
         self.present.iter().any(|present| present.goal != 0.0)
     }
 
-    /// Movements at rest, those that are prescribed behind the unknown ones: from where they are to their places under a part of the load.
+    /// Movements at rest with the prescribed ones appended to the unknowns, up to their positions under a fraction of the load.
     pub fn at_rest<'m>(&self, movements: &'m [f64], load_factor: f64) -> Cow<'m, [f64]> {
         if self.movements.is_empty() {
             return Cow::Borrowed(movements);
@@ -55,7 +55,7 @@ impl PrescribedMovements {
         Cow::Owned(all)
     }
 
-    /// Leaves what is prescribed where it is under a part of the load.
+    /// Accepts the prescribed positions under a fraction of the load.
     pub fn place(&mut self, load_factor: f64) {
         for present in &mut self.present {
             present.placed = load_factor * present.goal;

@@ -1,4 +1,4 @@
-//! What a configuration asks of the forces of a spring and a damper.
+//! Target forces of a spring and a damper in a configuration.
 
 use super::SpringDamper;
 use crate::integrators::Stage;
@@ -6,7 +6,7 @@ use crate::system::elements::damping_law::DampingLaw;
 use crate::system::elements::mixed_force::ForceTarget;
 use crate::system::elements::{SpringLaw, TrialState};
 
-/// Halvings until nothing is left between two numbers, and some more.
+/// Largest number of bisections, enough to exhaust the precision.
 const MOST_TRIES: usize = 120;
 
 impl SpringDamper {
@@ -14,18 +14,18 @@ impl SpringDamper {
         self.law.as_ref().map_or(0.0, |law| law.force(self.elongation.grown()))
     }
 
-    /// Whether its force is none in a part of its way. One that has let go is as it was: its state has the same numbers.
+    /// Returns true if the force is zero in a segment of the law. A released spring keeps the answer, so that its state has the same size.
     pub(super) fn may_be_slack(&self) -> bool {
         let law = self.released.as_ref().map_or(&self.law, |(law, _)| law);
         law.as_ref().is_some_and(SpringLaw::may_be_slack)
     }
 
-    /// What the configuration of an iterate asks of the spring.
+    /// Target force of the spring in an iterate.
     pub(super) fn restoring(&self, stage: Stage) -> ForceTarget {
         self.restoring_after(stage, self.elongation.change)
     }
 
-    /// What the spring would be asked for after such a change of its elongation in the step [length, rad].
+    /// Target force of the spring after a change of its elongation in the step [length, rad].
     fn restoring_after(&self, stage: Stage, change: f64) -> ForceTarget {
         let Some(law) = &self.law else { return ForceTarget::default() };
         let q = self.elongation.grown();
@@ -41,7 +41,7 @@ impl SpringDamper {
             }
             Stage::DampedMidpoint(chi) => {
                 let mean = law.mean(q, change);
-                // A law that falls would gain what one that rises loses; one component alone would turn what it damps.
+                // A falling law would gain the energy that a rising one loses. A single component would rotate the damped direction.
                 let late = match law {
                     _ if self.elongation.is_component() => 0.0,
                     SpringLaw::Linear { stiffness, .. } => 0.5 * chi * stiffness.max(0.0),
@@ -52,16 +52,16 @@ impl SpringDamper {
         }
     }
 
-    /// The same for a linearisation. Where the search goes on for long, Newton's method is told of the impedance of all that the spring acts on: at a
-    /// corner of a stiff law it would go to and fro, or halve its way to it at every iteration. The line of that impedance through elongation and
-    /// force meets the law at one place, as long as the law rises, and there it is linearised.
+    /// Target force of the spring for a linearisation. After several iterations, the law is linearised where the line of the impedance of the loaded
+    /// system intersects it. At a corner of a stiff law, Newton's method would otherwise alternate between segments. The intersection is unique if
+    /// the law is increasing.
     pub(super) fn aimed_restoring(&mut self, stage: Stage) -> ForceTarget {
         let (asked, change) = (self.restoring(stage), self.elongation.change);
         let impedance = self.spring.impedance(change);
         let Some(impedance) = impedance.filter(|_| self.rises) else { return asked };
         let force = self.spring.force;
         let above = |at: f64, of: ForceTarget| of.force - force + impedance * (at - change);
-        // As the law rises, it is no farther than where a law without any slope would be met.
+        // An increasing law intersects no later than a law of zero slope.
         let reach = change - above(change, asked) / impedance;
         let (mut low, mut high) = (change.min(reach), change.max(reach));
         let (mut at, mut met) = (change, asked);
@@ -82,7 +82,7 @@ impl SpringDamper {
         ForceTarget { force: met.force + met.stiffness * (change - at), stiffness: met.stiffness }
     }
 
-    /// What the configuration asks of the damper, for the whole step.
+    /// Target force of the damper for the whole step.
     pub(super) fn damping(&self, at: TrialState<'_>) -> ForceTarget {
         let Some(late) = self.lateness(at) else { return ForceTarget::default() };
         match &self.damping {
@@ -101,7 +101,7 @@ impl SpringDamper {
         }
     }
 
-    /// The same for a linearisation.
+    /// Target force of the damper for a linearisation.
     pub(super) fn aimed_damping(&mut self, at: TrialState<'_>) -> ForceTarget {
         match (&self.damping, self.lateness(at)) {
             (law @ DampingLaw::Curve(_), Some(late)) => {
@@ -114,10 +114,10 @@ impl SpringDamper {
         }
     }
 
-    /// How much of the difference of two steps after the middle of a step its rates are met; none where they do not count.
+    /// Extrapolation factor of the rates beyond the middle of the step, in differences between two steps; `None` if rates do not count.
     ///
-    /// A method that takes forces at both ends balances those of one time of the step, `at.weight` of it after the start: the rate there
-    /// follows from those in the middles of this step and of the last one.
+    /// A method with forces at both ends balances those at the time `at.weight` within the step. The rate there is extrapolated from the middles of
+    /// this step and the last one.
     fn lateness(&self, at: TrialState<'_>) -> Option<f64> {
         match at.stage {
             Stage::Start => None,
@@ -129,7 +129,7 @@ impl SpringDamper {
         }
     }
 
-    /// The rate that is damped, so late, and its derivative by `Δq`.
+    /// Extrapolated rate, and its derivative with respect to `Δq`.
     fn rate(&self, late: f64) -> (f64, f64) {
         let rate = self.elongation.change / self.duration;
         (rate + late * (rate - self.last.1), (1.0 + late) / self.duration)
