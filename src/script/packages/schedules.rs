@@ -190,7 +190,7 @@ fn table(call: &mut Call) -> Result<Dynamic, ScriptError> {
             let wrong = parts.as_ref().filter(|pair| pair.len() == 2).and_then(|pair| {
                 let names = ["time", "factor"].into_iter().zip(pair.iter());
                 let mut wrong = names.filter(|(_, part)| as_number(part).is_none());
-                wrong.next().map(|(name, part)| format!("{name} is {}", call.describe(part)))
+                wrong.next().map(|(name, part)| format!("its {name} is {}", call.describe(part)))
             });
             let wrong = wrong.unwrap_or_else(|| format!("got {}", call.describe(&value)));
             call.error(format!("row {row} must be [time, factor], {wrong}"))
