@@ -134,8 +134,8 @@ pub fn labels(options: &Options, count: usize) -> Result<Option<Vec<String>>, Op
     let Ok(given) = options.array("labels") else { return Ok(None) };
     let wrong = |told: String, hint| OptionError { key: "labels".to_owned(), told, hint };
     if given.len() != count {
-        let plural = if count == 1 { "there are {count} curve{plural}, but {} labels" } else { "s" };
-        let told = format!("there are {count} curve{plural} and {} labels", given.len());
+        let plural = if count == 1 { "" } else { "s" };
+        let told = format!("there are {count} curve{plural}, but {} labels", given.len());
         return Err(wrong(told, "give one label for each curve"));
     }
     let label = |value: &Dynamic| {
