@@ -76,7 +76,10 @@ pub const BODY: Type = Type::of::<RigidBodyHandle>();
 
 const BODY_KEYS: &[Parameter] = &[
     point("at").unit("length").doc("initial position of the centre of mass"),
-    number("mass").unit("mass").or(Presence::Number(0.0)).doc("mass; zero is allowed with an inertia"),
+    number("mass")
+        .unit("mass")
+        .or(Presence::Number(0.0))
+        .doc("mass; zero is allowed with an inertia"),
     number("inertia")
         .unit("mass·length²")
         .or(Presence::Number(0.0))
@@ -85,11 +88,15 @@ const BODY_KEYS: &[Parameter] = &[
         .unit("rad")
         .or(Presence::Number(0.0))
         .doc("initial rotation of the frame of the body"),
-    anything("points").doc("map of points relative to the centre, in the frame of the body [length]").optional(),
+    anything("points")
+        .doc("map of points relative to the centre, in the frame of the body [length]")
+        .optional(),
     points("outline")
         .unit("length")
-        .doc("corners of the polygon in pictures, relative to the centre, in the frame of the \
-            body; default: the points are shown")
+        .doc(
+            "corners of the polygon in pictures, relative to the centre, in the frame of the \
+            body; default: the points are shown",
+        )
         .optional(),
     text("name").optional(),
     START_VELOCITY,
@@ -129,10 +136,10 @@ fn points_of(options: &Options) -> Result<Vec<(String, Vec2)>, ScriptError> {
         return Ok(Vec::new());
     }
     let wrong = |told: String| {
-        ScriptError::new(told)
-            .at(CallPart::Key("points".into()))
-            .hint("write points: #{ pin: [0.1, 0] }: names with positions relative to the centre \
-                of mass")
+        ScriptError::new(told).at(CallPart::Key("points".into())).hint(
+            "write points: #{ pin: [0.1, 0] }: names with positions relative to the centre \
+                of mass",
+        )
     };
     let value = options.value("points")?;
     let Some(map) = value.read_lock::<Map>() else {
@@ -140,8 +147,8 @@ fn points_of(options: &Options) -> Result<Vec<(String, Vec2)>, ScriptError> {
     };
     let point = |(name, at): (&rhai::Identifier, &Dynamic)| {
         let place = as_point(at).filter(|place| place.iter().all(|value| value.is_finite()));
-        let place =
-            place.ok_or_else(|| wrong(format!("point '{name}' is not a pair of finite numbers")))?;
+        let place = place
+            .ok_or_else(|| wrong(format!("point '{name}' is not a pair of finite numbers")))?;
         Ok((name.to_string(), place))
     };
     map.iter().map(point).collect()

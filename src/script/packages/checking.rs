@@ -51,7 +51,8 @@ const PROBLEM: Type = Type::of::<Failure>();
 
 impl Scripted for Failure {
     const NAME: &'static str = "error";
-    const DOC: &'static str = "Value that `catch (problem)` receives after an error of a function of withy.";
+    const DOC: &'static str =
+        "Value that `catch (problem)` receives after an error of a function of withy.";
 
     fn show(&self) -> String {
         self.message.clone()
@@ -63,8 +64,7 @@ impl Scripted for Failure {
 }
 
 const MESSAGE: Parameter = text("message").doc("requirement that is checked").optional();
-const TOLERANCE: Parameter =
-    number("tolerance").non_negative().doc("largest allowed difference");
+const TOLERANCE: Parameter = number("tolerance").non_negative().doc("largest allowed difference");
 
 fn check(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let holds = call.boolean("condition")?;

@@ -31,8 +31,10 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(Dynamic::from(ConvergenceStudy(Rc::new(study))))
         })
         .returns(Returns::object(CONVERGENCE))
-        .summary("Runs a scene with several step sizes on one mesh, or on several meshes with one \
-            step size, and computes errors and orders.")
+        .summary(
+            "Runs a scene with several step sizes on one mesh, or on several meshes with one \
+            step size, and computes errors and orders.",
+        )
         .doc(
             "scene, stations, reference and columns are those of study_work_precision. With a \
             table as reference, the quantities are its columns; with a fine run (default) they \
@@ -45,19 +47,27 @@ pub const TABLE: BindingTable = BindingTable {
         )
         .example("check_close(ladder.order(\"positions\", energy_momentum()), 2, 0.1);")
         .see(&["study_work_precision", "finest_run", "order"]),
-        property(CONVERGENCE, "table", |call| Ok(table(&call.receiver::<ConvergenceStudy>()?.0).into()))
-            .returns(Returns::TEXT)
-            .summary("Table of errors and observed orders of every quantity, with the order over all \
-                sizes, by least squares, in the last row.")
-            .example("print(ladder.table);"),
+        property(CONVERGENCE, "table", |call| {
+            Ok(table(&call.receiver::<ConvergenceStudy>()?.0).into())
+        })
+        .returns(Returns::TEXT)
+        .summary(
+            "Table of errors and observed orders of every quantity, with the order over all \
+                sizes, by least squares, in the last row.",
+        )
+        .example("print(ladder.table);"),
         property(CONVERGENCE, "rows", |call| {
             let ConvergenceStudy(study) = call.receiver()?;
             Ok(study.ladders.iter().map(|of| map_of(&study, of).into()).collect::<Array>().into())
         })
         .returns(Returns::array_of(&ValueKind::Map))
-        .summary("Array with a map for every integrator and quantity: sizes, errors, orders, order \
-            and claimed.")
-        .example("for row in ladder.rows { check(row.errors.len() == 3 && row.orders.len() == 2); }"),
+        .summary(
+            "Array with a map for every integrator and quantity: sizes, errors, orders, order \
+            and claimed.",
+        )
+        .example(
+            "for row in ladder.rows { check(row.errors.len() == 3 && row.orders.len() == 2); }",
+        ),
         property(CONVERGENCE, "reference", |call| {
             Ok(call.receiver::<ConvergenceStudy>()?.0.truth.source.clone().into())
         })
@@ -66,14 +76,23 @@ pub const TABLE: BindingTable = BindingTable {
         .example("check(ladder.reference.contains(\"own finest run\"));"),
         method(CONVERGENCE, "order", &[QUANTITY, object("integrator", INTEGRATOR)], order)
             .returns(Returns::NUMBER)
-            .summary("Returns the order of a quantity with an integrator, by least squares over all \
-                sizes; NaN if it cannot be determined.")
+            .summary(
+                "Returns the order of a quantity with an integrator, by least squares over all \
+                sizes; NaN if it cannot be determined.",
+            )
             .example("check_close(ladder.order(\"positions\", fourth_order()), 4, 0.1);")
             .see(&["study_convergence"]),
-        method(CONVERGENCE, "plot", &[QUANTITY, text("file").doc("file name in the output folder, .svg or .png")], plot)
-            .summary("Plots the errors of a quantity over the sizes, with lines of the theoretical \
-                orders.")
-            .example("ladder.plot(\"kinetic\", \"kinetic.svg\");"),
+        method(
+            CONVERGENCE,
+            "plot",
+            &[QUANTITY, text("file").doc("file name in the output folder, .svg or .png")],
+            plot,
+        )
+        .summary(
+            "Plots the errors of a quantity over the sizes, with lines of the theoretical \
+                orders.",
+        )
+        .example("ladder.plot(\"kinetic\", \"kinetic.svg\");"),
     ],
 };
 

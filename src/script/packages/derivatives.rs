@@ -95,10 +95,11 @@ fn declare(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let distance = call.options_or_defaults("options")?.number_if_given("distance");
     if let Some(distance) = distance.filter(|by| *by < LEAST_DISTANCE * value.abs()) {
         let [distance, value] = [distance, value].map(format_number);
-        let told = format!("the distance {distance} is too small: {value} plus or minus the distance is \
-            rounded to {value}");
-        let hint =
-            "use 1e-5 of the value, or 1e-7 to 1e-3 of it";
+        let told = format!(
+            "the distance {distance} is too small: {value} plus or minus the distance is \
+            rounded to {value}"
+        );
+        let hint = "use 1e-5 of the value, or 1e-7 to 1e-3 of it";
         return Err(call.error(told).hint(hint).at(CallPart::Key("distance".into())));
     }
     let scene = call.receiver::<SceneHandle>()?;

@@ -48,12 +48,26 @@ pub const TABLE: BindingTable = BindingTable {
 
 const DRAGGED: &[Kind] = &[Kind::Object(BEAM), Kind::Object(STATION)];
 const DRAG_KEYS: &[Parameter] = &[
-    number("normal").non_negative().unit("force·time/length²").doc("coefficient normal to the axis of a beam").optional(),
-    number("tangent").non_negative().unit("force·time/length²").doc("coefficient tangential to the axis of a beam").optional(),
-    number("linear").non_negative().unit("force·time/length").doc("linear coefficient for a particle or a station").optional(),
+    number("normal")
+        .non_negative()
+        .unit("force·time/length²")
+        .doc("coefficient normal to the axis of a beam")
+        .optional(),
+    number("tangent")
+        .non_negative()
+        .unit("force·time/length²")
+        .doc("coefficient tangential to the axis of a beam")
+        .optional(),
+    number("linear")
+        .non_negative()
+        .unit("force·time/length")
+        .doc("linear coefficient for a particle or a station")
+        .optional(),
     either("quadratic", &[Kind::Number(NumberRange::NonNegative), Kind::Options(QUADRATIC_KEYS)])
-        .doc("quadratic coefficient: for a particle or a station a number [force·time²/length²], \
-            for a beam #{ normal: …, tangent: … } [force·time²/length³]")
+        .doc(
+            "quadratic coefficient: for a particle or a station a number [force·time²/length²], \
+            for a beam #{ normal: …, tangent: … } [force·time²/length³]",
+        )
         .optional(),
     point("wind").unit("length/time").doc("velocity of the medium; default: at rest").optional(),
     text("name").optional(),

@@ -195,8 +195,10 @@ fn place_of(
 ) -> Result<Schedule, ScriptError> {
     let function = options.get_if::<FnPtr>(key);
     if function.is_some_and(|function| call.arguments_of(&function) == Some(2)) {
-        let told = format!("{key} is a position; a controller must not set it, because it would jump at every \
-            call");
+        let told = format!(
+            "{key} is a position; a controller must not set it, because it would jump at every \
+            call"
+        );
         let hint = format!("prescribe the rate instead: {rate}");
         return Err(call.error(told).hint(hint).at(CallPart::Key(key.into())));
     }

@@ -249,12 +249,13 @@ const CONTROL: Type = Type::of::<Control>();
 
 const AT: Parameter = object("station", STATION);
 const LOADING: &[Parameter] = &[
-    whole("load_steps")
-        .between(1.0, 100_000.0)
-        .or(Presence::Whole(10))
-        .doc("number of load steps; with arc_length() the first step applies 1/load_steps of the \
-            load"),
-    object("control", CONTROL).doc("load_control() or arc_length(); default: load_control()").optional(),
+    whole("load_steps").between(1.0, 100_000.0).or(Presence::Whole(10)).doc(
+        "number of load steps; with arc_length() the first step applies 1/load_steps of the \
+            load",
+    ),
+    object("control", CONTROL)
+        .doc("load_control() or arc_length(); default: load_control()")
+        .optional(),
     number("load_factor").or(Presence::Number(1.0)).doc("fraction of the loads at the end"),
     number("time")
         .unit("time")
@@ -266,7 +267,10 @@ const ARC_LENGTH: &[Parameter] = &[
         "largest step: root mean square of displacements divided by the length of the longest \
         beam, and of rotations in rad",
     ),
-    whole("points").between(3.0, 100_000.0).or(Presence::Whole(1000)).doc("largest number of points of the path, which ends there"),
+    whole("points")
+        .between(3.0, 100_000.0)
+        .or(Presence::Whole(1000))
+        .doc("largest number of points of the path, which ends there"),
 ];
 
 impl Scripted for Control {

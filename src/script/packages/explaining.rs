@@ -28,8 +28,10 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(if shown.is_empty() { "nothing".into() } else { shown.into() })
         })
         .returns(Returns::TEXT)
-        .summary("Returns the description of a value that the prompt shows: its main properties in a \
-            few aligned lines.")
+        .summary(
+            "Returns the description of a value that the prompt shows: its main properties in a \
+            few aligned lines.",
+        )
         .doc("Numbers have up to ten digits; long arrays and maps are shortened.")
         .example("print(describe(rod));\ncheck(describe(0.1 + 0.2) == \"0.3\");")
         .see(&["explain"]),
@@ -39,8 +41,10 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(is_like.into())
         })
         .returns(Returns::TRUTH)
-        .summary("Returns true if another scene has the same beams, joints, masses, velocities and \
-            loads, in the same order.")
+        .summary(
+            "Returns true if another scene has the same beams, joints, masses, velocities and \
+            loads, in the same order.",
+        )
         .doc(
             "Names and relative differences up to 1e-9 are ignored. Functions of scripts cannot \
             be compared: a scene with a load that is a function is not like any other scene.",
@@ -56,10 +60,14 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(written(&parts))
         })
         .returns(Returns::TEXT)
-        .summary("Returns a table of the features that a simulation of the scene uses, and of the \
-            work that it can therefore omit.")
-        .doc("Features that a scene does not use have no cost. The scene is built for this table \
-            in the same way as by scene.start(…).")
+        .summary(
+            "Returns a table of the features that a simulation of the scene uses, and of the \
+            work that it can therefore omit.",
+        )
+        .doc(
+            "Features that a scene does not use have no cost. The scene is built for this table \
+            in the same way as by scene.start(…).",
+        )
         .example("print(scene.explain());\ncheck(scene.explain().contains(\"plain band\"));")
         .see(&["start", "describe"]),
         method(SIMULATION, "explain", &[], |call| {

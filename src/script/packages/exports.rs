@@ -100,18 +100,25 @@ const PARQUET_FILE: Parameter =
 const FRAMES: &[Parameter] = &[
     number("from").unit("time").doc("time of the first frame; default: the start").optional(),
     number("to").unit("time").doc("time of the last frame; default: the present").optional(),
-    number("every").positive().unit("time").doc("time between frames; the last one is always written").optional(),
+    number("every")
+        .positive()
+        .unit("time")
+        .doc("time between frames; the last one is always written")
+        .optional(),
     whole("frames")
         .between(2.0, MOST_FRAMES)
         .doc("largest number of frames, evenly spaced in time; default: 101")
         .optional(),
     choice("fields", &["all", "shape"])
-        .doc("\"shape\": only positions of the recorded configurations, without repeating the \
-            run; \"all\": all fields if available; default: \"all\"")
+        .doc(
+            "\"shape\": only positions of the recorded configurations, without repeating the \
+            run; \"all\": all fields if available; default: \"all\"",
+        )
         .optional(),
 ];
-const HEADER: &[Parameter] =
-    &[boolean("units").doc("true to write the dimensions of the columns in the second line").optional()];
+const HEADER: &[Parameter] = &[boolean("units")
+    .doc("true to write the dimensions of the columns in the second line")
+    .optional()];
 
 const MISSING: Missing =
     Missing { what: "velocities, angles and section forces", instead: "fields: \"shape\"" };
@@ -228,8 +235,10 @@ fn frames(
     let (every, count) = match (options.number_if_given("every"), options.has("frames")) {
         (Some(_), true) => {
             return Err(call
-                .error("`every` and `frames` are both given, but each determines the number of \
-                    frames")
+                .error(
+                    "`every` and `frames` are both given, but each determines the number of \
+                    frames",
+                )
                 .hint("give only one of them")
                 .at(CallPart::Key("frames".into())));
         }
@@ -291,8 +300,8 @@ fn write_parquet(call: &mut Call) -> Result<Dynamic, ScriptError> {
 fn write_parquet(call: &mut Call) -> Result<Dynamic, ScriptError> {
     named(call, ".parquet")?;
     table(call)?;
-    Err(call
-        .error("this withy was built without Parquet")
-        .hint("build it with: cargo install --path . --features parquet; or use write_csv or \
-            write_npz"))
+    Err(call.error("this withy was built without Parquet").hint(
+        "build it with: cargo install --path . --features parquet; or use write_csv or \
+            write_npz",
+    ))
 }

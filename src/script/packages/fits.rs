@@ -189,9 +189,10 @@ const PLACE_TOLERANCE: Parameter = number("tolerance")
     .positive()
     .doc("accuracy of the argument; default: 1e-9 of the interval")
     .optional();
-const RANGES: Parameter = anything("parameters")
-    .doc("names with initial, lowest and highest value: #{ EI: [10, 1, 100] }, or the initial \
-        value alone");
+const RANGES: Parameter = anything("parameters").doc(
+    "names with initial, lowest and highest value: #{ EI: [10, 1, 100] }, or the initial \
+        value alone",
+);
 const PATIENCE: Parameter = number("patience")
     .positive()
     .unit("s")
@@ -322,7 +323,12 @@ fn make_fit(call: &mut Call) -> Result<Dynamic, ScriptError> {
             if let Some(over) = options.over.as_ref().filter(|over| over.len() != measured.len()) {
                 let told =
                     format!("over has {} numbers, but measured has {}", over.len(), measured.len());
-                return Err(at_key(call, "over", told, "give one number of over for each measured value"));
+                return Err(at_key(
+                    call,
+                    "over",
+                    told,
+                    "give one number of over for each measured value",
+                ));
             }
             ("model", model, Compared::Model { measured, over: options.over })
         }
@@ -348,7 +354,8 @@ fn make_fit(call: &mut Call) -> Result<Dynamic, ScriptError> {
     if let (Some(weights), Compared::Model { measured, .. }) = (&options.weights, &compared)
         && weights.len() != measured.len()
     {
-        let told = format!("weights has {} numbers, but measured has {}", weights.len(), measured.len());
+        let told =
+            format!("weights has {} numbers, but measured has {}", weights.len(), measured.len());
         return Err(at_key(call, "weights", told, "give one weight for each measured value"));
     }
     if let Some(wrong) = options.weights.iter().flatten().find(|weight| **weight <= 0.0) {

@@ -16,12 +16,18 @@ pub const TABLE: BindingTable = BindingTable {
     types: &[],
     setup: "",
     constants: &[],
-    rows: &[function("help", &[anything("name").doc("a name in quotes, or a value whose type is explained").optional()], help)
-        .summary("Prints the help on a name, with an example; without a name an overview.")
-        .doc("The name may be that of a function, a method (sim.run_to or simulation.run_to), a \
+    rows: &[function(
+        "help",
+        &[anything("name").doc("a name in quotes, or a value whose type is explained").optional()],
+        help,
+    )
+    .summary("Prints the help on a name, with an example; without a name an overview.")
+    .doc(
+        "The name may be that of a function, a method (sim.run_to or simulation.run_to), a \
             type, an option, a constant, a heading of this reference, or a word of the \
-            language such as for.")
-        .example("help(\"section\");\nhelp(\"simulation.run_to\");\nhelp(vec(1, 2));\nhelp();")],
+            language such as for.",
+    )
+    .example("help(\"section\");\nhelp(\"simulation.run_to\");\nhelp(vec(1, 2));\nhelp();")],
 };
 
 fn help(call: &mut Call) -> Result<Dynamic, ScriptError> {

@@ -116,7 +116,11 @@ fn window(
 ) -> Result<Dynamic, ScriptError> {
     let (from, to) = range(call)?;
     if to < from {
-        let told = format!("the interval from t = {} to {} is reversed", format_number(from), format_number(to));
+        let told = format!(
+            "the interval from t = {} to {} is reversed",
+            format_number(from),
+            format_number(to)
+        );
         return Err(call.error(told).hint("give the earlier time first"));
     }
     Ok(Dynamic::from(call.receiver::<HistoryHandle>()?.between(from, to)))
@@ -125,7 +129,8 @@ fn window(
 fn drift(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let name = call.text("invariant")?;
     let known = Invariant::ALL.iter().find(|(other, _)| *other == name.as_str());
-    let (_, invariant) = known.ok_or_else(|| ScriptError::bug(format!("there is no invariant '{name}'")))?;
+    let (_, invariant) =
+        known.ok_or_else(|| ScriptError::bug(format!("there is no invariant '{name}'")))?;
     let history = call.receiver::<HistoryHandle>()?;
     let drift = history.read(|rows| (!rows.samples().is_empty()).then(|| rows.drift(*invariant)));
     Ok(drift.ok_or_else(|| history.no_rows(call))?.into())

@@ -85,11 +85,11 @@ const CHI: &[Parameter] = &[number("chi")
     .or(Presence::Number(0.1))
     .doc("damping parameter χ; 0 is energy_momentum")];
 
-const RHO_INFINITY: &[Parameter] = &[number("rho_infinity")
-    .between(0.0, 1.0)
-    .or(Presence::Number(0.8))
-    .doc("ρ∞, factor per step of the amplitude of the fastest vibration; 1 is the trapezoidal \
-        rule")];
+const RHO_INFINITY: &[Parameter] =
+    &[number("rho_infinity").between(0.0, 1.0).or(Presence::Number(0.8)).doc(
+        "ρ∞, factor per step of the amplitude of the fastest vibration; 1 is the trapezoidal \
+        rule",
+    )];
 
 pub const INTEGRATOR: Type = Type::of::<Method>();
 

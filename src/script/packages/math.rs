@@ -45,9 +45,19 @@ pub const TABLE: BindingTable = BindingTable {
             "Returns the sine.",
             "check(abs(sin(PI / 6) - 0.5) < 1e-15);",
         ),
-        of_x("cos", |call| map(call, elementary::cos), "Returns the cosine.", "check(cos(0) == 1);"),
-        of_x("tan", |call| map(call, elementary::tan), "Returns the tangent.", "check(tan(0) == 0);")
-            .corner(near_quarters),
+        of_x(
+            "cos",
+            |call| map(call, elementary::cos),
+            "Returns the cosine.",
+            "check(cos(0) == 1);",
+        ),
+        of_x(
+            "tan",
+            |call| map(call, elementary::tan),
+            "Returns the tangent.",
+            "check(tan(0) == 0);",
+        )
+        .corner(near_quarters),
         of_x(
             "asin",
             |call| map(call, elementary::asin),
@@ -107,7 +117,12 @@ pub const TABLE: BindingTable = BindingTable {
             "check(atanh(0) == 0);",
         )
         .corner(near_one),
-        of_x("exp", |call| map(call, elementary::exp), "Returns the exponential.", "check(exp(0) == 1);"),
+        of_x(
+            "exp",
+            |call| map(call, elementary::exp),
+            "Returns the exponential.",
+            "check(exp(0) == 1);",
+        ),
         of_x(
             "ln",
             |call| map(call, elementary::ln),
@@ -137,9 +152,14 @@ pub const TABLE: BindingTable = BindingTable {
         .example("check_close(log(81, 3), 4, 1e-15);")
         .see(&["ln", "log10", "log2"])
         .corner(near_ends_of_logarithm),
-        of_x("sqrt", |call| map(call, f64::sqrt), "Returns the square root.", "check(sqrt(16) == 4);")
-            .see(&["hypot"])
-            .corner(near_zero),
+        of_x(
+            "sqrt",
+            |call| map(call, f64::sqrt),
+            "Returns the square root.",
+            "check(sqrt(16) == 4);",
+        )
+        .see(&["hypot"])
+        .corner(near_zero),
         of_x(
             "radians",
             |call| map(call, f64::to_radians),
@@ -228,7 +248,9 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(elementary::atan2(call.number("y")?, x(call)?).into())
         })
         .returns(Returns::NUMBER.words("an angle from -PI to PI"))
-        .summary("Returns the angle of the vector with components x and y; y is the first argument.")
+        .summary(
+            "Returns the angle of the vector with components x and y; y is the first argument.",
+        )
         .example("check(atan2(1, 0) == PI / 2);")
         .see(&["angle"])
         .corner(at_cut),

@@ -147,7 +147,8 @@ struct PrecisionStudy(Rc<Precision>);
 
 impl Scripted for PrecisionStudy {
     const NAME: &'static str = "precision study";
-    const DOC: &'static str = "Error against run time of many combinations of mesh, integrator and step size.";
+    const DOC: &'static str =
+        "Error against run time of many combinations of mesh, integrator and step size.";
 
     fn show(&self) -> String {
         let Precision { name, rows, .. } = &*self.0;

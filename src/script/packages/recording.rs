@@ -79,7 +79,9 @@ pub(super) fn expect_rows_between(call: &Call, of: &SimulationHandle) -> Result<
         return Ok(());
     }
     let told = format!("'{}' recorded {}", of.name(), simulation.recording().describe());
-    Err(call.error(told).hint("start it with the option record: every(100), or without this option"))
+    Err(call
+        .error(told)
+        .hint("start it with the option record: every(100), or without this option"))
 }
 
 /// Data missing in a file because states could not be reproduced.
@@ -100,8 +102,8 @@ pub(super) fn tell_another_run(
 ) -> Result<(), ScriptError> {
     let (name, time) = (of.name(), format_number(time));
     let told = format!(
-        "the earlier states of '{name}' are no longer stored, and the run was changed from t = \
-        {time} on or before"
+        "the earlier states of '{name}' are no longer stored, and the repeated run differs at \
+        t = {time} or before"
     );
     let more = "start it with the option snapshots: 1000 to store more states";
     if is_asked {
@@ -130,8 +132,7 @@ pub(super) fn expect_near(
         format_number(time),
         format_number(recorded)
     );
-    let hint =
-        "start it with the option record: every(n) and a smaller n, or plot with a larger \
+    let hint = "start it with the option record: every(n) and a smaller n, or plot with a larger \
         `every`";
     Err(call.error(told).hint(hint))
 }

@@ -31,22 +31,28 @@ pub const TABLE: BindingTable = BindingTable {
             let (from, to) = ends(call)?;
             Ok(Dynamic::from(Distribution::LogUniform { from, to }))
         })
-        .summary("Creates a distribution with a uniform logarithm between two numbers, for a \
-            parameter of a sweep.")
+        .summary(
+            "Creates a distribution with a uniform logarithm between two numbers, for a \
+            parameter of a sweep.",
+        )
         .example("print(log_uniform(1e-3, 10));"),
         spread("normal", &[number("mean"), DEVIATION], |call| {
             let (mean, deviation) = (call.number("mean")?, call.number("deviation")?);
             Ok(Dynamic::from(Distribution::Normal { mean, deviation }))
         })
-        .summary("Creates a normal distribution with a mean and a standard deviation, for a \
-            parameter of a sweep.")
+        .summary(
+            "Creates a normal distribution with a mean and a standard deviation, for a \
+            parameter of a sweep.",
+        )
         .example("print(normal(100, 5));"),
         spread("log_normal", &[number("median").positive(), DEVIATION], |call| {
             let (median, deviation) = (call.number("median")?, call.number("deviation")?);
             Ok(Dynamic::from(Distribution::LogNormal { median, deviation }))
         })
-        .summary("Creates a distribution with a normal logarithm, for a parameter of a sweep, from \
-            the median and the standard deviation of the logarithm.")
+        .summary(
+            "Creates a distribution with a normal logarithm, for a parameter of a sweep, from \
+            the median and the standard deviation of the logarithm.",
+        )
         .example("print(log_normal(100, 0.05));"),
         spread("triangular", &[FROM, number("likeliest"), TO], |call| {
             let (from, to) = ends(call)?;
@@ -55,24 +61,34 @@ pub const TABLE: BindingTable = BindingTable {
                 true => Ok(Dynamic::from(Distribution::Triangular { from, mode, to })),
                 false => {
                     let [mode, from, to] = [mode, from, to].map(format_number);
-                    let told = format!("the likeliest number {mode} is not between {from} and {to}");
-                    Err(call.error(told).hint("write triangular(from, likeliest, to)").at(CallPart::Argument(1)))
+                    let told =
+                        format!("the likeliest number {mode} is not between {from} and {to}");
+                    Err(call
+                        .error(told)
+                        .hint("write triangular(from, likeliest, to)")
+                        .at(CallPart::Argument(1)))
                 }
             }
         })
-        .summary("Creates a triangular distribution between two numbers with its maximum at the \
-            likeliest number, for a parameter of a sweep.")
+        .summary(
+            "Creates a triangular distribution between two numbers with its maximum at the \
+            likeliest number, for a parameter of a sweep.",
+        )
         .example("print(triangular(90, 100, 120));"),
         points("latin_hypercube", &[COUNT, SEED], |call| samples(call, SampleKind::LatinHypercube))
-            .summary("Creates a Latin hypercube plan for a sweep: each parameter range is divided \
+            .summary(
+                "Creates a Latin hypercube plan for a sweep: each parameter range is divided \
                 into as many equally likely parts as there are points, with one point in each \
-                part.")
+                part.",
+            )
             .doc("M. D. McKay, R. J. Beckman, W. J. Conover, Technometrics 21 (1979) 239-245.")
             .example("print(latin_hypercube(2000));")
             .see(&["study_sweep", "sobol"]),
         points("sobol", &[COUNT, SEED], |call| samples(call, SampleKind::Sobol))
-            .summary("Creates a plan of evenly distributed points for a sweep from a Sobol' \
-                sequence; a power of two of points is best.")
+            .summary(
+                "Creates a plan of evenly distributed points for a sweep from a Sobol' \
+                sequence; a power of two of points is best.",
+            )
             .doc(
                 "Direction numbers of S. Joe and F. Y. Kuo (SIAM J. Sci. Comput. 30 (2008) \
                 2635-2654), for up to 40 parameters; each coordinate is shifted by random bits \
@@ -80,13 +96,24 @@ pub const TABLE: BindingTable = BindingTable {
             )
             .example("print(sobol(4096, 7));")
             .see(&["study_sweep", "saltelli"]),
-        points("saltelli", &[whole("blocks").positive().doc("number of blocks, each with two runs more than the number of parameters"), SEED], |call| {
-            samples(call, SampleKind::Saltelli)
-        })
-        .summary("Creates a plan for a sweep from which sensitivity() computes first-order and total \
-            Sobol' indices.")
-        .doc("A. Saltelli et al., Computer Physics Communications 181 (2010) 259-270; the points \
-            of a Sobol' sequence, in blocks of two more than the number of parameters.")
+        points(
+            "saltelli",
+            &[
+                whole("blocks")
+                    .positive()
+                    .doc("number of blocks, each with two runs more than the number of parameters"),
+                SEED,
+            ],
+            |call| samples(call, SampleKind::Saltelli),
+        )
+        .summary(
+            "Creates a plan for a sweep from which sensitivity() computes first-order and total \
+            Sobol' indices.",
+        )
+        .doc(
+            "A. Saltelli et al., Computer Physics Communications 181 (2010) 259-270; the points \
+            of a Sobol' sequence, in blocks of two more than the number of parameters.",
+        )
         .example("print(saltelli(1024));")
         .see(&["sensitivity", "sobol"]),
     ],
@@ -148,7 +175,8 @@ fn ends(call: &Call) -> Result<(f64, f64), ScriptError> {
     match from < to {
         true => Ok((from, to)),
         false => {
-            let told = format!("the range from {} to {} is empty", format_number(from), format_number(to));
+            let told =
+                format!("the range from {} to {} is empty", format_number(from), format_number(to));
             Err(call.error(told).hint("give the smaller number first").at(CallPart::Argument(0)))
         }
     }

@@ -185,7 +185,8 @@ const SPANS: usize = 16;
 const MISSED: f64 = 5e-3;
 
 const AT: Parameter = object("station", STATION);
-const OTHER: Parameter = object("other", STATION).doc("second station; default: the ground").optional();
+const OTHER: Parameter =
+    object("other", STATION).doc("second station; default: the ground").optional();
 const SPIN: Parameter = number("spin").unit("1/time").optional();
 const ROTARY: Parameter = number("rotary_inertia").unit("mass·length²").or(Presence::Number(0.0));
 /// Options for the initial rigid body motion of beams and bodies.

@@ -146,10 +146,15 @@ pub(super) const SAMPLE: Parameter = number("sample").positive().unit("time").do
     "sampling period of the controller |t, q| …, which is called at 0, sample, 2 sample, … with \
     its value held in between; steps end there; default: every step",
 ).optional();
-pub(super) const DELAY: Parameter = number("delay").non_negative().unit("time").doc(
-    "dead time of the controller: a value acts this much later; before the first value nothing \
+pub(super) const DELAY: Parameter = number("delay")
+    .non_negative()
+    .unit("time")
+    .doc(
+        "dead time of the controller: a value acts this much later; before the first value nothing \
     acts",
-).beside("sample").optional();
+    )
+    .beside("sample")
+    .optional();
 
 const TIME: Parameter = number("time").positive().unit("time");
 const FROM: Parameter = number("from").unit("time");

@@ -116,7 +116,10 @@ const COUNT: Kind = Kind::Whole(NumberRange::Positive);
 const SECTION_OPTIONS: Parameter = options("options", SECTION_KEYS);
 const SECTION_KEYS: &[Parameter] = &[
     number("EA").unit("force").doc("axial stiffness").optional(),
-    number("GA").unit("force").doc("shear stiffness, including the shear correction factor").optional(),
+    number("GA")
+        .unit("force")
+        .doc("shear stiffness, including the shear correction factor")
+        .optional(),
     number("EI").unit("force·length²").doc("bending stiffness").optional(),
     number("rho_A").unit("mass/length").doc("mass per length").optional(),
     number("rho_I").unit("mass·length").doc("rotary inertia per length").optional(),

@@ -179,12 +179,16 @@ pub(super) const START: &[Parameter] = &[
         .doc("step size, or adaptive(#{ tolerance: 1e-4 })"),
     object("integrator", INTEGRATOR).doc("integrator; default: energy_momentum()").optional(),
     name("name").doc("name in the report; default: the name of the scene").optional(),
-    object("record", RECORDING).doc("recorded steps: every(n) or nothing(); default: every step").optional(),
+    object("record", RECORDING)
+        .doc("recorded steps: every(n) or nothing(); default: every step")
+        .optional(),
     number("snapshots")
         .non_negative()
         .unit("MB")
-        .doc("number of states kept in memory for going back; default: 256 if the script \
-            contains back or rewind or imports a file, else 0")
+        .doc(
+            "number of states kept in memory for going back; default: 256 if the script \
+            contains back or rewind or imports a file, else 0",
+        )
         .optional(),
     choice("notes", &[PRINTING[0].0, PRINTING[1].0])
         .doc("notes on unresolved steps: printed when a run ends, or only kept in sim.notes")
@@ -334,8 +338,13 @@ pub(super) fn followed(
         return Err(call.error(told).hint("read the angle at a station of a beam or a body"));
     }
     angle.map(Dynamic::from).ok_or_else(|| {
-        call.error(format!("the angle at {} is not available, because the station was created too late", station.show()))
-            .hint("create the station with beam.at(s) before scene.start(…) or \
-                scene.equilibrium(…)")
+        call.error(format!(
+            "the angle at {} is not available, because the station was created too late",
+            station.show()
+        ))
+        .hint(
+            "create the station with beam.at(s) before scene.start(…) or \
+                scene.equilibrium(…)",
+        )
     })
 }

@@ -197,22 +197,30 @@ const SLIDER_KEYS: &[Parameter] = &[
     number("at")
         .between(0.0, 1.0)
         .unit("fraction of the length")
-        .doc("initial position as a fraction of the undeformed length of the beam or the track; \
-            default: the nearest place")
+        .doc(
+            "initial position as a fraction of the undeformed length of the beam or the track; \
+            default: the nearest place",
+        )
         .optional(),
     object("rule", RULE).doc("sliding rule; default: conserving()").optional(),
     choice("ends", &[ENDS[0].0, ENDS[1].0, ENDS[2].0])
-        .doc("event at the end of the beam or track: the run stops, the slider bounces off an \
-            elastic stop, or it is released")
+        .doc(
+            "event at the end of the beam or track: the run stops, the slider bounces off an \
+            elastic stop, or it is released",
+        )
         .or(Presence::Text("stop")),
     number("restitution")
         .between(0.0, 1.0)
-        .doc("ratio of the speeds after and before a bounce, for ends: \"bounce\"; default: 1, \
-            no loss")
+        .doc(
+            "ratio of the speeds after and before a bounce, for ends: \"bounce\"; default: 1, \
+            no loss",
+        )
         .optional(),
     choice("velocities", &[VELOCITIES[0].0, VELOCITIES[1].0])
-        .doc("treatment of incompatible initial velocities across the beam: refused with an \
-            error, or projected to the nearest compatible ones")
+        .doc(
+            "treatment of incompatible initial velocities across the beam: refused with an \
+            error, or projected to the nearest compatible ones",
+        )
         .or(Presence::Text("check")),
     text("name").optional(),
 ];
@@ -242,7 +250,8 @@ impl SliderHandle {
             return Ok(self.index);
         }
         let told = format!("the slider '{}' was added after the scene was started", self.name());
-        Err(ScriptError::new(told).hint("add all sliders before scene.start(…), or start the scene again"))
+        Err(ScriptError::new(told)
+            .hint("add all sliders before scene.start(…), or start the scene again"))
     }
 }
 

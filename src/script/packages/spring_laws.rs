@@ -44,7 +44,8 @@ pub(super) fn law(
             Acts::Pull | Acts::Push => Some("acts"),
         };
         if let Some(odd) = odd {
-            let told = format!("both a table and {odd} are given, but the table determines the force");
+            let told =
+                format!("both a table and {odd} are given, but the table determines the force");
             let hint = format!("leave out {odd}, or the table");
             return Err(call.error(told).hint(hint).at(CallPart::Key(odd.into())));
         }

@@ -138,8 +138,7 @@ const TURNED: &[Kind] = &[Kind::Object(STATION), Kind::Options(TORSION_KEYS)];
 const STIFFNESS: Parameter = number("stiffness").positive().unit("force/length").optional();
 const DAMPING_KINDS: &[Kind] = &[Kind::Number(NumberRange::Finite), Kind::Function, Kind::Points];
 const DAMPER_KINDS: &[Kind] = &[Kind::Number(NumberRange::Positive), Kind::Function, Kind::Points];
-const DAMPING_DOC: &str =
-    "constant, or law: function of the rate that returns the force, |rate| …, or points [rate, \
+const DAMPING_DOC: &str = "constant, or law: function of the rate that returns the force, |rate| …, or points [rate, \
     force]";
 const DAMPING: Parameter = either("damping", DAMPING_KINDS)
     .unit("force·time/length")
@@ -152,16 +151,27 @@ const RATES: Parameter = point("rates")
     .optional();
 const SPRING_KEYS: &[Parameter] = &[
     STIFFNESS,
-    number("length").unit("length").doc("length without force; default: the length in the undeformed scene").optional(),
+    number("length")
+        .unit("length")
+        .doc("length without force; default: the length in the undeformed scene")
+        .optional(),
     choice("acts", &[ACTS[0].0, ACTS[1].0, ACTS[2].0])
         .doc("direction of the force: \"pull\" for a rope, \"push\" for a bumper")
         .or(Presence::Text("both")),
     points("table")
-        .doc("points [length, force] in place of a stiffness; piecewise linear, extrapolated by \
-            the last segments")
+        .doc(
+            "points [length, force] in place of a stiffness; piecewise linear, extrapolated by \
+            the last segments",
+        )
         .optional(),
-    callback("law").doc("function of the elongation that returns the force, |e| …, in place of a stiffness").optional(),
-    point("range").unit("length").doc("range of elongations in which the law is sampled; linear extrapolation beyond it").beside("law").optional(),
+    callback("law")
+        .doc("function of the elongation that returns the force, |e| …, in place of a stiffness")
+        .optional(),
+    point("range")
+        .unit("length")
+        .doc("range of elongations in which the law is sampled; linear extrapolation beyond it")
+        .beside("law")
+        .optional(),
     DAMPING,
     RATES,
     text("name").optional(),
@@ -175,13 +185,17 @@ const TORSION_KEYS: &[Parameter] = &[
     number("stiffness").positive().unit("force·length/rad").optional(),
     number("angle")
         .unit("rad")
-        .doc("angle without moment; to the ground measured from the x axis like sim.angle; \
-            default: the angle in the undeformed scene")
+        .doc(
+            "angle without moment; to the ground measured from the x axis like sim.angle; \
+            default: the angle in the undeformed scene",
+        )
         .optional(),
     points("table").doc("points [angle, moment] in place of a stiffness").optional(),
     callback("law")
-        .doc("function of the angle from the position without moment, returns the moment, |a| …, \
-            in place of a stiffness")
+        .doc(
+            "function of the angle from the position without moment, returns the moment, |a| …, \
+            in place of a stiffness",
+        )
         .optional(),
     point("range")
         .unit("rad")
@@ -190,8 +204,10 @@ const TORSION_KEYS: &[Parameter] = &[
         .optional(),
     either("damping", DAMPING_KINDS)
         .unit("force·length·time/rad")
-        .doc("constant, or law: function of the rate that returns the moment, |rate| …, or \
-            points [rate, moment]")
+        .doc(
+            "constant, or law: function of the rate that returns the moment, |rate| …, or \
+            points [rate, moment]",
+        )
         .or(Presence::Number(0.0)),
     point("rates")
         .unit("rad/time")
@@ -307,8 +323,7 @@ fn tendon(call: &mut Call) -> Result<Dynamic, ScriptError> {
         });
     }
     if anchors.len() < 3 {
-        let told =
-            format!("a tendon needs three or more places, but {} are given", anchors.len());
+        let told = format!("a tendon needs three or more places, but {} are given", anchors.len());
         return Err(call
             .error(told)
             .hint("use scene.spring between two places")
@@ -358,7 +373,9 @@ fn asked(call: &Call, ask: impl FnOnce(&SpringState) -> f64) -> Result<Dynamic, 
         Some(state) => Ok(ask(&state).into()),
         None => {
             let told = format!("'{}' was added after the scene was started", spring.name());
-            Err(call.error(told).hint("add everything before scene.start(…), or start the scene again"))
+            Err(call
+                .error(told)
+                .hint("add everything before scene.start(…), or start the scene again"))
         }
     }
 }

@@ -31,8 +31,10 @@ pub const TABLE: BindingTable = BindingTable {
         Ok(Dynamic::from(control))
     })
     .returns(Returns::object(STEP_CONTROL))
-    .summary("Selects adaptive steps with an error tolerance, for any integrator: dt: adaptive(#{ \
-        tolerance: 1e-4 }).")
+    .summary(
+        "Selects adaptive steps with an error tolerance, for any integrator: dt: adaptive(#{ \
+        tolerance: 1e-4 }).",
+    )
     .doc(
         "Two equal steps of the integrator are compared with a single step of the same total \
         length, which is discarded: 3 solves for 2 steps. Accepted steps are plain steps of \
@@ -57,8 +59,10 @@ const ADAPTIVE: &[Parameter] = &[
     number("tolerance")
         .between(StepControl::LEAST_TOLERANCE, StepControl::MOST_TOLERANCE)
         .or(Presence::Number(1e-4))
-        .doc("accumulated error as a fraction of the length of the longest beam, and in rad; \
-            without beams, of the extent of the parts connected by springs and joints"),
+        .doc(
+            "accumulated error as a fraction of the length of the longest beam, and in rad; \
+            without beams, of the extent of the parts connected by springs and joints",
+        ),
     number("first")
         .positive()
         .unit("time")
@@ -67,8 +71,10 @@ const ADAPTIVE: &[Parameter] = &[
     number("smallest")
         .positive()
         .unit("time")
-        .doc("smallest step; the run stops with an error where a smaller one is needed; default: \
-            1e-6 of the first step")
+        .doc(
+            "smallest step; the run stops with an error where a smaller one is needed; default: \
+            1e-6 of the first step",
+        )
         .optional(),
     number("largest")
         .positive()

@@ -59,11 +59,11 @@ const fn plot(of: Type) -> FunctionBinding {
 
 const fn matrix(of: Type) -> FunctionBinding {
     method(of, "plot_matrix", &[], draw_matrix)
-        .summary(
-            "Plots up to six numeric columns over each other, with their histograms.",
+        .summary("Plots up to six numeric columns over each other, with their histograms.")
+        .doc(
+            "At most 500 rows are shown, selected at random and the same in all panels; the \
+            histograms contain all rows.",
         )
-        .doc("At most 500 rows are shown, selected at random and the same in all panels; the \
-            histograms contain all rows.")
         .example("sweep.plot_matrix();\nsweep.table.plot_matrix();")
         .see(&["plot"])
 }
@@ -72,8 +72,10 @@ const fn histogram(of: Type) -> FunctionBinding {
     const COLUMN: &[Parameter] = &[text("column").doc("a parameter or result")];
     method(of, "plot_histogram", COLUMN, draw_histogram)
         .summary("Plots a histogram of a column.")
-        .doc("A column with at most 64 different, repeated values has a class for each value; \
-            otherwise classes have equal width.")
+        .doc(
+            "A column with at most 64 different, repeated values has a class for each value; \
+            otherwise classes have equal width.",
+        )
         .example("sweep.plot_histogram(\"energy\");\nsweep.table.plot_histogram(\"energy\");")
         .see(&["plot", "plot_matrix"])
 }
@@ -125,7 +127,8 @@ fn expect_rows(call: &Call, picture: &Picture, names: &[&str]) -> Result<(), Scr
         0 => "no row was selected: change the condition of where(…)",
         _ => "failed rows have no results: print(sweep.failures) shows the reasons",
     };
-    let told = format!("{count} of the {all} rows of the sweep are selected, and none can be plotted");
+    let told =
+        format!("{count} of the {all} rows of the sweep are selected, and none can be plotted");
     Err(call.error(told).hint(hint))
 }
 

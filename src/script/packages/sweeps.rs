@@ -262,7 +262,12 @@ fn expect_other_names(call: &Call, sweep: &Sweep) -> Result<(), ScriptError> {
     let wrong = sweep.results.names.iter().find(|name| own(name) || *name == FAILURE);
     wrong.map_or(Ok(()), |name| {
         let told = format!("run: the name '{name}' of a result is already a column of the table");
-        Err(at_key(call, "run", told, "choose another name: parameters and results share one table"))
+        Err(at_key(
+            call,
+            "run",
+            told,
+            "choose another name: parameters and results share one table",
+        ))
     })
 }
 
@@ -315,19 +320,19 @@ fn sensitivity(call: &mut Call) -> Result<Dynamic, ScriptError> {
         }
         let (failed, rows) = (sweep.results.failures().len(), sweep.design.rows);
         if failed > 0 && matches!(sweep.design.arrangement, RowLayout::Grid) {
-            let told = format!(
-                "{failed} of {rows} runs failed, but all runs of a grid must finish"
-            );
-            let hint =
-                "leave out the values of the failed runs, or use sampled points: samples: \
+            let told =
+                format!("{failed} of {rows} runs failed, but all runs of a grid must finish");
+            let hint = "leave out the values of the failed runs, or use sampled points: samples: \
                 saltelli(1024)";
             return Err(call.error(told).hint(hint).at(CallPart::Argument(0)));
         }
         return Err(call
             .error(format!("the sensitivity of '{result}' cannot be computed from these runs"))
-            .hint("the result must vary; a grid must have no failed rows; at least 30 points, or \
+            .hint(
+                "the result must vary; a grid must have no failed rows; at least 30 points, or \
                 30 blocks of saltelli(…) without failed rows, are required; saltelli(1024) \
-                gives the best estimate")
+                gives the best estimate",
+            )
             .at(CallPart::Argument(0)));
     };
     let (used, rows) = (sweep.telling_rows(&result), sweep.design.rows);

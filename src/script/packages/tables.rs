@@ -18,10 +18,14 @@ use crate::script::messages::numbers::as_number;
 use crate::script::presentation::arrays;
 use crate::script::studies::sweeps::table::SweepTable;
 
-pub(super) const TABULAR: Parameter =
-    either("of", &[Kind::Object(SIMULATION), Kind::Object(HISTORY), Kind::Object(SWEEP_TABLE), Kind::Array])
-        .doc("a simulation or history, the table of a sweep, or an array of maps such as the \
-            cells of a stability map");
+pub(super) const TABULAR: Parameter = either(
+    "of",
+    &[Kind::Object(SIMULATION), Kind::Object(HISTORY), Kind::Object(SWEEP_TABLE), Kind::Array],
+)
+.doc(
+    "a simulation or history, the table of a sweep, or an array of maps such as the \
+            cells of a stability map",
+);
 
 pub(super) fn table(call: &Call) -> Result<DataTable, ScriptError> {
     let of = call.value("of")?;

@@ -32,12 +32,22 @@ pub const TABLE: BindingTable = BindingTable {
             let track = scene.track([ramp, floor]);",
     constants: &[],
     rows: &[
-        method(SCENE, "track", &[array("beams").doc("beams in the order of the track"), options("options", TRACK_KEYS).optional()], track)
-            .returns(Returns::object(TRACK))
-            .summary("Creates a track of beams joined end to end, on which sliders pass from one \
-                beam to the next.")
-            .doc(
-                "The direction along each beam follows from the ends that meet. The beams must \
+        method(
+            SCENE,
+            "track",
+            &[
+                array("beams").doc("beams in the order of the track"),
+                options("options", TRACK_KEYS).optional(),
+            ],
+            track,
+        )
+        .returns(Returns::object(TRACK))
+        .summary(
+            "Creates a track of beams joined end to end, on which sliders pass from one \
+                beam to the next.",
+        )
+        .doc(
+            "The direction along each beam follows from the ends that meet. The beams must \
                 already be joined there, by scene.rigid, scene.hinge or other joints, or be \
                 fixed to the ground. A slider passes a corner like a rounded corner of \
                 vanishing radius: its energy is kept, and its momentum changes by an impulse \
@@ -45,17 +55,17 @@ pub const TABLE: BindingTable = BindingTable {
                 separated, the track ends, also for a slider in contact there. A slider that \
                 starts at a corner is on the beam after it. A closed track of two beams has \
                 the direction of the first beam. Default names: track1, track2, …",
-            )
-            .example(
-                "scene.gravity([0, -10]);\n\
+        )
+        .example(
+            "scene.gravity([0, -10]);\n\
                  let bead = scene.particle([0, 1], 1, #{ name: \"bead\" });\n\
                  let ring = scene.slider(bead, track, #{ name: \"ring\", at: 0 });\n\
                  let sim = scene.start(#{ dt: 0.02 });\n\
                  sim.run_to(1.2);\n\
                  check(sim.slider_arc_length(ring) > ramp.length);\n\
                  check(sim.events[0].what == \"passed\" && sim.history.drift(\"energy\") < 1e-10);",
-            )
-            .see(&["slider", "rigid", "events"]),
+        )
+        .see(&["slider", "rigid", "events"]),
         property(TRACK, "name", |call| Ok(call.receiver::<TrackHandle>()?.name().into()))
             .returns(Returns::TEXT)
             .summary("Name of the track.")
@@ -76,8 +86,10 @@ pub(super) const TRACK: Type = Type::of::<TrackHandle>();
 
 const TRACK_KEYS: &[Parameter] = &[
     boolean("closed")
-        .doc("true if the last beam leads back to the start of the first one, so that sliders \
-            circulate; default: false")
+        .doc(
+            "true if the last beam leads back to the start of the first one, so that sliders \
+            circulate; default: false",
+        )
         .optional(),
     text("name").optional(),
 ];

@@ -26,15 +26,21 @@ pub const TABLE: BindingTable = BindingTable {
         function("vec", &[number("x"), number("y")], cartesian)
             .returns(Returns::object(VECTOR))
             .summary("Creates a vector with components x and y.")
-            .doc("An array [x, y] is accepted wherever a point is required; a vector can also be \
-                added and multiplied by a number.")
+            .doc(
+                "An array [x, y] is accepted wherever a point is required; a vector can also be \
+                added and multiplied by a number.",
+            )
             .example("let a = vec(1, 2) + [3, 4];\ncheck(a == vec(4, 6));")
             .see(&["polar", "norm"]),
-        function("polar", &[number("length").doc("length of the vector"), number("angle").unit("rad")], polar)
-            .returns(Returns::object(VECTOR))
-            .summary("Creates a vector from its length and its angle from the x axis.")
-            .example("check(norm(polar(2, PI / 2) - [0, 2]) < 1e-15);")
-            .see(&["angle"]),
+        function(
+            "polar",
+            &[number("length").doc("length of the vector"), number("angle").unit("rad")],
+            polar,
+        )
+        .returns(Returns::object(VECTOR))
+        .summary("Creates a vector from its length and its angle from the x axis.")
+        .example("check(norm(polar(2, PI / 2) - [0, 2]) < 1e-15);")
+        .see(&["angle"]),
         property(VECTOR, "x", |call| Ok(call.receiver::<Vec2>()?.x.into()))
             .writable(&[number("value")], |call| set(call, |vector, x| vector.x = x))
             .returns(Returns::NUMBER)

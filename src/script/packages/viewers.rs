@@ -72,8 +72,10 @@ const VIEWER: &[Parameter] = &[
         .doc("columns of the history; default: kinetic, strain, potential, energy and work")
         .optional(),
     array("fields")
-        .doc("quantities for the colours of beams: \"speed\", \"M\", \"strain_energy\", \"N\", \
-            \"Q\", \"stretch\", \"curvature\"; default: speed, M, stretch and curvature")
+        .doc(
+            "quantities for the colours of beams: \"speed\", \"M\", \"strain_energy\", \"N\", \
+            \"Q\", \"stretch\", \"curvature\"; default: speed, M, stretch and curvature",
+        )
         .optional(),
 ];
 const MISSING: Missing = Missing {

@@ -23,7 +23,7 @@ pub fn history_chart(
 ) -> Result<String, ScriptError> {
     if columns.is_empty() {
         let hint = format!("columns: {}", column_names(history));
-        return Err(ScriptError::new("no column is named").hint(hint));
+        return Err(ScriptError::new("no column is given").hint(hint));
     }
     for name in columns {
         expect_column(history, name)?;

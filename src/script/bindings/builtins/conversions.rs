@@ -75,14 +75,26 @@ pub const TABLE: BuiltInTable = BuiltInTable {
         )
         .returns(Returns::WHOLE)
         .see(&["abs", "sort"]),
-        built_in(&["number.is_zero()"], "Returns true if a number is zero.", "check(0.is_zero() && !is_zero(1e-300));")
-            .returns(Returns::TRUTH),
-        built_in(&["number.is_even()"], "Returns true if a whole number is even.", "check(is_even(4));")
-            .returns(Returns::TRUTH)
-            .see(&["is_odd"]),
-        built_in(&["number.is_odd()"], "Returns true if a whole number is odd.", "check(is_odd(3));")
-            .returns(Returns::TRUTH)
-            .see(&["is_even"]),
+        built_in(
+            &["number.is_zero()"],
+            "Returns true if a number is zero.",
+            "check(0.is_zero() && !is_zero(1e-300));",
+        )
+        .returns(Returns::TRUTH),
+        built_in(
+            &["number.is_even()"],
+            "Returns true if a whole number is even.",
+            "check(is_even(4));",
+        )
+        .returns(Returns::TRUTH)
+        .see(&["is_odd"]),
+        built_in(
+            &["number.is_odd()"],
+            "Returns true if a whole number is odd.",
+            "check(is_odd(3));",
+        )
+        .returns(Returns::TRUTH)
+        .see(&["is_even"]),
         built_in(
             &["number.bits([start], [count])", "number.bits(range)", "number.bits"],
             "Returns the binary digits of a whole number for a for loop, the last digit first.",

@@ -15,7 +15,7 @@ fn a_function_has_its_signature_parameters_and_example() {
         shown("round_to"),
         "\
 round_to(x, digits) → a number
-x rounded to this many digits after the point.
+Rounds x to this many digits after the decimal point.
 
   x: a number
   digits: a whole number from 0 to 15
@@ -35,7 +35,7 @@ fn a_function_of_rhai_has_all_its_forms() {
         "\
 text.sub_string(start, [count]) → a text
 text.sub_string(range) → a text
-A piece of the text; without a count, all from start on.
+Returns a part of the text; without a count, everything from start on.
 
 Example
     check(\"spaghetti\".sub_string(0, 3) == \"spa\");

@@ -116,13 +116,12 @@ pub const KNOTS: Type = Type::of::<Rc<KnotVector>>();
 
 const A: Parameter = object("a", KNOTS);
 const B: Parameter = object("b", KNOTS);
-const DEGREE: Parameter =
-    whole("degree").between(1.0, MAX_DEGREE as f64).doc("polynomial degree");
-const VALUES: Parameter =
-    parameter::numbers("values").doc("knots in ascending order, the first and the last degree + 1 times");
+const DEGREE: Parameter = whole("degree").between(1.0, MAX_DEGREE as f64).doc("polynomial degree");
+const VALUES: Parameter = parameter::numbers("values")
+    .doc("knots in ascending order, the first and the last degree + 1 times");
 const SPANS: NumberRange = NumberRange::Between(1.0, MAX_SPANS as f64);
-const UNIFORM: Parameter = either("spans", &[Kind::Whole(SPANS), Kind::Options(KEYS)])
-    .doc("number of spans, or options");
+const UNIFORM: Parameter =
+    either("spans", &[Kind::Whole(SPANS), Kind::Options(KEYS)]).doc("number of spans, or options");
 const KEYS: &[Parameter] = &[
     whole("spans").between(1.0, MAX_SPANS as f64).doc("number of equal spans"),
     DEGREE.or(Presence::Whole(3)),
@@ -137,7 +136,8 @@ const PRINTED: usize = 16;
 
 impl Scripted for Rc<KnotVector> {
     const NAME: &'static str = "knots";
-    const DOC: &'static str = "The knots of a spline: ends and smoothness of its polynomial pieces.";
+    const DOC: &'static str =
+        "The knots of a spline: ends and smoothness of its polynomial pieces.";
 
     fn show(&self) -> String {
         let spans = self.spans().len();

@@ -62,7 +62,8 @@ fn plot(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let options = call.options_or_defaults("options")?;
     let (x, y) = (curves(call, "x", 0)?, curves(call, "y", 1)?);
     if y.len() > MOST_CURVES {
-        let told = format!("{} curves are too many for a picture; the limit is {MOST_CURVES}", y.len());
+        let told =
+            format!("{} curves are too many for a picture; the limit is {MOST_CURVES}", y.len());
         return Err(call.error(told).at(CallPart::Argument(1)));
     }
     if x.len() != 1 && x.len() != y.len() {

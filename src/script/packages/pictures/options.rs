@@ -152,15 +152,16 @@ pub fn curves(call: &Call, name: &str, at: usize) -> Result<Vec<Vec<f64>>, Scrip
     let given = call.array(name)?;
     let is_many = !given.is_empty() && given.iter().all(Dynamic::is_array);
     let read = |array: &Array| -> Result<Vec<f64>, ScriptError> {
-        let number = |(index, value): (usize, &Dynamic)| {
-            as_number(value).ok_or_else(|| {
-                let got = call.describe(value);
-                call.error(format!("'{name}' must hold numbers, got {got} at index {index}"))
+        let number =
+            |(index, value): (usize, &Dynamic)| {
+                as_number(value).ok_or_else(|| {
+                    let got = call.describe(value);
+                    call.error(format!("'{name}' must hold numbers, got {got} at index {index}"))
                     .hint("give an array of numbers for one curve, or an array of such arrays for \
                         several")
                     .at(CallPart::Argument(at))
-            })
-        };
+                })
+            };
         array.iter().enumerate().map(number).collect()
     };
     match is_many {

@@ -15,8 +15,8 @@ use crate::script::packages::recording::expect_rows_between;
 use crate::script::packages::simulations::SIMULATION;
 
 /// Parameter for simulations.
-pub const MOVING: Parameter =
-    either("of", &[Kind::Object(SIMULATION), Kind::Array]).doc("a simulation, or an array of simulations");
+pub const MOVING: Parameter = either("of", &[Kind::Object(SIMULATION), Kind::Array])
+    .doc("a simulation, or an array of simulations");
 /// Parameter for simulations or histories.
 pub const RECORDED: Parameter =
     either("of", &[Kind::Object(SIMULATION), Kind::Object(HISTORY), Kind::Array])

@@ -193,11 +193,8 @@ impl FinishedSweep {
     pub fn summary(&self) -> String {
         let Sweep { name, design, results } = &self.sweep;
         let failed = results.failures().len();
-        let mut text = format!(
-            "sweep '{name}': {} of {} runs came to their end",
-            design.rows - failed,
-            design.rows
-        );
+        let mut text =
+            format!("sweep '{name}': {} of {} runs finished", design.rows - failed, design.rows);
         let mut table = TextTable::new(&["result", "least", "at", "mean", "largest", "at"]);
         for name in &results.names {
             let Some(column) = results.column(name) else { continue };
