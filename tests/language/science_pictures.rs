@@ -144,7 +144,7 @@ fn magnified_displacements_are_as_many_times_as_large() {
     let plain = axis("");
     assert_eq!(plain, axis("").as_str());
     let one = axis(", magnify: 1");
-    assert!(words(&one).contains(&"displacements since the start, 1 times as large"));
+    assert!(words(&one).contains(&"displacements since the start, magnified 1 times"));
     let lines = |svg: &str| svg.matches("<polyline").count();
     assert_eq!(lines(&one), lines(&plain));
     assert_ne!(axis(", magnify: 5"), one);

@@ -211,11 +211,13 @@ pub fn column_hint(history: &History, name: &str) -> String {
 const MISSING: [(&str, &str); 2] = [
     (
         "dissipated",
-        "nothing in the scene dissipates: it has no damper, no damped section, no drag and no slider that loses by its bounces, so that it would be 0 all along",
+        "nothing in the scene dissipates energy: it has no damper, no damped section, no drag \
+        and no slider with losses by bounces, so the column would be 0",
     ),
     (
         "stored",
-        "nothing in the scene stores energy but beams (strain) and weight (potential): it has no spring",
+        "only beams (strain) and gravity (potential) store energy in the scene: it has no \
+        spring",
     ),
 ];
 

@@ -64,7 +64,10 @@ fn methods_are_found_by_type_by_variable_and_alone() {
     assert_eq!(shown("run_to"), page);
     assert_eq!(shown("sim.run_to()"), page);
     let simulation = shown("simulation");
-    assert!(simulation.contains("\n  simulation.run_to(t): Steps until a time"), "{simulation}");
+    assert!(
+        simulation.contains("\n  simulation.run_to(t): Takes steps until a time"),
+        "{simulation}"
+    );
     assert!(simulation.contains("It comes from"), "{simulation}");
     assert!(simulation.contains("scene.start(options)"), "{simulation}");
     let end = shown("range.end");
@@ -80,7 +83,7 @@ fn a_property_says_what_may_be_assigned() {
 #[test]
 fn domains_and_words_of_the_language_have_pages() {
     assert!(shown("loads").contains("\n  scene.force("), "{}", shown("loads"));
-    assert!(shown("arrays").contains("array.push(value): Adds"), "{}", shown("arrays"));
+    assert!(shown("arrays").contains("array.push(value): Appends"), "{}", shown("arrays"));
     assert!(shown("while").starts_with("The language: loops\n"), "{}", shown("while"));
     assert!(shown("**").starts_with("The language: operators\n"), "{}", shown("**"));
     assert!(shown("").starts_with("Help\n"), "{}", shown(""));

@@ -14,7 +14,7 @@ use crate::script::messages::error::ScriptError;
 use crate::script::messages::numbers::as_number;
 
 /// Message for study functions that try to write files.
-const NO_FILES: &str = "a run of a study writes no files: give what is to be kept as its result";
+const NO_FILES: &str = "a run of a study cannot write files: return the data as its result";
 
 /// Result of the function at a point.
 pub enum FunctionResult {
@@ -102,7 +102,7 @@ impl FunctionQuery<'_> {
         else {
             return drive(&mut Evaluator::of(calling, self, Executor::ThisThread));
         };
-        let wall = format!("{} s, which is its patience", self.wall.as_secs_f64());
+        let wall = format!("{} s, the limit given by patience", self.wall.as_secs_f64());
         let work = |worker: &_, point: QueryPoint| {
             call(
                 worker,
@@ -113,7 +113,7 @@ impl FunctionQuery<'_> {
             )
         };
         let panicked = |told: String| CallWork {
-            result: FunctionResult::Failed(format!("withy has made a mistake: {told}")),
+            result: FunctionResult::Failed(format!("internal error of withy: {told}")),
             steps: 0,
         };
         with_crew(&blueprint, self.wall, work, panicked, |crew| {

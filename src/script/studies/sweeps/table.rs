@@ -221,7 +221,7 @@ impl FinishedSweep {
             text.push_str(&format!("\nfailed with {}: {reason}", self.place(row)));
         }
         if failed > 3 {
-            text.push_str(&format!("\n… and {} more, told in {name}.csv", failed - 3));
+            text.push_str(&format!("\n… and {} more, listed in {name}.csv", failed - 3));
         }
         text
     }
