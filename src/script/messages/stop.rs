@@ -61,7 +61,7 @@ impl Stop {
                 Some("--max-files N allows more".into()),
             ),
             Self::OutputLost(kind) => (
-                format!("what the script prints cannot be written: {kind}"),
+                format!("the output of the script cannot be written: {kind}"),
                 Some("check the free space of the output device".into()),
             ),
             Self::Waiting => (

@@ -251,14 +251,16 @@ fn slopes_of(given: &Dynamic, parameters: usize) -> FunctionResult {
     let values = array.iter().flat_map(|array| array.iter());
     let values: Vec<&Dynamic> = values.chain(map.iter().flat_map(|map| map.values())).collect();
     if array.is_none() && map.is_none() {
-        return FunctionResult::Wrong("it gives neither an array nor a map of numbers".into());
+        return FunctionResult::Wrong("it returns neither an array nor a map of numbers".into());
     }
     let mut slopes = Vec::with_capacity(values.len() * (1 + parameters));
     for value in values {
         match as_number(&VariantValue::project(value, 0)).filter(|number| number.is_finite()) {
             Some(number) => slopes.push(number),
             None => {
-                return FunctionResult::Wrong("it gives something that is no finite number".into());
+                return FunctionResult::Wrong(
+                    "it returns a value that is not a finite number".into(),
+                );
             }
         }
         let Some(varied) = value.read_lock::<VariantValue>() else {

@@ -187,7 +187,9 @@ fn values(given: &Dynamic) -> FunctionResult {
                 ));
             }
             None => {
-                return FunctionResult::Wrong(format!("it returns '{name}', which is not a number"));
+                return FunctionResult::Wrong(format!(
+                    "it returns '{name}', which is not a number"
+                ));
             }
         }
     }
