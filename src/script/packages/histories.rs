@@ -63,9 +63,9 @@ pub const TABLE: BindingTable = BindingTable {
                 the row before.")
             .doc(
                 "This removes alternation from step to step, as in a constraint force. Each \
-                mean belongs to the middle of its step. The first value is unchanged; so is \
-                the second one in columns whose values belong to a step, because they have no \
-                value at the start.",
+                mean belongs to the middle of its step. The first value and the first value \
+                after the start are unchanged, because values that belong to a step do not \
+                exist at the start.",
             )
             .example("sim.step(2);\nlet h = sim.history;\ncheck(h.column(\"t\") == [0, 0.1, 0.2]);\ncheck_close(h.averaged(\"t\")[2], 0.15, 1e-14);")
             .see(&["column", "plot_history"]),

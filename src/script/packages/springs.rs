@@ -146,7 +146,10 @@ const DAMPING: Parameter = either("damping", DAMPING_KINDS)
     .or(Presence::Number(0.0));
 const RATES: Parameter = point("rates")
     .unit("length/time")
-    .doc("range of rates for a function, [-1, 1]; linear extrapolation beyond it")
+    .doc(
+        "range of rates in which a function is sampled, such as [-1, 1]; linear extrapolation \
+        beyond it",
+    )
     .beside("damping")
     .optional();
 const SPRING_KEYS: &[Parameter] = &[
@@ -211,7 +214,7 @@ const TORSION_KEYS: &[Parameter] = &[
         .or(Presence::Number(0.0)),
     point("rates")
         .unit("rad/time")
-        .doc("range of rates for a function")
+        .doc("range of rates in which a function is sampled")
         .beside("damping")
         .optional(),
     text("name").optional(),
