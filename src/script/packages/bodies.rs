@@ -34,13 +34,11 @@ pub const TABLE: BindingTable = BindingTable {
             .returns(Returns::object(BODY))
             .summary("Adds a rigid body.")
             .doc(
-                "at is the position of the centre of mass, and inertia is about it. points are \
-                relative to the centre in the frame of the body, which is rotated by angle. \
-                One of mass and inertia may be zero if the corresponding motion has inertia \
-                from other parts of the scene. velocity and spin define the initial motion; \
-                spin is about the centre or the point `about`. Pictures show the points, or \
-                the polygon `outline`; this requires one point away from the centre. Default \
-                names: body1, body2, …",
+                "points are relative to the centre of mass, in the frame of the body, which is \
+                rotated by angle. One of mass and inertia may be zero if other parts of the \
+                scene provide the inertia of that motion. spin is about the centre or the \
+                point `about`. Pictures show the points, or the polygon `outline`; this \
+                requires one point away from the centre. Default names: body1, body2, …",
             )
             .example(
                 "let pendulum = scene.body(#{ at: [0, -1], mass: 1, inertia: 0.02, points: #{ pivot: [0, 1], tip: [0, -0.5] } });\n\

@@ -36,14 +36,14 @@ pub const TABLE: BindingTable = BindingTable {
             step size, and computes errors and orders.",
         )
         .doc(
-            "scene, stations, reference and columns are those of study_work_precision. With a \
-            table as reference, the quantities are its columns; with a fine run (default) they \
-            are the positions and angles of the stations and all physical columns of the \
-            history. Several meshes need a reference on a different mesh: finest_run(#{ mesh: \
-            … }) or a table. Orders are computed only from errors larger than the error of the \
-            reference. The size of a mesh is one over the number of spans of all beams. The \
-            errors of all positions together and the orders of the other quantities are \
-            printed; NAME.csv has all of them, NAME.svg shows those of the positions.",
+            "scene, stations, reference and columns are those of study_work_precision. The \
+            quantities are the columns of the reference table; with a fine run (default) the \
+            positions and angles of the stations and all physical columns of the history. \
+            Several meshes need a reference on a different mesh: finest_run(#{ mesh: … }) or a \
+            table. Orders are computed only from errors above the error of the reference. The \
+            size of a mesh is 1 over the number of spans of all beams. Errors of all positions \
+            together and orders of the other quantities are printed; NAME.csv has everything, \
+            NAME.svg shows the errors of the positions.",
         )
         .example("check_close(ladder.order(\"positions\", energy_momentum()), 2, 0.1);")
         .see(&["study_work_precision", "finest_run", "order"]),

@@ -34,13 +34,12 @@ pub const TABLE: BindingTable = BindingTable {
                 one.")
             .doc(
                 "`scene` is a function that creates the scene; each feature is a function that \
-                adds something to such a scene. Without `features` all features available for \
-                a scene with a beam are tried, small enough to change the motion little. \
-                Further rows: no recording, snapshots, and the other integrators. The scene \
-                alone is measured twice, which shows the accuracy of the times. Runs are timed \
-                one at a time, all rows in turn, without the time to build the scene; the \
-                minimum and the median are reported. The table is printed, written to NAME.csv \
-                and plotted in NAME.svg.",
+                adds something to it. Default features: all that apply to a scene with a beam, \
+                small enough to change the motion little. Further rows: no recording, \
+                snapshots, and the other integrators. The scene alone is measured twice, which \
+                shows the accuracy of the times. Runs are timed one at a time, without \
+                building the scene; minimum and median are reported. The table is printed, \
+                written to NAME.csv and plotted in NAME.svg.",
             )
             .example(
                 "let costs = study_cost(#{ name: \"cost\", scene: spinning, dt: 0.05, steps: 10, repeats: 1, features: #{ gravity: |scene| scene.gravity([0, -9.81]) } });\n\

@@ -27,19 +27,18 @@ pub const TABLE: BindingTable = BindingTable {
         .returns(Returns::object(VARIED))
         .summary("Declares a named number of the scene by which derivatives are computed.")
         .doc(
-            "Use it in calculations and wherever sections, loads, springs, masses, motors and \
-            velocities of the scene take a number. All parameters of a scene must be declared \
-            before one is used. A simulation started afterwards computes in each step the \
-            derivatives by each parameter from the factorised equations of the step: two or \
-            three solves for each of two neighbouring values, no factorisation. Its own steps \
-            are bitwise unchanged. Values read from the simulation and its history are numbers \
-            with derivatives, and so are values computed from them; comparisons, checks, fixed \
-            and sci use the numbers without. Only fixed steps of energy_momentum() or \
-            fourth_order() are allowed. Positions of particles, of points of the ground and of \
-            sliders, and whole beams may depend on a parameter; lengths of beams, places on \
-            them and times at which loads jump may not, and functions |t, q| … are not allowed \
-            in the scene. Derivatives end where a slider arrives, an object is released, or \
-            the script goes back; derivative_by then gives this reason.",
+            "Sections, loads, springs, masses, motors and velocities of the scene accept it as \
+            a number. Declare all parameters of a scene before one is used. A simulation \
+            started afterwards computes in each step the derivatives by each parameter with \
+            the factorised equations of the step: two or three solves for each of two \
+            neighbouring values, no factorisation. Its own steps are bitwise unchanged. Values \
+            read from the simulation and its history, and values computed from them, have \
+            derivatives; comparisons, checks, fixed and sci ignore them. Only fixed steps of \
+            energy_momentum() or fourth_order() are allowed. Positions of particles, of points \
+            of the ground and of sliders, and whole beams may depend on a parameter; lengths \
+            of beams, places on them and times of jumps of loads may not, and functions |t, q| \
+            … are not allowed. Derivatives end where a slider arrives, an object is released, \
+            or the script goes back; derivative_by then gives this reason.",
         )
         .example(
             "let scene = new_scene(\"rod\");\nlet EI = scene.parameter(\"EI\", 100);\n\
@@ -55,17 +54,16 @@ pub const TABLE: BindingTable = BindingTable {
             .summary("Returns the derivative of a number or a vector by a parameter of a scene; for \
                 an array those of its elements.")
             .doc("Zero for values that do not depend on a parameter, and for all values of a \
-                simulation loaded from a file, whose parameters are plain numbers. Accurate to \
-                about eight digits where the motion is smooth and depends on the parameter; \
-                for other cases use the option `distance` of scene.parameter. Refused with an \
-                error that gives the reason: a value that is not a number, a vector or an \
-                array of them; an unknown parameter; a value at a kink or a jump of a function \
-                (abs(x) at 0, max(x, y) where both are equal, x % y) or where its slope is \
-                infinite (sqrt(x) and 1 / x at 0); and a simulation after a slider has \
-                arrived, an object was released, or the script has gone back \
-                (sim.history.before(t) has the earlier rows). A note is printed if a function \
-                |t| … compares its argument with a parameter, such as if t < a: if the \
-                function jumps there, derivatives are wrong.")
+                simulation loaded from a file. Accurate to about eight digits where the motion \
+                is smooth and depends on the parameter; for other cases use the option \
+                `distance` of scene.parameter. Refused with an error: other values than \
+                numbers, vectors and arrays of them; an unknown parameter; a value at a kink \
+                or a jump of a function (abs(x) at 0, max(x, y) where both are equal, x % y) \
+                or where its slope is infinite (sqrt(x) and 1 / x at 0); and a simulation \
+                after a slider has arrived, an object was released, or the script has gone \
+                back (sim.history.before(t) has the earlier rows). A note is printed if a \
+                function |t| … compares its argument with a parameter, such as if t < a: if \
+                the function jumps there, derivatives are wrong.")
             .example(
                 "let scene = new_scene(\"two\");\nlet k = scene.parameter(\"k\", 4);\nlet m = scene.parameter(\"m\", 1);\n\
                  let omega = sqrt(k / m);\ncheck_close(omega.derivative_by(\"k\"), 0.25, 1e-9);\ncheck_close(derivative_by(omega, \"m\"), -1, 1e-8);",

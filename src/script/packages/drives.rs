@@ -24,12 +24,12 @@ pub const TABLE: BindingTable = BindingTable {
     name: "supports and drives",
     doc: "A support fixes displacements or the rotation of a station; a drive prescribes them as \
         functions of time. Prescribed components are not unknowns: position and angle are \
-        exact at the end of every step of any size, and the required force is the reaction. \
-        Drives do work: E - W + D, p - ∫F dt and L - ∫M dt stay constant to rounding. The \
-        history has work.NAME of every drive and of every named load, NAME.torque of a motor, \
-        and NAME.x, NAME.y and NAME.angle of a drive made by scene.move: its force in x and y \
-        and its moment, as means of each step. The moment is conjugate to the rotation of the \
-        section: its product with the angle is exactly the work, for any rotation.",
+        exact at the end of every step, and the required force is the reaction. With drives E \
+        - W + D, p - ∫F dt and L - ∫M dt stay constant to rounding. The history has work.NAME \
+        of every drive and every named load, NAME.torque of a motor, and NAME.x, NAME.y and \
+        NAME.angle of a drive made by scene.move: its force in x and y and its moment, as \
+        means of each step. The product of the moment and the rotation is exactly the work, \
+        for any rotation.",
     types: &[],
     setup: super::scenes::ROD,
     constants: &[],
@@ -52,14 +52,13 @@ pub const TABLE: BindingTable = BindingTable {
             .doc("x and y are displacements from the undeformed position, angle is the rotation \
                 from the undeformed angle. Each must be 0 at t = 0 and must not jump; a jump \
                 is refused with an error when the run reaches it. schedules::smooth_step of \
-                std/schedules moves to a place in a given time. Steps end at the kinks of a \
-                schedule; a function declares its kinks by schedule(|t| …, [times]). x_speed \
-                and y_speed prescribe the rate instead of x and y, starting from the \
-                undeformed position: a function of time, or a controller |t, q| …, which is \
-                called at the start of every step like the speed of a motor. The initial \
-                velocity of the node is that of the function; if the beam is at rest, this is \
-                an impact. In scene.equilibrium drives are evaluated at the option `time` and \
-                applied in proportion to the load factor.")
+                std/schedules moves to a place in a given time. Steps end at kinks; a function \
+                declares them by schedule(|t| …, [times]). x_speed and y_speed prescribe rates \
+                instead, starting from the undeformed position: a function of time, or a \
+                controller |t, q| …, called at the start of every step. The initial velocity \
+                of the node is that of the function; for a beam at rest this is an impact. \
+                scene.equilibrium evaluates drives at the option `time`, in proportion to the \
+                load factor.")
             .example("scene.move(rod.start, #{ x: 0, y: |t| 0.01 * (1 - cos(40 * t)), angle: 0, name: \"shaker\" });\n\
                       let sim = scene.start(#{ dt: 0.005 });\nsim.run_to(0.5);\n\
                       check_close(sim.position(rod.start).y, 0.01 * (1 - cos(20)), 1e-14);\n\

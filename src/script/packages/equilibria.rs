@@ -41,11 +41,10 @@ pub const TABLE: BindingTable = BindingTable {
             .summary("Finds the static equilibrium of the scene under its loads and gravity.")
             .doc(
                 "At least one load must act. Sliders are in equilibrium without friction along \
-                the beam, or in contact with an end stop. Parts that are held only by their \
-                loads, such as a pendulum, a chain or a bead in a sag, move from the initial \
-                position to the equilibrium as in a viscous medium. A load step without a \
-                solution is halved, up to eight times. For snap-through, or to follow a path \
-                with decreasing load, use control: arc_length().",
+                the beam, or in contact with an end stop. Parts held only by their loads, such \
+                as a pendulum, a chain or a bead in a sag, move to the equilibrium as in a \
+                viscous medium. A load step without a solution is halved, up to eight times. \
+                For snap-through, or a path with decreasing load, use control: arc_length().",
             )
             .example(
                 "let rest = scene.equilibrium(#{ load_steps: 4 });\n\
@@ -178,10 +177,9 @@ pub const TABLE: BindingTable = BindingTable {
         .doc(
             "Loads follow their schedules from t = 0: a load with hold_for(1) ends at t = 1. \
             The options are those of scene.start. The full loads act, whatever load_factor and \
-            time the equilibrium had. If a drive has moved the scene, the simulation starts at \
-            the time of the equilibrium instead, for loads too: at t = 1 after \
-            scene.equilibrium(#{ time: 1 }). With drives that are at rest by then, the scene \
-            stays at rest.",
+            time the equilibrium had. If a drive has moved the scene, simulation and loads \
+            start at the time of the equilibrium instead: at t = 1 after scene.equilibrium(#{ \
+            time: 1 }). With drives that are at rest by then, the scene stays at rest.",
         )
         .example(
             "let rest = scene.equilibrium();\nlet sim = rest.start(#{ dt: 0.01 });\nsim.run_to(0.1);\n\

@@ -40,13 +40,12 @@ pub const TABLE: BindingTable = BindingTable {
                 bodies are points. The cell field `body` numbers beams first, then particles, \
                 then rigid bodies. Point fields are arc_length, velocity, angle [rad], N, Q \
                 and M, zero on particles and rigid bodies. Velocities and section forces need \
-                complete states: stored ones (option `snapshots`), or, for states no longer \
-                stored, those of the run repeated in a copy; this takes the time of the run, \
-                and the result is compared bit for bit. If the repeated run differs, because a \
-                function had changed the simulation or because it started from an equilibrium, \
-                only the shape is written, with a note. Frames are recorded configurations, \
-                without interpolation. Frames of an earlier, longer export are not deleted, \
-                but the .pvd does not list them.",
+                complete states: stored ones (option `snapshots`), or those of the run \
+                repeated in a copy, which takes the time of the run and is compared bit for \
+                bit. If the repeated run differs, because a function had changed the \
+                simulation or it started from an equilibrium, only the shape is written, with \
+                a note. Frames are recorded configurations, without interpolation. Frames of \
+                an earlier, longer export are not deleted, but the .pvd does not list them.",
             )
             .example("sim.run_to(2);\nwrite_vtk(sim, \"spin.pvd\", #{ every: 0.5 });\nwrite_vtk(sim, \"shape.pvd\", #{ frames: 3, fields: \"shape\" });")
             .see(&["write_npz", "plot_motion", "save"]),

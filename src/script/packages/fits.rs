@@ -44,21 +44,19 @@ pub const TABLE: BindingTable = BindingTable {
             .doc(
                 "Give `residuals`, a function of a map of parameters that returns an array of \
                 differences, or `model`, which returns an array to be compared with \
-                `measured`, at the places `over`. With `data` the function is called with it \
-                as second argument. The weighted sum of squares is minimised by the \
-                Levenberg-Marquardt method within the bounds. Derivatives are those of the \
-                runs where possible: the parameters are numbers with derivatives, like those \
-                of scene.parameter, and simulations compute derivatives along with their \
-                steps. The first derivatives are compared with a difference of two runs. If \
-                they differ, or the function uses something without derivatives, \
-                `found.derivatives` gives the reason, and central differences of runs are \
-                used, second order: `step` times the size of a parameter (its value, or a \
-                hundredth of its range if it is near zero), default: 1e-4, which has about \
-                eight correct digits for runs that repeat to 1e-12; use 1e-3 with adaptive \
-                steps. Differences are computed at the start and at the end and updated in \
-                between by Broyden's method. Errors are standard errors, s² (JᵀJ)⁻¹ with s \
-                from the residuals, and intervals are those of Student's distribution; a \
-                parameter at a bound counts as known. A table is printed.",
+                `measured`, at the places `over`. `data` is passed as second argument. The \
+                weighted sum of squares is minimised by the Levenberg-Marquardt method within \
+                the bounds. Derivatives are computed along with the runs where possible (see \
+                scene.parameter); the first ones are compared with a difference of two runs. \
+                If they differ, or the function has no derivatives, central differences of \
+                runs are used, and `found.derivatives` gives the reason. Their step is `step` \
+                times the size of a parameter (its value, or a hundredth of its range if it is \
+                near zero), default: 1e-4, which gives about eight digits for runs that repeat \
+                to 1e-12; use 1e-3 with adaptive steps. They are computed at the start and at \
+                the end and updated in between by Broyden's method. Errors are standard \
+                errors, s² (JᵀJ)⁻¹ with s from the residuals, and intervals are those of \
+                Student's distribution; a parameter at a bound counts as known. A table is \
+                printed.",
             )
             .example(
                 "let times = linspace(0, 4, 21);\nlet measured = times.map(|t| 3 * exp(-0.5 * t) + 0.001 * sin(50 * t));\n\
@@ -128,11 +126,10 @@ pub const TABLE: BindingTable = BindingTable {
             .doc(
                 "`run` is a function of a map of parameters that returns a map of numbers. \
                 `least` or `largest` names the result to minimise or maximise; `constraints` \
-                gives the lower and upper limits of other results. If the runs have \
-                derivatives (the parameters are numbers with derivatives, as in fit), Kraft's \
-                SLSQP is used: quadratic models with linearised constraints. If they have \
-                none, or the first ones differ from a difference of two runs, or the search \
-                with them is stuck, Powell's COBYLA is used: linear models over a simplex of \
+                gives the limits of other results. If the runs have derivatives (as in fit), \
+                Kraft's SLSQP is used: quadratic models with linearised constraints. If they \
+                have none, or the first ones differ from a difference of two runs, or the \
+                search is stuck, Powell's COBYLA is used: linear models over a simplex of \
                 designs; `best.derivatives` gives the reason. Both methods find a local \
                 optimum, not the global one. Designs with failed runs are avoided. The result \
                 is the best of all tried designs that satisfy the constraints.",

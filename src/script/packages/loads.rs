@@ -39,22 +39,19 @@ pub const TABLE: BindingTable = BindingTable {
         .doc("With #{ frame: \"follower\" } the components are along and across the undeformed \
             beam, or along the axes of a rigid body, and rotate with the section. A function \
             |t, q| … is a sampled controller: it is called at the start of every step with the \
-            simulation, like a function of scene.record, and its value holds for the step. The \
-            feedback is therefore delayed by half a step on average, of first order in dt; \
-            adaptive steps also call it in their middle to estimate this error. The work of a \
-            controller is counted like that of any load. With #{ sample: 0.01 } the controller \
-            is digital: it is called at 0, 0.01, 0.02, … and its value is held in between. \
-            Steps end at these times, so that the samples depend on the step size only by the \
-            error of the method. With #{ sample: 0.01, delay: 0.003 } the value acts 0.003 \
-            later; before the first value nothing acts. The values of a controller are part of \
-            the state and are restored by sim.back and sim.rewind. Variables that the function \
-            itself changes are not restored: the function is called again when an adaptive \
-            step is rejected, after sim.back and sim.rewind, and when earlier states are read, \
-            and another simulation or copy of the scene finds the variables as the last one \
-            left them. Let the function depend on t and q only, and model memory by a moving \
-            body (an integral of the error is the angle of a free body under a moment); \
-            otherwise use fixed steps and never go back. With a name the history has work.NAME \
-            and NAME.force.")
+            simulation q, and its value holds for the step. The mean delay of the feedback is \
+            half a step; adaptive steps also call it in their middle to estimate this error. \
+            Its work is counted like that of any load. With #{ sample: 0.01 } the controller \
+            is called at 0, 0.01, 0.02, …, and its value is held in between. Steps end at \
+            these times, so that the samples depend on the step size only by the error of the \
+            method. With #{ sample: 0.01, delay: 0.003 } the value acts 0.003 later; before \
+            the first value nothing acts. sim.back and sim.rewind restore the values of a \
+            controller, but not variables that the function itself changes: it is called again \
+            when an adaptive step is rejected, after going back, and when earlier states are \
+            read, and other simulations and copies of the scene share the variables. Let the \
+            function depend on t and q only, and model memory by a moving body (an integral of \
+            the error is the angle of a free body under a moment); otherwise use fixed steps \
+            and never go back. With a name the history has work.NAME and NAME.force.")
         .example("scene.force(rod.end, [8, 0], hold_for(2.5));\nscene.force(rod.end, [0, 1], 1, #{ frame: \"follower\" });\n\
                  scene.force(rod.end, [0, 1], |t, q| -2 * q.velocity(rod.end).y, #{ name: \"brake\" });\n\
                  scene.force(rod.middle, [0, 1], |t, q| -q.velocity(rod.middle).y, #{ sample: 0.1, delay: 0.02 });\n\

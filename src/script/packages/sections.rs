@@ -76,13 +76,11 @@ pub const TABLE: BindingTable = BindingTable {
             .returns(Returns::object(MESH))
             .summary("Creates a mesh of B-splines; default: cubic and C2.")
             .doc(
-                "bspline(14) has 14 equal spans. Options: spans, degree (default: 3), \
-                continuity (default: degree - 1), quadrature. quadrature selects the points at \
-                which axial and shear strain are sampled. \"patch\" (default) has neither \
-                locking nor zero-energy modes for any degree and continuity. A whole number \
-                gives that many Gauss points per span, for studies; such a mesh states when \
-                printed if it has too many points (locking of stiff beams) or too few \
-                (zero-energy modes).",
+                "bspline(14) has 14 equal spans. quadrature selects the points at which axial \
+                and shear strain are sampled. \"patch\" (default) has neither locking nor \
+                zero-energy modes for any degree and continuity. A whole number gives that \
+                many Gauss points per span, for studies; such a mesh states when printed if it \
+                has too many points (locking of stiff beams) or too few (zero-energy modes).",
             )
             .example(
                 "let mesh = bspline(14);\ncheck(mesh.spans == 14);\n\

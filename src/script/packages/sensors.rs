@@ -32,17 +32,16 @@ pub const TABLE: BindingTable = BindingTable {
         which is printed, plotted, saved and evaluated like every other. The name of a \
         built-in sensor consists of an object, a place and a quantity. Places of a beam: \
         rod.start, rod.end, rod[0.5] (undeformed arc length), with x, y, vx, vy, speed, ax, \
-        ay, angle, spin, N, Q, M, axial_strain, shear_strain, curvature. A particle has x to \
-        ay; a rigid body x to ay, angle and spin, of its centre of mass and of its points: \
-        hub.x, hub.pin.y. Whole beams, particles and bodies: energy, kinetic, strain, axial, \
-        shear, bending, potential. Joints, numbered by kind in the order of creation (hinge1, \
-        hinge2, clamp1, rigid1): force, fx, fy, moment, on the first station of the joint, and \
-        mean_force, mean_fx, mean_fy, mean_moment as means of the last step. Sliders: \
-        present_force, present_force_x, present_force_y, on the beam. Section forces, \
-        accelerations and forces are present values computed from the equations of motion, of \
-        second order like the motion. Where a stiff beam vibrates from step to step, they \
-        alternate; sim.history.averaged(column) does not. Scenes without sensors have no extra \
-        cost.",
+        ay, angle, spin, N, Q, M, axial_strain, shear_strain, curvature. Particles: x to ay. \
+        Rigid bodies: x to ay, angle and spin, of the centre of mass and of points: hub.x, \
+        hub.pin.y. Whole beams, particles and bodies: energy, kinetic, strain, axial, shear, \
+        bending, potential. Joints, numbered by kind in the order of creation (hinge1, hinge2, \
+        clamp1, rigid1): force, fx, fy, moment, on the first station, and mean_force, mean_fx, \
+        mean_fy, mean_moment as means of the last step. Sliders: present_force, \
+        present_force_x, present_force_y, on the beam. Section forces, accelerations and \
+        forces are present values computed from the equations of motion, of second order. They \
+        alternate where a stiff beam vibrates from step to step; sim.history.averaged(column) \
+        removes this. Scenes without sensors have no extra cost.",
     types: &[],
     setup: HANGING,
     constants: &[],
@@ -78,20 +77,19 @@ pub const TABLE: BindingTable = BindingTable {
             "The map has N (positive in tension), Q (positive to the left of the axis) and M \
             (positive counter-clockwise) [force, force, force·length], acting from the \
             following part of the beam on the preceding one, in the frame of the section; and \
-            axial_strain, shear_strain and curvature. Forces are computed from strains by the \
-            material law; with damping (Kelvin–Voigt) N, Q and M include the contribution of \
-            the present strain rates. If the steps are too long for these rates, they \
-            alternate; then they are extrapolated from the mean rates of the last two steps \
-            (not in the first step after a start or an impact). The result for a whole beam is \
-            an array with a map at each knot and at three points between, with the arc length \
-            s; where a joint divides the beam there are two with the same s. The values \
-            balance loads and inertia up to the ends of a beam; errors decrease with the span \
-            length to the power of the degree (N, Q), and to the power of at least two (M). \
-            Linear elements have one value each. A force, moment, mass, spring or slider \
-            *inside* a beam causes a jump that smooth functions cannot represent: in the two \
-            neighbouring spans M has an error proportional to the span length, and Q \
-            oscillates by up to a fifth of the jump on any mesh. If such values matter, make \
-            two beams and join them there with scene.rigid(…).",
+            axial_strain, shear_strain and curvature. Forces follow from strains by the \
+            material law; with damping (Kelvin–Voigt) they include the present strain rates. \
+            If the steps are too long for these rates, which then alternate, the rates are \
+            extrapolated from the means of the last two steps (not in the first step after a \
+            start or an impact). For a whole beam the result is an array with a map at each \
+            knot and at three points between, with the arc length s; where a joint divides the \
+            beam there are two with the same s. The values balance loads and inertia up to the \
+            ends of a beam; errors decrease with the span length to the power of the degree \
+            (N, Q), and of at least two (M). Linear elements have one value each. A force, \
+            moment, mass, spring or slider *inside* a beam causes a jump that smooth functions \
+            cannot represent: in the two neighbouring spans M has an error proportional to the \
+            span length, and Q oscillates by up to a fifth of the jump on any mesh. If such \
+            values matter, make two beams and join them there with scene.rigid(…).",
         )
         .example(
             "let sim = scene.start(#{ dt: 0.01 });\nsim.step();\nlet along = sim.section_forces(rod);\ncheck(along[0].s == 0 && along.len() == 17);\n\
@@ -261,15 +259,14 @@ const HANGING: &str = "let scene = new_scene(\"example\");\n\
     scene.gravity([0, -9.81]);";
 
 /// Help text on mean values over a step.
-const MEAN: &str = "Means are computed while steps are made only if one of the columns mean_force, mean_fx, \
-    mean_fy, mean_moment is recorded, as in scene.record(\"hinge1.mean_force\"), and then for \
-    all joints and supports. Together with loads, gravity and drives, these forces are exactly \
-    the change of the momentum over the step; their moments about a point, with each force at \
-    the midpoint of its path over the step, are the change of the angular momentum. This holds \
-    to rounding with energy_momentum() and energy_decaying(), and for the momentum also with \
-    fourth_order() and trapezoidal(). The means belong to the middle of the step, to second \
-    order, and include the impulses of bouncing sliders. Zero before the first step. Not \
-    available with generalized_alpha().";
+const MEAN: &str = "Means are computed only if one of the columns mean_force, mean_fx, mean_fy, mean_moment is \
+    recorded, as in scene.record(\"hinge1.mean_force\"), and then for all joints and supports. \
+    Together with loads, gravity and drives they are the change of the momentum over the step; \
+    their moments about a point, with each force at the midpoint of its path, are the change \
+    of the angular momentum. This holds to rounding with energy_momentum() and \
+    energy_decaying(), and for the momentum also with fourth_order() and trapezoidal(). The \
+    means belong to the middle of the step, to second order, and include the impulses of \
+    bouncing sliders. Zero before the first step. Not available with generalized_alpha().";
 
 const AT: Parameter = object("station", STATION);
 const WHICH: Parameter = either("joint", &[Kind::Object(JOINT), Kind::Text]);

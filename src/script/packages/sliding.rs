@@ -50,7 +50,7 @@ pub const TABLE: BindingTable = BindingTable {
             .summary("Selects the conserving rule with the kink of the beam at the contact force: \
                 second order in the mesh, where conserving() is first order.")
             .doc("Requires meshes of smooth splines. With energy_momentum(): keeps energy, \
-                linear momentum, angular momentum and the gap to rounding. First order only \
+                linear momentum, angular momentum and the gap to rounding. Only first order \
                 near the ends of the beam, and where the slider reaches 0.8 of the shear wave \
                 speed of the beam, sqrt(GA/rho_A). Use conserving() for sliders with repeated \
                 impacts on soft beams: with kinked() a step may have no solution. withy, \
@@ -74,20 +74,18 @@ pub const TABLE: BindingTable = BindingTable {
                 track.")
             .doc(
                 "The station must lie on the undeformed beam, at `at`, to six digits; it is \
-                then moved onto the beam exactly. On a curved beam, whose mesh differs \
-                slightly from the curve, the station is moved onto the axis of the mesh, and \
-                velocities: \"project\" makes the initial velocities compatible with it. A \
-                station fixed to the ground is an eyelet through which the beam slides. ends \
-                selects the event at an end of the beam: the run stops, the slider bounces, or \
-                it is released. Simultaneous bounces are one impact. The contact time of a \
-                bounce is that of a wave through the beam and back, 2 L √(rho_A/EA), or less \
-                for a slider lighter than the beam. If the step is shorter than an eighth of \
-                it, the slider stays in contact with the end stop until the contact force \
-                would be tensile. In much longer steps the beam is treated as rigid in the \
-                impact, and sim.notes reports this. restitution is the ratio of the speeds \
-                after and before a bounce; the lost energy is in the column dissipated.NAME. A \
-                slider that bounces repeatedly within few steps stays in contact with the end \
-                stop until it is pulled away. Default names: slider1, slider2, …",
+                then moved onto it exactly. On a curved beam, whose mesh differs slightly from \
+                the curve, it is moved onto the axis of the mesh, and velocities: \"project\" \
+                makes the initial velocities compatible. A station fixed to the ground is an \
+                eyelet through which the beam slides. Simultaneous bounces are one impact. The \
+                contact time of a bounce is that of a wave through the beam and back, 2 L \
+                √(rho_A/EA), or less for a slider lighter than the beam. In steps shorter than \
+                an eighth of it, the slider stays in contact with the end stop until the \
+                contact force would be tensile. In much longer steps the beam is treated as \
+                rigid in the impact, and sim.notes reports this. The lost energy is in the \
+                column dissipated.NAME. A slider that bounces repeatedly within few steps \
+                stays in contact with the end stop until it is pulled away. Default names: \
+                slider1, slider2, …",
             )
             .example(
                 "let hook = scene.beam(#{ name: \"hook\", axis: line([1, 0], [1, 1]), basis: bspline(4), section: s });\n\
@@ -109,12 +107,12 @@ pub const TABLE: BindingTable = BindingTable {
             "Zero before the first step and after a release. The value belongs to the middle of \
             the step; with kinked() to its end, with the order of the method; with \
             fourth_order() to the last of its seven substeps, so that it is first order. \
-            present_contact_force has the order of the motion with every rule, and \
+            present_contact_force has the order of the motion with every rule; \
             scene.record(\"ring.present_force\") records it. On splines with the conserving \
             rule the force is smooth where the motion is. Where it alternates between steps \
             (kinks of Lagrange elements, the relaxed rule), averaged(\"ring.force\") of the \
-            history removes this; scripts/contact_force.rhai shows the size of the effect. The \
-            impulses of impacts at an end, or at a corner of a track, are not included.",
+            history removes this; see scripts/contact_force.rhai. Impulses of impacts at an \
+            end, or at a corner of a track, are not included.",
         )
         .example("check(norm(sim.contact_force(ring)) == 0);\nsim.step();\ncheck(sim.contact_force(ring).y < 0);")
         .see(&["present_contact_force", "slider_position", "averaged"]),
@@ -173,11 +171,10 @@ pub const TABLE: BindingTable = BindingTable {
                 "slider is the name of the slider; end is \"start\" or \"end\"; what is \
                 \"stopped\", \"bounced\", \"rested\" (in contact with the end stop until the \
                 contact force would be tensile or the slider is pulled away), \"released\" or, \
-                on a track, \"passed\" (to the next beam). impulse is the total impulse of the \
-                slider on its beams at this instant, in the impact with all simultaneous \
-                arrivals, a vector (mass·length/time); contact forces are not included in it. \
-                On a track the map also has beam, the name of the beam at whose end the event \
-                was.",
+                on a track, \"passed\" (to the next beam). impulse is the vector of the total \
+                impulse of the slider on its beams in the impact with all simultaneous \
+                arrivals (mass·length/time), without contact forces. On a track the map also \
+                has beam, the name of the beam at whose end the event was.",
             )
             .example("sim.run_to(5);\nfor event in sim.events {\n    print(`${event.slider} ${event.what} at ${event.end}, t = ${event.t}`);\n}")
             .see(&["ended", "slider"]),

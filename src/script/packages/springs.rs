@@ -50,12 +50,11 @@ pub const TABLE: BindingTable = BindingTable {
         .doc("The tension is stiffness · (distance - length), plus damping · the rate of the \
             distance. Very stiff springs need no more iterations than soft ones. At distance \
             zero the direction is undefined and the force is zero; springs with length: 0 need \
-            no direction. The damper acts at any length, also where the spring is slack. A law \
-            is called only when the spring is created: it is sampled over its range so that \
-            the polygon through the samples is exact to 1e-7 of the largest force. The stored \
-            energy is the exact integral of this polygon, and files contain it. print shows \
-            the remaining error. A law that needs more than 20 000 samples, such as one with a \
-            jump, is refused with an error.")
+            no direction. The damper acts also where the spring is slack. A law is sampled \
+            when the spring is created, so that the polygon through the samples is exact to \
+            1e-7 of the largest force. The stored energy is the exact integral of this \
+            polygon, which files contain. print shows the remaining error. A law that needs \
+            more than 20 000 samples, such as one with a jump, is refused with an error.")
         .example("let s1 = scene.spring(rod.end, bead, #{ stiffness: 100, length: 0.5, damping: 0.5 });\n\
                   scene.spring([2, -2], bead, #{ stiffness: 20, acts: \"pull\" });\n\
                   scene.spring([0, 1], bead, #{ law: |e| 20 * e + 5 * e * e * e, range: [-2, 2] });\n\
@@ -71,12 +70,12 @@ pub const TABLE: BindingTable = BindingTable {
         .returns(Returns::object(SPRING))
         .summary("Adds a damper between two stations, or between a station and a point of the \
             ground, with a force that depends on the rate of their distance.")
-        .doc("damping may be a constant or a law: a function of the rate, which is sampled over \
-            `rates` when the damper is created, like the laws of springs, or points [rate, \
-            force]. The rate is positive while the distance grows; the force is positive in \
-            tension. The force must be 0 at rate 0 and have the sign of the rate, so that a \
-            damper only dissipates; other laws are refused with an error. A step uses the \
-            force at its mean rate. Springs, tendons and torsion springs accept the same laws.")
+        .doc("damping may be a constant or a law: points [rate, force], or a function of the \
+            rate, which is sampled over `rates` when the damper is created. The rate is \
+            positive while the distance grows; the force is positive in tension. The force \
+            must be 0 at rate 0 and have the sign of the rate, so that a damper only \
+            dissipates; other laws are refused with an error. A step uses the force at its \
+            mean rate. Springs, tendons and torsion springs accept the same laws.")
         .example("scene.damper(rod.end, [2, -1], #{ damping: 3 });\n\
                   // Of a fluid; saturated beyond 1; in one direction only.\n\
                   scene.damper(rod.end, [3, 0], #{ damping: |r| 2 * r * abs(r), rates: [-5, 5] });\n\

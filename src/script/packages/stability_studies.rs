@@ -34,14 +34,14 @@ pub const TABLE: BindingTable = BindingTable {
                 and in which the energy grows.")
             .doc(
                 "`scene` is a function of a map with the values of a cell by name. It returns a \
-                scene, or a map of the scene and the settings of the simulation: #{ scene: \
-                scene, dt: 0.1, end: 5, integrator: trapezoidal() }. Missing settings are \
-                taken from the values named dt, end or integrator, then from the options of \
-                the study. If the function throws, the text is the outcome of the cell. The \
-                energy growth of a cell is the largest rise of E - W above an earlier value \
-                after the last kink or jump of the schedules, relative to the largest energy. \
-                The maps are printed, plotted in NAME.svg and written to NAME.csv. Labels are \
-                numbers, texts, names of integrators, or the key `name` of a map.",
+                scene, or a map with settings of the simulation: #{ scene: scene, dt: 0.1, \
+                end: 5, integrator: trapezoidal() }. Missing settings are taken from the \
+                values of the cell, then from the options of the study. An exception of the \
+                function is the outcome of the cell. The energy growth of a cell is the \
+                largest rise of E - W above an earlier value after the last kink or jump of \
+                the schedules, relative to the largest energy. The maps are printed, plotted \
+                in NAME.svg and written to NAME.csv. Labels are numbers, texts, names of \
+                integrators, or the key `name` of a map.",
             )
             .example(
                 "let map = study_stability(#{\n    name: \"spin\", scene: spinning, end: 0.5,\n    rows: #{ dt: [0.05, 0.1] },\n    columns: #{ integrator: [energy_momentum(), trapezoidal()] },\n});\n\

@@ -37,13 +37,13 @@ pub const TABLE: BindingTable = BindingTable {
     )
     .doc(
         "Two equal steps of the integrator are compared with a single step of the same total \
-        length, which is discarded: 3 solves for 2 steps. Accepted steps are plain steps of \
-        the integrator and keep what it keeps. The tolerance is the error accumulated while \
-        the scene moves by about its own length, as a fraction of the length of the longest \
-        beam and in rad, whichever is larger. A tolerance 100 times smaller needs 10 times as \
-        many steps with a method of order 2. Steps end where schedules jump or have kinks, at \
-        the end of run_to and at the times of sim.at; after a jump the steps are small again. \
-        sim.rejected counts rejected steps; the column dt has the step sizes.",
+        length, which is discarded: 3 solves for 2 steps. Accepted steps keep what the \
+        integrator keeps. The tolerance is the error accumulated while the scene moves by \
+        about its own length, as a fraction of the length of the longest beam and in rad, \
+        whichever is larger. A tolerance 100 times smaller needs 10 times as many steps with a \
+        method of order 2. Steps end where schedules jump or have kinks, at the end of run_to \
+        and at the times of sim.at; after a jump the steps are small again. sim.rejected \
+        counts rejected steps; the column dt has the step sizes.",
     )
     .example(
         "let careful = scene.start(#{ dt: adaptive(#{ tolerance: 1e-5, largest: 0.2 }) });\n\

@@ -49,13 +49,13 @@ pub const TABLE: BindingTable = BindingTable {
                 values that returns a map of numbers and booleans (stored as 1 and 0), with \
                 the same names in all runs. An exception, a result that is not finite or a \
                 failed check makes a failed row with this reason; other rows are not affected. \
-                Every run is made by an engine in another thread, which has the functions and \
-                imports of the script but has not executed its statements. The function may \
-                use numbers, texts, arrays, maps, vectors, functions, sections, meshes, \
-                curves, integrators and schedules from outside; each run starts with their \
-                original values. It prints nothing and writes no files. The table does not \
-                depend on the number of cores. At the prompt all runs are made on one core. A \
-                summary is printed, and the table is written to NAME.csv.",
+                Runs are made in other threads, with the functions and imports of the script, \
+                but without its statements. The function may use numbers, texts, arrays, maps, \
+                vectors, functions, sections, meshes, curves, integrators and schedules from \
+                outside; each run starts with their original values. It prints nothing and \
+                writes no files. The table does not depend on the number of cores. At the \
+                prompt all runs are made on one core. A summary is printed, and the table is \
+                written to NAME.csv.",
             )
             .example(
                 "let sweep = study_sweep(#{\n    name: \"throw\", parameters: #{ angle: linspace(0.2, 1.4, 7), speed: [5, 10] },\n    \
@@ -80,13 +80,13 @@ pub const TABLE: BindingTable = BindingTable {
                 "An array with a map for each parameter: parameter, first (main effect: \
                 variance of the mean over all other parameters, as a fraction of the total \
                 variance) and total (including interactions; () if the points do not allow \
-                it). For a grid the indices are exact for equally likely values; for \
-                saltelli(…) they are estimated by the formulas of M. J. W. Jansen (Computer \
-                Physics Communications 117 (1999) 35-43); for other points only first is \
-                estimated, from groups of neighbours. Estimates from N blocks or points have \
-                an uncertainty of about 1/√N: at least 30 are required, and thousands resolve \
-                small shares. The number of rows omitted because of failed runs is reported. \
-                The parameters must be independent of each other, as those of sweeps are.",
+                it). For a grid the indices are exact; for saltelli(…) they are estimated by \
+                the formulas of M. J. W. Jansen (Computer Physics Communications 117 (1999) \
+                35-43); for other points only first is estimated, from groups of neighbours. \
+                Estimates from N blocks or points have an uncertainty of about 1/√N: at least \
+                30 are required, and thousands resolve small shares. The number of rows \
+                omitted because of failed runs is reported. Parameters must be independent, as \
+                those of sweeps are.",
             )
             .example("let main = sweep.sensitivity(\"energy\")[0];\ncheck(main.parameter == \"speed\" && main.first < main.total);")
             .see(&["saltelli", "study_sweep"]),

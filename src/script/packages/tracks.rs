@@ -48,13 +48,12 @@ pub const TABLE: BindingTable = BindingTable {
         )
         .doc(
             "The direction along each beam follows from the ends that meet. The beams must \
-                already be joined there, by scene.rigid, scene.hinge or other joints, or be \
-                fixed to the ground. A slider passes a corner like a rounded corner of \
-                vanishing radius: its energy is kept, and its momentum changes by an impulse \
-                normal to the track. Where a joint of the track is released and the beams have \
-                separated, the track ends, also for a slider in contact there. A slider that \
-                starts at a corner is on the beam after it. A closed track of two beams has \
-                the direction of the first beam. Default names: track1, track2, …",
+            already be joined there, by scene.rigid, scene.hinge or other joints, or be fixed \
+            to the ground. A slider passes a corner like a rounded corner of vanishing radius: \
+            its energy is kept, and its momentum changes by an impulse normal to the track. \
+            Where a joint of the track is released and the beams have separated, the track \
+            ends. A slider that starts at a corner is on the beam after it. A closed track of \
+            two beams has the direction of the first beam. Default names: track1, track2, …",
         )
         .example(
             "scene.gravity([0, -10]);\n\

@@ -41,11 +41,10 @@ pub const TABLE: BindingTable = BindingTable {
                 without interpolation; positions have 16 bits, which is visible only at \
                 magnifications of several hundred. Colours: speed, from the configurations \
                 before and after; M, N, Q and strain_energy (per length), from the stored \
-                states; stretch, the extension of the axis relative to the undeformed one; \
-                curvature, the change of curvature from the undeformed one. States that are \
-                not stored (option `snapshots`) are computed again in a copy of the run, as by \
-                write_vtk; `fields: [\"speed\", \"stretch\", \"curvature\"]` needs no states. \
-                `?` on the page lists its keys.",
+                states; stretch and curvature, the change from the undeformed axis. States \
+                that are not stored (option `snapshots`) are computed again in a copy of the \
+                run, as by write_vtk; `fields: [\"speed\", \"stretch\", \"curvature\"]` needs \
+                no states. `?` on the page lists its keys.",
             )
             .example(
                 "sim.run_to(2);\nwrite_viewer(sim, \"spin.html\", #{ trails: [rod.end], columns: [\"kinetic\", \"angular_momentum\"] });\n\
