@@ -186,8 +186,7 @@ pub(super) const START: &[Parameter] = &[
         .non_negative()
         .unit("MB")
         .doc(
-            "number of states kept in memory for going back; default: 256 if the script \
-            contains back or rewind or imports a file, else 0",
+            "memory for states to go back to; default: 256 if the script contains back or rewind or imports a file, else 0",
         )
         .optional(),
     choice("notes", &[PRINTING[0].0, PRINTING[1].0])

@@ -80,7 +80,7 @@ pub const TABLE: BindingTable = BindingTable {
                 "An array with a map for each parameter: parameter, first (main effect: \
                 variance of the mean over all other parameters, as a fraction of the total \
                 variance) and total (including interactions; () if the points do not allow \
-                it). For a grid the indices are exact; for saltelli(…) they are estimated by \
+                it). For a grid of equally likely values the indices are exact; for saltelli(…) they are estimated by \
                 the formulas of M. J. W. Jansen (Computer Physics Communications 117 (1999) \
                 35-43); for other points only first is estimated, from groups of neighbours. \
                 Estimates from N blocks or points have an uncertainty of about 1/√N: at least \
