@@ -27,10 +27,14 @@ let half = a / 2;
     let once = told(&format!(
         "{scene}for i in 0..2 {{ scene.force(bead, [0, 1], |t| {{ let u = 2 * t; if u < half {{ 1 }} else {{ 0 }} }}); }}\n"
     ));
-    assert_eq!(once.matches("note: line 5, column 69: < decides by 'half'").count(), 1, "{once}");
+    assert_eq!(
+        once.matches("note: line 5, column 69: < compares with 'half'").count(),
+        1,
+        "{once}"
+    );
     assert_eq!(once.lines().count(), 1, "{once}");
     let inside = told(&format!("{scene}scene.move(bead, #{{ x: |t| floor(t / a) }});\n"));
-    assert!(inside.contains("line 5, column 28: floor decides by 'a'"), "{inside}");
+    assert!(inside.contains("line 5, column 28: floor compares with 'a'"), "{inside}");
     // What is decided by the parameter alone, or by the time alone, is decided the same beside.
     let silent = told(&format!(
         "{scene}scene.force(bead, [0, 1], |t| if a > 0.3 {{ a * t }} else {{ 0 }});

@@ -268,7 +268,7 @@ fn callbacks_keep_their_own_errors_and_positions() {
 fn our_own_mistakes_are_owned() {
     for script in ["broken();", "forgotten();"] {
         let error = error(script);
-        assert!(error.message.starts_with("withy has made a mistake"), "{}", error.message);
+        assert!(error.message.starts_with("internal error of withy"), "{}", error.message);
         assert!(error.hint.is_some_and(|hint| hint.contains("report")));
     }
 }

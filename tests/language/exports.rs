@@ -235,7 +235,7 @@ fn a_run_that_cannot_be_made_again_has_its_shape_alone_and_says_so() {
     let (folder, told) = ran(&format!("{scene}{}", script("")));
     assert!(
         told.contains(
-            "note: the states of 'rest' are forgotten, and the run made again is another one"
+            "note: the earlier states of 'rest' are no longer stored, and the repeated run differs"
         ),
         "{told}"
     );

@@ -150,7 +150,7 @@ fn what_is_ours_shows_what_a_person_wants_to_know() {
         ("hold_for(2.5)", &["at t = 0        1", "steps end at    t = 2.5", "after the last  0"]),
         ("energy_momentum()", &["order   2", "keeps   energy, linear momentum"]),
         ("relaxed()", &["keeps   energy, linear momentum, angular momentum\n"]),
-        ("ring", &["on                beam 'rod', from 0.25 of its length", "it bounces off"]),
+        ("ring", &["on                beam 'rod', from 0.25 of its length", "bounces"]),
         (
             "sim",
             &[

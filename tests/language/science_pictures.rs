@@ -78,10 +78,10 @@ fn gaps_are_left_and_limits_kept() {
 #[test]
 fn what_does_not_fit_together_is_refused_with_what_to_do() {
     for (script, told) in [
-        ("plot([1, 2], [1], \"a.svg\");", "x has 2 numbers and y 1"),
-        ("plot([[1], [2]], [[1], [2], [3]], \"a.svg\");", "x holds 2 arrays and y 3"),
+        ("plot([1, 2], [1], \"a.svg\");", "x has 2 numbers, but y has 1"),
+        ("plot([[1], [2]], [[1], [2], [3]], \"a.svg\");", "x holds 2 arrays, but y holds 3"),
         ("plot([1], [\"a\"], \"a.svg\");", "'y' must hold numbers"),
-        ("plot([1], [1], \"a.svg\", #{ labels: [1, 2] });", "there are 1 curve and 2 labels"),
+        ("plot([1], [1], \"a.svg\", #{ labels: [1, 2] });", "there are 1 curve, but 2 labels"),
         (
             "plot([1], [1], \"a.svg\", #{ x_limits: [2, 1] });",
             "'x_limits' must be [low, high], got [2, 1]",
@@ -144,7 +144,7 @@ fn magnified_displacements_are_as_many_times_as_large() {
     let plain = axis("");
     assert_eq!(plain, axis("").as_str());
     let one = axis(", magnify: 1");
-    assert!(words(&one).contains(&"displacements since the start, 1 times as large"));
+    assert!(words(&one).contains(&"displacements since the start, magnified 1 times"));
     let lines = |svg: &str| svg.matches("<polyline").count();
     assert_eq!(lines(&one), lines(&plain));
     assert_ne!(axis(", magnify: 5"), one);

@@ -110,7 +110,7 @@ fn a_file_of_ones_own_is_not_read_in_the_place_of_the_library() {
     assert!(matches!(outcome.ending, Ending::Finished), "{:?} {told}", outcome.ending);
     let (outcome, _) = run_beside(&files, "import \"std/mine\" as mine;");
     let said = failure(&outcome);
-    assert!(said.contains("a folder of your own cannot be called std"), "{said}");
+    assert!(said.contains("your own folder cannot be called std"), "{said}");
 }
 
 #[test]

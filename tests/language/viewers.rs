@@ -372,7 +372,7 @@ fn what_is_wrong_is_told() {
     let said = refused("write_viewer([sim, sim], \"a.html\", #{ labels: [\"a\"] });");
     assert!(said.contains("1 labels are given for 2 simulations"), "{said}");
     let said = refused("write_viewer(sim, \"a.html\", #{ from: 3 });");
-    assert!(said.contains("nothing of 'two' is recorded from t = 3"), "{said}");
+    assert!(said.contains("'two' has no recorded state from t = 3"), "{said}");
     let said = refused("write_viewer([], \"a.html\");");
     assert!(said.contains("at least one"), "{said}");
     let said = refused("write_animation(sim, \"a.gif\");");

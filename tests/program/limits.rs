@@ -132,7 +132,7 @@ fn a_script_cannot_sleep() {
 #[test]
 fn sorting_hands_on_what_goes_wrong_in_its_function() {
     expect(&run("[2, 1].sort(|x, y|\n x - lost);", &[]), &["no variable 'lost'", "main.rhai:2:"]);
-    expect(&run("[2, 1].sort(|x, y| \"x\");", &[]), &["must give a number or true or false"]);
+    expect(&run("[2, 1].sort(|x, y| \"x\");", &[]), &["must return a number or true or false"]);
     let script =
         "let a = [0.1, 0.3, 0.2]; a.sort(|x, y| y - x); print(a); print(a.order(|x, y| x < y));";
     assert_eq!(run(script, &[]).stdout, b"[0.3, 0.2, 0.1]\n[0.1, 0.2, 0.3]\n");

@@ -151,7 +151,7 @@ fn parts_are_joined_to_the_bytes_of_one_machine() {
         assert!(said(&output).contains(told), "{}", said(&output));
     };
     refused(&["a", "b"], "of the 3 parts of the study 'flights' these are missing: 2");
-    refused(&["nowhere"], "there is no part of the study 'flights'");
+    refused(&["nowhere"], "no part of the study 'flights'");
     // Cut off in the middle, as by a kill: it goes on there.
     let second = part(2, "c").output().unwrap();
     assert_eq!(second.status.code(), Some(0), "{}", said(&second));
@@ -254,8 +254,8 @@ fn pictures_are_of_all_rows_and_have_names_of_their_own() {
         fs::read_to_string(file.with_file_name("out").join(name)).unwrap()
     };
     let [scatter, matrix] = ["lots-a-b", "lots-matrix"].map(picture);
-    assert!(scatter.contains("2000 of 4000 points, drawn by lot"));
-    assert!(matrix.contains("lots: 500 of 4000 runs, drawn by lot"));
+    assert!(scatter.contains("2000 of 4000 points, selected at random"));
+    assert!(matrix.contains("lots: 500 of 4000 runs, selected at random"));
     // The smallest of the points is no reason for a logarithmic axis.
     assert!(!scatter.contains("10⁻"), "{}", &scatter[..2000]);
     let map = picture("grid-a-b-y");

@@ -38,9 +38,8 @@ pub(in crate::cli) fn watch(
         let mut terminal = RawTerminal::take()?;
         desk.work(&mut terminal, stop)
     });
-    let done = done.unwrap_or_else(|panic| {
-        Err(io::Error::other(format!("withy has made a mistake: {panic}")))
-    });
+    let done = done
+        .unwrap_or_else(|panic| Err(io::Error::other(format!("internal error of withy: {panic}"))));
     done.map_err(ExerciseError::Terminal)
 }
 

@@ -161,7 +161,7 @@ const ENERGY_DECAYING: IntegratorEntry = IntegratorEntry {
 
 const CHI: MethodParameter = MethodParameter {
     name: "chi",
-    meaning: "χ, the share of damping; 0 is energy_momentum itself",
+    meaning: "damping parameter χ; 0 is energy_momentum",
     least: 0.0,
     most: f64::INFINITY,
     default: 0.1,
@@ -192,7 +192,7 @@ const GENERALIZED_ALPHA: IntegratorEntry = IntegratorEntry {
 
 const RHO_INFINITY: MethodParameter = MethodParameter {
     name: "rho_infinity",
-    meaning: "ρ∞, by what the fastest vibration is multiplied in a step; 1 is the trapezoidal rule",
+    meaning: "ρ∞, factor per step of the amplitude of the fastest vibration; 1 is the trapezoidal rule",
     least: 0.0,
     most: 1.0,
     default: 0.8,

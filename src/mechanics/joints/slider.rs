@@ -54,14 +54,15 @@ pub enum EndAction {
     Stop,
     /// The slider bounces off a stop at the end, by its coefficient of restitution; momenta are kept.
     Bounce,
-    /// The slider leans on a stop at the end until that would have to pull: elastic bodies rebound by their waves, where steps resolve these.
+    /// The slider stays in contact with a stop at the end until the contact force would be tensile. Waves in the elastic bodies, which
+    /// steps must resolve, determine the rebound.
     Contact,
     /// The slider leaves its master at the end and flies free.
     Release,
 }
 
 impl EndAction {
-    /// Whether there is a stop at the end, which holds the slider on its master while the run goes on.
+    /// Returns true if a stop at the end keeps the slider on its master.
     pub fn has_stop(self) -> bool {
         matches!(self, Self::Bounce | Self::Contact)
     }

@@ -137,7 +137,7 @@ fn marked(mut names: Vec<String>, current: usize) -> Vec<String> {
     names
 }
 
-/// Description of a parameter: `t: a number [time]; 0 unless given; doc`.
+/// Description of a parameter: `t: a number [time]; default: 0; doc`.
 fn describe(parameter: &Parameter) -> String {
     let default = match parameter.presence {
         Presence::Required | Presence::Optional => None,
@@ -148,7 +148,7 @@ fn describe(parameter: &Parameter) -> String {
     };
     let mut text = format!("{}: {}", parameter.name, parameter.expectation());
     if let Some(default) = default {
-        text.push_str(&format!("; {default} unless given"));
+        text.push_str(&format!("; default: {default}"));
     }
     if !parameter.doc.is_empty() {
         text.push_str(&format!("; {}", parameter.doc));
@@ -199,7 +199,7 @@ mod tests {
         assert!(shown("line([0, ").starts_with("line(‹from›, to)"));
         assert_eq!(
             shown("sim.step("),
-            "step(‹[count]›)  count: a whole number of zero or more; 1 unless given"
+            "step(‹[count]›)  count: a whole number of zero or more; default: 1"
         );
         assert_eq!(shown("sim.step(1, 2, "), "step([count])");
         assert!(shown("sim.plot_motion(").starts_with("plot_motion(‹file›, [options])"));
@@ -210,7 +210,7 @@ mod tests {
         assert_eq!(shown("unknown("), "");
         assert_eq!(
             shown("values.insert(1, "),
-            "insert(index, ‹value›)  Puts a value before the element at an index."
+            "insert(index, ‹value›)  Inserts a value before the element at an index."
         );
         assert!(shown("\"a b\".split(").starts_with("split(‹[separator]›, [count])"));
         assert!(shown("parse_int(").starts_with("parse_int(‹text›, [radix])"));
@@ -221,7 +221,7 @@ mod tests {
         assert_eq!(shown("scene.start(#{ "), "dt, integrator, name, notes, record, snapshots");
         assert_eq!(
             shown("scene.start(#{ dt: "),
-            "dt: a positive number or a step control [time]; the step size, or adaptive(#{ tolerance: 1e-4 })"
+            "dt: a positive number or a step control [time]; step size, or adaptive(#{ tolerance: 1e-4 })"
         );
         assert_eq!(shown("scene.start(#{ dt: 0.1, in"), "tegrator:");
     }

@@ -94,7 +94,7 @@ fn convert(engine: &Engine, owner: &str, kind: &Kind, value: Dynamic) -> Convers
 pub fn readable(owner: &str, name: &str) -> Result<String, ScriptError> {
     match refusal_of_name(name) {
         None => Ok(name.to_owned()),
-        Some(why) => Err(ScriptError::new(format!("{owner}: {name:?} is no name: {why}"))
+        Some(why) => Err(ScriptError::new(format!("{owner}: {name:?} is not a valid name: {why}"))
             .hint("use letters, numbers and spaces")),
     }
 }

@@ -29,8 +29,9 @@ fn tell_of(native: &NativeCallContext, context: &Context, value: &Dynamic) {
     if family.is_told_first(line, column) {
         let Decision { parameter, sign, .. } = found;
         context.tell(&format!(
-            "note: line {line}, column {column}: {sign} decides by '{parameter}', which depends on a parameter: where the function jumps there, derivatives are wrong; give \
-             numbers that do not, or value_of(…)"
+            "note: line {line}, column {column}: {sign} compares with '{parameter}', which \
+            depends on a parameter: if the function jumps there, derivatives are wrong; \
+            compare with plain numbers, or use value_of(…)"
         ));
     }
 }

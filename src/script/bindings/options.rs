@@ -97,8 +97,8 @@ fn alone(owner: &str, keys: &[Parameter], key: &Parameter) -> ScriptError {
     let Parameter { name, beside, .. } = key;
     let other = keys.iter().find(|other| other.name == *beside);
     let other = other.map_or_else(|| (*beside).to_owned(), asked_for);
-    ScriptError::new(format!("{owner}: the option '{name}' has no meaning without '{beside}'"))
-        .hint(format!("add {other}, or leave {name} out"))
+    ScriptError::new(format!("{owner}: the option '{name}' requires the option '{beside}'"))
+        .hint(format!("add {other}, or omit {name}"))
         .at(CallPart::Key((*name).to_owned()))
 }
 

@@ -220,8 +220,9 @@ fn make(
 }
 
 /// Hint for a load that reads a simulation during a step.
-pub const STEERED: &str = "a load is a function of its argument, the time; one that depends on the motion reads a variable that is set \
-    between steps: let u = 0.0; scene.force(station, [1, 0], |t| u); then u = … before each sim.step()";
+pub const STEERED: &str = "a load is a function of time; for a load that depends on the motion use a controller, or a \
+    variable that is set between steps: let u = 0.0; scene.force(station, [1, 0], |t| u); then \
+    u = … before each sim.step()";
 
 /// Rejects values in use by the native call that called back; arrays are searched.
 fn refuse_busy(

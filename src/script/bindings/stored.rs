@@ -62,7 +62,7 @@ impl StoredFunction {
         as_number(&value).ok_or_else(|| {
             let got = self.context.engine().map(|engine| describe(&engine, &value));
             let got = got.unwrap_or_default();
-            NoNumber::Other(format!("{} must give a number, got {got}", self.role))
+            NoNumber::Other(format!("{} must return a number, got {got}", self.role))
         })
     }
 

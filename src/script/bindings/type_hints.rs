@@ -8,11 +8,11 @@ use crate::script::messages::numbers::{as_number, format_number};
 /// Hint for `value` given for a parameter of this kind, if the mistake is a known one; `given` is its type name.
 pub fn hint(kind: &Kind, value: &Dynamic, given: &str) -> Option<String> {
     match kind {
-        Kind::Number(_) if is_infinite_or_nan(value) => Some(
-            "the number comes from an overflow or an undefined operation before this line".into(),
-        ),
+        Kind::Number(_) if is_infinite_or_nan(value) => {
+            Some("an overflow or an undefined operation before this line caused this value".into())
+        }
         Kind::Whole(NumberRange::Finite) if value.is_float() => {
-            Some("floor(x) or round(x) makes a whole number".into())
+            Some("floor(x) or round(x) returns a whole number".into())
         }
         Kind::Number(_) | Kind::Whole(_) | Kind::Numeric => of_number(value, given),
         Kind::Choice(allowed) => {
@@ -28,10 +28,10 @@ pub fn hint(kind: &Kind, value: &Dynamic, given: &str) -> Option<String> {
         Kind::Array | Kind::Numbers => of_array(value),
         Kind::Points => of_points(value),
         Kind::Function if value.is::<Map>() => {
-            Some("options come last: give what is asked for here before them, such as |t| 1".into())
+            Some("options come last: give the required value before them, such as |t| 1".into())
         }
         Kind::Function if !value.is::<FnPtr>() => Some(
-            "write |t| and what it gives, such as |t| sin(t); a named function f is |t| f(t)"
+            "write |t| and an expression, such as |t| sin(t); a named function f is |t| f(t)"
                 .into(),
         ),
         Kind::Options(keys) => {
@@ -63,13 +63,18 @@ fn is_number(kind: &Kind) -> bool {
 
 fn of_number(value: &Dynamic, given: &str) -> Option<String> {
     if value.is_string() {
-        return Some("a number has no quotes; parse_float(text) makes a number of a text".into());
+        return Some(
+            "numbers are written without quotes; parse_float(text) converts a text to a number"
+                .into(),
+        );
     }
     match given {
         "vector" => Some("a component is v.x or v.y, the length norm(v)".into()),
-        "function" => Some("a function in a variable is called by f.call(x)".into()),
-        "array" => Some("an element is array[0]; array.map(|x| f(x)) asks for each".into()),
-        "range" => Some("for i in 0..10 { … } goes over the numbers of a range".into()),
+        "function" => Some("call a function in a variable by f.call(x)".into()),
+        "array" => {
+            Some("an element is array[0]; array.map(|x| f(x)) calls f for each element".into())
+        }
+        "range" => Some("for i in 0..10 { … } loops over the numbers of a range".into()),
         _ => None,
     }
 }
@@ -86,8 +91,8 @@ fn of_point(value: &Dynamic, given: &str) -> Option<String> {
         return Some("+ joins arrays: write vec(1, 2) + [1, 0] to add points".into());
     }
     match given {
-        "station" => Some("sim.position(station) is the point where a station is".into()),
-        "beam" => Some("sim.position(rod.end) is the point where the end of a beam is".into()),
+        "station" => Some("sim.position(station) is the position of a station".into()),
+        "beam" => Some("sim.position(rod.end) is the position of the end of a beam".into()),
         "map" => Some("a point is written [x, y]".into()),
         _ => None,
     }
@@ -95,10 +100,10 @@ fn of_point(value: &Dynamic, given: &str) -> Option<String> {
 
 fn of_array(value: &Dynamic) -> Option<String> {
     if let Ok(text) = value.as_immutable_string_ref() {
-        return Some(format!("write [\"{}\"]: an array, even of one", text.as_str()));
+        return Some(format!("write [\"{}\"]: an array, also for one value", text.as_str()));
     }
     if let Some(x) = as_number(value) {
-        return Some(format!("write [{}]: an array, even of one", format_number(x)));
+        return Some(format!("write [{}]: an array, also for one value", format_number(x)));
     }
     value.is::<Map>().then(|| "map.keys() and map.values() are arrays".into())
 }
@@ -112,12 +117,12 @@ fn of_points(value: &Dynamic) -> Option<String> {
 fn of_object(wanted: &str, value: &Dynamic, given: &str) -> Option<&'static str> {
     let points = || value.read_lock::<Array>().is_some_and(|array| !array.is_empty());
     Some(match (wanted, given) {
-        ("station", "beam") => "name a place of the beam: rod.start, rod.end or rod.at(s)",
+        ("station", "beam") => "give a station of the beam: rod.start, rod.end or rod.at(s)",
         ("station", "vector" | "array") => {
-            "a station is a place of a beam: rod.start, rod.end or rod.at(s), or a particle"
+            "a station is rod.start, rod.end or rod.at(s) of a beam, or a particle"
         }
         ("station", "number" | "whole number") => "write rod.at(s), with the beam before the dot",
-        ("beam", "station") => "name the beam itself, without .start or .end",
+        ("beam", "station") => "give the beam itself, without .start or .end",
         ("curve", "array") if points() => {
             "write line([0, 0], [1, 0]), arc(…), or through(points) for a curve through many points"
         }
@@ -132,9 +137,9 @@ fn of_object(wanted: &str, value: &Dynamic, given: &str) -> Option<&'static str>
         }
         ("sliding rule", "text") => "write it as a call, without quotes: conserving()",
         ("schedule", "function") => "write schedule(|t| …) around the function",
-        ("mesh" | "knots", "number" | "whole number") => "write bspline(16) for so many spans",
+        ("mesh" | "knots", "number" | "whole number") => "write bspline(16) for 16 spans",
         ("simulation", "scene") => {
-            "let sim = scene.start(#{ dt: 0.1 }) makes a simulation of a scene"
+            "let sim = scene.start(#{ dt: 0.1 }) creates a simulation of a scene"
         }
         ("scene", "simulation") => "sim.scene is the scene that a simulation was started from",
         ("history", "simulation") => "write sim.history",

@@ -37,14 +37,12 @@ impl UnknownName<'_> {
             let file = self.sources.find(name, &self.program.name);
             if let Some(file) = file.filter(|file| *file != self.program.name) {
                 let told = format!("a closure of the file {file} cannot be called from here");
-                let hint = "have a function of that file hand it on in an object, such as schedule(|t| …), or write |x| \
-                            file::function(x) here";
+                let hint = "let a function of that file return it in an object, such as schedule(|t| \
+                    …), or write |x| file::function(x) here";
                 return (told, Some(hint.into()));
             }
             let got = types.len();
-            let told = format!(
-                "the function takes another number of arguments than the {got} it is given"
-            );
+            let told = format!("the function does not accept {got}");
             return (told, Some("write |x| …, with a name for each argument".into()));
         }
         if !name.starts_with(|c: char| c.is_alphabetic() || c == '_')
@@ -96,20 +94,20 @@ impl UnknownName<'_> {
         let names = || page.functions.iter().map(ModuleFunction::name);
         let hint = match nearest(name, names()).and_then(|near| page.named(near)) {
             Some(near) => format!("did you mean '{}'? {}", near.name(), written(near)),
-            None => format!("it has {}", names().collect::<Vec<_>>().join(", ")),
+            None => format!("available: {}", names().collect::<Vec<_>>().join(", ")),
         };
         (message, Some(hint))
     }
 
     pub fn module(&self, name: &str) -> ErrorText {
-        let message = format!("nothing was imported as '{name}'");
+        let message = format!("no module was imported as '{name}'");
         let imports = || self.outline.imports.iter().map(|(known, _)| known.as_str());
         let hint = match (page_of(&format!("{FOLDER}{name}")), nearest(name, imports())) {
             (Some(page), _) => {
-                format!("write import \"{}\" as {name}; before it", page.module.name)
+                format!("write import \"{}\" as {name}; before the call", page.module.name)
             }
             (None, Some(near)) => format!("did you mean '{near}'?"),
-            (None, None) => format!("write import \"FILE\" as {name}; before it"),
+            (None, None) => format!("write import \"FILE\" as {name}; before the call"),
         };
         (message, Some(hint))
     }
@@ -174,8 +172,8 @@ impl UnknownName<'_> {
         }
         if is_variable {
             let hint = format!(
-                "'{name}' is a variable: {name}[0] is the first element of an array, and a function in it is called by \
-                 {name}.call(…)"
+                "'{name}' is a variable: {name}[0] is the first element of an array, and \
+                {name}.call(…) calls a function"
             );
             return (message, Some(hint));
         }
@@ -245,7 +243,7 @@ impl UnknownName<'_> {
         let own = members.iter().find(|row| row.name == name);
         if let Some(own) = own.filter(|_| text.starts_with("No writable")) {
             let is_called = !matches!(own.form, CallSyntax::Property(_));
-            let hint = is_called.then(|| format!("it is called: {}", own.signature()));
+            let hint = is_called.then(|| format!("call it as: {}", own.signature()));
             return (format!("'{name}' of {owner} cannot be assigned"), hint);
         }
         let message = format!("{owner} has no property '{name}'");
@@ -261,7 +259,7 @@ impl UnknownName<'_> {
                 CallSyntax::Property(of) => {
                     format!("'{name}' belongs to {}: {}", with_article(of.name()), row.signature())
                 }
-                _ => format!("'{name}' is called with parentheses: {}", row.signature()),
+                _ => format!("call '{name}' with parentheses: {}", row.signature()),
             };
             return (message, Some(hint));
         }
@@ -314,9 +312,9 @@ pub fn of_library(name: &str) -> Option<String> {
     let others: Vec<_> = found.map(|(page, _)| page.module.name).collect();
     let others = match others.as_slice() {
         [] => String::new(),
-        names => format!("; {} has one too", names.join(", ")),
+        names => format!("; also in {}", names.join(", ")),
     };
-    Some(format!("it is in the library: import \"{module}\" as {short}; then {call}{others}"))
+    Some(format!("it is in the library: write import \"{module}\" as {short}; then {call}{others}"))
 }
 
 /// `others` are functions of the same name for other types.
@@ -349,10 +347,13 @@ fn list(members: &[&'static FunctionBinding], of: &str) -> Option<String> {
     let names: Vec<_> = members.iter().map(|row| row.name).collect();
     match names.len() {
         0 => None,
-        1..=MOST => Some(format!("it has {}", names.join(", "))),
+        1..=MOST => Some(format!("available: {}", names.join(", "))),
         count => {
             let first = names[..MOST].join(", ");
-            Some(format!("it has {first}, and {} more: help(\"{of}\") lists them", count - MOST))
+            Some(format!(
+                "available: {first}, and {} more: help(\"{of}\") lists them",
+                count - MOST
+            ))
         }
     }
 }

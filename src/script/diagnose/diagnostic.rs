@@ -82,7 +82,7 @@ impl Diagnostic {
 
     /// An internal error.
     pub fn bug(message: impl fmt::Display) -> Self {
-        let mut diagnostic = Self::general(format!("withy has made a mistake: {message}"));
+        let mut diagnostic = Self::general(format!("internal error of withy: {message}"));
         diagnostic.hint = Some(
             "this is a bug in withy, not in your script; please report it with the script".into(),
         );

@@ -6,14 +6,18 @@ pub fn mismatch(wanted: &str, got: &str) -> (String, Option<String>) {
     let (wanted, got) = (type_word(wanted), type_word(got));
     let hint = match (wanted, got) {
         ("whole number", "number") => Some(
-            "floor(x), round(x) and quotient(n, d) give whole numbers; a / b never does".into(),
+            "floor(x), round(x) and quotient(n, d) return whole numbers; a / b never does".into(),
         ),
-        ("whole number", "range") => Some("array.extract(1..3) gives a piece of an array".into()),
-        ("truth value", "number" | "whole number") => Some("a condition compares: x != 0".into()),
-        ("truth value", "array") => Some("a condition compares: array.len > 0".into()),
-        ("truth value", "text") => Some("a condition compares: text != \"\"".into()),
+        ("whole number", "range") => Some("array.extract(1..3) returns a part of an array".into()),
+        ("truth value", "number" | "whole number") => {
+            Some("use a comparison as condition: x != 0".into())
+        }
+        ("truth value", "array") => Some("use a comparison as condition: array.len > 0".into()),
+        ("truth value", "text") => Some("use a comparison as condition: text != \"\"".into()),
         ("truth value", "nothing") => Some(
-            "a condition compares: x != (); does a function end without giving a value?".into(),
+            "use a comparison as condition: x != (); if the value is from a function, it may \
+            end without a value"
+                .into(),
         ),
         _ => None,
     };
@@ -22,9 +26,9 @@ pub fn mismatch(wanted: &str, got: &str) -> (String, Option<String>) {
 
 pub fn bounds(what: &str, length: usize, index: i64) -> String {
     match length {
-        0 => format!("there is nothing at index {index}: the {what} is empty"),
+        0 => format!("there is no element at index {index}: the {what} is empty"),
         _ => format!(
-            "there is nothing at index {index}: the {what} has {length}, from 0 to {}",
+            "there is no element at index {index}: the {what} has length {length}, indices 0 to {}",
             length - 1
         ),
     }
@@ -42,21 +46,24 @@ pub fn arithmetic(what: &str) -> (String, Option<String>) {
     let quoted = what.split('\'').nth(1).unwrap_or_default();
     let told = what.to_lowercase();
     if told.starts_with("error parsing integer number") {
-        let hint = "parse_float(text) reads numbers with a point, text.trim() takes blanks off";
+        let hint = "parse_float(text) reads numbers with a decimal point, text.trim() removes white \
+            space";
         return (format!("the text \"{quoted}\" is not a whole number"), Some(hint.into()));
     }
     if told.starts_with("error parsing floating-point number") {
-        let hint = "text.trim() takes blanks off, text.split(\",\") parts several numbers";
+        let hint = "text.trim() removes white space, text.split(\",\") separates several numbers";
         return (format!("the text \"{quoted}\" is not a number"), Some(hint.into()));
     }
     if told.starts_with("invalid radix") {
-        return (format!("numbers are read to a base from 2 to 36, got {quoted}"), None);
+        return (format!("the base of a number must be from 2 to 36, got {quoted}"), None);
     }
     match told {
-        what if what.contains("by zero") => ("a remainder by zero has no value".into(), None),
+        what if what.contains("by zero") => {
+            ("the remainder of a division by zero is undefined".into(), None)
+        }
         what if what.contains("overflow") => (
             "the whole number is too large for 64 bits".into(),
-            Some("write one of the numbers with a point: 2.0".into()),
+            Some("write one of the numbers with a decimal point: 2.0".into()),
         ),
         what => (what, None),
     }

@@ -31,14 +31,15 @@ fn hint(symbol: &str, types: &[&str]) -> Option<&'static str> {
             Some(OF_ARRAYS)
         }
         "*" if has("text") && has_number => Some(
-            "text.pad(10, \"ab\") makes a text longer; parse_float(text) makes a number of a text",
+            "text.pad(10, \"ab\") extends a text; parse_float(text) converts a text to a number",
         ),
-        _ if has("text") && has_number => Some("parse_float(text) makes a number of a text"),
-        "!" => Some("! turns true into false; write x == 0 for a number"),
+        _ if has("text") && has_number => Some("parse_float(text) converts a text to a number"),
+        "!" => Some("! negates true or false; write x == 0 for a number"),
         _ if has("nothing") => Some(
-            "one of the values is nothing: does a function end with a semicolon, or a variable wait for its value?",
+            "one of the values is nothing: a function may end with a semicolon, or a variable \
+            may have no value",
         ),
-        _ if has("function") => Some("a function in a variable is called by f.call(x)"),
+        _ if has("function") => Some("call a function in a variable by f.call(x)"),
         _ => None,
     }
 }

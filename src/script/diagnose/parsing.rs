@@ -6,14 +6,14 @@ use rhai::{Engine, LexError, ParseErrorType};
 pub fn explain(error: &ParseErrorType, word: &str) -> (String, Option<String>) {
     match error {
         ParseErrorType::UnexpectedEOF => {
-            ("the script ends too early".into(), Some("is a bracket left open?".into()))
+            ("the script ends too early".into(), Some("a bracket may not be closed".into()))
         }
         ParseErrorType::BadInput(LexError::Runtime(advice)) => match advice.split_once(": ") {
             Some((fix, why)) => (why.into(), Some(fix.into())),
             None => (advice.clone(), None),
         },
         ParseErrorType::BadInput(LexError::UnterminatedString) => {
-            ("the text is not closed".into(), Some("add the closing quote".into()))
+            ("the text has no closing quote".into(), Some("add the closing quote".into()))
         }
         ParseErrorType::Reserved(word) | ParseErrorType::ForbiddenVariable(word) => reserved(word),
         ParseErrorType::VariableExpected | ParseErrorType::PropertyExpected if is_word(word) => {
@@ -31,14 +31,17 @@ pub fn explain(error: &ParseErrorType, word: &str) -> (String, Option<String>) {
         | ParseErrorType::UnknownOperator(_)
             if word == "." =>
         {
-            ("a number cannot begin with a point".into(), Some("write 0.5 instead of .5".into()))
+            (
+                "a number cannot begin with a decimal point".into(),
+                Some("write 0.5 instead of .5".into()),
+            )
         }
         ParseErrorType::MissingToken(token, why) => {
             (format!("'{token}' is missing {why}").trim_end().to_owned(), missing_token_hint(token))
         }
         ParseErrorType::ExprTooDeep => (
             "the expression is nested too deeply".into(),
-            Some("give parts of it names with let".into()),
+            Some("assign parts of it to variables with let".into()),
         ),
         ParseErrorType::DuplicatedProperty(key) => {
             (format!("the key '{key}' is given twice"), None)
@@ -49,22 +52,22 @@ pub fn explain(error: &ParseErrorType, word: &str) -> (String, Option<String>) {
         ),
         ParseErrorType::MismatchedType(wanted, got) if wanted == "an iterable value" => {
             let got = got.replace("an object map", "a map");
-            (format!("for cannot go over {got}"), Some(GONE_OVER.into()))
+            (format!("for cannot loop over {got}"), Some(GONE_OVER.into()))
         }
         ParseErrorType::MismatchedType(wanted, got) => {
             let hint = (wanted == "a boolean expression")
                 .then(|| "a condition is true or false: write a comparison, x != 0".to_owned());
             (format!("expected {wanted}, got {got}"), hint)
         }
-        ParseErrorType::WrongDocComment => (
-            "a comment with /// stands before something that is not a function".into(),
-            Some("use // here".into()),
-        ),
+        ParseErrorType::WrongDocComment => {
+            ("a comment with /// must be followed by a function".into(), Some("use // here".into()))
+        }
         other => (lower_first(&other.to_string()), None),
     }
 }
 
-pub const GONE_OVER: &str = "for goes over an array, a text or a range: for i in 0..10 { … }; over a map with for key in map.keys() { … }";
+pub const GONE_OVER: &str = "for loops over an array, a text or a range: for i in 0..10 { … }; over a map with for key \
+    in map.keys() { … }";
 
 fn reserved(word: &str) -> (String, Option<String>) {
     (

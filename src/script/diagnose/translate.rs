@@ -64,7 +64,7 @@ pub fn is_waiting(error: &EvalAltResult) -> bool {
 }
 
 const PLAIN: &str =
-    "value_of(x) is the same without its derivatives; int(x) and round(x) are whole numbers";
+    "value_of(x) is the number without its derivatives; int(x) and round(x) are whole numbers";
 
 impl Explainer<'_> {
     /// Diagnostic of `error`.
@@ -207,11 +207,12 @@ impl Explainer<'_> {
                 let indexed = access.split(" [").next().unwrap_or(access);
                 let indexed = type_word(indexed);
                 let hint = match indexed {
-                    "range" => {
-                        Some("linspace(0, 1, 5) gives an array; a range is for loops and pieces")
-                    }
+                    "range" => Some(
+                        "use linspace(0, 1, 5) for an array; ranges are for loops and parts \
+                            of arrays",
+                    ),
                     "vector" => Some("the components of a vector are v.x and v.y"),
-                    "function" => Some("a function is called by f.call(x)"),
+                    "function" => Some("call a function by f.call(x)"),
                     "history" => Some(
                         "write history.column(\"energy\") for a column, history.last(\"energy\") for its last value",
                     ),
@@ -220,7 +221,7 @@ impl Explainer<'_> {
                 (format!("{} cannot be indexed", with_article(indexed)), hint.map(str::to_owned))
             }
             Error::ErrorFor(_) => {
-                ("this cannot be gone over by for".into(), Some(parsing::GONE_OVER.into()))
+                ("for cannot loop over this value".into(), Some(parsing::GONE_OVER.into()))
             }
             Error::ErrorAssignmentToConstant(name, _) => (
                 format!("the constant '{name}' cannot be changed"),
@@ -229,23 +230,24 @@ impl Explainer<'_> {
             Error::ErrorNonPureMethodCallOnConstant(name, _) => {
                 let name = name.trim_start_matches(SETTER);
                 (
-                    format!("'{name}' would change a constant"),
+                    format!("'{name}' is a constant and cannot be changed"),
                     Some("declare it with let instead of const".into()),
                 )
             }
             Error::ErrorArithmetic(what, _) => arithmetic(what),
             Error::ErrorStackOverflow(_) => (
                 "functions call each other too deeply".into(),
-                Some("does a function call itself for ever? --max-depth N allows more".into()),
+                Some("a function may call itself without end; --max-depth N allows more".into()),
             ),
             Error::ErrorDataTooLarge(what, _) => {
-                (too_large(what), Some("is something added for ever in a loop?".into()))
+                (too_large(what), Some("a loop may add elements without end".into()))
             }
             Error::ErrorDataRace(..) => (
-                "a closure uses the very object whose method it is given to".into(),
+                "a closure uses the object whose method it is passed to".into(),
                 Some(format!(
-                    "in sim.at, take it from the argument: sim.at(t, |sim| print(sim.t)); where a map holds it, take it out first: \
-                     let scene = parts.scene; scene.record(\"height\", |q| q.position(parts.tip).y); {STEERED}"
+                    "in sim.at, use the argument: sim.at(t, |sim| print(sim.t)); if a map holds \
+                    the object, take it out first: let scene = parts.scene; \
+                    scene.record(\"height\", |q| q.position(parts.tip).y); {STEERED}"
                 )),
             ),
             Error::ErrorTerminated(stop, _) => Stop::of_token(stop).words(),
@@ -259,7 +261,7 @@ impl Explainer<'_> {
     fn variable(&self, name: &str, outline: &ScriptOutline, trace: &[CallFrame]) -> Diagnosis {
         let message = format!("there is no variable '{name}' here");
         if let Some((_, own)) = name.rsplit_once("::").filter(|_| !name.starts_with("global::")) {
-            let hint = format!("the file shows what it exports: export const {own} = …");
+            let hint = format!("the file must export it: export const {own} = …");
             return (message, Some(hint));
         }
         if let Some((_, line)) = outline.top_level.iter().find(|(known, _)| known == name) {
@@ -295,7 +297,7 @@ impl Explainer<'_> {
             return (failure.message.clone(), failure.hint.clone());
         }
         match payload.is_unit() {
-            true => ("the script gave up".into(), None),
+            true => ("the script was stopped".into(), None),
             false => (payload.to_string(), None),
         }
     }
@@ -310,8 +312,8 @@ fn not_imported(name: &str) -> Diagnosis {
     let hint = match foreign_names::find(name) {
         Some(found) => found.cure.to_owned(),
         None => format!(
-            "the name of a file stands in quotes: import \"{name}\" as {name}; the library is read by import \"std/sections\" as \
-             sections;"
+            "write the name of a file in quotes: import \"{name}\" as {name}; modules of the \
+            library: import \"std/sections\" as sections;"
         ),
     };
     (format!("there is no variable '{name}' here"), Some(hint))
@@ -320,7 +322,7 @@ fn not_imported(name: &str) -> Diagnosis {
 fn missing_key(key: &str, outline: &ScriptOutline) -> Diagnosis {
     let hint = match nearest(key, outline.keys.iter().map(String::as_str)) {
         Some(near) => format!("did you mean '{near}'?"),
-        None => format!("ask with \"{key}\" in map before reading it"),
+        None => format!("test with \"{key}\" in map before reading it"),
     };
     (format!("the map has no key '{key}'"), Some(hint))
 }

@@ -238,7 +238,7 @@ impl<'a> ElementCallback<'a> {
 pub(super) fn truth(native: &NativeCallContext, answer: &Dynamic) -> EngineResult<bool> {
     answer.as_bool().map_err(|_| {
         let got = describe(native.engine(), answer);
-        let refusal = ScriptError::new(format!("a test must give true or false, got {got}"));
+        let refusal = ScriptError::new(format!("a test must return true or false, got {got}"));
         refusal.hint("compare: |x| x % 2 == 1").into_engine(native.call_position())
     })
 }

@@ -45,24 +45,24 @@ pub const REFUSED: &[Refused] = &[
         counts: &[0, 1],
         // Rhai's `exit` would end a script successfully, without its later checks.
         reason: "a script cannot leave with exit()",
-        instead: "throw \"reason\" ends it with an error; check(…) decides the exit code",
+        instead: "throw \"reason\" ends it with an error; check(…) determines the exit code",
     },
     Refused {
         name: "sleep",
         counts: &[1],
         reason: "a script cannot sleep",
-        instead: "time in a simulation passes with sim.run_to(t), not on the clock",
+        instead: "sim.run_to(t) advances the time of a simulation; scripts have no clock",
     },
     Refused {
         name: "log",
         counts: &[1],
-        reason: "log(x) could mean several things",
+        reason: "log(x) is ambiguous",
         instead: "write ln(x), log10(x), log2(x) or log(x, base)",
     },
     Refused {
         name: "atan",
         counts: &[2],
-        reason: "the angle of a vector is atan2",
+        reason: "use atan2 for the angle of a vector",
         instead: "write atan2(y, x)",
     },
     Refused {
@@ -92,8 +92,8 @@ pub const REFUSED: &[Refused] = &[
     Refused {
         name: "to_blob",
         counts: &[1],
-        reason: "there are no byte arrays here",
-        instead: "text.to_chars() gives the characters",
+        reason: "byte arrays are not available",
+        instead: "text.to_chars() returns the characters",
     },
 ];
 

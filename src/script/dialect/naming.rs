@@ -46,8 +46,8 @@ pub fn judge(
 /// Hint for a variable that a function does not see.
 pub fn not_visible(name: &str, line: usize) -> String {
     format!(
-        "'{name}' of line {line} is not visible inside functions: pass it as an argument, or use a closure |x| …, which sees \
-         it"
+        "'{name}' of line {line} is not visible inside functions: pass it as an argument, or \
+        use a closure |x| …, which can use it"
     )
 }
 
@@ -77,7 +77,9 @@ impl NamedFunction<'_> {
             _ => format!("{count} arguments"),
         };
         let told = format!("the language has a function {name}(…) with {arguments}");
-        Err(ScriptError::new(told).hint("give yours another name").into_engine(self.place(*at)))
+        Err(ScriptError::new(told)
+            .hint("choose another name for your function")
+            .into_engine(self.place(*at)))
     }
 
     /// Rejects a constant of the language that a reader would take for a variable which the function does not see.

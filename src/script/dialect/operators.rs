@@ -127,7 +127,7 @@ fn shift(places: INT) -> EngineResult<INT> {
     match places {
         0..=63 => Ok(places),
         _ => {
-            let told = format!("bits are moved by 0 to 63 places, got {places}");
+            let told = format!("the shift of bits must be 0 to 63 places, got {places}");
             Err(ScriptError::new(told).into_engine(Position::NONE))
         }
     }

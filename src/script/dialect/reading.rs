@@ -41,18 +41,19 @@ fn refuse_uncountable(source: &str) -> Result<(), ScriptError> {
         // The number of bytes is an upper bound of the number of characters.
         let length = if line.len() > MOST { line.chars().count() } else { 0 };
         if length > MOST {
-            let told = format!(
-                "line {lines} of the script has {length} characters; a line may have {MOST} at most"
-            );
+            let told =
+                format!("line {lines} of the script has {length} characters; the limit is {MOST}");
             return Err(ScriptError::new(told).hint(
-                "break the line: an array or a call may go over several lines, after each comma",
+                "break the line: an array or a call may continue on the next line after each \
+                comma",
             ));
         }
     }
     if lines > MOST {
-        let told = format!("the script has {lines} lines; it may have {MOST} at most");
+        let told = format!("the script has {lines} lines; the limit is {MOST}");
         return Err(ScriptError::new(told).hint(
-            "put parts of it into files of their own, which import \"NAME\" as name; reads, or write loops for what repeats",
+            "move parts of it to files of their own, which import \"NAME\" as name; reads, or \
+            use loops for repeated lines",
         ));
     }
     Ok(())

@@ -63,8 +63,8 @@ fn sorted_naturally(
     if let Some(stranger) = others.iter().find(|other| natural_order(first, other).is_none()) {
         let engine = native.engine();
         let (first, stranger) = (describe(engine, first), describe(engine, stranger));
-        let told = format!("{first} and {stranger} have no order to be sorted by");
-        let hint = "say which comes first: sort(|a, b| a.x - b.x)";
+        let told = format!("{first} and {stranger} cannot be compared for sorting");
+        let hint = "give the order: sort(|a, b| a.x - b.x)";
         return Err(ScriptError::new(told).hint(hint).into_engine(native.call_position()));
     }
     // Beyond 2^53 integers are more exact than floats; the two comparisons must not be mixed.
@@ -114,10 +114,12 @@ fn is_after(native: &NativeCallContext, order: &Dynamic) -> EngineResult<bool> {
         || {
             let got = describe(native.engine(), order);
             let told = format!(
-                "the function that compares must give a number or true or false, got {got}"
+                "the function that compares must return a number or true or false, got {got}"
             );
             let refusal = ScriptError::new(told);
-            refusal.hint("write |x, y| x - y for rising order").into_engine(native.call_position())
+            refusal
+                .hint("write |x, y| x - y for ascending order")
+                .into_engine(native.call_position())
         },
     )
 }

@@ -22,15 +22,17 @@ pub fn install(engine: &mut Engine) {
 
 fn judge(engine: &Engine, value: &Dynamic) -> Result<(), ScriptError> {
     if VariantValue::family_of(value).is_some() {
-        let told = "switch cannot choose by what depends on a parameter of a scene";
-        let hint = "switch int(x) { … } chooses by a whole number, switch value_of(x) by the number without its derivatives, which do not know of the choice";
+        let told = "switch cannot compare a value that depends on a parameter of a scene";
+        let hint = "use switch int(x) { … } for a whole number, or switch value_of(x) for the number \
+            without derivatives; the derivatives ignore the choice";
         return Err(ScriptError::new(told).hint(hint));
     }
     match odd_one_in(value) {
         None => Ok(()),
         Some(odd) => {
-            let told = format!("switch cannot choose by {}", describe(engine, &odd));
-            let hint = "it knows numbers, texts, truth values, (), and arrays and maps of these; if chooses by any condition";
+            let told = format!("switch cannot compare {}", describe(engine, &odd));
+            let hint = "switch compares numbers, texts, truth values, (), and arrays and maps of \
+                these; use if for other conditions";
             Err(ScriptError::new(told).hint(hint))
         }
     }

@@ -46,7 +46,7 @@ impl FolderResolver {
     fn find(&self, name: &str) -> Result<(PathBuf, PathBuf, Vec<u8>), ScriptError> {
         let file = if name.ends_with(".rhai") { name.to_owned() } else { format!("{name}.rhai") };
         let content = self.inputs.read(&file, LARGEST_SCRIPT).map_err(|error| {
-            error.hint("import looks for NAME.rhai in the script's own folder and below")
+            error.hint("import searches for NAME.rhai in the folder of the script and below")
         })?;
         let path: PathBuf = Path::new(&file).components().collect();
         let shown =
@@ -79,7 +79,7 @@ impl FolderResolver {
         let being_read = self.being_read.borrow();
         if being_read.contains(file) {
             return Err(ScriptError::new(format!("'{name}' imports itself"))
-                .hint("put what both files need into a third one"));
+                .hint("move the common parts of both files to a third one"));
         }
         if being_read.len() >= LONGEST_CHAIN {
             let told = format!("more than {LONGEST_CHAIN} files import each other in a chain");

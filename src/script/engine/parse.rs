@@ -49,8 +49,8 @@ pub fn parse_piece(
     Sources::of(engine).note(&ast, name);
     naming::judge(engine, text, before, variables)?;
     match text.open_comment() {
-        Some(at) => Err(ScriptError::new("a comment that begins with /* is never closed")
-            .hint("write */ where it ends")
+        Some(at) => Err(ScriptError::new("a comment that begins with /* has no */")
+            .hint("write */ at its end")
             .into_engine(behind(at, before))),
         None => Ok(ast),
     }

@@ -17,7 +17,7 @@ use crate::script::state::settings::RunSettings;
 use crate::script::state::watchdog::Watchdog;
 
 const ONLY_DRY: &str =
-    "withy check runs no simulation: what depends on results can only be seen by withy run";
+    "withy check runs no simulation: use withy run to test what depends on results";
 
 /// Catalog, engine and shared state.
 pub struct ScriptEngine {

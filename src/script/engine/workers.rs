@@ -248,9 +248,10 @@ pub fn with_crew<J: Send, R: Send, T>(
         let ends = running.into_iter().filter_map(|worker| worker.join().ok());
         match ends.collect::<Result<Vec<()>, Diagnostic>>() {
             Ok(_) => Ok(driven),
-            Err(diagnostic) => {
-                Err(ScriptError::new(format!("a worker cannot begin: {}", diagnostic.message)))
-            }
+            Err(diagnostic) => Err(ScriptError::new(format!(
+                "a worker thread cannot start: {}",
+                diagnostic.message
+            ))),
         }
     })
 }

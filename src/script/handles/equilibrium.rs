@@ -50,7 +50,7 @@ impl EquilibriumHandle {
 
 impl Scripted for EquilibriumHandle {
     const NAME: &'static str = "equilibrium";
-    const DOC: &'static str = "A scene at rest under its loads, and the path that led there.";
+    const DOC: &'static str = "A scene in static equilibrium, with its load path.";
 
     fn show(&self) -> String {
         let rest = self.rest();

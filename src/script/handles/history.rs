@@ -36,7 +36,7 @@ impl HistoryHandle {
             true => String::new(),
             false => format!(" and recorded {} (option record)", recording.describe()),
         };
-        call.error("the history has no rows there")
+        call.error("the history has no rows in this interval")
             .hint(format!("the simulation has run from t = 0 to {now}{recorded}"))
     }
 
@@ -62,7 +62,8 @@ impl HistoryHandle {
         let is_sensor = simulation.scene().clone().record(&name).is_ok();
         let hint = match is_sensor {
             true => format!(
-                "it is a sensor, which is a column where it is recorded: scene.record(\"{name}\") before scene.start(…)"
+                "it is a sensor, and must be recorded: scene.record(\"{name}\") before \
+                scene.start(…)"
             ),
             false => column_hint(history, &name),
         };
@@ -80,7 +81,7 @@ impl HistoryHandle {
 
 impl Scripted for HistoryHandle {
     const NAME: &'static str = "history";
-    const DOC: &'static str = "What a simulation was like, step by step.";
+    const DOC: &'static str = "Recorded values of a simulation by step.";
 
     fn is_busy(&self) -> Option<String> {
         self.of.is_busy()

@@ -17,7 +17,9 @@ use crate::script::presentation::details;
 use crate::simulation::Variation;
 use crate::system::Scene;
 
-const SHAPED: &str = "numbers of sections, loads, springs, masses and velocities may depend on scene.parameter(…); for shapes and places give plain numbers and take central differences, as fit does";
+const SHAPED: &str = "numbers of sections, loads, springs, masses and velocities may depend on \
+    scene.parameter(…); use plain numbers for shapes and places, and central differences, as \
+    fit does";
 
 /// Handle of a scene.
 #[derive(Clone)]
@@ -133,9 +135,9 @@ impl SceneHandle {
             return Ok(Vec::new());
         };
         if !self.functions.borrow().is_empty() {
-            let told =
-                "columns that functions |q| … fill have no derivatives by parameters of a scene";
-            let hint = "leave scene.record(name, |q| …) out, and ask the simulation when it is there: sim.position(…), sim.history.column(…)";
+            let told = "columns of functions |q| … have no derivatives by parameters of a scene";
+            let hint = "omit scene.record(name, |q| …), and read the simulation at the required time: \
+                sim.position(…), sim.history.column(…)";
             return Err(ScriptError::new(told).hint(hint));
         }
         self.expect_unasked_beside()?;
@@ -189,8 +191,10 @@ impl SceneHandle {
         if self.controllers.borrow().is_empty() && self.conditions.borrow().is_empty() {
             return Ok(());
         }
-        let told = "what functions of the simulation do, |t, q| … of a controller or when: |q| … of a release, has no derivatives by parameters of a scene";
-        let hint = "give functions of time, |t| …, or plain numbers in the place of scene.parameter(…) and take central differences, as fit does";
+        let told = "functions of the simulation, |t, q| … of a controller or when: |q| … of a release, \
+            have no derivatives by parameters of a scene";
+        let hint = "use functions of time, |t| …, or plain numbers in place of scene.parameter(…) with \
+            central differences, as fit does";
         Err(ScriptError::new(told).hint(hint))
     }
 
@@ -237,8 +241,10 @@ impl SceneHandle {
         if self.controllers.borrow().is_empty() && self.conditions.borrow().is_empty() {
             return Ok(());
         }
-        let told = "functions of the simulation, |t, q| … of a controller or when: |q| … of a release, are asked between steps, which a study does not do";
-        let hint = "give functions of time, |t| …, and the time of a release, or step the scene in a loop of your own";
+        let told = "functions of the simulation, |t, q| … of a controller or when: |q| … of a release, \
+            are called between steps; a study does not support this";
+        let hint = "use functions of time, |t| …, and a time for the release, or step the scene in a \
+            loop of your own";
         Err(ScriptError::new(told).hint(hint).at(CallPart::Key("scene".into())))
     }
 
@@ -265,7 +271,7 @@ impl SceneHandle {
         }
         let (mine, other) = (&self.scene().borrow().name, &other.scene().borrow().name);
         let told = match mine == other {
-            true => format!("the {what} belongs to another scene that is called '{other}' too"),
+            true => format!("the {what} belongs to another scene with the same name '{other}'"),
             false => format!("the {what} belongs to the scene '{other}', not to '{mine}'"),
         };
         Err(ScriptError::new(told).hint(format!("use a {what} of this scene")))

@@ -125,9 +125,9 @@ impl SimulationHandle {
     /// Independent copy of the simulation in its current state, with its scheduled functions.
     pub fn fork(&self, name: String, context: &Context) -> Result<Self, ScriptError> {
         if self.simulation().parameters().next().is_some() {
-            let told =
-                "a copy of the simulation would have no derivatives by the parameters of its scene";
-            let hint = "build the scene with plain numbers in the place of scene.parameter(…)";
+            let told = "a copy of the simulation would have no derivatives by the parameters of its \
+                scene";
+            let hint = "build the scene with plain numbers in place of scene.parameter(…)";
             return Err(ScriptError::new(told).hint(hint));
         }
         let simulation = self.simulation().fork()?;
@@ -187,11 +187,11 @@ impl SimulationHandle {
         let is_late = if self.0.is_firing.get() { time <= now } else { time < now };
         if is_late {
             return Err(ScriptError::new(format!(
-                "at: t = {} has passed, the simulation is at t = {}",
+                "at: t = {} is in the past, the simulation is at t = {}",
                 format_number(time),
                 format_number(now)
             ))
-            .hint("give a later time, before the simulation gets there"));
+            .hint("give a later time"));
         }
         self.0.simulation.borrow_mut().cut_at(time);
         self.0.events.borrow_mut().insert(time, Rc::new(function));
@@ -338,7 +338,7 @@ fn step_size(size: &StepSize) -> String {
 
 impl Scripted for SimulationHandle {
     const NAME: &'static str = "simulation";
-    const DOC: &'static str = "A scene in motion.";
+    const DOC: &'static str = "A simulation of a scene.";
 
     fn is_busy(&self) -> Option<String> {
         let is_stepping = self.0.simulation.try_borrow().is_err();

@@ -47,9 +47,8 @@ impl StationHandle {
         };
         if !known {
             let told = format!("{} was added after the scene was started", self.show());
-            return Err(
-                ScriptError::new(told).hint("add everything before scene.start(…), or start again")
-            );
+            return Err(ScriptError::new(told)
+                .hint("add everything before scene.start(…), or start the scene again"));
         }
         Ok(built.place(&self.station, meshes)?)
     }

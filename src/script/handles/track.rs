@@ -44,7 +44,7 @@ impl TrackHandle {
 
 impl Scripted for TrackHandle {
     const NAME: &'static str = "track";
-    const DOC: &'static str = "Beams of a scene, one after the other, along which sliders pass.";
+    const DOC: &'static str = "A sequence of joined beams along which sliders pass.";
 
     fn show(&self) -> String {
         let scene = self.scene.scene().borrow();

@@ -21,8 +21,8 @@ In an entry, `→` precedes the returned value and optional arguments are in bra
 dimensions, such as `[force]`. The keys of an option map are listed below it. Every example runs after the lines that its page begins with.
 ";
 
-const ABOUT_RHAI: &str = "A function that has an argument before a dot here can be called either way: `text.len()` is `len(text)`.
-";
+const ABOUT_RHAI: &str = "A function whose argument is written before a dot here can be called in both forms: \
+    `text.len()` is `len(text)`.";
 
 /// A page of the reference.
 pub struct ReferencePage {

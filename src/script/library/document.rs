@@ -4,14 +4,14 @@ use std::fmt::Write;
 
 use super::pages::{DocBlock, ModulePage, pages};
 
-const HEAD: &str = "# The standard library
+const HEAD: &str = "# Standard library
 
-*Made from the comments in `stdlib/*.rhai`; `WITHY_UPDATE=1 cargo test --test house documents` makes it again.*
+*Generated from the comments in `stdlib/*.rhai`: `WITHY_UPDATE=1 cargo test --test house documents`.*
 
-Modules in the [language](language.md) itself, which are part of the program: `import \"std/sections\" as sections;` works in every script, in \
-files that scripts import, and at the prompt. They are read when they are imported, and not before. Names that begin with `std/` belong to the \
-library: a file of your own in a folder `std` is never read in its place, nor at all. The same pages are shown by `withy docs std/sections` and \
-`help(\"sections::rectangle\")`. The files in [stdlib/](../stdlib) are meant to be read: copy what you want to change. Every example runs.
+Modules written in the [language](language.md), which are part of the program: `import \"std/sections\" as sections;` works in every script, \
+in imported files, and at the prompt. A module is read only when it is imported. Names that begin with `std/` belong to the library: files in \
+your own folder `std` are never read. `withy docs std/sections` and `help(\"sections::rectangle\")` show the same pages. You can copy and \
+change the files in [stdlib/](../stdlib). Every example runs.
 ";
 
 /// Pages of all modules, in Markdown.

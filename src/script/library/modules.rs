@@ -60,8 +60,6 @@ fn unknown(name: &str) -> ScriptError {
     let names: Vec<_> = MODULES.iter().map(|module| module.name).collect();
     let meant = nearest(name, names.iter().copied());
     let meant = meant.map(|near| format!("did you mean \"{near}\"? ")).unwrap_or_default();
-    ScriptError::new(format!("the library has no module \"{name}\"")).hint(format!(
-        "{meant}it has {}; a folder of your own cannot be called std",
-        names.join(", ")
-    ))
+    ScriptError::new(format!("the library has no module \"{name}\""))
+        .hint(format!("{meant}it has {}; your own folder cannot be called std", names.join(", ")))
 }

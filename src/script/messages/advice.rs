@@ -27,49 +27,56 @@ fn on_simulation(error: &SimulationError) -> Option<String> {
         SimulationError::End { end, .. } if !end.is_finite() => "give a finite time".into(),
         SimulationError::End { .. } => "give a later time, or go back with sim.rewind(t)".into(),
         SimulationError::Step { .. } | SimulationError::Smallest { .. } => {
-            "the history up to there is kept; try a smaller dt or a finer mesh, and check loads, stiffness, units and what is held".into()
+            "the history up to this time is kept; try a smaller dt or a finer mesh, and check \
+            loads, stiffness, units and supports".into()
         }
         SimulationError::Load { source } => {
             let own = cause_of(source).and_then(on_load);
             own.unwrap_or_else(|| "loads and drives need a finite value at all times".into())
         }
         SimulationError::Tolerance { .. } => {
-            "the history up to there is kept; give a larger tolerance or a smaller step: adaptive(#{ tolerance: …, smallest: … }); adaptive steps \
-             land on jumps of schedules by themselves, but a function that jumps needs its breaks: schedule(|t| …, [t1, t2])"
+            "the history up to this time is kept; use a larger tolerance or a smaller step: \
+            adaptive(#{ tolerance: …, smallest: … }); adaptive steps end at jumps of \
+            schedules, but a function with jumps must declare them: schedule(|t| …, [t1, t2])"
                 .into()
         }
         SimulationError::Ended { .. } => {
-            "give the slider the option ends: \"bounce\" or \"release\" to go on, or ask sim.ended before a step".into()
+            "give the slider the option ends: \"bounce\" or \"release\" to continue, or test \
+            sim.ended before a step".into()
         }
         SimulationError::ManySamples { .. } => {
-            "give `sample` the period of the controller, a hundredth to ten times dt".into()
+            "give `sample` the period of the controller, between dt/100 and 10 dt".into()
         }
         SimulationError::NoMean { sensor, .. } => {
             format!("record \"{}\"", sensor.replace(".mean_", "."))
         }
         SimulationError::BeginsElsewhere { .. } => {
-            "take an equilibrium under the whole of its loads, load_factor: 1, where drives are where their functions have them".into()
+            "find the equilibrium under the full loads, load_factor: 1, at a time at which the \
+            drives are there".into()
         }
         SimulationError::Rattles { .. } => "try ends: \"release\" or \"stop\"".into(),
-        SimulationError::FewerSteps { .. } => "sim.rewind(0) leads to the start".into(),
+        SimulationError::FewerSteps { .. } => "sim.rewind(0) goes to the start".into(),
         SimulationError::NotBehind { .. } => {
-            "give a time between, or use sim.run_to(t) to go on".into()
+            "give a time in between, or use sim.run_to(t) to continue".into()
         }
         SimulationError::NoSnapshots { .. } => {
             "start with scene.start(#{ …, snapshots: 64 }), in megabytes, or call sim.keep_snapshots(64) before the steps".into()
         }
         SimulationError::BeforeFirst { .. } => {
-            "earlier ones are not in a file of sim.save(…), and are not kept before sim.keep_snapshots(…)".into()
+            "earlier states are not in a file of sim.save(…), and are not stored before \
+            sim.keep_snapshots(…)".into()
         }
         SimulationError::Forgotten { first, limit, .. } => format!(
-            "sim.rewind({first}) leads there, and for more start with scene.start(#{{ …, snapshots: {} }})",
+            "sim.rewind({first}) goes there; to store more states start with scene.start(#{{ …, \
+            snapshots: {} }})",
             (4.0 * limit).ceil().max(64.0)
         ),
         SimulationError::Derivative(error) => match error {
             DerivativeError::Form { .. } | DerivativeError::Times { .. } => {
-                "give plain numbers in the place of scene.parameter(…) and take central differences, as fit does".into()
+                "give plain numbers in place of scene.parameter(…) and use central differences, \
+                as fit does".into()
             }
-            DerivativeError::Mean { .. } => "record the force at the present moment".into(),
+            DerivativeError::Mean { .. } => "record the present force".into(),
             DerivativeError::Adaptive => "give dt a number".into(),
             _ => return None,
         },
@@ -81,39 +88,53 @@ fn on_simulation(error: &SimulationError) -> Option<String> {
 }
 
 fn on_statics(error: &StaticsError) -> Option<String> {
-    const AT_REST: &str = "let a damped motion come to rest instead, scene.start(#{ integrator: energy_decaying(#{ chi: 1 }), dt: … })";
+    const AT_REST: &str = "simulate a damped motion until it is at rest: scene.start(#{ integrator: \
+        energy_decaying(#{ chi: 1 }), dt: … })";
     Some(match error {
         StaticsError::Model(error) => return on_model(error),
         StaticsError::NoLoad { .. } => {
-            "loads are taken as they are at one time: choose it with the option time; drag, wind and dampers act on motion alone".into()
+            "loads are evaluated at one time: select it with the option time; drag, wind and \
+            dampers act only on motion"
+                .into()
         }
         StaticsError::InTime { by: InTime::Speed, .. } => {
-            "give the place at rest, counted from that as drawn: x, y or angle as a function of time that begins with 0, such as angle: |t| 0.5 * t, and \
-             scene.equilibrium(#{ time: 1 })"
+            "give the displacement in equilibrium: x, y or angle as a function of time that \
+            begins with 0, such as angle: |t| 0.5 * t, and scene.equilibrium(#{ time: 1 })"
                 .into()
         }
         StaticsError::InTime { .. } => {
-            "give the force or the torque that it has at rest, as a number, in the scene of which you ask the equilibrium".into()
+            "give its force or torque in equilibrium as a number, in a scene for the \
+            equilibrium"
+                .into()
         }
-        StaticsError::NothingGrows { .. } | StaticsError::Driven { .. } => "leave out control: arc_length()".into(),
+        StaticsError::NothingGrows { .. } | StaticsError::Driven { .. } => {
+            "leave out control: arc_length()".into()
+        }
         StaticsError::PathLost { points, .. } => format!(
-            "see what it has found: arc_length(#{{ points: {points} }}) ends it there; it may lead on in shorter steps, arc_length(#{{ longest: 0.01 }})"
+            "to see the path, end it with arc_length(#{{ points: {points} }}); shorter steps \
+            may continue it, arc_length(#{{ longest: 0.01 }})"
         ),
         StaticsError::Loose { reason, .. } | StaticsError::Lost { reason, .. }
             if matches!(**reason, StepFailure::Leaves { .. }) =>
         {
-            "with ends: \"stop\" it leans on the end; what has left has no rest".into()
+            "with ends: \"stop\" it stays in contact with the end; a slider that left its beam \
+            has no equilibrium"
+                .into()
         }
         StaticsError::Loose { .. } => {
-            format!("hold it with scene.clamp(…) or scene.hinge(…), or {AT_REST}")
+            format!("fix it with scene.clamp(…) or scene.hinge(…), or {AT_REST}")
         }
         StaticsError::Lost { reached: 0.0, .. } => {
-            "take more load_steps; what is not at ease as drawn, as a spring of another length, pulls before any load is on: draw it nearer to its rest, or let it be at ease and move \
-             its end by scene.move; where the structure snaps through, follow it with control: arc_length()"
+            "use more load_steps; a part that is prestressed in the initial scene, such as a \
+            spring of another length, acts before any load: place it closer to its \
+            equilibrium, or start without prestress and move its end by scene.move; for \
+            snap-through use control: arc_length()"
                 .into()
         }
         StaticsError::Lost { .. } => {
-            "take more load_steps; where the structure snaps through, follow it with control: arc_length(), or stop before with load_factor".into()
+            "use more load_steps; for snap-through use control: arc_length(), or stop before it \
+            with load_factor"
+                .into()
         }
         StaticsError::Load { .. }
         | StaticsError::Value { .. }
@@ -130,32 +151,38 @@ fn on_model(error: &SystemError) -> Option<String> {
         }
         SystemError::NoSection { .. } => "give a station of a beam",
         SystemError::NoPoint { .. } => {
-            "name it in the points of scene.body(…); its centre is body.centre"
+            "add it to the points of scene.body(…); its centre is body.centre"
         }
         SystemError::StartVelocity { .. } => {
-            "what turns about a place starts with spin: 2, about: [x, y]; what is joined to it with the velocity that it has there; where a body in motion is joined to a beam \
-             at rest, give the node between them the velocity of that point of the body: scene.velocity(beam.end, [vx, vy])"
+            "for a rotation about a point use spin: 2, about: [x, y]; start attached parts with \
+            the velocity at their joint; where a moving body is joined to a beam at rest, give \
+            the node the velocity of the joined point of the body: scene.velocity(beam.end, \
+            [vx, vy])"
         }
         SystemError::Inertialess { .. } => {
-            "give it one, scene.body(#{ …, inertia: 0.1 }), or hold its angle: scene.support(body.centre, #{ angle: true })"
+            "give the body an inertia, scene.body(#{ …, inertia: 0.1 }), or fix its angle: \
+            scene.support(body.centre, #{ angle: true })"
         }
         SystemError::Massless { .. } => {
-            "give it one, scene.body(#{ …, mass: 1 }), or join it to something: scene.hinge(body.centre)"
+            "give the body a mass, scene.body(#{ …, mass: 1 }), or join it to another part: \
+            scene.hinge(body.centre)"
         }
         SystemError::PointAlone { .. } => "give velocity and spin to scene.body(#{ … })",
         SystemError::StationOutside { .. } => "use beam.end for its end",
         SystemError::ParticleTurned { by, .. } => match by {
             Turning::RigidJoint => {
-                "use scene.hinge(…), or scene.mass(…) on the beam; a rigid body, scene.body(…), turns"
+                "use scene.hinge(…), or scene.mass(…) on the beam; a rigid body, scene.body(…), \
+                has a rotation"
             }
             Turning::RotaryInertia => "leave out the rotary inertia",
-            Turning::Load => "only a force of fixed direction can act on it",
+            Turning::Load => "use a force of fixed direction",
             Turning::Spin => "leave out the spin",
             Turning::Drive => {
-                "move it along x and y alone; a motor turns a section of a beam, or a body: scene.motor(body.centre, …)"
+                "move it in x and y only; a motor rotates a section of a beam, or a body: \
+                scene.motor(body.centre, …)"
             }
             Turning::TorsionSpring => {
-                "put a torsion spring between sections of beams or rigid bodies"
+                "use torsion springs between sections of beams or rigid bodies"
             }
         },
         _ => return None,
@@ -166,14 +193,15 @@ fn on_model(error: &SystemError) -> Option<String> {
 fn on_slider(error: &SliderError) -> Option<String> {
     let advice = match error {
         SliderError::Open { nearest: Approach::On { .. }, .. } => {
-            "give that as `at`, or leave `at` out"
+            "give this value for `at`, or omit `at`"
         }
         SliderError::Open { nearest: Approach::Apart { .. }, .. } => "move one of them",
         SliderError::LeavesMaster { .. } => {
-            "start it with the velocity of the beam there and whatever it has along the beam, or give the slider the option \
-             velocities: \"project\", which takes the nearest velocities that fit"
+            "start it with the velocity of the beam there plus any velocity along the beam, or \
+            give the slider the option velocities: \"project\", which uses the nearest \
+            compatible velocities"
         }
-        SliderError::RuleOfOneBeam { .. } => "take conserving()",
+        SliderError::RuleOfOneBeam { .. } => "use conserving()",
         _ => return None,
     };
     Some(advice.into())
@@ -182,11 +210,12 @@ fn on_slider(error: &SliderError) -> Option<String> {
 fn on_track(error: &TrackError) -> Option<String> {
     let advice = match error {
         TrackError::Apart { .. } => {
-            "give the beams in the order in which the track leads along them; each may be drawn from either end"
+            "give the beams in the order of the track, each in either direction"
         }
         TrackError::Open { .. } => "leave out closed: true, or add the beams that lead back",
         TrackError::Loose { .. } => {
-            "join them before the track is made: scene.rigid(…) with both ends, or scene.hinge(…)"
+            "join them before creating the track: scene.rigid(…) with both ends, or \
+            scene.hinge(…)"
         }
         TrackError::Empty { .. } => "give at least one beam: scene.track([a, b])",
         TrackError::Again { .. } => return None,
@@ -197,24 +226,26 @@ fn on_track(error: &TrackError) -> Option<String> {
 fn on_archive(error: &ArchiveError) -> Option<String> {
     let advice = match error {
         ArchiveError::Function { .. } => {
-            "use hold_for, ramp, pulse, smooth_pulse, sine or table, or sums and products of them, and what std/schedules makes of these; in place of a controller springs and \
-             dampers: scene.torsion_spring(…)"
+            "use hold_for, ramp, pulse, smooth_pulse, sine or table, or sums and products of \
+            them, and schedules of std/schedules; in place of a controller use springs and \
+            dampers: scene.torsion_spring(…)"
         }
         ArchiveError::Release { .. } => {
-            "save the simulation when that has let go, or say the time: #{ at: 0.5 }"
+            "save the simulation after the release, or give a time: #{ at: 0.5 }"
         }
-        ArchiveError::Sensor { .. } => "record ready quantities such as \"rod.end.x\"",
-        ArchiveError::Foreign => "files of simulations are those that sim.save(…) has written",
+        ArchiveError::Sensor { .. } => "record built-in sensors such as \"rod.end.x\"",
+        ArchiveError::Foreign => "use files that sim.save(…) has written",
         ArchiveError::Content { .. } => {
-            "it was not written by sim.save(…), or by a withy with a mistake"
+            "the file was not written by sim.save(…), or it was written by a defective version \
+            of withy"
         }
         _ => return None,
     };
     Some(advice.into())
 }
 
-const SMOOTH: &str = "let it get there in a time: import \"std/schedules\" as schedules; #{ y: 0.1 * schedules::smooth_step(0, 0.05) }; \
-                      what is to move with a speed from the start begins with it: |t| 3 * t";
+const SMOOTH: &str = "reach the position in a given time: import \"std/schedules\" as schedules; #{ y: 0.1 * \
+    schedules::smooth_step(0, 0.05) }; or start with a velocity: |t| 3 * t";
 
 fn cause_of(error: &StepError) -> Option<&LoadError> {
     let StepError::Load { source, .. } = error else { return None };
@@ -235,7 +266,7 @@ fn on_load(error: &LoadError) -> Option<String> {
 fn on_beam(error: &BeamError) -> Option<String> {
     match error {
         BeamError::Quadrature { .. } => {
-            Some("quadrature: \"patch\", the default, finds points and weights by itself".into())
+            Some("use quadrature: \"patch\", the default, which sets points and weights".into())
         }
         _ => None,
     }

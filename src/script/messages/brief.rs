@@ -18,7 +18,7 @@ pub fn brief(text: String) -> String {
     let begin = &text[..place(MOST - END)];
     let end: Vec<char> = text.chars().rev().take(END).collect();
     let end: String = end.into_iter().rev().collect();
-    format!("{begin} […{} characters are left out here…] {end}", count - MOST)
+    format!("{begin} […{} characters omitted…] {end}", count - MOST)
 }
 
 #[cfg(test)]
@@ -32,6 +32,6 @@ mod tests {
         assert_eq!(brief(borderline.clone()), borderline);
         let cut = brief(format!("unknown '{}'; allowed: a, b", "é".repeat(1 << 20)));
         assert!(cut.starts_with("unknown 'é") && cut.ends_with("é'; allowed: a, b"), "{cut}");
-        assert!(cut.contains("characters are left out here") && cut.chars().count() < MOST + 60);
+        assert!(cut.contains("characters omitted") && cut.chars().count() < MOST + 60);
     }
 }

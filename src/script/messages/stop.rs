@@ -43,10 +43,10 @@ impl Stop {
     pub fn words(self) -> (String, Option<String>) {
         match self {
             Self::Interrupt => ("the run was interrupted".into(), None),
-            Self::PipeClosed => ("the reader of the output went away".into(), None),
+            Self::PipeClosed => ("the output was closed by its reader".into(), None),
             Self::Time(limit) => (
                 format!("the run takes longer than {} s", format_number(limit.as_secs_f64())),
-                Some("--max-time SECONDS allows more; is there a loop without an end?".into()),
+                Some("--max-time SECONDS allows more; a loop may have no end".into()),
             ),
             Self::Steps(limit) => (
                 format!("the simulations of this run need more than {limit} steps"),
@@ -54,25 +54,23 @@ impl Stop {
             ),
             Self::Written(limit) => (
                 format!("the run prints and writes more than {} MB", limit / MEGABYTE),
-                Some(
-                    "--max-written MB allows more; does something print in a loop for ever?".into(),
-                ),
+                Some("--max-written MB allows more; a loop may print without end".into()),
             ),
             Self::Files(limit) => (
                 format!("the run writes more than {limit} files"),
                 Some("--max-files N allows more".into()),
             ),
             Self::OutputLost(kind) => (
-                format!("what the script prints cannot be written: {kind}"),
-                Some("see that there is room where the output goes".into()),
+                format!("the output of the script cannot be written: {kind}"),
+                Some("check the free space of the output device".into()),
             ),
             Self::Waiting => (
-                "the script waits for what a simulation finds: it cannot be checked further".into(),
+                "the script needs results of a simulation: it cannot be checked further".into(),
                 None,
             ),
             Self::Memory(limit) => (
                 format!("the run needs more than {} MB of memory", limit / MEGABYTE),
-                Some("--max-memory MB allows more; does something grow in a loop for ever?".into()),
+                Some("--max-memory MB allows more; a loop may allocate without end".into()),
             ),
         }
     }

@@ -27,18 +27,19 @@ use crate::script::presentation::symbols::uncrowded;
 
 pub const TABLE: BindingTable = BindingTable {
     name: "animations",
-    doc: "An animation is a PNG file with many frames, which browsers play and Markdown shows, as in a README; other programs show its first frame.",
+    doc: "An animation is a PNG file with many frames, which browsers and Markdown pages such as \
+        a README play; other programs show its first frame.",
     types: &[],
     setup: SPINNING,
     constants: &[],
     rows: &[
         function("write_animation", &[MOVING, FILE, options("options", ANIMATION).optional()], write_animation)
-            .summary("Writes the motion as an animated picture, a PNG file that repeats without end.")
+            .summary("Writes the motion as an animated PNG file that repeats without end.")
             .doc(
-                "Frames are the recorded configurations nearest to times that are evenly spread. Given an array, simulations stand side by side \
-                 with the same view. Knots are dots where there are up to 40 spans. \
-                 All frames together have at most 256 colours. For a long motion, or to look closely, write_viewer is the \
-                 smaller file.",
+                "Frames are the recorded configurations nearest to evenly spaced times. An \
+                array of simulations is shown side by side with equal views. Knots are dots if \
+                there are at most 40 spans. All frames together have at most 256 colours. For \
+                a long motion, or for details, use write_viewer, whose files are smaller.",
             )
             .example("sim.run_to(2);\nwrite_animation(sim, \"spin.png\", #{ frames: 20, fps: 10, width: 320, trace: [rod.end] });")
             .see(&["write_viewer", "plot_motion"]),
@@ -46,16 +47,16 @@ pub const TABLE: BindingTable = BindingTable {
 };
 
 const ANIMATION: &[Parameter] = &[
-    text("title").doc("the name of the first simulation unless given").optional(),
-    number("from").unit("time").doc("first frame; the start unless given").optional(),
-    number("to").unit("time").doc("last frame; the present unless given").optional(),
-    whole("frames").between(2.0, 1000.0).doc("how many").or(Presence::Whole(100)),
-    whole("fps").between(1.0, 60.0).doc("frames in a second").or(Presence::Whole(20)),
+    text("title").doc("title; default: the name of the first simulation").optional(),
+    number("from").unit("time").doc("time of the first frame; default: the start").optional(),
+    number("to").unit("time").doc("time of the last frame; default: the present").optional(),
+    whole("frames").between(2.0, 1000.0).doc("number of frames").or(Presence::Whole(100)),
+    whole("fps").between(1.0, 60.0).doc("frames per second").or(Presence::Whole(20)),
     whole("width")
         .between(200.0, 2000.0)
-        .doc("pixels; 640, or 960 for several simulations, unless given")
+        .doc("width in pixels; default: 640, or 960 for several simulations")
         .optional(),
-    array("trace").doc("stations whose paths are drawn as they come about").optional(),
+    array("trace").doc("stations whose paths are plotted during the motion").optional(),
     SYMBOLS,
     X_LIMITS,
     Y_LIMITS,

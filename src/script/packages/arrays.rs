@@ -12,7 +12,7 @@ use crate::script::messages::error::{CallPart, ScriptError};
 
 pub const TABLE: BindingTable = BindingTable {
     name: "arrays",
-    doc: "Arrays of numbers. Indices count from 0, and -1 is the last.",
+    doc: "Arrays of numbers. Indices count from 0; -1 is the last.",
     types: &[],
     setup: "",
     constants: &[],
@@ -23,7 +23,7 @@ pub const TABLE: BindingTable = BindingTable {
             linspace,
         )
         .returns(Returns::NUMBERS)
-        .summary("Numbers at equal distances, both ends included.")
+        .summary("Creates an array of equally spaced numbers, including both ends.")
         .example(
             "check(linspace(0, 1, 3) == [0, 0.5, 1]);\nfor t in linspace(0, 2, 5) { print(t); }",
         ),
@@ -33,24 +33,24 @@ pub const TABLE: BindingTable = BindingTable {
             logspace,
         )
         .returns(Returns::NUMBERS)
-        .summary("Positive numbers at equal ratios, both ends included.")
+        .summary("Creates an array of positive numbers with equal ratios, including both ends.")
         .example("let ten = logspace(0.01, 100, 5);\ncheck(ten[0] == 0.01 && ten[4] == 100);\ncheck_close(ten[2], 1, 1e-14);"),
         function("sum", &[VALUES], |call| Ok(call.numbers("values")?.iter().sum::<f64>().into()))
             .returns(Returns::NUMBER)
-            .summary("The sum of the numbers.")
+            .summary("Returns the sum of the numbers.")
             .example("check(sum([1, 2, 3.5]) == 6.5);"),
         function("mean", &[VALUES], mean)
             .returns(Returns::NUMBER)
-            .summary("The mean of the numbers.")
+            .summary("Returns the mean of the numbers.")
             .example("check(mean([1, 2, 3]) == 2);"),
         function("min", &[VALUES], |call| extreme(call, f64::min))
             .returns(Returns::NUMBER)
-            .summary("The smallest number of an array.")
+            .summary("Returns the smallest number of an array.")
             .example("check(min([3, 1, 2]) == 1);")
             .corner(where_smallest_changes),
         function("max", &[VALUES], |call| extreme(call, f64::max))
             .returns(Returns::NUMBER)
-            .summary("The largest number of an array.")
+            .summary("Returns the largest number of an array.")
             .example("check(max([3, 1, 2]) == 3);")
             .corner(where_largest_changes),
     ],

@@ -20,9 +20,11 @@ use crate::system::{RigidBodyDefinition, SystemError};
 
 pub const TABLE: BindingTable = BindingTable {
     name: "rigid bodies",
-    doc: "A rigid body is a centre of mass with mass and inertia, and points that keep their places around it. Its centre and its points are stations: \
-          they take hinges, clamps, rigid joints, springs, loads, masses, sensors, and slide along beams, as places of beams do; where a station is asked for, the body itself stands for its centre. Energy and momenta \
-          are kept to rounding with energy_momentum() and fourth_order(), at any step.",
+    doc: "Rigid bodies with a centre of mass, mass, inertia and fixed points. The centre and the \
+        points are stations: they accept hinges, clamps, rigid joints, springs, loads, masses \
+        and sensors, and can slide along beams. Where a station is expected, the body itself \
+        stands for its centre. Energy and momenta are kept to rounding with energy_momentum() \
+        and fourth_order(), at any step size.",
     types: &[BODY],
     setup: "let scene = new_scene(\"example\");\n\
             let hub = scene.body(#{ name: \"hub\", at: [0, 0], mass: 2, inertia: 0.1, points: #{ pin: [0.5, 0], top: [0, 0.2] } });",
@@ -32,9 +34,11 @@ pub const TABLE: BindingTable = BindingTable {
             .returns(Returns::object(BODY))
             .summary("Adds a rigid body.")
             .doc(
-                "at is where its centre of mass is, and inertia counts about it; points are counted from it too, in the frame of the body, which is turned by \
-                 angle. One of mass and inertia may be zero, if something else holds what then has no inertia. velocity and spin are the motion it starts \
-                 with, about its centre or the point `about`. Pictures show it by its points, or as the polygon of `outline`, which needs one point off the centre. Bodies are called body1, body2, … unless they get a name.",
+                "points are relative to the centre of mass, in the frame of the body, which is \
+                rotated by angle. One of mass and inertia may be zero if other parts of the \
+                scene provide the inertia of that motion. spin is about the centre or the \
+                point `about`. Pictures show the points, or the polygon `outline`; this \
+                requires one point away from the centre. Default names: body1, body2, …",
             )
             .example(
                 "let pendulum = scene.body(#{ at: [0, -1], mass: 1, inertia: 0.02, points: #{ pivot: [0, 1], tip: [0, -0.5] } });\n\
@@ -49,19 +53,19 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(Dynamic::from(body.point(call.text("point")?.as_str())?))
         })
         .returns(Returns::object(STATION))
-        .summary("The station at one of its points, by its name.")
+        .summary("Returns the station at a point of the body, by name.")
         .example("scene.hinge(hub.point(\"pin\"));")
         .see(&["centre", "body"]),
         property(BODY, "centre", |call| {
             Ok(Dynamic::from(call.receiver::<RigidBodyHandle>()?.centre()))
         })
         .returns(Returns::object(STATION))
-        .summary("The station at its centre of mass.")
+        .summary("Station at the centre of mass of the body.")
         .example("scene.hinge(hub.centre);")
         .see(&["point"]),
         property(BODY, "name", |call| Ok(call.receiver::<RigidBodyHandle>()?.name().into()))
             .returns(Returns::TEXT)
-            .summary("Its name.")
+            .summary("Name of the body.")
             .example("check(hub.name == \"hub\");"),
     ],
 };
@@ -69,20 +73,28 @@ pub const TABLE: BindingTable = BindingTable {
 pub const BODY: Type = Type::of::<RigidBodyHandle>();
 
 const BODY_KEYS: &[Parameter] = &[
-    point("at").unit("length").doc("where its centre of mass starts"),
-    number("mass").unit("mass").or(Presence::Number(0.0)).doc("zero, if it has an inertia"),
+    point("at").unit("length").doc("initial position of the centre of mass"),
+    number("mass")
+        .unit("mass")
+        .or(Presence::Number(0.0))
+        .doc("mass; zero is allowed with an inertia"),
     number("inertia")
         .unit("mass·length²")
         .or(Presence::Number(0.0))
-        .doc("about its centre of mass; zero, if it has a mass"),
+        .doc("inertia about the centre of mass; zero is allowed with a mass"),
     number("angle")
         .unit("rad")
         .or(Presence::Number(0.0))
-        .doc("by which its frame is turned at the start"),
-    anything("points").doc("a map of points from its centre, in its own frame [length]").optional(),
+        .doc("initial rotation of the frame of the body"),
+    anything("points")
+        .doc("map of points relative to the centre, in the frame of the body [length]")
+        .optional(),
     points("outline")
         .unit("length")
-        .doc("the corners of a polygon as which pictures show it, from its centre, in its own frame; else it is seen by its points")
+        .doc(
+            "corners of the polygon in pictures, relative to the centre, in the frame of the \
+            body; default: the points are shown",
+        )
         .optional(),
     text("name").optional(),
     START_VELOCITY,
@@ -122,18 +134,19 @@ fn points_of(options: &Options) -> Result<Vec<(String, Vec2)>, ScriptError> {
         return Ok(Vec::new());
     }
     let wrong = |told: String| {
-        ScriptError::new(told)
-            .at(CallPart::Key("points".into()))
-            .hint("write points: #{ pin: [0.1, 0] }: names, and places from the centre of mass")
+        ScriptError::new(told).at(CallPart::Key("points".into())).hint(
+            "write points: #{ pin: [0.1, 0] }: names with positions relative to the centre \
+                of mass",
+        )
     };
     let value = options.value("points")?;
     let Some(map) = value.read_lock::<Map>() else {
-        return Err(wrong("points is no map".to_owned()));
+        return Err(wrong("points is not a map".to_owned()));
     };
     let point = |(name, at): (&rhai::Identifier, &Dynamic)| {
         let place = as_point(at).filter(|place| place.iter().all(|value| value.is_finite()));
-        let place =
-            place.ok_or_else(|| wrong(format!("point '{name}' is no pair of finite numbers")))?;
+        let place = place
+            .ok_or_else(|| wrong(format!("point '{name}' is not a pair of finite numbers")))?;
         Ok((name.to_string(), place))
     };
     map.iter().map(point).collect()

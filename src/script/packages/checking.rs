@@ -16,31 +16,33 @@ use crate::script::state::settings::RunMode;
 
 pub const TABLE: BindingTable = BindingTable {
     name: "checks",
-    doc: "Checks are recorded and the script goes on. If one fails, `withy run` ends with exit code 1.",
+    doc: "Checks of results. A failed check is recorded and the script continues; `withy run` \
+        then ends with exit code 1.",
     types: &[PROBLEM],
     setup: "",
     constants: &[],
     rows: &[
         function("check", &[boolean("condition"), MESSAGE], check)
-            .summary("Records whether a condition holds; the message says what should be so.")
+            .summary("Records a check of a condition; the message states the requirement.")
             .example("check(1 / 20 == 0.05, \"division is never truncated\");")
             .see(&["check_close"]),
         function("check_close", &[number("actual").any_number(), number("expected"), TOLERANCE, MESSAGE], check_close)
-            .summary("Records whether two numbers differ by no more than a tolerance, and shows both if they do.")
+            .summary("Records a check that two numbers differ by at most a tolerance, and shows both \
+                if they differ more.")
             .example("check_close(sin(PI), 0, 1e-15, \"a zero of the sine\");")
             .see(&["check"]),
-        function("todo", &[text("what").doc("what is to stand in its place")], todo)
-            .summary("Stops the script where something is still to be written, and says what.")
-            .doc("It stands in exercises in the place of what one is to find.")
+        function("todo", &[text("what").doc("description of the missing expression")], todo)
+            .summary("Stops the script with an error at a place that is still to be written.")
+            .doc("Exercises use it in place of the expression to be found.")
             .example("try { todo(\"a stiffness\") } catch (problem) { check(problem.message == \"still to do: a stiffness\"); }")
             .see(&["check"]),
         property(PROBLEM, "message", |call| Ok(call.receiver::<Failure>()?.message.into()))
             .returns(Returns::TEXT)
-            .summary("What went wrong.")
+            .summary("Description of the error.")
             .example("try { sqrt(\"two\") } catch (problem) { print(problem.message); }"),
         property(PROBLEM, "hint", |call| Ok(call.receiver::<Failure>()?.hint.unwrap_or_default().into()))
             .returns(Returns::TEXT.note(", empty if there is nothing to advise"))
-            .summary("What to do about it.")
+            .summary("Advice on how to correct the error.")
             .example("try { mean([]) } catch (problem) { print(problem.hint); }"),
     ],
 };
@@ -49,7 +51,8 @@ const PROBLEM: Type = Type::of::<Failure>();
 
 impl Scripted for Failure {
     const NAME: &'static str = "error";
-    const DOC: &'static str = "What `catch (problem)` receives when a function of withy refuses.";
+    const DOC: &'static str =
+        "Value that `catch (problem)` receives after an error of a function of withy.";
 
     fn show(&self) -> String {
         self.message.clone()
@@ -60,9 +63,8 @@ impl Scripted for Failure {
     }
 }
 
-const MESSAGE: Parameter = text("message").doc("what should be so").optional();
-const TOLERANCE: Parameter =
-    number("tolerance").non_negative().doc("the largest difference allowed");
+const MESSAGE: Parameter = text("message").doc("requirement that is checked").optional();
+const TOLERANCE: Parameter = number("tolerance").non_negative().doc("largest allowed difference");
 
 fn check(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let holds = call.boolean("condition")?;
@@ -73,7 +75,7 @@ fn check(call: &mut Call) -> Result<Dynamic, ScriptError> {
 fn todo(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let what = call.text("what")?;
     Err(ScriptError::new(format!("still to do: {what}"))
-        .hint("write it in the place of todo(…), quotes and all"))
+        .hint("replace all of todo(…), including the quotes"))
 }
 
 fn check_close(call: &mut Call) -> Result<Dynamic, ScriptError> {

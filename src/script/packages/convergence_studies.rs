@@ -20,7 +20,8 @@ use crate::script::studies::options::ErrorOptions;
 
 pub const TABLE: BindingTable = BindingTable {
     name: "convergence",
-    doc: "How errors fall when the step size or the mesh is refined, for every quantity, and at which order.",
+    doc: "Errors and orders of convergence of every quantity under refinement of the step size \
+        or the mesh.",
     types: &[CONVERGENCE],
     setup: SETUP_OF_LADDERS,
     constants: &[],
@@ -30,40 +31,68 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(Dynamic::from(ConvergenceStudy(Rc::new(study))))
         })
         .returns(Returns::object(CONVERGENCE))
-        .summary("Runs a scene with several step sizes on one mesh, or on several meshes with one step size: errors and orders.")
+        .summary(
+            "Runs a scene with several step sizes on one mesh, or on several meshes with one \
+            step size, and computes errors and orders.",
+        )
         .doc(
-            "scene, stations, reference and columns are as of study_work_precision. With a table as reference the quantities are \
-             those it has; with a run of our own, which holds unless given, they are the positions and angles of the stations and all \
-             columns of the history that say what happened. Several meshes need a reference that is none of them: \
-             finest_run(#{ mesh: … }) or a table. Orders are told only from errors that the reference is good enough to tell. The size of a mesh is one over the spans of all beams. The errors of all positions together and the orders of the other quantities are printed; NAME.csv has all of them, NAME.svg shows those of the positions.",
+            "scene, stations, reference and columns are those of study_work_precision. The \
+            quantities are the columns of the reference table; with a fine run (default) the \
+            positions and angles of the stations and all physical columns of the history. \
+            Several meshes need a reference on a different mesh: finest_run(#{ mesh: … }) or a \
+            table. Orders are computed only from errors above the error of the reference. The \
+            size of a mesh is 1 over the number of spans of all beams. Errors of all positions \
+            together and orders of the other quantities are printed; NAME.csv has everything, \
+            NAME.svg shows the errors of the positions.",
         )
         .example("check_close(ladder.order(\"positions\", energy_momentum()), 2, 0.1);")
         .see(&["study_work_precision", "finest_run", "order"]),
-        property(CONVERGENCE, "table", |call| Ok(table(&call.receiver::<ConvergenceStudy>()?.0).into()))
-            .returns(Returns::TEXT)
-            .summary("Errors and observed orders of every quantity; the order of all sizes together, by least squares, below.")
-            .example("print(ladder.table);"),
+        property(CONVERGENCE, "table", |call| {
+            Ok(table(&call.receiver::<ConvergenceStudy>()?.0).into())
+        })
+        .returns(Returns::TEXT)
+        .summary(
+            "Table of errors and observed orders of every quantity, with the order over all \
+                sizes, by least squares, in the last row.",
+        )
+        .example("print(ladder.table);"),
         property(CONVERGENCE, "rows", |call| {
             let ConvergenceStudy(study) = call.receiver()?;
             Ok(study.ladders.iter().map(|of| map_of(&study, of).into()).collect::<Array>().into())
         })
         .returns(Returns::array_of(&ValueKind::Map))
-        .summary("For every integrator and quantity: sizes, errors, orders, order and claimed.")
-        .example("for row in ladder.rows { check(row.errors.len() == 3 && row.orders.len() == 2); }"),
+        .summary(
+            "Array with a map for every integrator and quantity: sizes, errors, orders, order \
+            and claimed.",
+        )
+        .example(
+            "for row in ladder.rows { check(row.errors.len() == 3 && row.orders.len() == 2); }",
+        ),
         property(CONVERGENCE, "reference", |call| {
             Ok(call.receiver::<ConvergenceStudy>()?.0.truth.source.clone().into())
         })
         .returns(Returns::TEXT)
-        .summary("What the errors are measured against.")
+        .summary("Description of the reference of the errors.")
         .example("check(ladder.reference.contains(\"own finest run\"));"),
         method(CONVERGENCE, "order", &[QUANTITY, object("integrator", INTEGRATOR)], order)
             .returns(Returns::NUMBER)
-            .summary("The order of a quantity with an integrator, by least squares over all sizes; NaN where none can be told.")
+            .summary(
+                "Returns the order of a quantity with an integrator, by least squares over all \
+                sizes; NaN if it cannot be determined.",
+            )
             .example("check_close(ladder.order(\"positions\", fourth_order()), 4, 0.1);")
             .see(&["study_convergence"]),
-        method(CONVERGENCE, "plot", &[QUANTITY, text("file").doc("its name in the output folder, .svg or .png")], plot)
-            .summary("Draws the errors of a quantity over the sizes, with lines of the claimed orders.")
-            .example("ladder.plot(\"kinetic\", \"kinetic.svg\");"),
+        method(
+            CONVERGENCE,
+            "plot",
+            &[QUANTITY, text("file").doc("file name in the output folder, .svg or .png")],
+            plot,
+        )
+        .summary(
+            "Plots the errors of a quantity over the sizes, with lines of the theoretical \
+                orders.",
+        )
+        .example("ladder.plot(\"kinetic\", \"kinetic.svg\");"),
     ],
 };
 
@@ -75,7 +104,7 @@ const SETUP_OF_LADDERS: &str = "let s = section(#{ EA: 100, GA: 100, EI: 10, rho
 
 const CONVERGENCE: Type = Type::of::<ConvergenceStudy>();
 const QUANTITY: Parameter =
-    text("quantity").doc("\"positions\", all of them together, or one that the table shows");
+    text("quantity").doc("\"positions\" for all positions together, or a quantity of the table");
 
 #[derive(Clone)]
 struct ConvergenceStudy(Rc<Convergence>);

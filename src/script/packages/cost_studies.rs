@@ -18,7 +18,7 @@ use crate::script::studies::plan::{patience, study_name};
 
 pub const TABLE: BindingTable = BindingTable {
     name: "costs",
-    doc: "What a step costs, and what each feature of a scene adds.",
+    doc: "Cost of a step, and the additional cost of each feature of a scene.",
     types: &[COST_TABLE],
     setup: "let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\n\
             let spinning = || {\n\
@@ -30,13 +30,16 @@ pub const TABLE: BindingTable = BindingTable {
     rows: &[
         function("study_cost", &[options("options", CostOptions::KEYS)], study)
             .returns(Returns::object(COST_TABLE))
-            .summary("Measures what a step of a scene costs, alone and with features added one by one.")
+            .summary("Measures the cost of a step of a scene, alone and with features added one by \
+                one.")
             .doc(
-                "`scene` is a function that makes the scene; each feature is a function of such a scene that adds something to it. \
-                 Without `features` all that a scene with a beam can have are tried, small enough to leave the motion much as it is. \
-                 Further rows: nothing recorded, snapshots, and the other integrators. The scene alone is measured twice, which \
-                 shows how far times can be trusted. Runs are timed one at a time, all rows in turn, building the scene is not \
-                 counted; the least time and the median are told. The table is printed, written into NAME.csv and drawn into NAME.svg.",
+                "`scene` is a function that creates the scene; each feature is a function that \
+                adds something to it. Default features: all that apply to a scene with a beam, \
+                small enough to change the motion little. Further rows: no recording, \
+                snapshots, and the other integrators. The scene alone is measured twice, which \
+                shows the accuracy of the times. Runs are timed one at a time, without \
+                building the scene; minimum and median are reported. The table is printed, \
+                written to NAME.csv and plotted in NAME.svg.",
             )
             .example(
                 "let costs = study_cost(#{ name: \"cost\", scene: spinning, dt: 0.05, steps: 10, repeats: 1, features: #{ gravity: |scene| scene.gravity([0, -9.81]) } });\n\
@@ -49,7 +52,9 @@ pub const TABLE: BindingTable = BindingTable {
         })
         .returns(Returns::array_of(&ValueKind::Map))
         .summary(
-            "A map for each row: feature, outcome, shortest and median time of a step in seconds, ratio to the scene alone, iterations, factorisations, unknowns, half_bandwidth, border and columns.",
+            "Array with a map for each row: feature, outcome, shortest and median time of a \
+            step in seconds, ratio to the scene alone, iterations, factorisations, unknowns, \
+            half_bandwidth, border and columns.",
         )
         .example(
             "let costs = study_cost(#{ name: \"cost\", scene: spinning, dt: 0.05, steps: 10, repeats: 1, features: #{} });\n\
@@ -62,7 +67,7 @@ const COST_TABLE: Type = Type::of::<CostTable>();
 
 impl Scripted for CostTable {
     const NAME: &'static str = "table of costs";
-    const DOC: &'static str = "What a step of a scene costs, with one feature or another.";
+    const DOC: &'static str = "Cost of a step of a scene with different features.";
 
     fn show(&self) -> String {
         self.text()

@@ -17,21 +17,28 @@ use crate::script::messages::suggest::nearest;
 
 pub const TABLE: BindingTable = BindingTable {
     name: "derivatives",
-    doc: "How a run changes with numbers of its scene: parameters are given names and used as numbers; what depends on them knows its derivatives.",
+    doc: "Derivatives of simulation results by parameters of a scene. A named parameter is used \
+        like a number; everything that depends on it has derivatives.",
     types: &[VARIED],
     setup: "",
     constants: &[],
     rows: &[
         method(SCENE, "parameter", &[name("name"), number("value"), options("options", KEYS).optional()], declare)
         .returns(Returns::object(VARIED))
-        .summary("A number of the scene by whose changes derivatives are taken.")
+        .summary("Declares a named number of the scene by which derivatives are computed.")
         .doc(
-            "Reckon with it, and give it wherever sections, loads, springs, masses, motors and velocities of the scene take a number; all parameters of a scene are declared \
-             before one is used. A simulation that is started then finds with each step how it changes with each parameter, from the equations that the step has factorised: two solves or \
-             three for each of two neighbours, no factorisation. Its own steps keep every bit. What is asked of the simulation and of its history are numbers with derivatives, and \
-             so is what is made of them; comparisons, checks, fixed and sci take the numbers without. Steps are fixed, of energy_momentum() or fourth_order(). \
-             Places of particles, of points of the ground and of sliders, and whole beams may depend on a parameter; lengths of beams, places on them and times at which loads jump may not, functions |t, q| … not be in the scene; \
-             where a slider arrives, something lets go, or the script goes back, derivatives end, and derivative_by says so.",
+            "Sections, loads, springs, masses, motors and velocities of the scene accept it as \
+            a number. Declare all parameters of a scene before one is used. A simulation \
+            started afterwards computes in each step the derivatives by each parameter with \
+            the factorised equations of the step: two or three solves for each of two \
+            neighbouring values, no factorisation. Its own steps are bitwise unchanged. Values \
+            read from the simulation and its history, and values computed from them, have \
+            derivatives; comparisons, checks, fixed and sci ignore them. Only fixed steps of \
+            energy_momentum() or fourth_order() are allowed. Positions of particles, of points \
+            of the ground and of sliders, and whole beams may depend on a parameter; lengths \
+            of beams, places on them and times of jumps of loads may not, and functions |t, q| \
+            … are not allowed. Derivatives end where a slider arrives, an object is released, \
+            or the script goes back; derivative_by then gives this reason.",
         )
         .example(
             "let scene = new_scene(\"rod\");\nlet EI = scene.parameter(\"EI\", 100);\n\
@@ -42,13 +49,21 @@ pub const TABLE: BindingTable = BindingTable {
              let sag = sim.position(rod.end).y;\nprint(sag);\ncheck(sag < 0 && sag.derivative_by(\"EI\") > 0);",
         )
         .see(&["derivative_by", "value_of", "fit"]),
-        function("derivative_by", &[X, text("parameter").doc("its name")], derivative_by)
+        function("derivative_by", &[X, text("parameter").doc("name of the parameter")], derivative_by)
             .returns(Returns::ANYTHING.words("a number, a vector, or an array of them"))
-            .summary("The derivative of a number or a vector by a parameter of a scene; of an array those of its elements.")
-            .doc("Zero of what does not depend on a parameter, and of all that a simulation tells that was loaded from a file, whose parameters are plain numbers. It is right to about eight digits where the motion is smooth and the parameter matters; option `distance` of scene.parameter is for others. \
-                  Refused, with the reason: what is neither a number nor a vector nor an array of them, a name that is no parameter, a value at a corner or a jump of a function (abs(x) at 0, max(x, y) where both are equal, x % y) or where its slope is infinite (sqrt(x) and 1 / x at 0), \
-                  and a simulation after a slider has arrived, something has let go, or the script has gone back (sim.history.before(t) has the rows before). \
-                  What a function |t| … decides by its argument and a parameter, such as if t < a, is told in a note: where the function jumps there, derivatives are wrong.")
+            .summary("Returns the derivative of a number or a vector by a parameter of a scene; for \
+                an array those of its elements.")
+            .doc("Zero for values that do not depend on a parameter, and for all values of a \
+                simulation loaded from a file. Accurate to about eight digits where the motion \
+                is smooth and depends on the parameter; for other cases use the option \
+                `distance` of scene.parameter. Refused with an error: other values than \
+                numbers, vectors and arrays of them; an unknown parameter; a value at a kink \
+                or a jump of a function (abs(x) at 0, max(x, y) where both are equal, x % y) \
+                or where its slope is infinite (sqrt(x) and 1 / x at 0); and a simulation \
+                after a slider has arrived, an object was released, or the script has gone \
+                back (sim.history.before(t) has the earlier rows). A note is printed if a \
+                function |t| … compares its argument with a parameter, such as if t < a: if \
+                the function jumps there, derivatives are wrong.")
             .example(
                 "let scene = new_scene(\"two\");\nlet k = scene.parameter(\"k\", 4);\nlet m = scene.parameter(\"m\", 1);\n\
                  let omega = sqrt(k / m);\ncheck_close(omega.derivative_by(\"k\"), 0.25, 1e-9);\ncheck_close(derivative_by(omega, \"m\"), -1, 1e-8);",
@@ -56,7 +71,7 @@ pub const TABLE: BindingTable = BindingTable {
             .see(&["parameter"]),
         function("value_of", &[X], |call| Ok(plain(&call.value("x")?)))
             .returns(Returns::ANYTHING.words("the same without derivatives"))
-            .summary("A number, vector, array or map without its derivatives.")
+            .summary("Returns a number, vector, array or map without its derivatives.")
             .example(
                 "let scene = new_scene(\"one\");\nlet k = scene.parameter(\"k\", 4);\ncheck(value_of(2 * k) == 8);",
             )
@@ -65,7 +80,8 @@ pub const TABLE: BindingTable = BindingTable {
 };
 
 const KEYS: &[Parameter] = &[number("distance").positive().doc(
-    "how far from its value those lie on both sides by which derivatives are taken; 1e-5 of its magnitude (1e-5 for 0) unless given",
+    "distance of the two neighbouring values from which derivatives are computed; default: 1e-5 \
+    of the magnitude (1e-5 for 0)",
 ).optional()];
 const VARIED: Type = Type::of::<VariantValue>();
 const X: Parameter = anything("x");
@@ -77,9 +93,11 @@ fn declare(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let distance = call.options_or_defaults("options")?.number_if_given("distance");
     if let Some(distance) = distance.filter(|by| *by < LEAST_DISTANCE * value.abs()) {
         let [distance, value] = [distance, value].map(format_number);
-        let told = format!("{value} with a distance of {distance} cannot be told from {value}");
-        let hint =
-            "1e-5 of the value is the usual distance, 1e-7 to 1e-3 of it are good for something";
+        let told = format!(
+            "the distance {distance} is too small: {value} plus or minus the distance is \
+            rounded to {value}"
+        );
+        let hint = "use 1e-5 of the value, or 1e-7 to 1e-3 of it";
         return Err(call.error(told).hint(hint).at(CallPart::Key("distance".into())));
     }
     let scene = call.receiver::<SceneHandle>()?;
@@ -118,7 +136,7 @@ fn derivative(call: &Call, value: &Dynamic, name: &str) -> Result<Dynamic, Scrip
             let told = format!("{} has no derivatives", call.describe(value));
             Err(call
                 .error(told)
-                .hint("numbers, vectors and arrays of them have")
+                .hint("derivatives exist of numbers, vectors and arrays of them")
                 .at(CallPart::Argument(0)))
         }
     }

@@ -17,19 +17,24 @@ use crate::system::{Drag, Dragged, SpeedLaw, SystemError};
 
 pub const TABLE: BindingTable = BindingTable {
     name: "drag",
-    doc: "What air or water takes from all that moves through it. It is kept in the ledger: E - W + D stays constant to rounding with \
-          energy_momentum() and fourth_order(), at any step, and its impulse counts as that of a load.",
+    doc: "Drag of air or water on beams, particles and stations. Its energy is part of the \
+        balance: E - W + D stays constant to rounding with energy_momentum() and \
+        fourth_order(), at any step size, and its impulse counts like that of a load.",
     types: &[],
     setup: super::scenes::ROD,
     constants: &[],
     rows: &[
         method(SCENE, "drag", &[either("on", DRAGGED), options("options", DRAG_KEYS)], drag)
-            .summary("A force against the velocity: of a beam per length, across and along its axis; of a particle or a station alike in every direction.")
+            .summary("Adds a force against the velocity: per length of a beam, normal and tangential \
+                to its axis, or on a particle or a station, independent of direction.")
             .doc(
-                "On a beam -normal v_n - tangent v_t per length, with quadratic: #{ normal: …, tangent: … } also -k |v| v of either component. On a particle or \
-                 a station -linear v - quadratic |v| v. With a wind v is relative to it: what the medium takes is D, and what the wind gives, force times \
-                 wind, is work W. It is called drag1, drag2, … unless it gets a name, and its part of the ledger is the column dissipated.NAME. Equilibria leave \
-                 it out, and modes take its linear part.",
+                "The force on a beam is -normal v_n - tangent v_t per length; quadratic: #{ \
+                normal: …, tangent: … } adds -k |v| v for each component. The force on a \
+                particle or a station is -linear v - quadratic |v| v. With a wind, v is the \
+                velocity relative to it: the energy dissipated in the medium is D, and force \
+                times wind is work W. Default names: drag1, drag2, … The dissipated energy is \
+                in the column dissipated.NAME. Equilibria ignore drag; modes use its linear \
+                part.",
             )
             .example(
                 "scene.drag(rod, #{ normal: 0.2, tangent: 0.01 });\nlet stone = scene.particle([0, 3], 0.5);\n\
@@ -43,13 +48,28 @@ pub const TABLE: BindingTable = BindingTable {
 
 const DRAGGED: &[Kind] = &[Kind::Object(BEAM), Kind::Object(STATION)];
 const DRAG_KEYS: &[Parameter] = &[
-    number("normal").non_negative().unit("force·time/length²").doc("of a beam, across its axis").optional(),
-    number("tangent").non_negative().unit("force·time/length²").doc("of a beam, along its axis").optional(),
-    number("linear").non_negative().unit("force·time/length").doc("of a particle or a station").optional(),
-    either("quadratic", &[Kind::Number(NumberRange::NonNegative), Kind::Options(QUADRATIC_KEYS)])
-        .doc("of a particle or a station a number [force·time²/length²], of a beam #{ normal: …, tangent: … } [force·time²/length³]")
+    number("normal")
+        .non_negative()
+        .unit("force·time/length²")
+        .doc("coefficient normal to the axis of a beam")
         .optional(),
-    point("wind").unit("length/time").doc("the velocity of the medium; still unless given").optional(),
+    number("tangent")
+        .non_negative()
+        .unit("force·time/length²")
+        .doc("coefficient tangential to the axis of a beam")
+        .optional(),
+    number("linear")
+        .non_negative()
+        .unit("force·time/length")
+        .doc("linear coefficient for a particle or a station")
+        .optional(),
+    either("quadratic", &[Kind::Number(NumberRange::NonNegative), Kind::Options(QUADRATIC_KEYS)])
+        .doc(
+            "quadratic coefficient: for a particle or a station a number [force·time²/length²], \
+            for a beam #{ normal: …, tangent: … } [force·time²/length³]",
+        )
+        .optional(),
+    point("wind").unit("length/time").doc("velocity of the medium; default: at rest").optional(),
     text("name").optional(),
 ];
 const QUADRATIC_KEYS: &[Parameter] = &[
@@ -81,7 +101,7 @@ fn drag(call: &mut Call) -> Result<Dynamic, ScriptError> {
 }
 
 fn of_beam(call: &Call, beam: usize, options: &Options) -> Result<Dragged, ScriptError> {
-    let advice = "a beam is dragged across and along its axis: give normal and tangent";
+    let advice = "drag on a beam needs normal and tangent coefficients";
     refuse(call, options, &["linear"], advice)?;
     let ways = ["normal", "tangent", "quadratic"];
     expect_one(
@@ -91,7 +111,7 @@ fn of_beam(call: &Call, beam: usize, options: &Options) -> Result<Dragged, Scrip
         "give normal, tangent, or quadratic: #{ normal: …, tangent: … }",
     )?;
     if call_number(options, "quadratic").is_some() {
-        let told = "quadratic is a number, and a beam is dragged across and along its axis";
+        let told = "quadratic is a number, but a beam needs one coefficient for each direction";
         let hint = "give quadratic: #{ normal: …, tangent: … }";
         return Err(call.error(told).hint(hint).at(CallPart::Key("quadratic".into())));
     }
@@ -104,11 +124,11 @@ fn of_beam(call: &Call, beam: usize, options: &Options) -> Result<Dragged, Scrip
 }
 
 fn of_point(call: &Call, scene: &SceneHandle, options: &Options) -> Result<Dragged, ScriptError> {
-    let advice = "a point has no axis: give linear, quadratic or both";
+    let advice = "drag on a point needs coefficients without direction";
     refuse(call, options, &["normal", "tangent"], advice)?;
     expect_one(call, options, &["linear", "quadratic"], "give linear, quadratic or both")?;
     if options.get_if::<Options>("quadratic").is_some() {
-        let told = "quadratic is given by directions, and a point has none";
+        let told = "quadratic has directions, but drag on a point has none";
         let hint = "give quadratic: a number";
         return Err(call.error(told).hint(hint).at(CallPart::Key("quadratic".into())));
     }
@@ -133,14 +153,14 @@ fn expect_one(
     if ways.iter().any(|key| options.has(key)) {
         return Ok(());
     }
-    let told = "how strongly it is dragged is missing";
+    let told = "a drag coefficient is missing";
     Err(call.error(told).hint(hint).at(CallPart::Argument(1)))
 }
 
 fn refuse(call: &Call, options: &Options, odd: &[&str], advice: &str) -> Result<(), ScriptError> {
     match odd.iter().find(|key| options.has(key)) {
         Some(key) => {
-            let told = format!("'{key}' says nothing here");
+            let told = format!("'{key}' has no effect here");
             Err(call.error(told).hint(advice).at(CallPart::Key((*key).into())))
         }
         None => Ok(()),

@@ -22,30 +22,43 @@ use crate::system::{Drive, DriveKind, SystemError};
 
 pub const TABLE: BindingTable = BindingTable {
     name: "supports and drives",
-    doc: "A support holds movements of a station, a drive gives them as functions of time. What is given is no unknown: place and angle are \
-          exact at the end of every step, however long, and what it takes is the reaction. A drive does work: E - W + D, p - ∫F dt and L - ∫M dt stay at \
-          rounding with it. The history has work.NAME of every drive and of every load with a name, NAME.torque of a motor, and NAME.x, NAME.y and NAME.angle \
-          of what moves a station: its force along each, and its moment, mean of each step; a moment is the one whose work is with the angle that the section turns by, \
-          exact however far that is.",
+    doc: "A support fixes displacements or the rotation of a station; a drive prescribes them as \
+        functions of time. Prescribed components are not unknowns: position and angle are \
+        exact at the end of every step, and the required force is the reaction. With drives E \
+        - W + D, p - ∫F dt and L - ∫M dt stay constant to rounding. The history has work.NAME \
+        of every drive and every named load, NAME.torque of a motor, and NAME.x, NAME.y and \
+        NAME.angle of a drive made by scene.move: its force in x and y and its moment, as \
+        means of each step. The product of the moment and the rotation is exactly the work, \
+        for any rotation.",
     types: &[],
     setup: super::scenes::ROD,
     constants: &[],
     rows: &[
         method(SCENE, "support", &[AT, options("options", SUPPORT_KEYS)], support)
             .returns(Returns::object(JOINT))
-            .summary("Holds some of the movements of a station on the ground: x, y, angle, or all across a direction.")
-            .doc("A roller on a floor is #{ y: true }; along: [1, 0] says the same by the direction in which it stays free, and along: [1, 1] is an inclined \
-                  roller; its reaction is across that direction. angle: true beside it makes a guide of it, that does not turn. What holds everything is scene.clamp, what holds the position scene.hinge.")
+            .summary("Fixes some displacements of a station to the ground: x, y, angle, or the \
+                displacement normal to a direction.")
+            .doc("A roller on a floor is #{ y: true }. along: [1, 0] is the same, given by the \
+                free direction, and along: [1, 1] is an inclined roller; its reaction is \
+                normal to this direction. With angle: true it is a guide, which does not \
+                rotate. Use scene.clamp to fix everything and scene.hinge to fix the position.")
             .example("scene.hinge(rod.start);\nscene.support(rod.end, #{ y: true });\nlet cart = scene.particle([0, 1], 2);\nscene.support(cart, #{ along: [1, -1] });\n\
                       scene.gravity([0, -9.81]);\nlet sim = scene.start(#{ dt: 0.01 });\nsim.run_to(1);\n\
                       check_close(sim.velocity(cart).norm(), 9.81 * sqrt(0.5), 1e-9);")
             .see(&["clamp", "hinge", "move"]),
         method(SCENE, "move", &[AT, options("options", MOVE_KEYS)], drive)
-            .summary("Gives the motion of a station: x, y and angle, each a function of time, or some of them.")
-            .doc("They are displacements from the place as drawn, and the turn from the angle as drawn, so that each must be 0 at t = 0 and may not jump, which is refused where it happens; schedules::smooth_step of std/schedules leads to a place in a time. Steps end \
-                  where a schedule bends; a function bends at schedule(|t| …, [times]). x_speed and y_speed give a rate in place of x and y, from the place as drawn on: a function of time, or a controller \
-                  |t, q| … that is asked at the start of every step, as the speed of a motor. The node there begins with the rate of the function: where its beam rests, that is a blow. At rest \
-                  (scene.equilibrium) they are taken at the option `time` and put on with the loads, by the load factor.")
+            .summary("Prescribes the motion of a station: x, y and angle, or some of them, as \
+                functions of time.")
+            .doc("x and y are displacements from the undeformed position, angle is the rotation \
+                from the undeformed angle. Each must be 0 at t = 0 and must not jump; a jump \
+                is refused with an error when the run reaches it. schedules::smooth_step of \
+                std/schedules moves to a place in a given time. Steps end at kinks; a function \
+                declares them by schedule(|t| …, [times]). x_speed and y_speed prescribe rates \
+                instead, starting from the undeformed position: a function of time, or a \
+                controller |t, q| …, called at the start of every step. The initial velocity \
+                of the node is that of the function; for a beam at rest this is an impact. \
+                scene.equilibrium evaluates drives at the option `time`, in proportion to the \
+                load factor.")
             .example("scene.move(rod.start, #{ x: 0, y: |t| 0.01 * (1 - cos(40 * t)), angle: 0, name: \"shaker\" });\n\
                       let sim = scene.start(#{ dt: 0.005 });\nsim.run_to(0.5);\n\
                       check_close(sim.position(rod.start).y, 0.01 * (1 - cos(20)), 1e-14);\n\
@@ -55,10 +68,14 @@ pub const TABLE: BindingTable = BindingTable {
                       yard.move(trolley, #{ x_speed: |t, q| 2 * (3 - q.position(trolley).x), y: 0 });")
             .see(&["motor", "support"]),
         method(SCENE, "motor", &[AT, options("options", MOTOR_KEYS)], motor)
-            .summary("Turns a section from the ground: by an angle or at a speed that is given, or with a torque.")
-            .doc("angle is the turn since the start, a function of time, and exact at the end of every step. speed is a rate: its integral over a step is taken by \
-                  three Gauss points, exact for polynomials of degree five. torque is a moment, counter-clockwise. speed and torque may be functions |t, q| … of the simulation too: sampled controllers, as in scene.force, where it says when they are asked, and what sample and delay make of them. The section keeps free to move along x and y \
-                  unless something holds it there, so hinge it.")
+            .summary("Rotates a section relative to the ground: by a prescribed angle, at a \
+                prescribed speed, or with a torque.")
+            .doc("angle is the rotation since the start, a function of time; it is exact at the \
+                end of every step. speed is a rate: it is integrated over a step by three \
+                Gauss points, exact for polynomials up to degree five. torque is a moment, \
+                positive counter-clockwise. speed and torque may also be sampled controllers \
+                |t, q| …; see scene.force for the times of the calls and for sample and delay. \
+                The section can still move in x and y: add a hinge to fix it.")
             .example("scene.hinge(rod.start);\nscene.motor(rod.start, #{ angle: |t| 0.5 * t * t });\n\
                       let sim = scene.start(#{ dt: 0.1 });\nsim.run_to(2);\n\
                       check_close(sim.angle(rod.start), 2, 1e-12);\n\
@@ -70,11 +87,11 @@ pub const TABLE: BindingTable = BindingTable {
 const AT: Parameter = object("station", STATION);
 const NAME: Parameter = text("name").optional();
 const SUPPORT_KEYS: &[Parameter] = &[
-    boolean("x").doc("whether x is held").optional(),
-    boolean("y").doc("whether y is held").optional(),
-    boolean("angle").doc("whether the angle is held").optional(),
+    boolean("x").doc("true to fix x").optional(),
+    boolean("y").doc("true to fix y").optional(),
+    boolean("angle").doc("true to fix the angle").optional(),
     point("along")
-        .doc("a direction along which the station stays free, in place of x and y")
+        .doc("direction along which the station can move, in place of x and y")
         .optional(),
 ];
 const MOVE_KEYS: &[Parameter] = &[
@@ -83,11 +100,11 @@ const MOVE_KEYS: &[Parameter] = &[
     either("angle", SCHEDULE_KINDS).unit("rad").optional(),
     either(SPEEDS[0], SCHEDULE_KINDS)
         .unit("length/time")
-        .doc("in place of x, its rate; also a controller |t, q| …")
+        .doc("rate of x, in place of x; also a controller |t, q| …")
         .optional(),
     either(SPEEDS[1], SCHEDULE_KINDS)
         .unit("length/time")
-        .doc("in place of y, its rate; also a controller |t, q| …")
+        .doc("rate of y, in place of y; also a controller |t, q| …")
         .optional(),
     NAME,
     SAMPLE,
@@ -95,7 +112,7 @@ const MOVE_KEYS: &[Parameter] = &[
 ];
 const SPEEDS: [&str; 2] = ["x_speed", "y_speed"];
 const MOTOR_KEYS: &[Parameter] = &[
-    either("angle", SCHEDULE_KINDS).unit("rad").doc("the turn since the start").optional(),
+    either("angle", SCHEDULE_KINDS).unit("rad").doc("rotation since the start").optional(),
     either("speed", SCHEDULE_KINDS).unit("rad/time").optional(),
     either("torque", SCHEDULE_KINDS).unit("force·length").optional(),
     NAME,
@@ -111,12 +128,12 @@ fn support(call: &mut Call) -> Result<Dynamic, ScriptError> {
         true => {
             if let Some(odd) = ["x", "y"].into_iter().find(|key| options.has(key)) {
                 let told =
-                    format!("along says which of x and y is held, and {odd} is given besides");
+                    format!("{odd} is given together with along; along already determines x and y");
                 return Err(call.error(told).at(CallPart::Key(odd.into())));
             }
             let kind = if is_held("angle") { JointKind::guide } else { JointKind::roller };
             let told = "along has no direction: it is [0, 0]";
-            let hint = "write along: [1, 1], or the direction of the line on which it may move";
+            let hint = "write along: [1, 1], or another direction in which the station can move";
             let refused = || call.error(told).hint(hint).at(CallPart::Key("along".into()));
             Some(kind(options.point("along")?).ok_or_else(refused)?)
         }
@@ -124,8 +141,8 @@ fn support(call: &mut Call) -> Result<Dynamic, ScriptError> {
     };
     let Some(held) = held else {
         return Err(call
-            .error("it holds nothing")
-            .hint("write #{ y: true }, or some of x, y and angle")
+            .error("no component is fixed")
+            .hint("write #{ y: true }, or set some of x, y and angle")
             .at(CallPart::Argument(1)));
     };
     scene.borrow_mut().join(held, station, Partner::Ground)?;
@@ -149,7 +166,7 @@ fn drive(call: &mut Call) -> Result<Dynamic, ScriptError> {
     for (motion, key) in motions.iter_mut().zip(SPEEDS).filter(|(_, key)| options.has(key)) {
         if motion.is_some() {
             let place = key.trim_end_matches("_speed");
-            let told = format!("{place} says where it is, and {key} is given besides");
+            let told = format!("both {place} and {key} are given");
             let hint = format!("leave out {place} or {key}");
             return Err(call.error(told).hint(hint).at(CallPart::Key(key.into())));
         }
@@ -159,8 +176,8 @@ fn drive(call: &mut Call) -> Result<Dynamic, ScriptError> {
     }
     if motions.iter().all(Option::is_none) {
         return Err(call
-            .error("it moves nothing")
-            .hint("write #{ y: |t| 0.1 * t }, or some of x, y and angle")
+            .error("no component is moved")
+            .hint("write #{ y: |t| 0.1 * t }, or set some of x, y and angle")
             .at(CallPart::Argument(1)));
     }
     expect_controller(call, beat, motions.iter().flatten().map(PrescribedMotion::schedule))?;
@@ -176,8 +193,11 @@ fn place_of(
 ) -> Result<Schedule, ScriptError> {
     let function = options.get_if::<FnPtr>(key);
     if function.is_some_and(|function| call.arguments_of(&function) == Some(2)) {
-        let told = format!("{key} is a place, which would jump wherever a controller speaks");
-        let hint = format!("let it give a rate, {rate}");
+        let told = format!(
+            "{key} is a position; a controller must not set it, because it would jump at every \
+            call"
+        );
+        let hint = format!("prescribe the rate instead: {rate}");
         return Err(call.error(told).hint(hint).at(CallPart::Key(key.into())));
     }
     schedule_of(call, options, key)
@@ -187,12 +207,12 @@ fn motor(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let options = call.options("options")?;
     let mut given = ["angle", "speed", "torque"].into_iter().filter(|key| options.has(key));
     let Some(key) = given.next() else {
-        let told = "how it turns is missing";
+        let told = "the angle, speed or torque is missing";
         let hint = "give one of angle, speed and torque: #{ angle: |t| 3 * t * t }";
         return Err(call.error(told).hint(hint).at(CallPart::Argument(1)));
     };
     if let Some(odd) = given.next() {
-        let told = format!("its {key} says how it turns, and {odd} is given besides");
+        let told = format!("both {key} and {odd} are given");
         return Err(call
             .error(told)
             .hint(format!("leave out {odd}"))
@@ -221,7 +241,7 @@ fn motor(call: &mut Call) -> Result<Dynamic, ScriptError> {
             let (station, scene) = here(call, "station")?;
             if scene.borrow().is_held(&station, Component::Rotation) {
                 let place = scene.borrow().describe(&station);
-                let told = format!("the angle of {place} is held, so that no torque turns it");
+                let told = format!("the angle of {place} is fixed, so a torque has no effect");
                 return Err(call
                     .error(told)
                     .hint("use scene.hinge in place of scene.clamp")

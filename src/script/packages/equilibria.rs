@@ -29,20 +29,22 @@ use crate::system::System;
 
 pub const TABLE: BindingTable = BindingTable {
     name: "equilibrium",
-    doc: "Where a scene rests under its loads. Loads are put on together, in steps from nothing to the whole; what happens over \
-          time plays no part. Loads that turn with a beam are followed. The elements are those of simulations.",
+    doc: "Static equilibrium of a scene under its loads. All loads are increased together from \
+        zero to their full value in load steps, independent of time. Follower loads rotate \
+        with the beam. The elements are those of simulations.",
     types: &[EQUILIBRIUM, CONTROL],
     setup: BENT,
     constants: &[],
     rows: &[
         method(SCENE, "equilibrium", &[options("options", LOADING).optional()], find)
             .returns(Returns::object(EQUILIBRIUM))
-            .summary("Finds where the scene rests under its loads and its weight.")
+            .summary("Finds the static equilibrium of the scene under its loads and gravity.")
             .doc(
-                "Something must act. Sliders rest without friction where nothing drives them along, or lean on an end of their beam. What is held by its loads alone, as a \
-                 pendulum, a chain or a bead in a sag, sinks from where it is drawn to its rest, as in something viscous. A load step that finds nothing \
-                 is halved, eight times at most. Where a structure snaps through, or to follow it under a falling load, take \
-                 control: arc_length().",
+                "At least one load must act. Sliders are in equilibrium without friction along \
+                the beam, or in contact with an end stop. Parts held only by their loads, such \
+                as a pendulum, a chain or a bead in a sag, move to the equilibrium as in a \
+                viscous medium. A load step without a solution is halved, up to eight times. \
+                For snap-through, or a path with decreasing load, use control: arc_length().",
             )
             .example(
                 "let rest = scene.equilibrium(#{ load_steps: 4 });\n\
@@ -51,7 +53,7 @@ pub const TABLE: BindingTable = BindingTable {
             .see(&["load_control", "arc_length", "modes", "start", "plot_equilibrium"]),
         function("load_control", &[], |_| Ok(Dynamic::from(Control::Load)))
             .returns(Returns::object(CONTROL))
-            .summary("Prescribes the load in each step: equal parts of it.")
+            .summary("Selects load control: the load increases by equal parts in each step.")
             .example("let rest = scene.equilibrium(#{ load_steps: 4, control: load_control() });\ncheck(rest.load_factors == [0, 0.25, 0.5, 0.75, 1]);")
             .see(&["arc_length", "equilibrium"]),
         function("arc_length", &[options("options", ARC_LENGTH).optional()], |call| {
@@ -60,10 +62,12 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(Dynamic::from(Control::ArcLength(arc)))
         })
         .returns(Returns::object(CONTROL))
-        .summary("Prescribes how far the scene moves in each step; the load follows, and may fall.")
+        .summary("Selects arc-length control: each step prescribes the displacement of the scene; \
+            the load is computed and can decrease.")
         .doc(
-            "So a path of equilibria is followed through its limit points, until the whole load is reached for the first time. \
-             The first step puts on 1/load_steps of the load. Riks, Int. J. Solids Struct. 15 (1979) 529-551.",
+            "The path of equilibria is followed through its limit points, until the full load \
+            is reached for the first time. The first step applies 1/load_steps of the load. \
+            Riks, Int. J. Solids Struct. 15 (1979) 529-551.",
         )
         .example(
             "let rest = scene.equilibrium(#{ load_steps: 4, control: arc_length(#{ longest: 0.1 }) });\n\
@@ -76,7 +80,7 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(Dynamic::from(position))
         })
         .returns(Returns::object(VECTOR).unit("length"))
-        .summary("Where a station rests.")
+        .summary("Returns the equilibrium position of a station.")
         .example("let rest = scene.equilibrium();\ncheck(rest.position(rod.end).y > 1);")
         .see(&["positions", "angle"]),
         method(EQUILIBRIUM, "positions", &[AT], |call| {
@@ -85,46 +89,57 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(positions.into_iter().map(Dynamic::from).collect::<Array>().into())
         })
         .returns(Returns::array_of(&ValueKind::Object(VECTOR)).unit("length"))
-        .summary("Where a station was at every point of the path, beginning with the unloaded scene.")
+        .summary("Returns the positions of a station at all points of the path, beginning with the \
+            unloaded scene.")
         .example("let rest = scene.equilibrium(#{ load_steps: 4 });\ncheck(rest.positions(rod.end).len() == 5);")
         .see(&["load_factors", "plot_load_path"]),
         method(EQUILIBRIUM, "angle", &[AT], angle)
             .returns(Returns::NUMBER.unit("rad"))
-            .summary("The angle of the section at a station, counter-clockwise and not wrapped.")
-            .doc("Stations inside a beam are followed if they were made before the equilibrium was found.")
+            .summary("Returns the angle of the section at a station, counter-clockwise and not \
+                wrapped.")
+            .doc("An interior station of a beam must have been created before the equilibrium \
+                was found; otherwise the angle is refused with an error.")
             .example("let rest = scene.equilibrium();\ncheck_close(rest.angle(rod.start), 0, 1e-12);"),
         method(EQUILIBRIUM, "reaction", &[AT], reaction)
             .returns(Returns::MAP)
-            .summary("What the support at a station gives.")
-            .doc("The map holds force, a vector, and moment. A joint between beams is no support: only what the ground gives is told.")
+            .summary("Returns the reaction of the support at a station.")
+            .doc("The map has force, a vector, and moment. Only reactions of the ground are \
+                returned, not the forces of joints between beams.")
             .example("let rest = scene.equilibrium();\ncheck_close(rest.reaction(rod.start).moment, -s.EI * 3.14159265358979 / 4, 1e-6);"),
         method(EQUILIBRIUM, "slider_position", &[WHICH], |call| {
             asked(call, |model, slider| model.slider_position(slider).into())
         })
         .returns(Returns::NUMBER)
-        .summary("Where a slider rests on its beam or track: 0 at the start, 1 at the end, by length as drawn.")
+        .summary("Returns the equilibrium position of a slider on its beam or track, by undeformed \
+            length: 0 at the start, 1 at the end.")
         .example(SLID)
         .see(&["slider_arc_length", "contact_force", "leans_on"]),
         method(EQUILIBRIUM, "slider_arc_length", &[WHICH], |call| {
             asked(call, |model, slider| model.slider_arc_length(slider).into())
         })
         .returns(Returns::NUMBER.unit("length"))
-        .summary("How far a slider rests from the start of its beam or track, by length as drawn.")
+        .summary("Returns the undeformed arc length from the start of the beam or track to the \
+            slider.")
         .example(SLID)
         .see(&["slider_position"]),
         method(EQUILIBRIUM, "contact_force", &[WHICH], |call| {
             asked(call, |model, slider| Dynamic::from(model.contact_force(slider)))
         })
         .returns(Returns::object(VECTOR).unit("force"))
-        .summary("The force of a slider on its beam, at rest; its station gets the opposite.")
+        .summary("Returns the contact force of a slider on its beam in equilibrium; the force on its \
+            station is the opposite.")
         .example(SLID)
         .see(&["slider_position"]),
         method(EQUILIBRIUM, "leans_on", &[WHICH], |call| {
             asked(call, |model, slider| model.slider_leans_on(slider).unwrap_or_default().into())
         })
-        .returns(Returns::TEXT.note(", empty for one that hangs free of the ends"))
-        .summary("The end of its beam or track on whose stop a slider leans, \"start\" or \"end\", or a \"seam\" of its track.")
-        .doc("A stop pushes and never pulls. Sliders with ends: \"stop\" and ends: \"bounce\" lean; one with ends: \"release\" has left there, and has no rest. In modes about the equilibrium one that leans is held where it is.")
+        .returns(Returns::TEXT.note(", empty if the slider is not in contact with an end stop"))
+        .summary("Returns the end of the beam or track whose stop a slider is in contact with, \
+            \"start\" or \"end\", or a \"seam\" of its track.")
+        .doc("A stop only pushes. Sliders with ends: \"stop\" and ends: \"bounce\" can be in \
+            contact with it; one with ends: \"release\" leaves the beam there and has no \
+            equilibrium. In modes about the equilibrium a slider in contact with a stop is \
+            fixed.")
         .example(SLID)
         .see(&["slider_position"]),
         method(EQUILIBRIUM, "modes", &[COUNT], |call| {
@@ -136,8 +151,9 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(Dynamic::from(ModesHandle::new(handle.scene().clone(), handle.rest().scene(), modes)))
         })
         .returns(Returns::object(MODES))
-        .summary("The lowest natural frequencies and shapes of vibration about the equilibrium.")
-        .doc("A configuration that is not stable has modes that grow instead: see growth_rates. There are none where a load turns with the beam.")
+        .summary("Computes the lowest natural frequencies and mode shapes about the equilibrium.")
+        .doc("An unstable equilibrium has growing modes; see growth_rates. Refused with an error \
+            if a follower load acts.")
         .example("let rest = scene.equilibrium();\ncheck(rest.modes(2).is_stable);")
         .see(&["modes", "plot_modes"]),
         method(EQUILIBRIUM, "damped_modes", &[COUNT], |call| {
@@ -145,8 +161,9 @@ pub const TABLE: BindingTable = BindingTable {
             look_for_damped(call, handle.rest().model())
         })
         .returns(Returns::ARRAY)
-        .summary("The lowest damped vibrations about the equilibrium: maps of decay_rate, angular_frequency and damping_ratio.")
-        .doc("As scene.damped_modes, about the equilibrium.")
+        .summary("Computes the lowest damped vibrations about the equilibrium: maps of decay_rate, \
+            angular_frequency and damping_ratio.")
+        .doc("See scene.damped_modes for accuracy and restrictions.")
         .example("let rest = scene.equilibrium();\ncheck_close(rest.damped_modes(1)[0].angular_frequency, rest.modes(1).angular_frequencies[0], 1e-6);")
         .see(&["modes"]),
         method(EQUILIBRIUM, "start", &[options("options", START)], |call| {
@@ -156,12 +173,13 @@ pub const TABLE: BindingTable = BindingTable {
             })
         })
         .returns(Returns::object(SIMULATION))
-        .summary("Puts the scene at t = 0 where it rests, without velocity.")
+        .summary("Starts a simulation from the equilibrium, at rest at t = 0.")
         .doc(
-            "Its loads follow their schedules from there: what was bent by hold_for(1) is let go at t = 1. Options are those of \
-             scene.start. The whole of the loads acts there, whatever load_factor and time led to the equilibrium. Where a drive has moved the scene, \
-             the simulation begins at the time of the equilibrium instead, for loads too: at t = 1 after scene.equilibrium(#{ time: 1 }). So functions of drives \
-             that come to rest by then let it rest.",
+            "Loads follow their schedules from t = 0: a load with hold_for(1) ends at t = 1. \
+            The options are those of scene.start. The full loads act, whatever load_factor and \
+            time the equilibrium had. If a drive has moved the scene, simulation and loads \
+            start at the time of the equilibrium instead: at t = 1 after scene.equilibrium(#{ \
+            time: 1 }). With drives that are at rest by then, the scene stays at rest.",
         )
         .example(
             "let rest = scene.equilibrium();\nlet sim = rest.start(#{ dt: 0.01 });\nsim.run_to(0.1);\n\
@@ -169,33 +187,36 @@ pub const TABLE: BindingTable = BindingTable {
         )
         .see(&["hold_for"]),
         told("is_stable", Returns::TRUTH, is_stable)
-        .summary("Whether every small disturbance meets resistance; a structure leaves an equilibrium that is not stable.")
+        .summary("True if the equilibrium is stable: every small disturbance increases the potential \
+            energy.")
         .example("check(scene.equilibrium().is_stable);")
         .see(&["modes", "limit_points"]),
         told("load_factor", Returns::NUMBER.unit("-"), |call| look(call, |of| of.path().load_factor().into()))
-            .summary("The part of the loads that acts: what was asked for, unless a path ended before.")
+            .summary("Fraction of the loads that acts: the requested one, unless the path ended \
+                earlier.")
             .example("check(scene.equilibrium().load_factor == 1);"),
         told("load_factors", Returns::NUMBERS.unit("-"), |call| look(call, |of| {
             of.path().points().iter().map(|point| point.load_factor.into()).collect::<Array>().into()
         }))
-        .summary("That at every point of the path, beginning with 0.")
+        .summary("Load factors at all points of the path, beginning with 0.")
         .example("check(scene.equilibrium(#{ load_steps: 2 }).load_factors == [0, 0.5, 1]);"),
         told("limit_points", Returns::NUMBERS.unit("-"), |call| look(call, |of| {
             of.path().limit_points().into_iter().map(Dynamic::from).collect::<Array>().into()
         }))
-        .summary("The load factors at which the path turns: where the structure would snap through.")
+        .summary("Load factors at the limit points of the path, where the structure would snap \
+            through.")
         .example("check(scene.equilibrium().limit_points.len() == 0);")
         .see(&["arc_length"]),
         told("strain", Returns::NUMBER.unit("energy"), |call| look(call, |of| {
             of.path().points().last().map_or(0.0, |point| point.strain_energy).into()
         }))
-        .summary("The strain energy.")
+        .summary("Strain energy of the equilibrium.")
         .example("check_close(scene.equilibrium().strain, (s.EI * 3.14159265358979 / 4)^2 * rod.length / s.EI / 2, 1e-6);"),
         told("iterations", Returns::WHOLE, |call| look(call, |of| {
             let taken = of.path().points().iter().map(|point| point.iterations).sum::<usize>();
             Dynamic::from(taken as INT)
         }))
-        .summary("Newton iterations of all steps that led there.")
+        .summary("Number of Newton iterations of all load steps.")
         .example("check(scene.equilibrium(#{ load_steps: 4 }).iterations <= 16);"),
     ],
 };
@@ -224,27 +245,33 @@ const CONTROL: Type = Type::of::<Control>();
 
 const AT: Parameter = object("station", STATION);
 const LOADING: &[Parameter] = &[
-    whole("load_steps")
-        .between(1.0, 100_000.0)
-        .or(Presence::Whole(10))
-        .doc("in how many steps the loads are put on; with arc_length() the part of the first"),
-    object("control", CONTROL).doc("load_control() unless given, or arc_length()").optional(),
-    number("load_factor").or(Presence::Number(1.0)).doc("how much of the loads acts at the end"),
+    whole("load_steps").between(1.0, 100_000.0).or(Presence::Whole(10)).doc(
+        "number of load steps; with arc_length() the first step applies 1/load_steps of the \
+            load",
+    ),
+    object("control", CONTROL)
+        .doc("load_control() or arc_length(); default: load_control()")
+        .optional(),
+    number("load_factor").or(Presence::Number(1.0)).doc("fraction of the loads at the end"),
     number("time")
         .unit("time")
         .or(Presence::Number(0.0))
-        .doc("when loads are taken from their schedules, just after it"),
+        .doc("time at which schedules are evaluated, just after it"),
 ];
 const ARC_LENGTH: &[Parameter] = &[
     number("longest").positive().or(Presence::Number(0.05)).doc(
-        "the longest step: the root mean square of displacements over the longest beam, and of rotations in rad",
+        "largest step: root mean square of displacements divided by the length of the longest \
+        beam, and of rotations in rad",
     ),
-    whole("points").between(3.0, 100_000.0).or(Presence::Whole(1000)).doc("most points of the path, which then ends where it is"),
+    whole("points")
+        .between(3.0, 100_000.0)
+        .or(Presence::Whole(1000))
+        .doc("largest number of points of the path, which ends there"),
 ];
 
 impl Scripted for Control {
     const NAME: &'static str = "load control";
-    const DOC: &'static str = "What is prescribed while loads are put on.";
+    const DOC: &'static str = "Quantity that is prescribed in the steps of an equilibrium path.";
 
     fn show(&self) -> String {
         match self {
@@ -318,14 +345,14 @@ fn is_stable(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let context = call.context();
     let stability = handle.rest_mut().stability(&mut || !context.is_stopped());
     let unknown = |why: &str| {
-        let hint = "simulate: rest.start(#{ dt: … }), and disturb it";
-        Err(call.error(format!("whether it rests stably is not known: {why}")).hint(hint))
+        let hint = "simulate it with a disturbance: rest.start(#{ dt: … })";
+        Err(call.error(format!("the stability of the equilibrium is unknown: {why}")).hint(hint))
     };
     match stability {
         Stability::Stable => Ok(true.into()),
         Stability::Unstable => Ok(false.into()),
-        Stability::Hidden => unknown("the stiffnesses differ so much that rounding hides it"),
-        Stability::Follower => unknown("a load turns with the beam, and has no potential"),
+        Stability::Hidden => unknown("the stiffnesses differ so much that rounding errors hide it"),
+        Stability::Follower => unknown("a follower load acts, which has no potential"),
     }
 }
 
@@ -356,7 +383,7 @@ fn reaction(call: &mut Call) -> Result<Dynamic, ScriptError> {
         let station = call.get::<StationHandle>("station")?;
         return Err(call
             .error(format!("nothing holds the scene at {}", station.show()))
-            .hint("ask where scene.clamp(…) or scene.hinge(…) ties it to the ground"));
+            .hint("use a station with scene.clamp(…) or scene.hinge(…) to the ground"));
     };
     let map = [("force", Dynamic::from(force)), ("moment", moment.into())];
     Ok(map.into_iter().map(|(name, value)| (name.into(), value)).collect::<Map>().into())

@@ -18,7 +18,7 @@ const WIDTH: usize = 100;
 
 pub const TABLE: BindingTable = BindingTable {
     name: "looking closely",
-    doc: "What a scene makes its simulation do, and what a value is.",
+    doc: "Descriptions of values, and of the work of the simulation of a scene.",
     types: &[],
     setup: SPINNING,
     constants: &[],
@@ -28,8 +28,11 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(if shown.is_empty() { "nothing".into() } else { shown.into() })
         })
         .returns(Returns::TEXT)
-        .summary("A value as the prompt shows it: with what a person wants to know at a glance, in a few aligned lines.")
-        .doc("Numbers have up to ten digits; long arrays and maps are elided.")
+        .summary(
+            "Returns the description of a value that the prompt shows: its main properties in a \
+            few aligned lines.",
+        )
+        .doc("Numbers have up to ten digits; long arrays and maps are shortened.")
         .example("print(describe(rod));\ncheck(describe(0.1 + 0.2) == \"0.3\");")
         .see(&["explain"]),
         method(SCENE, "is_like", &[object("other", SCENE)], |call| {
@@ -38,10 +41,13 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(is_like.into())
         })
         .returns(Returns::TRUTH)
-        .summary("Whether another scene has the same beams, joints, masses, velocities and loads, in the same order.")
+        .summary(
+            "Returns true if another scene has the same beams, joints, masses, velocities and \
+            loads, in the same order.",
+        )
         .doc(
-            "Names do not count, nor do differences of a billionth. Functions of scripts cannot be compared: a scene with a load that \
-             follows one is like no other scene.",
+            "Names and relative differences up to 1e-9 are ignored. Functions of scripts cannot \
+            be compared: a scene with a load that is a function is not like any other scene.",
         )
         .example(
             "let pair = [\"a\", \"b\"].map(|name| new_scene(name));\n\
@@ -54,15 +60,21 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(written(&parts))
         })
         .returns(Returns::TEXT)
-        .summary("What a simulation of the scene uses and what it therefore leaves out, as a table.")
-        .doc("A scene pays only for what it uses. The scene is built for this, as scene.start(…) would build it.")
+        .summary(
+            "Returns a table of the features that a simulation of the scene uses, and of the \
+            work that it can therefore omit.",
+        )
+        .doc(
+            "Features that a scene does not use have no cost. The scene is built for this table \
+            in the same way as by scene.start(…).",
+        )
         .example("print(scene.explain());\ncheck(scene.explain().contains(\"plain band\"));")
         .see(&["start", "describe"]),
         method(SIMULATION, "explain", &[], |call| {
             Ok(written(&call.receiver::<SimulationHandle>()?.simulation().explain()))
         })
         .returns(Returns::TEXT)
-        .summary("The same for a simulation, with its integrator and its steps.")
+        .summary("Returns the same table for a simulation, with its integrator and its steps.")
         .example("print(sim.explain());\ncheck(sim.explain().contains(\"energy_momentum\"));")
         .see(&["invariants"]),
     ],

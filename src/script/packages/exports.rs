@@ -24,39 +24,51 @@ use crate::script::studies::sweeps::table::SweepTable;
 
 pub const TABLE: BindingTable = BindingTable {
     name: "exports",
-    doc: "What a simulation was, for other programs: ParaView, NumPy, tables. Each file is whole or not there. `withy convert` makes the same of a saved \
-          simulation, without its script.",
+    doc: "Exports of simulations for other programs: ParaView, NumPy, tables. Each file is \
+        written completely or not at all. `withy convert` exports a saved simulation without \
+        its script.",
     types: &[],
     setup: SPINNING,
     constants: &[],
     rows: &[
         function("write_vtk", &[OF, VTK_FILE, options("options", FRAMES).optional()], write_vtk)
-            .summary("Writes frames of the motion for ParaView: RUN.pvd, which has the times, and a grid RUN/RUN_0001.vtu … for each frame.")
+            .summary("Writes frames of the motion for ParaView: RUN.pvd with the times, and a grid \
+                RUN/RUN_0001.vtu … for each frame.")
             .doc(
-                "A beam is a line through its knots and three places between each two of them, twice where a joint cuts it; a particle is a dot, and so is the centre of a rigid body. \
-                 The cell field `body` numbers them: beams first, then particles, then rigid bodies. Fields of points are arc_length, velocity, angle [rad], N, Q \
-                 and M, zero on particles and rigid bodies. A configuration that is recorded has no velocities and no section forces, so the states themselves \
-                 are needed: those that are kept to go back to (option `snapshots`), or, where one is forgotten, those of the run made again in a copy, which takes \
-                 the time of the run and is compared with it bit for bit. Where that is another run, because a function had changed it on its way or it began at \
-                 an equilibrium, the shape alone is written, and that is told. Frames are recorded \
-                 configurations, none is made up between them. Frames of an earlier, longer export stay where they are, and the .pvd does not name them.",
+                "A beam is a line through its knots and three points between each two of them, \
+                with double points where a joint divides it; particles and centres of rigid \
+                bodies are points. The cell field `body` numbers beams first, then particles, \
+                then rigid bodies. Point fields are arc_length, velocity, angle [rad], N, Q \
+                and M, zero on particles and rigid bodies. Velocities and section forces need \
+                complete states: stored ones (option `snapshots`), or those of the run \
+                repeated in a copy, which takes the time of the run and is compared bit for \
+                bit. If the repeated run differs, because a function had changed the \
+                simulation or it started from an equilibrium, only the shape is written, with \
+                a note. Frames are recorded configurations, without interpolation. Frames of \
+                an earlier, longer export are not deleted, but the .pvd does not list them.",
             )
             .example("sim.run_to(2);\nwrite_vtk(sim, \"spin.pvd\", #{ every: 0.5 });\nwrite_vtk(sim, \"shape.pvd\", #{ frames: 3, fields: \"shape\" });")
             .see(&["write_npz", "plot_motion", "save"]),
         function("write_npz", &[ARRAYED, NPZ_FILE], write_npz)
-            .summary("Writes everything that is recorded as arrays for NumPy.")
+            .summary("Writes all recorded data as arrays for NumPy.")
             .doc(
-                "`t` has the times of the configurations; `points.NAME` the control points (or nodes) of a beam, by time, point and coordinate, or the \
-                 places of a particle, by time and coordinate; `history.COLUMN` each column of the history, whose own times are `history.t`. Of the table of a sweep there is an array for each parameter and result of numbers, not-a-number \
-                 where a row failed. Doubles, every bit kept.",
+                "`t` holds the times of the configurations; `points.NAME` the control points \
+                (or nodes) of a beam, by time, point and coordinate, or the positions of a \
+                particle, by time and coordinate; `history.COLUMN` each column of the history, \
+                whose times are `history.t`. For the table of a sweep there is an array for \
+                each numeric parameter and result, with NaN in failed rows. All numbers are \
+                doubles with full accuracy.",
             )
             .example("sim.run_to(1);\nwrite_npz(sim, \"spin.npz\");")
             .see(&["write_vtk", "write_states", "write_csv"]),
         function("write_csv", &[TABULAR, CSV_FILE, options("options", HEADER).optional()], write_csv)
-            .summary("Writes a table as CSV that other programs take as it stands: names of columns in the first line, no comments.")
+            .summary("Writes a table as plain CSV for other programs: column names in the first \
+                line, no comments.")
             .doc(
-                "Of a simulation or a history, all columns; of an array of maps, a row for each map and a column for each key, in alphabetical order, \
-                 empty where a map has it not. Every digit is kept. write_history puts the simulation above and units beside the names.",
+                "For a simulation or a history all columns are written; for an array of maps a \
+                row for each map and a column for each key, in alphabetical order, empty where \
+                the key is missing. All digits are kept. write_history adds a comment on the \
+                simulation and units in the column names.",
             )
             .example(
                 "sim.run_to(1);\nwrite_csv(sim, \"spin.csv\");\nwrite_csv(sim.history.after(0.5), \"late.csv\", #{ units: true });\n\
@@ -64,10 +76,12 @@ pub const TABLE: BindingTable = BindingTable {
             )
             .see(&["write_parquet", "write_history", "cells"]),
         function("write_parquet", &[TABULAR, PARQUET_FILE], write_parquet)
-            .summary("Writes the same table as Apache Parquet, where withy was built with it.")
+            .summary("Writes a table as Apache Parquet, if withy was built with this feature.")
             .doc(
-                "Parquet costs many crates, so it is a feature of the build: `cargo install --path . --features parquet`. Without it, the call says so, and a \
-                 script can catch that. Columns are doubles, whole numbers, truth values or texts; `dimension.NAME` of the metadata is the dimension of a column.",
+                "Parquet needs many crates and is an optional feature of the build: `cargo \
+                install --path . --features parquet`. Without it the call is refused with an \
+                error, which a script can catch. Columns are doubles, integers, booleans or \
+                texts; `dimension.NAME` of the metadata is the dimension of a column.",
             )
             .example("sim.run_to(1);\ntry { write_parquet(sim, \"spin.parquet\"); } catch (error) { print(error); }")
             .see(&["write_csv", "write_npz"]),
@@ -77,25 +91,33 @@ pub const TABLE: BindingTable = BindingTable {
 const ARRAYED: Parameter = either("of", &[Kind::Object(SIMULATION), Kind::Object(SWEEP_TABLE)])
     .doc("a simulation, or the table of a sweep");
 const OF: Parameter = object("of", SIMULATION);
-const VTK_FILE: Parameter = text("file").doc("its name in the output folder, which ends in .pvd");
-const NPZ_FILE: Parameter = text("file").doc("its name in the output folder, which ends in .npz");
-const CSV_FILE: Parameter = text("file").doc("its name in the output folder, which ends in .csv");
+const VTK_FILE: Parameter = text("file").doc("file name in the output folder, ending in .pvd");
+const NPZ_FILE: Parameter = text("file").doc("file name in the output folder, ending in .npz");
+const CSV_FILE: Parameter = text("file").doc("file name in the output folder, ending in .csv");
 const PARQUET_FILE: Parameter =
-    text("file").doc("its name in the output folder, which ends in .parquet");
+    text("file").doc("file name in the output folder, ending in .parquet");
 const FRAMES: &[Parameter] = &[
-    number("from").unit("time").doc("first frame; the start unless given").optional(),
-    number("to").unit("time").doc("last frame; the present unless given").optional(),
-    number("every").positive().unit("time").doc("between frames; the last one is always there").optional(),
+    number("from").unit("time").doc("time of the first frame; default: the start").optional(),
+    number("to").unit("time").doc("time of the last frame; default: the present").optional(),
+    number("every")
+        .positive()
+        .unit("time")
+        .doc("time between frames; the last one is always written")
+        .optional(),
     whole("frames")
         .between(2.0, MOST_FRAMES)
-        .doc("most frames, evenly spread over the time; 101 unless given")
+        .doc("largest number of frames, evenly spaced in time; default: 101")
         .optional(),
     choice("fields", &["all", "shape"])
-        .doc("shape: places alone, of the recorded configurations, and nothing is run again; all, where they can be had, unless given")
+        .doc(
+            "\"shape\": only positions of the recorded configurations, without repeating the \
+            run; \"all\": all fields if available; default: \"all\"",
+        )
         .optional(),
 ];
-const HEADER: &[Parameter] =
-    &[boolean("units").doc("whether the second line has the dimensions of the columns").optional()];
+const HEADER: &[Parameter] = &[boolean("units")
+    .doc("true to write the dimensions of the columns in the second line")
+    .optional()];
 
 const MISSING: Missing =
     Missing { what: "velocities, angles and section forces", instead: "fields: \"shape\"" };
@@ -204,7 +226,7 @@ fn frames(
     let end = trajectory.times().partition_point(|time| *time <= to + slack);
     let Some(last) = end.checked_sub(1).filter(|last| *last >= first) else {
         let [from, to, now] = [from, to, simulation.time()].map(format_number);
-        let told = format!("nothing of '{}' is recorded from t = {from} to {to}", of.name());
+        let told = format!("'{}' has no recorded state from t = {from} to {to}", of.name());
         return Err(call.error(told).hint(format!("it has run from t = 0 to {now}")));
     };
     let at = |index: usize| trajectory.times()[index];
@@ -212,8 +234,11 @@ fn frames(
     let (every, count) = match (options.number_if_given("every"), options.has("frames")) {
         (Some(_), true) => {
             return Err(call
-                .error("`every` and `frames` both say how many frames there are")
-                .hint("give one of them")
+                .error(
+                    "`every` and `frames` are both given, but each determines the number of \
+                    frames",
+                )
+                .hint("give only one of them")
                 .at(CallPart::Key("frames".into())));
         }
         (Some(every), false) => (every, (span / every + 1e-9).floor()),
@@ -274,7 +299,8 @@ fn write_parquet(call: &mut Call) -> Result<Dynamic, ScriptError> {
 fn write_parquet(call: &mut Call) -> Result<Dynamic, ScriptError> {
     named(call, ".parquet")?;
     table(call)?;
-    Err(call
-        .error("this withy was built without Parquet")
-        .hint("build it with: cargo install --path . --features parquet; or write_csv, write_npz"))
+    Err(call.error("this withy was built without Parquet").hint(
+        "build it with: cargo install --path . --features parquet; or use write_csv or \
+            write_npz",
+    ))
 }

@@ -30,25 +30,33 @@ use crate::script::studies::plan::{at_key, study_name};
 
 pub const TABLE: BindingTable = BindingTable {
     name: "fits",
-    doc: "Parameters that are found by runs. The functions of fit and minimise are called on all cores, as those of sweeps are: they may use from outside what \
-          is data, and each run begins with it as it was.",
+    doc: "Fits, optimisation and roots. The functions of fit and minimise are called on all \
+        cores, like those of sweeps: they may use data from outside, and each run starts with \
+        its original value.",
     types: &[FIT, DESIGN],
     setup: SETUP,
     constants: &[],
     rows: &[
         function("fit", &[options("options", FIT_KEYS)], make_fit)
             .returns(Returns::object(FIT))
-            .summary("Finds the parameters for which what a function gives is nearest to data, and how well they are known.")
+            .summary("Finds the parameters for which the results of a function are closest to data \
+                (least squares), with their uncertainties.")
             .doc(
-                "Either `residuals`, a function of a map of parameters that gives an array of differences, or `model`, which gives what should have been \
-                 `measured`, at the places `over`. With `data` the function is called with that as its second argument. The sum of the squares, \
-                 each times its weight, is made least by Levenberg's and Marquardt's method; bounds are kept. Derivatives are those that a run knows of itself: the parameters \
-                 come as numbers that know what depends on them, as those of scene.parameter do, and a simulation finds with its steps how it changes with them. The first derivatives are held against a difference of two runs. Where these differ, or the function \
-                 does what has no derivatives, `found.derivatives` says so, and they are central differences of runs, second \
-                 order: `step` times the size of a parameter (its value, or a hundredth of its range where it is near zero), 1e-4 unless given, which \
-                 leaves about eight digits of a run that repeats to 1e-12; with adaptive steps give 1e-3. They are found at the start and at the \
-                 end and corrected by what each step shows between (Broyden). Errors are the standard ones, s² (JᵀJ)⁻¹ with s from the residuals, and \
-                 intervals those of Student's distribution; a parameter at a bound counts as known. A table is printed.",
+                "Give `residuals`, a function of a map of parameters that returns an array of \
+                differences, or `model`, which returns an array to be compared with \
+                `measured`, at the places `over`. `data` is passed as second argument. The \
+                weighted sum of squares is minimised by the Levenberg-Marquardt method within \
+                the bounds. Derivatives are computed along with the runs where possible (see \
+                scene.parameter); the first ones are compared with a difference of two runs. \
+                If they differ, or the function has no derivatives, central differences of \
+                runs are used, and `found.derivatives` gives the reason. Their step is `step` \
+                times the size of a parameter (its value, or a hundredth of its range if it is \
+                near zero), default: 1e-4, which gives about eight digits for runs that repeat \
+                to 1e-12; use 1e-3 with adaptive steps. They are computed at the start and at \
+                the end and updated in between by Broyden's method. Errors are standard \
+                errors, s² (JᵀJ)⁻¹ with s from the residuals, and intervals are those of \
+                Student's distribution; a parameter at a bound counts as known. A table is \
+                printed.",
             )
             .example(
                 "let times = linspace(0, 4, 21);\nlet measured = times.map(|t| 3 * exp(-0.5 * t) + 0.001 * sin(50 * t));\n\
@@ -59,18 +67,20 @@ pub const TABLE: BindingTable = BindingTable {
             .see(&["minimise", "find_root", "read_csv", "study_sweep"]),
         of_fit("parameters", |call| Ok(named(&*fit(call)?, |fit, at| Some(fit.fitted.parameters[at]))))
             .returns(Returns::MAP)
-            .summary("The parameters that were found, by their names.")
+            .summary("Map of the fitted parameters by name.")
             .example("check_close(found.parameters.slope, 2, 1e-8);"),
         of_fit("errors", |call| {
             Ok(named(&*fit(call)?, |fit, at| fit.fitted.estimate.as_ref()?.error(at)))
         })
         .returns(Returns::MAP)
-        .summary("The standard errors of the parameters, by their names; () where the residuals tell nothing of them, or nothing depends on one.")
+        .summary("Map of the standard errors of the parameters by name; () if the residuals do not \
+            determine them, or do not depend on one of them.")
         .example("check(found.errors.slope < 1e-8);")
         .see(&["half_widths", "covariance"]),
         of_fit("half_widths", |call| Ok(named(&*fit(call)?, Fit::half_width)))
             .returns(Returns::MAP)
-            .summary("Half the widths of the intervals in which the parameters lie with the option `confidence`, 0.95 unless given; () where nothing tells.")
+            .summary("Map of half the widths of the confidence intervals of the parameters, with the \
+                option `confidence`, default: 0.95; () if they are not determined.")
             .example("let p = found.parameters;\nprint(`${p.slope} ± ${found.half_widths.slope}`);")
             .see(&["errors"]),
         of_fit("covariance", |call| {
@@ -79,42 +89,50 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(rows.unwrap_or_default().into_iter().map(row).collect::<Array>().into())
         })
         .returns(Returns::array_of(&ValueKind::Array(&ValueKind::Number)))
-        .summary("The covariances of the parameters, in the order of their names; empty where the residuals tell nothing of them.")
+        .summary("Covariance matrix of the parameters in the order of their names; empty if the \
+            residuals do not determine it.")
         .example("check(found.covariance.len() == 2);"),
         of_fit("residuals", |call| {
             Ok(fit(call)?.residuals.iter().map(|x| Dynamic::from(*x)).collect::<Array>().into())
         })
         .returns(Returns::NUMBERS)
-        .summary("The residuals, without weights: of a model what it gives less what was measured.")
+        .summary("Residuals without weights; for a model the result minus the measured value.")
         .example("check(found.residuals.len() == 3);"),
         of_fit("outcome", |call| Ok(fit(call)?.outcome().into()))
             .returns(Returns::TEXT)
-            .summary("How the search ended: settled, or why not.")
+            .summary("Outcome of the search: settled, or the reason of the failure.")
             .example("check(found.outcome == \"settled\");"),
         of_fit("runs", |call| Ok((fit(call)?.fitted.runs as i64).into()))
             .returns(Returns::WHOLE)
-            .summary("How often the function was called.")
+            .summary("Number of calls of the function.")
             .example("check(found.runs <= 20);"),
         of_fit("derivatives", |call| Ok(fit(call)?.derivatives().into()))
             .returns(Returns::TEXT)
-            .summary("What derivatives were made of: of what the runs know of themselves, or of central differences of runs, and why.")
+            .summary("Source of the derivatives: the runs, or central differences of runs with the \
+                reason.")
             .example("check(found.derivatives == \"those of the runs\");"),
         method(FIT, "plot", &[], |call| {
             let fit = fit(call)?;
             call.context().write_file(&format!("{}-fit.svg", fit.name), fit.picture()?.as_bytes())?;
             Ok(Dynamic::UNIT)
         })
-        .summary("Draws what was measured with the fitted model, and the residuals below, into NAME-fit.svg.")
+        .summary("Plots the measured data with the fitted model, and the residuals below, in \
+            NAME-fit.svg.")
         .example("found.plot();"),
         function("minimise", &[options("options", DESIGN_KEYS)], minimise)
             .returns(Returns::object(DESIGN))
-            .summary("Finds the parameters for which a result is least, or largest, within bounds and with constraints on others.")
+            .summary("Finds the parameters that minimise or maximise a result, within bounds and \
+                with constraints on other results.")
             .doc(
-                "`run` is a function of a map of parameters that gives a map of numbers. `least` or `largest` names the one that is wanted so, `constraints` the least \
-                 and the largest that others may be. Where runs know their derivatives (the parameters \
-                 come as numbers that know what depends on them, as in fit), Kraft's SLSQP follows them: quadratic models within linear ones of the constraints. Where they do not, or the first ones are not what a difference of two runs shows, or a search along them is stuck, \
-                 Powell's COBYLA makes linear models over a simplex of designs; `best.derivatives` says why. Both \
-                 find the nearest best, not the best of all. Runs that fail are kept away from. The best of all designs that were tried and meet the constraints is given.",
+                "`run` is a function of a map of parameters that returns a map of numbers. \
+                `least` or `largest` names the result to minimise or maximise; `constraints` \
+                gives the limits of other results. If the runs have derivatives (as in fit), \
+                Kraft's SLSQP is used: quadratic models with linearised constraints. If they \
+                have none, or the first ones differ from a difference of two runs, or the \
+                search is stuck, Powell's COBYLA is used: linear models over a simplex of \
+                designs; `best.derivatives` gives the reason. Both methods find a local \
+                optimum, not the global one. Designs with failed runs are avoided. The result \
+                is the best of all tried designs that satisfy the constraints.",
             )
             .example(
                 "let best = minimise(#{\n    parameters: #{ width: [1, 0.1, 4], height: [1, 0.1, 4] },\n    \
@@ -124,28 +142,32 @@ pub const TABLE: BindingTable = BindingTable {
             .see(&["fit", "find_root"]),
         of_design("parameters", |call| Ok(pairs(&design(call)?.parameters)))
             .returns(Returns::MAP)
-            .summary("The parameters of the best design, by their names.")
+            .summary("Map of the parameters of the best design by name.")
             .example("check_close(best.parameters.x, 1, 1e-3);"),
         of_design("results", |call| Ok(pairs(&design(call)?.results)))
             .returns(Returns::MAP)
-            .summary("What the run with the best design gives, by names.")
+            .summary("Map of the results of the best design by name.")
             .example("check(best.results.y < 1e-6);"),
         of_design("runs", |call| Ok((design(call)?.runs as i64).into()))
             .returns(Returns::WHOLE)
-            .summary("How often the function was called, but for the call by which it tells that it has no derivatives.")
+            .summary("Number of calls of the function, without the call that detects missing \
+                derivatives.")
             .example("check(best.runs < 200);"),
         of_design("derivatives", |call| Ok(design(call)?.derivatives.clone().into()))
             .returns(Returns::TEXT)
-            .summary("Whether the search used derivatives: those that the runs know of themselves, or none, and why.")
+            .summary("Source of the derivatives: the runs, or none with the reason.")
             .example("check(best.derivatives == \"those of the runs\");"),
         of_design("settled", |call| Ok(design(call)?.is_settled.into()))
             .returns(Returns::TRUTH)
-            .summary("Whether the search came to its end before the most runs were made.")
+            .summary("True if the search finished before the largest number of runs was reached.")
             .example("check(best.settled);"),
-        function("find_root", &[callback("function").doc("|x| …, gives a number"), FROM, TO, PLACE_TOLERANCE], find_root)
+        function("find_root", &[callback("function").doc("|x| …, returns a number"), FROM, TO, PLACE_TOLERANCE], find_root)
             .returns(Returns::NUMBER)
-            .summary("Finds where a function of one number is zero, between two numbers at which its signs differ.")
-            .doc("R. P. Brent's method (1973). The tolerance is that of the place, a billionth of the interval unless given. The function is called on this thread and may use anything.")
+            .summary("Finds a zero of a function of one number, between two numbers at which its \
+                signs differ.")
+            .doc("R. P. Brent's method (1973). The tolerance is that of the argument, default: \
+                1e-9 of the interval. The function is called on this thread and may use \
+                everything.")
             .example("check_close(find_root(|x| cos(x) * cosh(x) + 1, 1, 3), 1.875104068711961, 1e-8);")
             .see(&["fit", "minimise"]),
     ],
@@ -157,34 +179,37 @@ const FIT: Type = Type::of::<FitHandle>();
 const DESIGN: Type = Type::of::<DesignHandle>();
 const FIT_KEYS: &[Parameter] = FitOptions::KEYS;
 const DESIGN_KEYS: &[Parameter] = DesignOptions::KEYS;
-const FROM: Parameter = number("from").doc("where one sign of the function is");
-const TO: Parameter = number("to").doc("where the other sign is");
+const FROM: Parameter = number("from").doc("argument at which the function has one sign");
+const TO: Parameter = number("to").doc("argument at which the function has the other sign");
 const PLACE_TOLERANCE: Parameter = number("tolerance")
     .positive()
-    .doc("how well the place is to be known; a billionth of the interval unless given")
+    .doc("accuracy of the argument; default: 1e-9 of the interval")
     .optional();
-const RANGES: Parameter = anything("parameters")
-    .doc("names with where they begin, the least and the largest value: #{ EI: [10, 1, 100] }, or the start alone");
+const RANGES: Parameter = anything("parameters").doc(
+    "names with initial, lowest and highest value: #{ EI: [10, 1, 100] }, or the initial \
+        value alone",
+);
 const PATIENCE: Parameter = number("patience")
     .positive()
     .unit("s")
     .or(Presence::Number(600.0))
-    .doc("the longest that a run may take by the clock");
+    .doc("longest time of a run by the clock");
 
 option_set! {
     /// The options of `fit`.
     pub struct FitOptions {
-        name: String = name("name").or(Presence::Text("fit")).doc("of the fit and its files"),
+        name: String = name("name").or(Presence::Text("fit")).doc("name of the fit and its files"),
         parameters: Dynamic = RANGES,
-        residuals: Option<FnPtr> = callback("residuals").doc("|p| …, gives an array of differences").optional(),
-        model: Option<FnPtr> = callback("model").doc("|p| …, gives an array of what should have been measured").optional(),
-        measured: Option<Vec<f64>> = numbers("measured").doc("what the model is compared with").optional().beside("model"),
-        over: Option<Vec<f64>> = numbers("over").doc("where or when it was measured, for the picture").optional().beside("measured"),
-        data: Option<Dynamic> = anything("data").doc("what the function is called with behind the parameters: read_csv(\"measured.csv\")").optional(),
-        weights: Option<Vec<f64>> = numbers("weights").doc("of the squares, one for each: one over the variance of what was measured").optional(),
-        confidence: f64 = number("confidence").between(0.5, 0.9999).or(Presence::Number(0.95)).doc("with which parameters lie in their intervals"),
-        step: f64 = number("step").between(1e-8, 0.1).or(Presence::Number(RELATIVE_STEP)).doc("of differences, as a part of the size of a parameter"),
-        derivatives: String = choice("derivatives", &["known", "differences"]).or(Presence::Text("known")).doc("those that runs know of themselves, or differences of runs always"),
+        residuals: Option<FnPtr> = callback("residuals").doc("|p| …, returns an array of differences").optional(),
+        model: Option<FnPtr> = callback("model").doc("|p| …, returns an array of values to be compared with measured").optional(),
+        measured: Option<Vec<f64>> = numbers("measured").doc("measured values").optional().beside("model"),
+        over: Option<Vec<f64>> = numbers("over").doc("places or times of the measured values, for the picture").optional().beside("measured"),
+        data: Option<Dynamic> = anything("data").doc("second argument of the function: read_csv(\"measured.csv\")").optional(),
+        weights: Option<Vec<f64>> = numbers("weights").doc("weights of the squares, one for each: 1 over the variance of the measured value").optional(),
+        confidence: f64 = number("confidence").between(0.5, 0.9999).or(Presence::Number(0.95)).doc("confidence of the intervals of the parameters"),
+        step: f64 = number("step").between(1e-8, 0.1).or(Presence::Number(RELATIVE_STEP)).doc("step of differences, as a fraction of the size of a parameter"),
+        derivatives: String = choice("derivatives", &["known", "differences"]).or(Presence::Text("known")).doc("\"known\": derivatives of the runs if available; \"differences\": always \
+            differences of runs"),
         patience: f64 = PATIENCE,
     }
 }
@@ -193,13 +218,13 @@ option_set! {
     /// The options of `minimise`.
     pub struct DesignOptions {
         parameters: Dynamic = RANGES,
-        run: FnPtr = callback("run").doc("|p| …, gives a map of numbers"),
-        least: Option<String> = text("least").doc("the name of the result that is to be least").optional(),
-        largest: Option<String> = text("largest").doc("the name of the result that is to be largest").optional(),
-        constraints: Option<Dynamic> = anything("constraints").doc("the least and the largest that results may be: #{ sag: [-1e-3, 1e-3], mass: [(), 5] }").optional(),
-        tolerance: f64 = number("tolerance").positive().or(Presence::Number(1e-4)).doc("of parameters, as a part of their ranges"),
+        run: FnPtr = callback("run").doc("|p| …, returns a map of numbers"),
+        least: Option<String> = text("least").doc("name of the result to minimise").optional(),
+        largest: Option<String> = text("largest").doc("name of the result to maximise").optional(),
+        constraints: Option<Dynamic> = anything("constraints").doc("lower and upper limits of results: #{ sag: [-1e-3, 1e-3], mass: [(), 5] }").optional(),
+        tolerance: f64 = number("tolerance").positive().or(Presence::Number(1e-4)).doc("accuracy of parameters, as a fraction of their ranges"),
         most_runs: usize = whole("most_runs").positive().or(Presence::Whole(500)),
-        derivatives: String = choice("derivatives", &["known", "none"]).or(Presence::Text("known")).doc("those that runs know of themselves, or none"),
+        derivatives: String = choice("derivatives", &["known", "none"]).or(Presence::Text("known")).doc("\"known\": derivatives of the runs if available; \"none\": no derivatives"),
         patience: f64 = PATIENCE,
     }
 }
@@ -212,7 +237,7 @@ struct DesignHandle(Rc<BestDesign>);
 
 impl Scripted for FitHandle {
     const NAME: &'static str = "fit";
-    const DOC: &'static str = "Parameters that were fitted to data, and how well they are known.";
+    const DOC: &'static str = "Parameters fitted to data, with their uncertainties.";
 
     fn show(&self) -> String {
         self.0.text()
@@ -221,7 +246,7 @@ impl Scripted for FitHandle {
 
 impl Scripted for DesignHandle {
     const NAME: &'static str = "design";
-    const DOC: &'static str = "The best design that a search has found.";
+    const DOC: &'static str = "The best design found by a search.";
 
     fn show(&self) -> String {
         self.0.text()
@@ -272,8 +297,13 @@ fn make_fit(call: &mut Call) -> Result<Dynamic, ScriptError> {
         (None, Some(model), Some(measured)) => {
             if let Some(over) = options.over.as_ref().filter(|over| over.len() != measured.len()) {
                 let told =
-                    format!("over has {} numbers and measured {}", over.len(), measured.len());
-                return Err(at_key(call, "over", told, "they belong together pair by pair"));
+                    format!("over has {} numbers, but measured has {}", over.len(), measured.len());
+                return Err(at_key(
+                    call,
+                    "over",
+                    told,
+                    "give one number of over for each measured value",
+                ));
             }
             ("model", model, Compared::Model { measured, over: options.over })
         }
@@ -281,13 +311,14 @@ fn make_fit(call: &mut Call) -> Result<Dynamic, ScriptError> {
             return Err(at_key(
                 call,
                 "model",
-                "nothing is given to compare the model with",
+                "the measured values for the model are missing",
                 "add measured: […], an array of numbers",
             ));
         }
         _ => {
-            return Err(call.error("either residuals or a model must be given").hint(
-                "residuals: |p| […], differences that are to be small, or model: |p| […] with measured: […]",
+            return Err(call.error("give either residuals or a model").hint(
+                "residuals: |p| […], differences to be minimised, or model: |p| […] with \
+                measured: […]",
             ));
         }
     };
@@ -298,12 +329,13 @@ fn make_fit(call: &mut Call) -> Result<Dynamic, ScriptError> {
     if let (Some(weights), Compared::Model { measured, .. }) = (&options.weights, &compared)
         && weights.len() != measured.len()
     {
-        let told = format!("weights has {} numbers and measured {}", weights.len(), measured.len());
-        return Err(at_key(call, "weights", told, "they belong together pair by pair"));
+        let told =
+            format!("weights has {} numbers, but measured has {}", weights.len(), measured.len());
+        return Err(at_key(call, "weights", told, "give one weight for each measured value"));
     }
     if let Some(wrong) = options.weights.iter().flatten().find(|weight| **weight <= 0.0) {
         let told = format!("weights hold {}", format_number(*wrong));
-        return Err(at_key(call, "weights", told, "they are positive: one over the variance"));
+        return Err(at_key(call, "weights", told, "weights must be positive: 1 over the variance"));
     }
     let name = study_name(call, &options.name)?;
     call.context().output().path_of(&format!("{name}-fit.svg"))?;
@@ -336,7 +368,7 @@ fn minimise(call: &mut Call) -> Result<Dynamic, ScriptError> {
         (None, Some(name)) => Objective::Largest(name),
         _ => {
             let hint = "write least: \"mass\", or largest: \"speed\", the name of a result";
-            return Err(call.error("one result must be wanted least, or largest").hint(hint));
+            return Err(call.error("give one result to minimise or maximise").hint(hint));
         }
     };
     call.expect_arguments(&options.run, 1, "|p| …")?;

@@ -18,14 +18,14 @@ use crate::script::messages::numbers::format_number;
 pub use curves::CURVE;
 pub use knots::KNOTS;
 
-const XI: Parameter = number("xi").doc("the parameter ξ, inside the domain");
+const XI: Parameter = number("xi").doc("parameter ξ, inside the domain");
 
 const ORDER: Parameter = whole("order")
     .between(0.0, MAX_DEGREE as f64)
-    .doc("how often to differentiate by ξ; 0 for the value itself");
+    .doc("order of the derivative by ξ; 0 for the value itself");
 
 const TIMES: Parameter =
-    whole("times").non_negative().doc("how often to insert it").or(Presence::Whole(1));
+    whole("times").non_negative().doc("number of insertions").or(Presence::Whole(1));
 
 /// Components below this fraction of a vector print as 0.
 const ROUNDING: f64 = 1e-14;

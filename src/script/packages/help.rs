@@ -11,15 +11,23 @@ use crate::script::messages::error::{CallPart, ScriptError};
 
 pub const TABLE: BindingTable = BindingTable {
     name: "help",
-    doc: "What there is, and how it is written. The same is in docs/language.md, and shown by withy docs NAME.",
+    doc: "Help on names of the language. The same pages are in docs/language.md, and shown by \
+        withy docs NAME.",
     types: &[],
     setup: "",
     constants: &[],
-    rows: &[function("help", &[anything("name").doc("a name in quotes, or a value, whose type is then explained").optional()], help)
-        .summary("Prints what a name means, with an example to copy; without a name, what there is.")
-        .doc("The name may be that of a function, a method (sim.run_to or simulation.run_to), a type, an option, a constant, a \
-              heading of this reference, or a word of the language such as for.")
-        .example("help(\"section\");\nhelp(\"simulation.run_to\");\nhelp(vec(1, 2));\nhelp();")],
+    rows: &[function(
+        "help",
+        &[anything("name").doc("a name in quotes, or a value whose type is explained").optional()],
+        help,
+    )
+    .summary("Prints the help on a name, with an example; without a name an overview.")
+    .doc(
+        "The name may be that of a function, a method (sim.run_to or simulation.run_to), a \
+            type, an option, a constant, a heading of this reference, or a word of the \
+            language such as for.",
+    )
+    .example("help(\"section\");\nhelp(\"simulation.run_to\");\nhelp(vec(1, 2));\nhelp();")],
 };
 
 fn help(call: &mut Call) -> Result<Dynamic, ScriptError> {

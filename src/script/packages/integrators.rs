@@ -11,7 +11,8 @@ use crate::script::presentation::details;
 
 pub const TABLE: BindingTable = BindingTable {
     name: "integrators",
-    doc: "Ways to take a step. A scene is started with one: scene.start(#{ integrator: energy_momentum(), dt: 0.1 }).",
+    doc: "Time integration methods. A scene is started with one: scene.start(#{ integrator: \
+        energy_momentum(), dt: 0.1 }).",
     types: &[INTEGRATOR],
     setup: "let scene = new_scene(\"example\");\n\
             scene.particle([0, 0], 1, #{ velocity: [1, 0] });",
@@ -19,14 +20,16 @@ pub const TABLE: BindingTable = BindingTable {
     rows: &[
         function("energy_momentum", &[], |_| Ok(Dynamic::from(Method::EnergyMomentum)))
             .returns(Returns::object(INTEGRATOR))
-            .summary("Keeps energy and both momenta to rounding, at any step size; the default.")
+            .summary("Selects the energy-momentum method (default), which keeps energy and both \
+                momenta to rounding at any step size.")
             .doc("Second order. Stander & Stein, Eng. Comput. 13 (1996) 60-85.")
             .example("print(`thrown with ${energy_momentum()}`);")
             .see(&["fourth_order", "energy_decaying", "trapezoidal", "start"]),
         function("trapezoidal", &[], |_| Ok(Dynamic::from(Method::Trapezoidal)))
             .returns(Returns::object(INTEGRATOR))
             .summary(
-                "Newmark's method with β = 1/4, γ = 1/2; its energy wanders in nonlinear problems.",
+                "Selects Newmark's method with β = 1/4, γ = 1/2; its energy varies in nonlinear \
+                problems.",
             )
             .doc("Second order. Newmark, J. Eng. Mech. Div. ASCE 85 (1959) 67-94.")
             .example("print(trapezoidal());")
@@ -36,21 +39,29 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(Dynamic::from(Method::EnergyDecaying { chi }))
         })
         .returns(Returns::object(INTEGRATOR))
-        .summary("Keeps both momenta to rounding and damps vibration: the energy never grows, at any step size.")
+        .summary("Selects a method that keeps both momenta to rounding and damps vibration: the \
+            energy never grows, at any step size.")
         .doc(
-            "Section forces are those of the mean strain of a step and χ/2 of its change; a step loses exactly the energy χ/2 \
-             ∫ ΔΓ·C ΔΓ + EI Δκ². First order, second with chi: 0. After Armero & Romero, Comput. Methods Appl. Mech. Eng. 190 (2001) 2603-2649.",
+            "Section forces are those of the mean strain of a step plus χ/2 times its change; a \
+            step dissipates exactly the energy χ/2 ∫ ΔΓ·C ΔΓ + EI Δκ². First order; second \
+            order with chi: 0. After Armero & Romero, Comput. Methods Appl. Mech. Eng. 190 \
+            (2001) 2603-2649.",
         )
         .example("let damped = scene.start(#{ integrator: energy_decaying(#{ chi: 0.2 }), dt: 0.1 });\nprint(energy_decaying());")
         .see(&["energy_momentum", "generalized_alpha"]),
         function("fourth_order", &[], |_| Ok(Dynamic::from(Method::FourthOrder)))
             .returns(Returns::object(INTEGRATOR))
-            .summary("Seven energy-momentum steps in one, for accuracy: keeps energy and both momenta to rounding, at any step size.")
+            .summary("Selects a fourth-order composition of seven energy-momentum steps, which keeps \
+                energy and both momenta to rounding at any step size.")
             .doc(
-                "Fourth order where loads and motion are smooth. A step costs seven, one of them backwards in time, and pays where a \
-                 small error is wanted. Contact forces of sliders, forces of springs and what drives give are told of the last of the seven; mean forces, \
-                 work and what dissipates of the whole step. What decays by a rate near 3.557/dt grows by the part that leads back, which is told. The parts are such that slow loads do not \
-                 shake up vibrations much faster than a step. A composition as in McLachlan, SIAM J. Sci. Comput. 16 (1995) 151-168.",
+                "Fourth order where loads and motion are smooth. A step costs as much as seven, \
+                one of them backwards in time; this is efficient for small errors. Contact \
+                forces of sliders and forces of springs and drives are those of the last \
+                substep; mean forces, work and dissipation those of the whole step. A motion \
+                that decays at a rate near 3.557/dt grows in the backward substep; this is \
+                reported. The substeps are chosen so that slow loads do not excite vibrations \
+                much faster than a step. A composition as in McLachlan, SIAM J. Sci. Comput. \
+                16 (1995) 151-168.",
             )
             .example("print(fourth_order());")
             .see(&["energy_momentum"]),
@@ -59,8 +70,11 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(Dynamic::from(Method::GeneralizedAlpha { rho_infinity }))
         })
         .returns(Returns::object(INTEGRATOR))
-        .summary("For comparison: damps fast vibration, and keeps neither energy nor momenta exactly.")
-        .doc("Second order; first with sliders, whose forces act in the middle of a step and not where the method balances it, unless rho_infinity is 1. Chung & Hulbert, J. Appl. Mech. 60 (1993) 371-375.")
+        .summary("Selects a method for comparison that damps fast vibration and keeps neither energy \
+            nor momenta exactly.")
+        .doc("Second order. First order with sliders unless rho_infinity is 1, because their \
+            forces act in the middle of a step and not at the point where the method balances \
+            forces. Chung & Hulbert, J. Appl. Mech. 60 (1993) 371-375.")
         .example("let damped = scene.start(#{ integrator: generalized_alpha(#{ rho_infinity: 0.8 }), dt: 0.1 });\nprint(generalized_alpha());")
         .see(&["trapezoidal", "energy_decaying"]),
     ],
@@ -69,18 +83,19 @@ pub const TABLE: BindingTable = BindingTable {
 const CHI: &[Parameter] = &[number("chi")
     .non_negative()
     .or(Presence::Number(0.1))
-    .doc("χ, the share of damping; 0 is energy_momentum itself")];
+    .doc("damping parameter χ; 0 is energy_momentum")];
 
-const RHO_INFINITY: &[Parameter] = &[number("rho_infinity")
-    .between(0.0, 1.0)
-    .or(Presence::Number(0.8))
-    .doc("ρ∞, by what the fastest vibration is multiplied in a step; 1 is the trapezoidal rule")];
+const RHO_INFINITY: &[Parameter] =
+    &[number("rho_infinity").between(0.0, 1.0).or(Presence::Number(0.8)).doc(
+        "ρ∞, factor per step of the amplitude of the fastest vibration; 1 is the trapezoidal \
+        rule",
+    )];
 
 pub const INTEGRATOR: Type = Type::of::<Method>();
 
 impl Scripted for Method {
     const NAME: &'static str = "integrator";
-    const DOC: &'static str = "A way to take steps.";
+    const DOC: &'static str = "A time integration method.";
 
     fn show(&self) -> String {
         // A name that fits into a sentence; the summary describes the integrator.

@@ -23,7 +23,8 @@ use crate::system::Scene;
 
 pub const TABLE: BindingTable = BindingTable {
     name: "loads",
-    doc: "A load is where, what and when. Without a schedule it acts always; a number or a function of time will do too.",
+    doc: "Loads: forces, moments and line loads. A load acts always unless it has a schedule; a \
+        number or a function of time is also accepted as a schedule.",
     types: &[],
     setup: super::scenes::ROD,
     constants: &[],
@@ -34,13 +35,23 @@ pub const TABLE: BindingTable = BindingTable {
             let schedule = when(call)?;
             add(&scene, call, kind, schedule)
         })
-        .summary("A force at a station; it keeps its direction, or follows the section.")
-        .doc("With #{ frame: \"follower\" } its components are along the beam as drawn and across it, or along the axes of a rigid body, and turn with the section. \
-A function of two arguments, |t, q| …, is a sampled controller: it is asked at the start of every step with the simulation, as \
-              scene.record asks, and its value holds for the step, so that the feedback is late by half a step in the mean, of first order in dt; adaptive steps ask it in their middle too, and see what it misses. Its work is counted like that \
-              of any load. With #{ sample: 0.01 } it is a digital one, asked at 0, 0.01, 0.02, … and held between; steps end there, so that how long they are does not change what it sees by more than the error of the method; \
-              with #{ sample: 0.01, delay: 0.003 } what it says acts 0.003 later, and nothing does before the first command. What it said goes back with the simulation. A function that changes a variable of its own has a memory which does not go back with the simulation: it is asked again when a step of varying size is rejected, after sim.back and sim.rewind, and \
-              when earlier states are looked at, and another simulation of the scene, or a copy, finds it as the last one left it; so let it depend on t and q, and keep sums in what moves (an integral of the error is the angle of a free body under a moment), or take fixed steps and go only forward. With a name the history has work.NAME and NAME.force.")
+        .summary("Adds a force at a station that keeps its direction or follows the section.")
+        .doc("With #{ frame: \"follower\" } the components are along and across the undeformed \
+            beam, or along the axes of a rigid body, and rotate with the section. A function \
+            |t, q| … is a sampled controller: it is called at the start of every step with the \
+            simulation q, and its value holds for the step. The mean delay of the feedback is \
+            half a step; adaptive steps also call it in their middle to estimate this error. \
+            Its work is counted like that of any load. With #{ sample: 0.01 } the controller \
+            is called at 0, 0.01, 0.02, …, and its value is held in between. Steps end at \
+            these times, so that the samples depend on the step size only by the error of the \
+            method. With #{ sample: 0.01, delay: 0.003 } the value acts 0.003 later; before \
+            the first value nothing acts. sim.back and sim.rewind restore the values of a \
+            controller, but not variables that the function itself changes: it is called again \
+            when an adaptive step is rejected, after going back, and when earlier states are \
+            read, and other simulations and copies of the scene share the variables. Let the \
+            function depend on t and q only, and model memory by a moving body (an integral of \
+            the error is the angle of a free body under a moment); otherwise use fixed steps \
+            and never go back. With a name the history has work.NAME and NAME.force.")
         .example("scene.force(rod.end, [8, 0], hold_for(2.5));\nscene.force(rod.end, [0, 1], 1, #{ frame: \"follower\" });\n\
                  scene.force(rod.end, [0, 1], |t, q| -2 * q.velocity(rod.end).y, #{ name: \"brake\" });\n\
                  scene.force(rod.middle, [0, 1], |t, q| -q.velocity(rod.middle).y, #{ sample: 0.1, delay: 0.02 });\n\
@@ -53,7 +64,7 @@ A function of two arguments, |t, q| …, is a sampled controller: it is asked at
             let schedule = when(call)?;
             add(&scene, call, kind, schedule)
         })
-        .summary("A moment at a station, counter-clockwise.")
+        .summary("Adds a moment at a station, positive counter-clockwise.")
         .example("scene.moment(rod.end, -80, hold_for(2.5));")
         .see(&["force"]),
         method(SCENE, "line_load", &[object("beam", BEAM), point("force").unit("force/length"), WHEN, FRAME], |call| {
@@ -63,7 +74,8 @@ A function of two arguments, |t, q| …, is a sampled controller: it is asked at
             let schedule = when(call)?;
             add(&scene.shared(), call, kind, schedule)
         })
-        .summary("A force per length on a whole beam; it keeps its direction, or follows the sections like a pressure.")
+        .summary("Adds a force per length on a whole beam that keeps its direction or follows the \
+            sections like a pressure.")
         .example("scene.line_load(rod, [0, -2], ramp(0, 1));\nscene.line_load(rod, [0, 1], 1, #{ frame: \"follower\" });")
         .see(&["force", "gravity"]),
     ],
@@ -71,14 +83,14 @@ A function of two arguments, |t, q| …, is a sampled controller: it is asked at
 
 const AT: Parameter = object("station", STATION);
 const WHEN: Parameter = either("schedule", SCHEDULE_KINDS)
-    .doc("when it acts: a schedule, a factor, or a function of time")
+    .doc("schedule of the load: a schedule, a factor, or a function of time")
     .optional();
 const FRAME: Parameter = options("options", &[FRAME_KEY, NAME, SAMPLE, DELAY]).optional();
 const NAMED: Parameter = options("options", &[NAME, SAMPLE, DELAY]).optional();
 const NAME: Parameter =
-    text("name").doc("by which the history has work.NAME and what the load is").optional();
+    text("name").doc("name for the history columns work.NAME and NAME.force").optional();
 const FRAME_KEY: Parameter = choice("frame", &["dead", "follower"])
-    .doc("dead keeps its direction, follower turns with the section")
+    .doc("\"dead\" keeps its direction, \"follower\" rotates with the section")
     .or(Presence::Text("dead"));
 
 fn when(call: &Call) -> Result<Schedule, ScriptError> {

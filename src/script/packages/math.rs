@@ -18,113 +18,129 @@ use crate::script::messages::numbers::as_number;
 
 pub const TABLE: BindingTable = BindingTable {
     name: "numbers",
-    doc: "Elementary functions. Whole numbers are welcome everywhere, angles are in radians, and infinite or undefined \
-          numbers pass through as in IEEE 754. Results have the same bits on every machine.",
+    doc: "Elementary functions. Arguments may be whole numbers; angles are in radians; infinity \
+        and nan are handled as in IEEE 754. Results have the same bits on every machine.",
     types: &[],
     setup: "",
     constants: &[
         Constant { name: "PI", value: std::f64::consts::PI, summary: "Half a turn in radians." },
-        Constant { name: "TAU", value: std::f64::consts::TAU, summary: "A full turn in radians." },
+        Constant { name: "TAU", value: std::f64::consts::TAU, summary: "Full turn in radians." },
         Constant {
             name: "E",
             value: std::f64::consts::E,
-            summary: "The base of natural logarithms.",
+            summary: "Base of the natural logarithm.",
         },
-        Constant { name: "inf", value: f64::INFINITY, summary: "The infinite number." },
+        Constant { name: "inf", value: f64::INFINITY, summary: "Infinity." },
         Constant {
             name: "nan",
             value: f64::NAN,
-            summary: "The undefined number; it equals nothing, not even itself.",
+            summary: "Undefined number (not a number); it is not equal to anything, including \
+                itself.",
         },
     ],
     rows: &[
         of_x(
             "sin",
             |call| map(call, elementary::sin),
-            "The sine.",
+            "Returns the sine.",
             "check(abs(sin(PI / 6) - 0.5) < 1e-15);",
         ),
-        of_x("cos", |call| map(call, elementary::cos), "The cosine.", "check(cos(0) == 1);"),
-        of_x("tan", |call| map(call, elementary::tan), "The tangent.", "check(tan(0) == 0);")
-            .corner(near_quarters),
+        of_x(
+            "cos",
+            |call| map(call, elementary::cos),
+            "Returns the cosine.",
+            "check(cos(0) == 1);",
+        ),
+        of_x(
+            "tan",
+            |call| map(call, elementary::tan),
+            "Returns the tangent.",
+            "check(tan(0) == 0);",
+        )
+        .corner(near_quarters),
         of_x(
             "asin",
             |call| map(call, elementary::asin),
-            "The angle of this sine.",
+            "Returns the arc sine.",
             "check(asin(1) == PI / 2);",
         )
         .corner(near_one),
         of_x(
             "acos",
             |call| map(call, elementary::acos),
-            "The angle of this cosine.",
+            "Returns the arc cosine.",
             "check(acos(1) == 0);",
         )
         .corner(near_one),
         of_x(
             "atan",
             |call| map(call, elementary::atan),
-            "The angle of this tangent.",
+            "Returns the arc tangent.",
             "check(4 * atan(1) == PI);",
         )
         .see(&["atan2"]),
         of_x(
             "sinh",
             |call| map(call, elementary::sinh),
-            "The hyperbolic sine.",
+            "Returns the hyperbolic sine.",
             "check(sinh(0) == 0);",
         ),
         of_x(
             "cosh",
             |call| map(call, elementary::cosh),
-            "The hyperbolic cosine.",
+            "Returns the hyperbolic cosine.",
             "check(cosh(0) == 1);",
         ),
         of_x(
             "tanh",
             |call| map(call, elementary::tanh),
-            "The hyperbolic tangent.",
+            "Returns the hyperbolic tangent.",
             "check(tanh(0) == 0);",
         ),
         of_x(
             "asinh",
             |call| map(call, elementary::asinh),
-            "The number with this hyperbolic sine.",
+            "Returns the inverse hyperbolic sine.",
             "check(asinh(0) == 0);",
         ),
         of_x(
             "acosh",
             |call| map(call, elementary::acosh),
-            "The number of zero or more with this hyperbolic cosine.",
+            "Returns the inverse hyperbolic cosine, which is not negative.",
             "check(acosh(1) == 0);",
         )
         .corner(near_one),
         of_x(
             "atanh",
             |call| map(call, elementary::atanh),
-            "The number with this hyperbolic tangent.",
+            "Returns the inverse hyperbolic tangent.",
             "check(atanh(0) == 0);",
         )
         .corner(near_one),
-        of_x("exp", |call| map(call, elementary::exp), "The exponential.", "check(exp(0) == 1);"),
+        of_x(
+            "exp",
+            |call| map(call, elementary::exp),
+            "Returns the exponential.",
+            "check(exp(0) == 1);",
+        ),
         of_x(
             "ln",
             |call| map(call, elementary::ln),
-            "The natural logarithm.",
+            "Returns the natural logarithm.",
             "check(ln(E) == 1);",
         )
         .corner(near_zero),
         of_x(
             "log10",
             |call| map(call, elementary::log10),
-            "The logarithm to base 10.",
+            "Returns the logarithm to base 10.",
             "check(log10(1000) == 3);",
         )
         .corner(near_zero),
         of_x(
             "log2",
             |call| map(call, elementary::log2),
-            "The logarithm to base 2.",
+            "Returns the logarithm to base 2.",
             "check(log2(8) == 3);",
         )
         .corner(near_zero),
@@ -132,43 +148,48 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(elementary::log(x(call)?, call.number("base")?).into())
         })
         .returns(Returns::NUMBER)
-        .summary("The logarithm to a base of your choice, which must be given.")
+        .summary("Returns the logarithm to a given base; the base is required.")
         .example("check_close(log(81, 3), 4, 1e-15);")
         .see(&["ln", "log10", "log2"])
         .corner(near_ends_of_logarithm),
-        of_x("sqrt", |call| map(call, f64::sqrt), "The square root.", "check(sqrt(16) == 4);")
-            .see(&["hypot"])
-            .corner(near_zero),
+        of_x(
+            "sqrt",
+            |call| map(call, f64::sqrt),
+            "Returns the square root.",
+            "check(sqrt(16) == 4);",
+        )
+        .see(&["hypot"])
+        .corner(near_zero),
         of_x(
             "radians",
             |call| map(call, f64::to_radians),
-            "An angle in degrees, in radians.",
+            "Converts an angle from degrees to radians.",
             "check(radians(180) == PI);",
         ),
         of_x(
             "degrees",
             |call| map(call, f64::to_degrees),
-            "An angle in radians, in degrees.",
+            "Converts an angle from radians to degrees.",
             "check(degrees(PI) == 180);",
         ),
         of_x(
             "floor",
             |call| round(call, f64::floor),
-            "The whole number at or below x.",
+            "Returns the largest whole number not above x.",
             "check(floor(2.7) == 2);",
         )
         .returns(WHOLE),
         of_x(
             "ceiling",
             |call| round(call, f64::ceil),
-            "The whole number at or above x.",
+            "Returns the smallest whole number not below x.",
             "check(ceiling(2.1) == 3);",
         )
         .returns(WHOLE),
         of_x(
             "int",
             |call| round(call, f64::trunc),
-            "The whole number next to x towards zero.",
+            "Rounds x towards zero to a whole number.",
             "check(int(2.7) == 2 && int(-2.7) == -2);",
         )
         .returns(WHOLE)
@@ -176,7 +197,7 @@ pub const TABLE: BindingTable = BindingTable {
         of_x(
             "fraction",
             |call| map(call, f64::fract),
-            "What is left of x without int(x).",
+            "Returns the fractional part of x, x - int(x).",
             "check(fraction(2.75) == 0.75);",
         )
         .see(&["int"])
@@ -184,7 +205,7 @@ pub const TABLE: BindingTable = BindingTable {
         of_x(
             "round",
             |call| round(call, f64::round),
-            "The nearest whole number.",
+            "Rounds x to the nearest whole number.",
             "check(round(2.6) == 3);",
         )
         .returns(WHOLE)
@@ -192,34 +213,34 @@ pub const TABLE: BindingTable = BindingTable {
         of_x(
             "is_nan",
             |call| Ok(x(call)?.is_nan().into()),
-            "Whether x is undefined.",
+            "Returns true if x is nan.",
             "check(is_nan(0 / 0));",
         )
         .returns(Returns::TRUTH),
         of_x(
             "is_finite",
             |call| Ok(x(call)?.is_finite().into()),
-            "Whether x is neither infinite nor undefined.",
+            "Returns true if x is neither infinite nor nan.",
             "check(!is_finite(1 / 0));",
         )
         .returns(Returns::TRUTH),
         of_x(
             "is_infinite",
             |call| Ok(x(call)?.is_infinite().into()),
-            "Whether x is infinite.",
+            "Returns true if x is infinite.",
             "check(is_infinite(1 / 0));",
         )
         .returns(Returns::TRUTH),
         function("abs", &[numeric("x")], absolute)
             .returns(Returns::NUMBER.note(", whole if x is"))
-            .summary("The magnitude of a number.")
+            .summary("Returns the absolute value of a number.")
             .example("check(abs(-3) == 3);")
             .corner(at_zero),
         function("hypot", &[ANY_X, ANY_Y], |call| {
             Ok(elementary::hypot(x(call)?, call.number("y")?).into())
         })
         .returns(Returns::NUMBER)
-        .summary("The length of the vector with components x and y, without overflow.")
+        .summary("Returns the length of the vector with components x and y, without overflow.")
         .example("check(hypot(3, 4) == 5);")
         .see(&["norm"])
         .corner(at_origin),
@@ -227,27 +248,29 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(elementary::atan2(call.number("y")?, x(call)?).into())
         })
         .returns(Returns::NUMBER.words("an angle from -PI to PI"))
-        .summary("The angle of the vector with components x and y; y comes first.")
+        .summary(
+            "Returns the angle of the vector with components x and y; y is the first argument.",
+        )
         .example("check(atan2(1, 0) == PI / 2);")
         .see(&["angle"])
         .corner(at_cut),
         function("min", &[numeric("x"), numeric("y")], |call| choose(call, |x, y| x < y))
             .returns(Returns::NUMBER)
-            .summary("The smaller of two numbers; undefined if one of them is.")
+            .summary("Returns the smaller of two numbers; nan if one of them is nan.")
             .example("check(min(2, 0.5) == 0.5);")
             .corner(where_equal),
         function("max", &[numeric("x"), numeric("y")], |call| choose(call, |x, y| x > y))
             .returns(Returns::NUMBER)
-            .summary("The larger of two numbers; undefined if one of them is.")
+            .summary("Returns the larger of two numbers; nan if one of them is nan.")
             .example("check(max(2, 0.5) == 2);")
             .corner(where_equal),
         function("quotient", &[whole("n"), whole("d")], quotient)
             .returns(Returns::WHOLE)
-            .summary("How often d goes into n, rounded down: whole-number division, for indices.")
+            .summary("Returns the quotient n/d rounded down to a whole number, for indices.")
             .example("check(quotient(7, 2) == 3);\ncheck(7 / 2 == 3.5);"),
         function("round_to", &[ANY_X, whole("digits").between(0.0, 15.0)], round_to)
             .returns(Returns::NUMBER)
-            .summary("x rounded to this many digits after the point.")
+            .summary("Rounds x to this many digits after the decimal point.")
             .example("check(round_to(PI, 2) == 3.14);")
             .see(&["round", "fixed"])
             .corner(where_rounded_differs),
@@ -301,8 +324,8 @@ fn quotient(call: &mut Call) -> Result<Dynamic, ScriptError> {
     match n.checked_div_euclid(d) {
         Some(quotient) => Ok(quotient.into()),
         None => Err(call
-            .error(format!("{n} by {d} has no whole quotient"))
-            .hint("n / d gives the number")),
+            .error(format!("the whole quotient of {n} by {d} does not exist"))
+            .hint("use n / d for the quotient as a number")),
     }
 }
 

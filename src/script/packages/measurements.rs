@@ -11,15 +11,17 @@ use crate::script::messages::error::{CallPart, ScriptError};
 
 pub const TABLE: BindingTable = BindingTable {
     name: "measurements",
-    doc: "Tables from other programs, as arrays of numbers.",
+    doc: "Tables of other programs as arrays of numbers.",
     types: &[],
     setup: "",
     constants: &[],
     rows: &[
-        function("read_csv", &[text("file").doc("its name in the output folder, or in that of the script")], read_csv)
+        function("read_csv", &[text("file").doc("file name in the output folder, or in the folder of the script")], read_csv)
             .returns(Returns::MAP)
-            .summary("Reads a table of numbers: a map of its columns by their names, each an array.")
-            .doc("Comma-separated values with the names of the columns in the first line; lines that begin with # are left out. Every cell must be a finite number.")
+            .summary("Reads a table of numbers and returns a map of its columns by name, each an \
+                array.")
+            .doc("Comma-separated values with the column names in the first line; lines that \
+                begin with # are ignored. Every cell must be a finite number.")
             .example(
                 "write_csv([#{ t: 0, x: 1 }, #{ t: 0.5, x: 0.25 }], \"measured.csv\");\nlet measured = read_csv(\"measured.csv\");\ncheck(measured.x == [1, 0.25]);",
             )
@@ -32,10 +34,10 @@ fn read_csv(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let at = |error: ScriptError| error.at(CallPart::Argument(0));
     let bytes = call.context().read_file(&file).map_err(at)?;
     let told = |why: String| call.error(format!("\"{file}\": {why}")).at(CallPart::Argument(0));
-    let text = String::from_utf8(bytes).map_err(|_| told("it is not UTF-8 text".into()))?;
+    let text = String::from_utf8(bytes).map_err(|_| told("the file is not UTF-8 text".into()))?;
     let sheet = ParsedCsv::parse(&text).map_err(|error| told(error.to_string()))?;
     if sheet.is_empty() {
-        return Err(told("it has no rows".into()));
+        return Err(told("the file has no rows".into()));
     }
     let column = |name: &String| {
         let number = |row| sheet.number(row, name).map(Dynamic::from);

@@ -25,8 +25,8 @@ use crate::vibration::{DampedMode, Mode, Modes, VibrationError};
 
 pub const TABLE: BindingTable = BindingTable {
     name: "modes",
-    doc: "How a scene vibrates by little about a configuration: natural frequencies and their shapes, the lowest first. A \
-          movement that meets no resistance has frequency 0.",
+    doc: "Modes of small vibration about a configuration: natural frequencies and mode shapes, \
+        in ascending order. Rigid body motions have frequency 0.",
     types: &[MODES],
     setup: VIBRATING,
     constants: &[],
@@ -40,12 +40,16 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(Dynamic::from(ModesHandle::drawn(handle, &scene, modes)))
         })
         .returns(Returns::object(MODES))
-        .summary("The lowest natural frequencies and shapes of the scene as it is drawn.")
+        .summary("Computes the lowest natural frequencies and mode shapes of the undeformed scene.")
         .doc(
-            "Each comes with a residual; what cannot be had with one below 1e-6 is refused. With up to 240 unknowns all modes are found at \
-             once, with more only the lowest, by the block method of Lanczos (Grimes, Lewis & Simon 1994), and a count of the negative pivots \
-             shows that none is missing. Sliders slide in them, under the contact forces that they have. Loads and weight are left out, since nothing has given way to them yet: what they \
-             change, as of a pendulum upside down, is in scene.equilibrium().modes(n). About another configuration: rest.modes(n) of an equilibrium, sim.modes(n) of a simulation.",
+            "Each mode has a residual; if one is not below 1e-6, the call is refused with an \
+            error. With up to 240 unknowns all modes are computed at once, with more only the \
+            lowest, by the block Lanczos method (Grimes, Lewis & Simon 1994); a count of the \
+            negative pivots verifies that none is missing. Sliders can move along their beams, \
+            under their present contact forces. Loads and gravity are ignored, because the \
+            scene is not deformed by them: for their effect, as on an inverted pendulum, use \
+            scene.equilibrium().modes(n). For other configurations use rest.modes(n) of an \
+            equilibrium or sim.modes(n) of a simulation.",
         )
         .example("let modes = scene.modes(3);\nprint(modes);\ncheck_close(modes.angular_frequencies[0], 0.35160 * 2.5^2, 0.01);")
         .see(&["plot_modes", "equilibrium"]),
@@ -57,9 +61,11 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(Dynamic::from(ModesHandle::new(handle.scene().clone(), simulation.scene(), modes)))
         })
         .returns(Returns::object(MODES))
-        .summary("Those about the present configuration of a simulation, as if it stood still there.")
-        .doc("They are under the section forces that beams have, none in one that is at ease at the start, and under the forces that hold the points of rigid \
-              bodies at this moment, by which a pendulum upside down grows from the start.")
+        .summary("Computes the lowest natural frequencies and mode shapes about the present \
+            configuration of a simulation, with velocities set to zero.")
+        .doc("The present section forces of beams (zero in an undeformed beam) and the present \
+            forces on points of rigid bodies are included; an inverted pendulum therefore has \
+            a growing mode at the start.")
         .example("let sim = scene.start(#{ dt: 0.1 });\nlet drawn = scene.modes(1).angular_frequencies;\ncheck(sim.modes(1).angular_frequencies == drawn);"),
         method(SCENE, "damped_modes", &[COUNT], |call| {
             let handle = call.receiver::<SceneHandle>()?;
@@ -67,10 +73,13 @@ pub const TABLE: BindingTable = BindingTable {
             look_for_damped(call, &model)
         })
         .returns(Returns::ARRAY)
-        .summary("The lowest damped vibrations of the scene as it is drawn: maps of decay_rate, angular_frequency and damping_ratio.")
+        .summary("Computes the lowest damped vibrations of the undeformed scene: maps of decay_rate, \
+            angular_frequency and damping_ratio.")
         .doc(
-            "The eigenvalues λ = -δ ± iω of λ² M + λ D + K, exact whatever the damping, the smallest |λ| first; what is overdamped does not swing, has ω = 0 and a ratio of 1, and \
-             each of its two λ is one of them. Only with up to 240 unknowns and without sliders. What dampers with a law and drag have of damping at rest counts.",
+            "The eigenvalues λ = -δ ± iω of λ² M + λ D + K, exact for any damping, in ascending \
+            order of |λ|. An overdamped mode has ω = 0 and a damping ratio of 1, and each of \
+            its two λ is one result. Only for up to 240 unknowns and without sliders. Dampers \
+            with a law and drag contribute their linear damping at rest.",
         )
         .example(
             "let oscillator = new_scene(\"oscillator\");\nlet bead = oscillator.particle([1, 0], 2);\noscillator.support(bead, #{ y: true });\n\
@@ -79,26 +88,29 @@ pub const TABLE: BindingTable = BindingTable {
         )
         .see(&["damping_ratios", "modes"]),
         told("angular_frequencies", Returns::NUMBERS.unit("rad/time"), |call| list(call, Mode::angular_frequency))
-            .summary("ω of each mode; 0 where nothing vibrates.")
+            .summary("Angular frequency ω of each mode; 0 for modes that do not vibrate.")
             .example("let modes = scene.modes(2);\ncheck(modes.angular_frequencies[1] > modes.angular_frequencies[0]);")
             .see(&["frequencies", "periods"]),
         told("frequencies", Returns::NUMBERS.unit("1/time"), |call| list(call, Mode::frequency))
-            .summary("ω/2π of each mode: vibrations in a unit of time.")
+            .summary("Frequency ω/2π of each mode, in cycles per unit of time.")
             .example("let modes = scene.modes(1);\ncheck_close(modes.frequencies[0] * modes.periods[0], 1, 1e-12);"),
         told("periods", Returns::NUMBERS.unit("time"), |call| list(call, Mode::period))
-            .summary("2π/ω of each mode; infinite where nothing vibrates.")
+            .summary("Period 2π/ω of each mode; infinite for modes that do not vibrate.")
             .example("let half = scene.modes(1).periods[0] / 2;\nlet sim = scene.start(#{ dt: half / 20 });\nsim.run_to(half);"),
         told("growth_rates", Returns::NUMBERS.unit("1/time"), |call| list(call, Mode::growth_rate))
-            .summary("How fast each mode grows if the configuration is unstable; 0 for what vibrates.")
+            .summary("Growth rate of each mode of an unstable configuration; 0 for modes that \
+                vibrate.")
             .example("check(scene.modes(1).growth_rates == [0]);")
             .see(&["is_stable"]),
         told("damping_ratios", Returns::NUMBERS.unit("-"), |call| {
             Ok(modes(call)?.0.modes.damping_ratios().map(Dynamic::from).collect::<Array>().into())
         })
-        .summary("How strongly dampers, damped materials and drag damp each mode, as a part of critical damping; 0 where nothing does.")
+        .summary("Damping ratio of each mode due to dampers, damped materials and drag, as a \
+            fraction of critical damping; 0 without damping.")
         .doc(
-            "φᵀ D φ/(2ω) with φᵀ M φ = 1: exact where damping does not couple modes, as that of a material whose relaxation times are equal, else to \
-             first order in the damping. The frequencies are those without damping. Exact ones: scene.damped_modes(n).",
+            "φᵀ D φ/(2ω) with φᵀ M φ = 1: exact where damping does not couple modes, as for a \
+            material with equal relaxation times, else to first order in the damping. The \
+            frequencies are those without damping. For exact values use scene.damped_modes(n).",
         )
         .example(
             "let scene = new_scene(\"damped\");\n\
@@ -108,24 +120,26 @@ pub const TABLE: BindingTable = BindingTable {
         )
         .see(&["section", "damper"]),
         told("residuals", Returns::NUMBERS.unit("-"), |call| list(call, |mode| mode.residual))
-            .summary("How far each mode is from balance: its ω² + σ is not wrong by more than this part of itself.")
+            .summary("Residual of each mode: an upper bound of the relative error of ω² + σ.")
             .doc(
-                "σ is about the square of the slowest bending. The next correction of the shape and its section forces would change so much, in \
-                 energy; the error of ω² is about the square of that. The error of the mesh is another matter: compare with twice the spans.",
+                "σ is about the square of the lowest bending frequency. The residual is the \
+                relative change, in energy, of the shape and its section forces in the next \
+                correction; the error of ω² is about its square. The discretisation error is \
+                not included: compare with twice the number of spans.",
             )
             .example("check(scene.modes(3).residuals.all(|residual| residual < 1e-6));")
             .see(&["angular_frequencies"]),
         told("is_stable", Returns::TRUTH, |call| Ok(modes(call)?.0.modes.is_stable().into()))
-            .summary("Whether none of the modes grows by itself.")
+            .summary("True if no mode grows.")
             .example("check(scene.modes(1).is_stable);"),
         told("count", Returns::WHOLE, |call| Ok(Dynamic::from(modes(call)?.0.modes.all().len() as INT)))
-            .summary("How many modes there are.")
+            .summary("Number of modes.")
             .example("check(scene.modes(4).count == 4);"),
         method(MODES, "displacement", &[whole("mode").non_negative(), object("station", STATION)], |call| {
             let handle = modes(call)?;
             let (mode, count) = (call.count("mode")?, handle.0.modes.all().len());
             if mode >= count {
-                let told = format!("mode {mode} was asked for, but there are {count}, counted from 0");
+                let told = format!("mode {mode} does not exist: there are {count} modes, counted from 0");
                 return Err(call.error(told).hint(format!("give 0 to {}", count - 1)).at(CallPart::Argument(0)));
             }
             let station = call.get::<StationHandle>("station")?;
@@ -133,7 +147,8 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(Dynamic::from(handle.0.modes.displacement(mode, &place)))
         })
         .returns(Returns::object(VECTOR).unit("-"))
-        .summary("How far a station moves in a mode, the first being mode 0, relative to the control point that moves most.")
+        .summary("Returns the displacement of a station in a mode (the first is mode 0), relative to \
+            the control point with the largest displacement.")
         .example("let modes = scene.modes(2);\ncheck_close(norm(modes.displacement(0, rod.end)), 1, 1e-9);\ncheck(norm(modes.displacement(1, rod.start)) < 1e-12);"),
     ],
 };
@@ -182,7 +197,7 @@ impl ModesHandle {
 
 impl Scripted for ModesHandle {
     const NAME: &'static str = "modes";
-    const DOC: &'static str = "Natural frequencies of small vibration, and their shapes.";
+    const DOC: &'static str = "Natural frequencies and shapes of small vibrations.";
 
     fn show(&self) -> String {
         let mut table = TextTable::new(&["mode", "ω [rad/time]", "period [time]", ""]);
@@ -194,7 +209,7 @@ impl Scripted for ModesHandle {
                     let hidden = significant(mode.rounding.sqrt(), 2);
                     (
                         Cell::Text("-".into()),
-                        format!("no resistance, or rounding hides it (ω < {hidden})"),
+                        format!("no stiffness, or hidden by rounding errors (ω < {hidden})"),
                     )
                 }
                 square if square < 0.0 => {
@@ -213,7 +228,8 @@ impl Scripted for ModesHandle {
         let ModesData { scene, about, .. } = &*self.0;
         let acts = scene.loads().next().is_some() || scene.gravity != Vec2::zeros();
         if *about == ModesReference::Drawn && acts {
-            shown += "\nof the scene as drawn: what its loads and its weight change, as of a pendulum, is in scene.equilibrium().modes(n)";
+            shown += "\nof the undeformed scene; scene.equilibrium().modes(n) includes the effect of \
+                loads and gravity, as on a pendulum";
         }
         shown
     }

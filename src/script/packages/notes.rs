@@ -10,10 +10,12 @@ use crate::script::handles::simulation::SimulationHandle;
 
 pub const TABLE: BindingTable = BindingTable {
     name: "notes",
-    doc: "Steps may keep energy and momenta to rounding and be too long to mean anything. While a simulation runs, it measures how well its \
-          steps resolve what happens: vibration that they do not follow, sections that turn far in a step, sliders that pass many \
-          spans, bounces on stiff beams. What is not resolved is told once, when sim.run_to(…) ends; when all is well, nothing is. \
-          scene.start(#{ …, notes: \"keep\" }) prints none of it. sim.notes, sim.explain() and the report have it in any case.",
+    doc: "Notes on steps that are too large. Steps may keep energy and momenta to rounding and \
+        still not resolve the motion. A simulation checks for vibration faster than the steps, \
+        large rotations of sections within a step, sliders that pass many spans in a step, and \
+        bounces on stiff beams. Each problem is printed once, at the end of sim.run_to(…); \
+        without problems nothing is printed. scene.start(#{ …, notes: \"keep\" }) suppresses \
+        the output. sim.notes, sim.explain() and the report contain the notes in any case.",
     types: &[],
     setup: SPINNING,
     constants: &[],
@@ -24,10 +26,11 @@ pub const TABLE: BindingTable = BindingTable {
         Ok(texts.collect::<Array>().into())
     })
     .returns(Returns::array_of(&ValueKind::Text))
-    .summary("What the steps so far do not resolve; empty when all is well.")
+    .summary("Notes on the steps so far that do not resolve the motion; empty if there are none.")
     .doc(
-        "They are about the steps that led to the present: going back takes the notes on the steps undone away, forks and saved \
-         simulations have those of their past. sim.run_to(…) tells each at its end, and again only when it has become twice as bad.",
+        "The notes refer to the steps that led to the present state: going back removes the \
+        notes on the removed steps, and forks and saved simulations keep the notes on their \
+        past. sim.run_to(…) prints each note once, and again only if the value has doubled.",
     )
     .example(
         "sim.run_to(1);\ncheck(sim.notes.is_empty());\n\

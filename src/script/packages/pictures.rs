@@ -24,23 +24,32 @@ use crate::script::bindings::table::{BindingTable, function};
 /// Domain of pictures and files.
 pub const TABLE: BindingTable = BindingTable {
     name: "pictures",
-    doc: "Pictures are SVG or PNG by the ending of the file name, tables are CSV; all go into the output folder. Given an \
-          array of simulations, a picture shows them side by side.",
+    doc: "Pictures of simulations. Pictures are SVG or PNG, depending on the ending of the file \
+        name, and tables are CSV; all are written to the output folder. An array of \
+        simulations is shown side by side.",
     types: &[],
     setup: SPINNING,
     constants: &[],
     rows: &[
         function("plot_motion", &[MOVING, FILE, options("options", MOTION).optional()], plot_motion)
-            .summary("Draws snapshots of the motion in one picture, axes equal, with supports, joints, sliders, springs and loads.")
+            .summary("Plots snapshots of the motion in one picture with equal axes, including \
+                supports, joints, sliders, springs and loads.")
             .doc(
-                "Knots or nodes are dots, particles larger ones, rigid bodies the lines around their points. The last snapshot is the present unless `to` is given, and symbols are those of that time: a support is a triangle, on rollers where it leaves a direction free, or a wall \
-                 where it clamps, a motor a circle with arrows, what scene.move moves a square with arrows, a joint a ring, or a square where it is rigid, a slider a diamond, a spring a zigzag, a damper a piston, a load an arrow, as long as it acts. At the prompt `:show` takes the same options.",
+                "Knots or nodes are dots, particles are larger dots, rigid bodies are the lines \
+                around their points. The last snapshot is at `to`, default: the present; \
+                symbols show the state at that time. A support is a triangle, on rollers if a \
+                direction is free; a clamp is a wall; a motor is a circle with arrows; a drive \
+                of scene.move is a square with arrows; a joint is a ring, or a square if it is \
+                rigid; a slider is a diamond; a spring is a zigzag; a damper is a piston; a \
+                load is an arrow while it acts. The command `:show` at the prompt takes the \
+                same options.",
             )
             .example("sim.run_to(2);\nplot_motion(sim, \"spin.svg\", #{ every: 0.5, trace: [rod.end] });\nplot_motion(sim, \"large.svg\", #{ magnify: 10, every: 1, x_limits: [-1, 3] });")
             .see(&["plot", "plot_history", "plot_along", "plot_field"]),
         function("plot_history", &[RECORDED, COLUMNS, FILE, options("options", HISTORY_OPTIONS).optional()], plot_history)
-            .summary("Draws columns of the history over time.")
-            .doc("Of several histories, each must have the columns named. Other numbers than columns are drawn by `plot`.")
+            .summary("Plots columns of the history over time.")
+            .doc("Each of several histories must have the named columns. Use `plot` for other \
+                numbers.")
             .example(
                 "sim.run_to(2);\nplot_history(sim, [\"kinetic\", \"strain\", \"energy\"], \"energy.svg\");\n\
                  plot_history(sim, [\"strain\"], \"strain.svg\", #{ average: true, title: \"Strain energy\" });\n\
@@ -49,15 +58,16 @@ pub const TABLE: BindingTable = BindingTable {
             )
             .see(&["plot", "plot_drift", "plot_along", "column", "averaged"]),
         function("plot_drift", &[RECORDED, FILE], plot_drift)
-            .summary("Draws how far energy and momenta have drifted, on a logarithmic axis.")
+            .summary("Plots the drift of energy and momenta on a logarithmic axis.")
             .example("sim.run_to(2);\nplot_drift(sim, \"drift.png\");")
             .see(&["drift"]),
         function("write_history", &[RECORDED, FILE], write_history)
-            .summary("Writes all columns of the history as CSV, every digit kept.")
+            .summary("Writes all columns of the history as CSV with all digits.")
             .example("sim.run_to(1);\nwrite_history(sim, \"spin.csv\");")
             .see(&["write_csv", "write_npz"]),
         function("write_states", &[either("of", &[Kind::Object(SIMULATION)]), FILE], write_states)
-            .summary("Writes the control points (or nodes) of all beams, and the particles, over time as CSV.")
+            .summary("Writes the control points (or nodes) of all beams, and the particles, over \
+                time as CSV.")
             .example("sim.run_to(1);\nwrite_states(sim, \"points.csv\");")
             .see(&["write_npz", "write_vtk"]),
     ],

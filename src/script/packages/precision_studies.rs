@@ -21,8 +21,8 @@ use crate::script::studies::reference::FinestRun;
 
 pub const TABLE: BindingTable = BindingTable {
     name: "error against run time",
-    doc: "A study runs a scene in many ways and says what they say together. withy study FILE keeps what is finished when it is \
-          interrupted, and goes on there the next time.",
+    doc: "Studies of error against run time. withy study FILE saves finished runs when it is \
+        interrupted, and continues from them the next time.",
     types: &[PRECISION, FINEST_RUN],
     setup: SETUP,
     constants: &[],
@@ -33,13 +33,17 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(Dynamic::from(PrecisionStudy(Rc::new(study))))
         })
         .returns(Returns::object(PRECISION))
-        .summary("Runs a scene with all meshes, integrators and step sizes: the error of each, and the time it takes.")
+        .summary("Runs a scene with all meshes, integrators and step sizes, and measures the error \
+            and the run time of each combination.")
         .doc(
-            "scene is a function that makes the scene on a mesh and gives it, or #{ scene: scene, stations: #{ tip: rod.end } }; \
-             without stations they are the ends of all beams and all particles. The error is the largest distance of a station \
-             from the reference at the times, divided by the length. The reference is the name of a table with the columns t and, \
-             for a station called tip, xtip, ytip and thtip, or finest_run(). All cases run in parallel first; then those that came \
-             to their end are timed one by one. Those that fail stay, with the reason. The table is printed, written into NAME.csv and drawn into NAME.svg.",
+            "scene is a function of a mesh that returns the scene, or #{ scene: scene, \
+            stations: #{ tip: rod.end } }; default stations: the ends of all beams and all \
+            particles. The error is the largest distance of a station from the reference at \
+            the times, divided by the length. The reference is the name of a table with the \
+            columns t and, for a station called tip, xtip, ytip and thtip, or finest_run(). \
+            All cases first run in parallel; then finished runs are timed one by one. Failed \
+            runs stay in the table with the reason. The table is printed, written to NAME.csv \
+            and plotted in NAME.svg.",
         )
         .example(
             "let study = study_work_precision(#{\n    name: \"spinning\", scene: spinning, meshes: [bspline(2), bspline(4)],\n    \
@@ -49,12 +53,16 @@ pub const TABLE: BindingTable = BindingTable {
         .see(&["finest_run", "study_convergence", "cheapest", "front"]),
         function("finest_run", &[options("options", FinestOptions::KEYS).optional()], finest_run)
             .returns(Returns::object(FINEST_RUN))
-            .summary("As a reference of a study: a run of our own, marked as such in the results.")
+            .summary("Creates a reference of a study by a fine run, which the results mark as such.")
             .doc(
-                "Unless told otherwise it is made on the finest mesh of the study, with its integrator of the highest order and a \
-                 quarter of its smallest step size; it must be finer than the runs that it judges. It is run with twice its step as well, and the difference is added to all errors: they are bounds, \
-                 marked with ≤ where that changes their digits. No order is told of errors below twice the difference. There is none where all runs of the study have its very integrator and step size, so that \
-                 errors in time are the same. Its error of the mesh is not known; errors of meshes need a finer mesh here.",
+                "Defaults: the finest mesh of the study, its integrator of the highest order \
+                and a quarter of its smallest step size. The reference must be finer than the \
+                runs it is compared with. It is also run with twice its step, and the \
+                difference is added to all errors: they are bounds, marked with ≤ where this \
+                changes their digits. Errors below twice the difference have no order. No such \
+                run is needed if all runs of the study have the integrator and step size of \
+                the reference, because the time errors are then equal. The mesh error of the \
+                reference is unknown; to measure mesh errors give a finer mesh here.",
             )
             .example(
                 "let study = study_work_precision(#{\n    name: \"spinning\", scene: spinning, meshes: [bspline(2), bspline(4)],\n    \
@@ -65,31 +73,36 @@ pub const TABLE: BindingTable = BindingTable {
             .see(&["study_work_precision", "study_convergence"]),
         of_study("table", |call| Ok(table(&call.receiver::<PrecisionStudy>()?.0).into()))
             .returns(Returns::TEXT)
-            .summary("All combinations, mesh by mesh: errors, times, work and the drift of energy; ● marks those on the front.")
+            .summary("Table of all combinations, mesh by mesh: errors, times, work and the drift of \
+                energy; ● marks those on the front.")
             .example("print(study.table);"),
         of_study("rows", |call| {
             let PrecisionStudy(study) = call.receiver()?;
             Ok(study.rows.iter().map(|row| map_of(&study, row).into()).collect::<Array>().into())
         })
         .returns(Returns::array_of(&ValueKind::Map))
-        .summary("All combinations: mesh, integrator, dt, error, run_time, steps, energy_drift, outcome and more.")
+        .summary("Array with a map for each combination: mesh, integrator, dt, error, run_time, \
+            steps, energy_drift, outcome and more.")
         .example("for row in study.rows { check(row.outcome == \"finished\" && row.energy_drift < 1e-12); }"),
         of_study("front", |call| {
             let PrecisionStudy(study) = call.receiver()?;
             Ok(study.front().into_iter().map(|row| map_of(&study, row).into()).collect::<Array>().into())
         })
         .returns(Returns::array_of(&ValueKind::Map))
-        .summary("The combinations that are worth their time: none is both faster and better. The fastest comes first.")
+        .summary("Array of the Pareto-optimal combinations, for which no other one is both faster \
+            and more accurate, the fastest first.")
         .example("check(study.front[0].on_front);")
         .see(&["cheapest"]),
         of_study("reference", |call| Ok(call.receiver::<PrecisionStudy>()?.0.truth.source.clone().into()))
             .returns(Returns::TEXT)
-            .summary("What the errors are measured against.")
+            .summary("Description of the reference of the errors.")
             .example("print(study.reference);"),
         method(PRECISION, "cheapest", &[ERRORS], cheapest)
             .returns(Returns::one_of(&[ValueKind::Map, ValueKind::Nothing, ValueKind::Text]).words("a map, () or a text"))
-            .summary("The fastest combination with at most this error; of several errors a table, with rivals beside.")
-            .doc("For one error it is a map such as those of rows, or () when no combination is so good.")
+            .summary("Returns the fastest combination with at most this error; for several errors a \
+                table, with the other programs of the option rivals for comparison.")
+            .doc("For one error the result is a map like those of rows, or () if no combination \
+                reaches the error.")
             .example("let best = study.cheapest(0.5);\nprint(best.run_time);\nprint(study.cheapest([0.5, 0.01]));")
             .see(&["front", "cheapest_confirmed"]),
         method(PRECISION, "cheapest_confirmed", &[ERROR], |call| {
@@ -98,8 +111,10 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(found.map_or(Dynamic::UNIT, |row| map_of(&study, row).into()))
         })
         .returns(Returns::one_of(&[ValueKind::Map, ValueKind::Nothing]).words("a map or ()"))
-        .summary("The fastest combination with at most this error of which all smaller steps on its mesh err no more.")
-        .doc("Errors of mesh and step may cancel; what smaller steps contradict is right by luck. () where there is none.")
+        .summary("Returns the fastest combination with at most this error for which all smaller \
+            steps on its mesh have no larger error.")
+        .doc("Errors of mesh and step size can cancel; a small error that smaller steps do not \
+            confirm is a coincidence. The result is () if there is no such combination.")
         .example("print(study.cheapest_confirmed(0.5));")
         .see(&["cheapest"]),
     ],
@@ -115,7 +130,7 @@ const SETUP: &str = "let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho
     integrators: [energy_momentum()], dts: [0.1], times: [1], repeats: 1 });";
 
 const ERRORS: Parameter = either("error", &[Kind::Number(NumberRange::Positive), Kind::Numbers])
-    .doc("an error, or several");
+    .doc("an error, or an array of errors");
 
 const ERROR: Parameter = number("error").positive().doc("an error");
 
@@ -131,7 +146,8 @@ struct PrecisionStudy(Rc<Precision>);
 
 impl Scripted for PrecisionStudy {
     const NAME: &'static str = "precision study";
-    const DOC: &'static str = "Error against run time of many ways to compute the same.";
+    const DOC: &'static str =
+        "Error against run time of many combinations of mesh, integrator and step size.";
 
     fn show(&self) -> String {
         let Precision { name, rows, .. } = &*self.0;
@@ -161,7 +177,7 @@ fn cheapest(call: &mut Call) -> Result<Dynamic, ScriptError> {
         return match errors.iter().find(|error| **error <= 0.0) {
             Some(wrong) => Err(call
                 .error(format!("error holds {}", format_number(*wrong)))
-                .hint("errors are positive numbers")
+                .hint("errors must be positive numbers")
                 .at(CallPart::Argument(0))),
             None => Ok(comparison(&study, &errors).into()),
         };

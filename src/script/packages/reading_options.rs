@@ -15,7 +15,8 @@ use crate::script::messages::suggest::nearest;
 /// Domain of options and arguments of script functions.
 pub const TABLE: BindingTable = BindingTable {
     name: "options of functions",
-    doc: "What a function of a script needs to take options and arguments as the functions of withy do.",
+    doc: "Functions for scripts that check options and arguments in the same way as the \
+        functions of withy.",
     types: &[],
     setup: "",
     constants: &[],
@@ -23,17 +24,19 @@ pub const TABLE: BindingTable = BindingTable {
         function(
             "read_options",
             &[
-                text("owner").doc("the name of the function that takes the options, for messages"),
-                anything("options").doc("what it was given: a map"),
-                anything("known").doc("a map of what each option must be, in words; [words, default] for those that may be left out"),
+                text("owner").doc("name of the function that takes the options, for messages"),
+                anything("options").doc("the options, a map"),
+                anything("known").doc("map of the kind of each option, in words; [words, default] for optional \
+                    ones"),
             ],
             read_options,
         )
         .returns(Returns::MAP)
-        .summary("The options of a function, those left out filled in; refused when one is unknown, missing or of the wrong kind.")
+        .summary("Checks the options of a function and adds defaults; unknown or missing options and \
+            wrong kinds are refused with an error.")
         .doc(
-            "The words for what an option must be are those of read_argument. Points come as vectors, whatever they were given as. \
-             Where the default is (), () may be given, too.",
+            "Kinds are written as for read_argument. Points are returned as vectors. If the \
+            default is (), () may also be given.",
         )
         .example(
             "fn mast(options) {\n    let given = read_options(\"mast\", options, #{\n        height: \"a positive number [length]\",\n        \
@@ -44,21 +47,25 @@ pub const TABLE: BindingTable = BindingTable {
         function(
             "read_argument",
             &[
-                text("owner").doc("the name of the function that takes the argument, for messages"),
-                text("name").doc("its name"),
-                anything("value").doc("what was given"),
-                text("kind").doc("what it must be, in words"),
+                text("owner").doc("name of the function that takes the argument, for messages"),
+                text("name").doc("name of the argument"),
+                anything("value").doc("value of the argument"),
+                text("kind").doc("expected kind, in words"),
             ],
             read_argument,
         )
         .returns(Returns::ANYTHING)
-        .summary("An argument of a function, a point as a vector, refused when it is of the wrong kind.")
+        .summary("Checks an argument of a function and returns it, a point as a vector; a wrong kind \
+            is refused with an error.")
         .doc(
-            "Kinds are told in words: \"a number\", \"a positive number\", \"a number of zero or more\", \"any number\" (infinite ones \
-             and nan too), \"a whole number\", \"a positive whole number\", \"a whole number of zero or more\", \"a text\", \"true or \
-             false\", \"a point\", \"a vector\", \"an array\", \"an array of numbers\", \"an array of points\", \"a function\", \
-             \"a value\" (anything), \"nothing\", or the name of a type, such as \"a section\". Others are joined by \"or\": \"a number \
-             or a schedule\". A unit may stand behind: \"a positive number [length]\".",
+            "Kinds are written in words: \"a number\", \"a positive number\", \"a number of \
+            zero or more\", \"any number\" (including infinity and nan), \"a whole number\", \
+            \"a positive whole number\", \"a whole number of zero or more\", \"a text\", \
+            \"true or false\", \"a point\", \"a vector\", \"an array\", \"an array of \
+            numbers\", \"an array of points\", \"a function\", \"a value\" (anything), \
+            \"nothing\", or the name of a type, such as \"a section\". Several kinds are \
+            joined by \"or\": \"a number or a schedule\". A unit may follow: \"a positive \
+            number [length]\".",
         )
         .example(
             "fn half(size) { read_argument(\"half\", \"size\", size, \"a positive number\") / 2 }\n\
@@ -137,7 +144,7 @@ fn described(call: &Call, name: String, told: &Dynamic) -> Result<OptionInfo, Sc
     };
     let wanted = wanted.as_immutable_string_ref().map_err(|_| {
         let got = call.describe(told);
-        call.error(format!("'{name}' must be told in words or as [words, default], got {got}"))
+        call.error(format!("'{name}' must be given in words or as [words, default], got {got}"))
     })?;
     Ok(OptionInfo { name, wanted: wanted.to_string(), default })
 }

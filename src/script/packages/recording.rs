@@ -17,10 +17,12 @@ use crate::simulation::Recording;
 
 pub const TABLE: BindingTable = BindingTable {
     name: "recording",
-    doc: "A simulation records every step: a row in its history, a configuration for pictures. A long run need not: \
-          scene.start(#{ …, record: every(100) }). Its start, the end of every run_to, the times of sim.at and the arrivals of \
-          sliders are recorded in any case, and the present has a row as long as it is the present, so that sim.energy and its like \
-          always work. What is not recorded is not measured, and takes no memory.",
+    doc: "Selection of recorded states. By default a simulation records every step: a row in its \
+        history and a configuration for pictures. For long runs select fewer: scene.start(#{ \
+        …, record: every(100) }). The start, the end of every run_to, the times of sim.at and \
+        the arrivals of sliders are always recorded. The present state always has a row while \
+        it is the present, so that sim.energy and similar properties always work. States that \
+        are not recorded use no memory and are missing in all evaluations of the history.",
     types: &[RECORDING],
     setup: SPINNING,
     constants: &[],
@@ -30,12 +32,12 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(Dynamic::from(Recording::Every(steps)))
         })
         .returns(Returns::object(RECORDING))
-        .summary("Records the states after every so many steps.")
+        .summary("Records every n-th step.")
         .example("let long = scene.start(#{ dt: 0.1, record: every(10) });\nlong.run_to(5);\ncheck(long.steps == 50 && long.history.rows == 6);")
         .see(&["nothing", "start"]),
         function("nothing", &[], |_| Ok(Dynamic::from(Recording::Nothing)))
             .returns(Returns::object(RECORDING))
-            .summary("Records the start and the ends of runs, and nothing between.")
+            .summary("Records only the start and the ends of runs.")
             .example("let quiet = scene.start(#{ dt: 0.1, record: nothing() });\nquiet.run_to(5);\ncheck(quiet.history.rows == 2 && quiet.history.drift(\"energy\") < 1e-12);")
             .see(&["every", "start"]),
     ],
@@ -45,7 +47,7 @@ pub const RECORDING: Type = Type::of::<Recording>();
 
 impl Scripted for Recording {
     const NAME: &'static str = "recording";
-    const DOC: &'static str = "Which states of a run are recorded.";
+    const DOC: &'static str = "Selection of the recorded states of a run.";
 
     fn show(&self) -> String {
         format!("recording of {}", self.describe())
@@ -75,7 +77,9 @@ pub(super) fn expect_rows_between(call: &Call, of: &SimulationHandle) -> Result<
         return Ok(());
     }
     let told = format!("'{}' recorded {}", of.name(), simulation.recording().describe());
-    Err(call.error(told).hint("start it with the option record: every(100), or without it"))
+    Err(call
+        .error(told)
+        .hint("start it with the option record: every(100), or without this option"))
 }
 
 pub(super) struct Missing {
@@ -95,9 +99,10 @@ pub(super) fn tell_another_run(
 ) -> Result<(), ScriptError> {
     let (name, time) = (of.name(), format_number(time));
     let told = format!(
-        "the states of '{name}' are forgotten, and the run made again is another one from t = {time} or before"
+        "the earlier states of '{name}' are no longer stored, and the repeated run differs at \
+        t = {time} or before"
     );
-    let more = "start it with the option snapshots: 1000 to keep more states";
+    let more = "start it with the option snapshots: 1000 to store more states";
     if is_asked {
         let hint = format!("{more}, or write #{{ {} }}", missing.instead);
         return Err(call.error(told).hint(hint).at(CallPart::Key("fields".into())));
@@ -118,13 +123,13 @@ pub(super) fn expect_near(
         return Ok(());
     }
     let told = format!(
-        "'{}' recorded {}: the configuration nearest to t = {} is that of t = {}",
+        "'{}' recorded {}: the recorded configuration nearest to t = {} is at t = {}",
         of.name(),
         simulation.recording().describe(),
         format_number(time),
         format_number(recorded)
     );
-    let hint =
-        "start it with the option record: every(n) and a smaller n, or draw with a larger `every`";
+    let hint = "start it with the option record: every(n) and a smaller n, or plot with a larger \
+        `every`";
     Err(call.error(told).hint(hint))
 }

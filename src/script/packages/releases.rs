@@ -22,19 +22,24 @@ use crate::system::SystemError;
 
 pub const TABLE: BindingTable = BindingTable {
     name: "releases",
-    doc: "A joint, a slider, a spring or a drive lets go in the course of a run. Places and velocities go on as they are, so that energy and momenta of the \
-          bodies stay to the last bit; accelerations jump. What a spring stores when it lets go counts as dissipated, as when it snaps. At rest, in \
-          scene.equilibrium and scene.modes, everything still holds.",
+    doc: "Releases of joints, sliders, springs and drives during a run. Positions and velocities \
+        are continuous at a release, so that energy and momenta of the bodies are kept \
+        exactly; accelerations jump. The energy stored in a released spring counts as \
+        dissipated. scene.equilibrium and scene.modes ignore releases: everything is attached.",
     types: &[],
     setup: super::scenes::ROD,
     constants: &[],
     rows: &[
         method(SCENE, "release", &[WHAT, options("options", RELEASE_KEYS)], release)
-            .summary("Lets a joint, a slider, a spring or a drive go: at a time, or when a condition turns true.")
-            .doc("What it is about is what scene.hinge, scene.clamp, scene.rigid, scene.support, scene.slider or scene.spring gave, or its name: \"hinge1\", \"motor1\". \
-                  A step ends at the time `at`, and the next one is without it. A condition `when` is a function of the simulation, |q| …, that is asked before \
-                  every step and not within one: it lets go at the end of the first step at which the condition is true, which shorter steps find more exactly. In the state at that \
-                  end it still holds; going back there and going on lets go again.")
+            .summary("Releases a joint, slider, spring or drive at a time or by a condition.")
+            .doc("The object is the return value of scene.hinge, scene.clamp, scene.rigid, \
+                scene.support, scene.slider or scene.spring, or a name: \"hinge1\", \
+                \"motor1\". With `at` a step ends at this time, and the next step is without \
+                the object. `when` is a function of the simulation, |q| …, that returns true \
+                for the release. It is called before every step, not within steps: the release \
+                is at the end of the first step at which it returns true, so that shorter \
+                steps find the time more accurately. The state at that time still contains the \
+                object; a run that goes back to it and continues releases it again.")
             .example("let latch = scene.clamp(rod.start);\nlet pin = scene.hinge(rod.end);\n\
                       scene.release(pin, #{ at: 0.25 });\n\
                       scene.release(latch, #{ when: |q| q.position(rod.end).y < -0.001 });\n\
@@ -45,7 +50,7 @@ pub const TABLE: BindingTable = BindingTable {
             .see(&["joint_force", "hinge", "releases"]),
         property(SIMULATION, "releases", releases)
             .returns(Returns::array_of(&ValueKind::Map).note(" #{ t, name }"))
-            .summary("What has let go so far, by scene.release, and when.")
+            .summary("Releases made so far by scene.release, with their times.")
             .example("let pin = scene.hinge(rod.start);\nscene.release(pin, #{ at: 0.1 });\n\
                       let sim = scene.start(#{ dt: 0.05 });\nsim.run_to(0.2);\nprint(sim.releases);")
             .see(&["release", "events"]),
@@ -55,8 +60,8 @@ pub const TABLE: BindingTable = BindingTable {
 const WHAT: Parameter =
     either("what", &[Kind::Object(JOINT), Kind::Object(SLIDER), Kind::Object(SPRING), Kind::Text]);
 const RELEASE_KEYS: &[Parameter] = &[
-    number("at").unit("time").doc("when it lets go, after the start").optional(),
-    callback("when").doc("the condition, |q| …: whether it lets go now").optional(),
+    number("at").unit("time").doc("time of the release, after the start").optional(),
+    callback("when").doc("condition, |q| …; returns true for the release").optional(),
 ];
 
 #[derive(Clone, Copy)]
@@ -66,7 +71,7 @@ enum ReleaseWording {
 }
 
 const SAID: KeySets<ReleaseWording> = KeySets {
-    told: "give at, a time, or when, a condition |q| …",
+    told: "give a time `at` or a condition `when`: |q| …",
     besides: &[],
     sets: &[
         KeySet { meaning: ReleaseWording::At, told: "a time", keys: &["at"], chosen_by: None },
@@ -87,7 +92,7 @@ fn release(call: &mut Call) -> Result<Dynamic, ScriptError> {
         ReleaseWording::At => (Trigger::Time(options.number("at")?), None),
         ReleaseWording::When => {
             let function = options.callback("when")?;
-            let shape = "when: |q| q.t > 0.5, q being the simulation";
+            let shape = "when: |q| q.t > 0.5, where q is the simulation";
             call.expect_arguments(&function, 1, shape)?;
             (Trigger::Outside, Some(function))
         }
@@ -126,18 +131,18 @@ fn hold(call: &Call, handle: &SceneHandle) -> Result<Releasable, ScriptError> {
         .loads()
         .any(|load| load.title.as_ref().unwrap_or(&load.name) == name.as_str());
     if is_load {
-        let told = format!("'{name}' is a load, which holds nothing that could let go");
+        let told = format!("'{name}' is a load, which cannot be released");
         return Err(call
             .error(told)
-            .hint("a force or torque ends by its schedule: hold_for(0.5)")
+            .hint("end a force or torque by its schedule: hold_for(0.5)")
             .at(CallPart::Argument(0)));
     }
     let hint = match nearest(&name, holds.iter().map(|(known, _)| known.as_str())) {
         Some(meant) => format!("did you mean \"{meant}\"?"),
-        None if holds.is_empty() => "the scene has nothing that could let go".to_owned(),
+        None if holds.is_empty() => "the scene has nothing to release".to_owned(),
         None => {
             let all: Vec<&str> = holds.iter().map(|(known, _)| known.as_str()).collect();
-            format!("there are: {}", all.join(", "))
+            format!("available: {}", all.join(", "))
         }
     };
     let told = format!("there is no joint, slider, spring or drive '{name}'");

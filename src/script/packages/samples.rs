@@ -14,8 +14,9 @@ use crate::script::studies::sweeps::design::{SampleKind, Samples};
 
 pub const TABLE: BindingTable = BindingTable {
     name: "samples",
-    doc: "Distributions of parameters, and points at which they are taken together. Random numbers are those of ChaCha with twelve rounds, started by the \
-          seed: equal seeds give equal points on every machine.",
+    doc: "Distributions of parameters and sampling plans for sweeps. Random numbers are those of \
+        ChaCha with twelve rounds, seeded by the seed: equal seeds give equal points on every \
+        machine.",
     types: &[DISTRIBUTION, SAMPLES],
     setup: "",
     constants: &[],
@@ -24,25 +25,34 @@ pub const TABLE: BindingTable = BindingTable {
             let (from, to) = ends(call)?;
             Ok(Dynamic::from(Distribution::Uniform { from, to }))
         })
-        .summary("As a parameter of a sweep: all numbers between two are equally likely.")
+        .summary("Creates a uniform distribution between two numbers, for a parameter of a sweep.")
         .example("check(uniform(0.1, 2).to_string() == \"uniform(0.1, 2)\");"),
         spread("log_uniform", &[FROM.positive(), TO.positive()], |call| {
             let (from, to) = ends(call)?;
             Ok(Dynamic::from(Distribution::LogUniform { from, to }))
         })
-        .summary("As a parameter of a sweep: all logarithms of numbers between two are equally likely.")
+        .summary(
+            "Creates a distribution with a uniform logarithm between two numbers, for a \
+            parameter of a sweep.",
+        )
         .example("print(log_uniform(1e-3, 10));"),
         spread("normal", &[number("mean"), DEVIATION], |call| {
             let (mean, deviation) = (call.number("mean")?, call.number("deviation")?);
             Ok(Dynamic::from(Distribution::Normal { mean, deviation }))
         })
-        .summary("As a parameter of a sweep: normally distributed, with a mean and a standard deviation.")
+        .summary(
+            "Creates a normal distribution with a mean and a standard deviation, for a \
+            parameter of a sweep.",
+        )
         .example("print(normal(100, 5));"),
         spread("log_normal", &[number("median").positive(), DEVIATION], |call| {
             let (median, deviation) = (call.number("median")?, call.number("deviation")?);
             Ok(Dynamic::from(Distribution::LogNormal { median, deviation }))
         })
-        .summary("As a parameter of a sweep: with a normally distributed logarithm; median, and standard deviation of the logarithm.")
+        .summary(
+            "Creates a distribution with a normal logarithm, for a parameter of a sweep, from \
+            the median and the standard deviation of the logarithm.",
+        )
         .example("print(log_normal(100, 0.05));"),
         spread("triangular", &[FROM, number("likeliest"), TO], |call| {
             let (from, to) = ends(call)?;
@@ -51,31 +61,59 @@ pub const TABLE: BindingTable = BindingTable {
                 true => Ok(Dynamic::from(Distribution::Triangular { from, mode, to })),
                 false => {
                     let [mode, from, to] = [mode, from, to].map(format_number);
-                    let told = format!("the likeliest number {mode} is not between {from} and {to}");
-                    Err(call.error(told).hint("write triangular(from, likeliest, to)").at(CallPart::Argument(1)))
+                    let told =
+                        format!("the likeliest number {mode} is not between {from} and {to}");
+                    Err(call
+                        .error(told)
+                        .hint("write triangular(from, likeliest, to)")
+                        .at(CallPart::Argument(1)))
                 }
             }
         })
-        .summary("As a parameter of a sweep: from one number to another, rising to the likeliest and falling from there.")
+        .summary(
+            "Creates a triangular distribution between two numbers with its maximum at the \
+            likeliest number, for a parameter of a sweep.",
+        )
         .example("print(triangular(90, 100, 120));"),
         points("latin_hypercube", &[COUNT, SEED], |call| samples(call, SampleKind::LatinHypercube))
-            .summary("Points for a sweep: each parameter, divided into as many equally likely parts as there are points, has one in each part.")
+            .summary(
+                "Creates a Latin hypercube plan for a sweep: each parameter range is divided \
+                into as many equally likely parts as there are points, with one point in each \
+                part.",
+            )
             .doc("M. D. McKay, R. J. Beckman, W. J. Conover, Technometrics 21 (1979) 239-245.")
             .example("print(latin_hypercube(2000));")
             .see(&["study_sweep", "sobol"]),
         points("sobol", &[COUNT, SEED], |call| samples(call, SampleKind::Sobol))
-            .summary("Points for a sweep that fill its parameters most evenly, at best a power of two of them: a Sobol' sequence.")
+            .summary(
+                "Creates a plan of evenly distributed points for a sweep from a Sobol' \
+                sequence; a power of two of points is best.",
+            )
             .doc(
-                "Direction numbers of S. Joe and F. Y. Kuo (SIAM J. Sci. Comput. 30 (2008) 2635-2654), for up to 40 parameters; each coordinate is moved by \
-                 random bits of the seed (a digital shift).",
+                "Direction numbers of S. Joe and F. Y. Kuo (SIAM J. Sci. Comput. 30 (2008) \
+                2635-2654), for up to 40 parameters; each coordinate is shifted by random bits \
+                of the seed (a digital shift).",
             )
             .example("print(sobol(4096, 7));")
             .see(&["study_sweep", "saltelli"]),
-        points("saltelli", &[whole("blocks").positive().doc("each with two runs more than there are parameters"), SEED], |call| {
-            samples(call, SampleKind::Saltelli)
-        })
-        .summary("Points for a sweep from which sensitivity() finds Sobol' indices of first order and total ones: blocks of two more than there are parameters.")
-        .doc("A. Saltelli et al., Computer Physics Communications 181 (2010) 259-270; the points of a Sobol' sequence.")
+        points(
+            "saltelli",
+            &[
+                whole("blocks")
+                    .positive()
+                    .doc("number of blocks, each with two runs more than the number of parameters"),
+                SEED,
+            ],
+            |call| samples(call, SampleKind::Saltelli),
+        )
+        .summary(
+            "Creates a plan for a sweep from which sensitivity() computes first-order and total \
+            Sobol' indices.",
+        )
+        .doc(
+            "A. Saltelli et al., Computer Physics Communications 181 (2010) 259-270; the points \
+            of a Sobol' sequence, in blocks of two more than the number of parameters.",
+        )
         .example("print(saltelli(1024));")
         .see(&["sensitivity", "sobol"]),
     ],
@@ -107,7 +145,7 @@ const fn points(
 
 impl Scripted for Distribution {
     const NAME: &'static str = "distribution";
-    const DOC: &'static str = "How a parameter of a sweep is spread.";
+    const DOC: &'static str = "Distribution of a parameter of a sweep.";
 
     fn show(&self) -> String {
         self.describe()
@@ -116,7 +154,7 @@ impl Scripted for Distribution {
 
 impl Scripted for Samples {
     const NAME: &'static str = "samples";
-    const DOC: &'static str = "Points at which the parameters of a sweep are taken together.";
+    const DOC: &'static str = "Sampling plan for the parameters of a sweep.";
 
     fn show(&self) -> String {
         let Self { kind, count, seed } = self;
@@ -137,7 +175,8 @@ fn ends(call: &Call) -> Result<(f64, f64), ScriptError> {
     match from < to {
         true => Ok((from, to)),
         false => {
-            let told = format!("it goes from {} to {}", format_number(from), format_number(to));
+            let told =
+                format!("the range from {} to {} is empty", format_number(from), format_number(to));
             Err(call.error(told).hint("give the smaller number first").at(CallPart::Argument(0)))
         }
     }

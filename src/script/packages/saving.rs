@@ -28,29 +28,36 @@ use crate::simulation::Simulation;
 
 pub const TABLE: BindingTable = BindingTable {
     name: "saving",
-    doc: "A simulation can be saved and loaded, also by another script, and goes on bit for bit. What a loaded scene holds is found by name.",
+    doc: "Saving and loading of simulations. A loaded simulation, also in another script, \
+        continues bit for bit like the saved one. Objects of a loaded scene are found by name.",
     types: &[],
     setup: SPINNING,
     constants: &[],
     rows: &[
         method(SIMULATION, "save", &[text("file")], save)
-            .summary("Writes the simulation into a file of the output folder, whole or not at all.")
+            .summary("Writes the simulation to a file in the output folder, completely or not at \
+                all.")
             .doc(
-                "The file holds the scene, the state, the history and the configurations, with versions and a checksum; not the \
-                 states to go back to, nor the functions set with sim.at. A schedule that is a function cannot be saved. Equal runs write equal files.",
+                "The file contains the scene, the state, the history and the configurations, \
+                with versions and a checksum. It does not contain earlier states to go back \
+                to, nor functions registered with sim.at. A scene with a schedule that is a \
+                function cannot be saved. Equal runs write equal files.",
             )
             .example("sim.run_to(1);\nsim.save(\"spinning.withy\");\nlet again = load_simulation(\"spinning.withy\");\ncheck(again.t == 1 && again.energy == sim.energy);")
             .see(&["load_simulation", "fork"]),
         function("load_simulation", &[text("file")], load)
             .returns(Returns::object(SIMULATION))
-            .summary("A simulation from a file that sim.save wrote, in the output folder or beside the script.")
-            .doc("A file that is cut off, damaged, of a later withy or something else is refused with the reason.")
+            .summary("Loads a simulation from a file written by sim.save, in the output folder or \
+                beside the script.")
+            .doc("Files that are truncated, damaged, of a later version of withy or of another \
+                kind are refused with an error that gives the reason.")
             .example("sim.run_to(1);\nsim.save(\"half.withy\");\nlet on = load_simulation(\"half.withy\");\non.run_to(2);\nprint(on.position(on.scene.beam_named(\"rod\").end));")
             .see(&["save", "scene", "beam_named"]),
         function("simulations_among", &[array("values")], |call| Ok(simulations_among(&call.array("values")?).into()))
             .returns(Returns::array_of(&ValueKind::Object(SIMULATION)))
-            .summary("The simulations in an array of any values, also in arrays within it, each once.")
-            .doc("`withy view` shows those among the variables of a script.")
+            .summary("Returns each simulation in an array of any values, including nested arrays, \
+                once.")
+            .doc("`withy view` uses it to find the simulations in the variables of a script.")
             .example("let other = sim.fork();\ncheck(simulations_among([1, sim, [other, sim]]).len() == 2);")
             .see(&["latest_simulation", "write_viewer"]),
         function("latest_simulation", &[], |call| {
@@ -59,12 +66,13 @@ pub const TABLE: BindingTable = BindingTable {
             })
         })
         .returns(Returns::object(SIMULATION))
-        .summary("The simulation that was started, loaded, forked, stepped or taken back last.")
+        .summary("Returns the simulation that was most recently started, loaded, forked, stepped or \
+            taken back.")
         .example("check(latest_simulation().name == sim.name);")
         .see(&["start", "load_simulation"]),
         property(SIMULATION, "scene", |call| Ok(Dynamic::from(call.receiver::<SimulationHandle>()?.scene().clone())))
             .returns(Returns::object(SCENE))
-            .summary("The scene that was started; for a loaded simulation, the scene that was saved with it.")
+            .summary("Scene of the simulation; for a loaded simulation, the scene saved with it.")
             .example("check(sim.scene.name == \"example\");")
             .see(&["beam_named", "particle_named", "body_named", "slider_named"]),
         method(SCENE, "beam_named", &[NAME], |call| {
@@ -73,7 +81,7 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(Dynamic::from(BeamHandle { scene, index }))
         })
         .returns(Returns::object(BEAM))
-        .summary("The beam of that name.")
+        .summary("Returns the beam with a name.")
         .example("check(scene.beam_named(\"rod\").length == 2);")
         .see(&["beam", "scene"]),
         method(SCENE, "particle_named", &[NAME], |call| {
@@ -82,7 +90,7 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(Dynamic::from(StationHandle { scene, station: Station::on_particle(index) }))
         })
         .returns(Returns::object(STATION))
-        .summary("The particle of that name.")
+        .summary("Returns the particle with a name.")
         .example("scene.particle([0, 3], 0.5, #{ name: \"stone\" });\nprint(scene.particle_named(\"stone\"));")
         .see(&["particle", "scene"]),
         method(SCENE, "body_named", &[NAME], |call| {
@@ -91,7 +99,7 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(Dynamic::from(RigidBodyHandle { scene, index }))
         })
         .returns(Returns::object(BODY))
-        .summary("The rigid body of that name.")
+        .summary("Returns the rigid body with a name.")
         .example("scene.body(#{ name: \"hub\", at: [0, 1], mass: 1, inertia: 1 });\nprint(scene.body_named(\"hub\"));")
         .see(&["body", "scene"]),
         method(SCENE, "slider_named", &[NAME], |call| {
@@ -100,7 +108,7 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(Dynamic::from(SliderHandle { scene, index }))
         })
         .returns(Returns::object(SLIDER))
-        .summary("The slider of that name.")
+        .summary("Returns the slider with a name.")
         .example("scene.slider(scene.particle([1, 0], 1), rod, #{ name: \"ring\" });\nprint(scene.slider_named(\"ring\"));")
         .see(&["slider", "scene"]),
         method(SCENE, "track_named", &[NAME], |call| {
@@ -109,7 +117,7 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(Dynamic::from(TrackHandle { scene, index }))
         })
         .returns(Returns::object(TRACK))
-        .summary("The track of that name.")
+        .summary("Returns the track with a name.")
         .example("scene.track([rod], #{ name: \"course\" });\nprint(scene.track_named(\"course\"));")
         .see(&["track", "scene"]),
     ],
@@ -142,13 +150,15 @@ fn save(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let waiting = handle.events_waiting();
     if waiting > 0 {
         call.context().tell(&format!(
-            "note: simulation '{}' was saved without the functions that wait for a time ({waiting}); set them again with sim.at after load_simulation",
+            "note: simulation '{}' was saved without its pending functions of sim.at \
+            ({waiting}); register them again after load_simulation",
             handle.name()
         ));
     }
     if handle.simulation().parameters().next().is_some() {
         call.context().tell(&format!(
-            "note: simulation '{}' was saved without the derivatives by the parameters of its scene; the one that load_simulation gives has none",
+            "note: simulation '{}' was saved without the derivatives by the parameters of its \
+            scene; load_simulation returns a simulation without derivatives",
             handle.name()
         ));
     }
@@ -188,7 +198,7 @@ fn find(
         let suggestion = meant.map(|name| format!("did you mean \"{name}\"? ")).unwrap_or_default();
         let quoted: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
         let known = match quoted.as_slice() {
-            [] => format!("it has no {kind}s"),
+            [] => format!("the scene has no {kind}s"),
             quoted => format!("its {kind}s: {}", quoted.join(", ")),
         };
         call.error(format!("the scene '{}' has no {kind} \"{name}\"", scene.name))

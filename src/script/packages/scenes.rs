@@ -31,7 +31,8 @@ use crate::system::{
 
 pub const TABLE: BindingTable = BindingTable {
     name: "scenes",
-    doc: "A scene is a description: beams, particles, joints, masses and loads. scene.start(…) makes a simulation of it.",
+    doc: "A scene describes beams, particles, joints, masses and loads. scene.start(…) creates a \
+        simulation of it.",
     types: &[SCENE, BEAM, STATION, JOINT],
     setup: ROD,
     constants: &[],
@@ -40,25 +41,26 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(Dynamic::from(SceneHandle::new(Scene::new(call.text("name")?.as_str()))))
         })
         .returns(Returns::object(SCENE))
-        .summary("An empty scene; its name appears in messages and reports.")
+        .summary("Creates an empty scene; its name appears in messages and reports.")
         .example("let scene = new_scene(\"pendulum\");")
         .see(&["beam", "start"]),
         method(SCENE, "beam", &[options("options", BEAM_KEYS)], beam)
             .returns(Returns::object(BEAM))
-            .summary("Adds a beam, free of stress as drawn.")
+            .summary("Adds a beam that is free of stress in its undeformed shape.")
             .doc(
-                "axis is a curve; basis a mesh or a knot vector (16 cubic C2 spans unless given); velocity and spin are the \
-                 rigid motion it starts with, about its centre of mass or the point `about`. Beams are called beam1, beam2, … \
-                 unless they get a name.",
+                "axis is a curve. basis is a mesh or a knot vector; default: 16 cubic C2 spans. \
+                velocity and spin define the initial rigid body motion; spin is about the \
+                point `about`, default: the centre of mass. Default names: beam1, beam2, …",
             )
             .example("let mast = scene.beam(#{ name: \"mast\", axis: line([0, 0], [0, 3]), section: s });\nprint(mast);")
             .see(&["section", "bspline", "line"]),
         method(SCENE, "particle", &[point("position").unit("length"), number("mass").unit("mass"), options("options", PARTICLE_KEYS).optional()], particle)
             .returns(Returns::object(STATION))
-            .summary("Adds a point mass that moves by itself; what is returned is its only station.")
+            .summary("Adds a point mass with its own position and returns its only station.")
             .doc(
-                "The station takes forces, hinges, velocities and sliders; a particle does not turn, so it takes no moment, clamp or \
-                 rigid joint. Particles are called particle1, particle2, … unless they get a name.",
+                "The station accepts forces, hinges, velocities and sliders. A particle has no \
+                rotation, so moments, clamps and rigid joints are refused with an error. \
+                Default names: particle1, particle2, …",
             )
             .example(
                 "let stone = scene.particle([0, 3], 0.5, #{ name: \"stone\", velocity: [1, 0] });\n\
@@ -67,49 +69,52 @@ pub const TABLE: BindingTable = BindingTable {
             .see(&["slider", "mass"]),
         property(BEAM, "start", |call| station(call, |_| 0.0))
             .returns(Returns::object(STATION))
-            .summary("The station at its start.")
+            .summary("Start station of the beam.")
             .example("print(rod.start);"),
         property(BEAM, "end", |call| station(call, |length| length))
             .returns(Returns::object(STATION))
-            .summary("The station at its end.")
+            .summary("End station of the beam.")
             .example("scene.clamp(rod.end);"),
         property(BEAM, "middle", |call| station(call, |length| 0.5 * length))
             .returns(Returns::object(STATION))
-            .summary("The station in the middle of its length, as drawn.")
+            .summary("Station at half the undeformed length of the beam.")
             .example("scene.spring(rod.middle, [0, 1], #{ stiffness: 100 });"),
-        method(BEAM, "at", &[number("s").unit("length").doc("arc length from the start, as drawn")], |call| {
+        method(BEAM, "at", &[number("s").unit("length").doc("undeformed arc length from the start")], |call| {
             let s = call.number("s")?;
             station(call, |_| s)
         })
         .returns(Returns::object(STATION))
-        .summary("The station at an arc length from its start, measured on the beam as drawn.")
+        .summary("Returns the station of the beam at an undeformed arc length from its start.")
         .example("scene.hinge(rod.at(rod.length / 2));"),
         property(BEAM, "length", |call| Ok(call.receiver::<BeamHandle>()?.length().into()))
             .returns(Returns::NUMBER.unit("length"))
-            .summary("Its length as drawn.")
+            .summary("Undeformed length of the beam.")
             .example("check(rod.length == 2);"),
         property(BEAM, "name", |call| Ok(call.receiver::<BeamHandle>()?.name().into()))
             .returns(Returns::TEXT)
-            .summary("Its name.")
+            .summary("Name of the beam.")
             .example("check(rod.name == \"rod\");"),
         property(SCENE, "name", |call| Ok(call.receiver::<SceneHandle>()?.scene().borrow().name.clone().into()))
             .returns(Returns::TEXT)
-            .summary("Its name.")
+            .summary("Name of the scene.")
             .example("check(new_scene(\"pendulum\").name == \"pendulum\");"),
         method(SCENE, "clamp", &[AT], |call| join(call, JointKind::Rigid))
             .returns(Returns::object(JOINT))
-            .summary("Holds position and angle of a station.")
-            .doc("Inside a beam the mesh becomes only C0 there, so that the shear force can jump.")
+            .summary("Fixes the position and the angle of a station.")
+            .doc("At an interior station the mesh becomes C0, so that the shear force can jump \
+                there.")
             .example("scene.clamp(rod.start);")
             .see(&["hinge", "rigid"]),
         method(SCENE, "hinge", &[AT, OTHER], |call| join(call, JointKind::Hinge))
             .returns(Returns::object(JOINT))
-            .summary("Holds the position of a station, or joins two stations that stay free to turn against each other.")
+            .summary("Fixes the position of a station, or joins two stations so that they can rotate \
+                relative to each other.")
             .example("scene.hinge(rod.start);")
             .see(&["clamp", "rigid", "release"]),
         method(SCENE, "rigid", &[AT, object("other", STATION)], |call| join(call, JointKind::Rigid))
             .returns(Returns::object(JOINT))
-            .summary("Joins two stations in position and angle, as drawn.")
+            .summary("Joins two stations rigidly: their relative position and angle stay as in the \
+                undeformed scene.")
             .example(
                 "let arm = scene.beam(#{ axis: line([2, 0], [2, 1]), basis: bspline(4), section: s });\n\
                  scene.rigid(rod.end, arm.start);",
@@ -121,7 +126,7 @@ pub const TABLE: BindingTable = BindingTable {
             scene.borrow_mut().add_mass(PointMass { station, mass, rotary_inertia })?;
             Ok(Dynamic::UNIT)
         })
-        .summary("Puts a point mass on a station.")
+        .summary("Attaches a point mass to a station.")
         .example("scene.mass(rod.end, 1.5);"),
         method(SCENE, "velocity", &[AT, point("velocity").unit("length/time"), SPIN], |call| {
             let (station, scene) = here(call, "station")?;
@@ -134,9 +139,10 @@ pub const TABLE: BindingTable = BindingTable {
             scene.borrow_mut().velocities.push(StationVelocity { station, velocity, spin });
             Ok(Dynamic::UNIT)
         })
-        .summary("Gives the node at a station, and it alone, a velocity to start with.")
-        .doc("A beam as a whole is given a velocity where it is made: scene.beam(#{ …, velocity: [1, 0], spin: 2 }). A body in motion that is joined to a beam at rest takes the node there \
-              along: give that the velocity of the point of the body.")
+        .summary("Sets the initial velocity of the node at a station, and of no other node.")
+        .doc("Use scene.beam(#{ …, velocity: [1, 0], spin: 2 }) for the initial velocity of a \
+            whole beam. Where a moving body is joined to a beam at rest, the node of the beam \
+            needs the velocity of the joined point of the body: set it with this function.")
         .example("scene.velocity(rod.end, [0, -1]);")
         .see(&["beam"]),
         method(SCENE, "gravity", &[point("acceleration").unit("length/time²")], |call| {
@@ -149,8 +155,9 @@ pub const TABLE: BindingTable = BindingTable {
             }
             Ok(Dynamic::UNIT)
         })
-        .summary("The acceleration of free fall; none unless given.")
-        .doc("A scene has one: another one takes its place, which is told.")
+        .summary("Sets the acceleration of gravity; default: none.")
+        .doc("A scene has one acceleration of gravity. A second call replaces the first one and \
+            prints a note.")
         .example("scene.gravity([0, -9.81]);"),
     ],
 };
@@ -176,22 +183,23 @@ const SPANS: usize = 16;
 const MISSED: f64 = 5e-3;
 
 const AT: Parameter = object("station", STATION);
-const OTHER: Parameter = object("other", STATION).doc("the ground unless given").optional();
+const OTHER: Parameter =
+    object("other", STATION).doc("second station; default: the ground").optional();
 const SPIN: Parameter = number("spin").unit("1/time").optional();
 const ROTARY: Parameter = number("rotary_inertia").unit("mass·length²").or(Presence::Number(0.0));
 /// Options for the initial rigid body motion of beams and bodies.
 pub(super) const START_VELOCITY: Parameter =
-    point("velocity").unit("length/time").doc("of the point `about`, at the start").optional();
+    point("velocity").unit("length/time").doc("initial velocity of the point `about`").optional();
 pub(super) const START_SPIN: Parameter =
-    number("spin").unit("1/time").doc("rate of rotation at the start").optional();
+    number("spin").unit("1/time").doc("initial angular velocity").optional();
 pub(super) const START_ABOUT: Parameter = point("about")
     .unit("length")
-    .doc("the point it turns about at the start; its centre of mass unless given")
+    .doc("centre of the initial rotation; default: the centre of mass")
     .beside("spin")
     .optional();
 const BEAM_KEYS: &[Parameter] = &[
-    object("axis", CURVE).doc("the centroid line as drawn"),
-    either("basis", MESH_KINDS).doc("a mesh or a knot vector").optional(),
+    object("axis", CURVE).doc("undeformed centroid line"),
+    either("basis", MESH_KINDS).doc("mesh or knot vector; default: 16 cubic C2 spans").optional(),
     object("section", SECTION).doc("stiffness and inertia"),
     text("name").optional(),
     START_VELOCITY,
@@ -200,7 +208,7 @@ const BEAM_KEYS: &[Parameter] = &[
 ];
 const PARTICLE_KEYS: &[Parameter] = &[
     text("name").optional(),
-    point("velocity").unit("length/time").doc("at the start; at rest unless given").optional(),
+    point("velocity").unit("length/time").doc("initial velocity; default: at rest").optional(),
 ];
 
 pub(super) fn start_motion(options: &Options) -> Result<StartMotion, ScriptError> {
@@ -249,15 +257,17 @@ fn tell_of_taper(call: &Call, scene: &SceneHandle, index: usize) -> Result<(), S
         return Ok(());
     }
     let parts = [
-        ("its mass", seen.mass),
-        ("how it stretches", seen.stretching),
-        ("how it bends", seen.bending),
+        ("mass", seen.mass),
+        ("axial stiffness", seen.stretching),
+        ("bending stiffness", seen.bending),
     ];
     let off = parts.into_iter().filter(|(_, part)| *part >= MISSED);
     let told: Vec<String> =
         off.map(|(what, part)| format!("{what} by {} %", significant(100.0 * part, 2))).collect();
     call.context().tell(&format!(
-        "note: the section of beam '{name}' changes between the points at which its mesh sees it, and is off: {}. Let the mesh have knots where the section jumps or bends, knots(3, […]), or more spans, or join beams there",
+        "note: the mesh of beam '{name}' is too coarse for its varying section; errors at the \
+        quadrature points: {}. Place knots where the section jumps or bends, knots(3, […]), \
+        use more spans, or join separate beams there",
         told.join(", ")
     ));
     Ok(())

@@ -26,7 +26,8 @@ use crate::script::state::context::Context;
 
 pub const TABLE: BindingTable = BindingTable {
     name: "schedules",
-    doc: "A schedule is a factor over time that multiplies a load. Steps end where a schedule jumps or bends.",
+    doc: "A schedule is a function of time that multiplies a load. Steps end where a schedule \
+        jumps or has a kink.",
     types: &[SCHEDULE],
     setup: "",
     constants: &[],
@@ -35,97 +36,103 @@ pub const TABLE: BindingTable = BindingTable {
             schedule(Schedule::constant(call.number("factor")?)?)
         })
         .returns(Returns::object(SCHEDULE))
-        .summary("The same factor at all times; what a load has when no schedule is given.")
+        .summary("Creates a schedule with the same factor at all times; constant(1) is the default \
+            of loads.")
         .example("check(constant(2).at(5) == 2);")
         .see(&["hold_for"]),
         function("hold_for", &[TIME], |call| schedule(Schedule::hold_for(call.number("time")?)?))
             .returns(Returns::object(SCHEDULE))
-            .summary("1 up to a time, then 0; the time grid is cut there.")
+            .summary("Creates a schedule that is 1 up to a time, then 0; a step ends there.")
             .example("let torque = hold_for(2.5);\ncheck(torque.at(2.4) == 1 && torque.at(2.5) == 0);")
             .see(&["pulse", "ramp"]),
         function("ramp", &[FROM, TO], |call| {
             schedule(Schedule::ramp(call.number("from")?, call.number("to")?)?)
         })
         .returns(Returns::object(SCHEDULE))
-        .summary("0 before the first time, 1 after the last, a straight line between.")
+        .summary("Creates a schedule that is 0 before the first time, 1 after the second, and linear \
+            between.")
         .example("check(ramp(0, 4).at(1) == 0.25);")
         .see(&["table"]),
         function("pulse", &[FROM, TO], |call| {
             schedule(Schedule::pulse(call.number("from")?, call.number("to")?)?)
         })
         .returns(Returns::object(SCHEDULE))
-        .summary("1 between two times, else 0.")
+        .summary("Creates a schedule that is 1 between two times, else 0.")
         .example("check(pulse(1, 2).at(1.5) == 1);")
         .see(&["smooth_pulse", "hold_for"]),
         function("smooth_pulse", &[number("duration").positive().unit("time")], |call| {
             schedule(Schedule::smooth_pulse(call.number("duration")?)?)
         })
         .returns(Returns::object(SCHEDULE))
-        .summary("16/5 sin(PI t / duration)^6 up to the duration, then 0: unit mean, five continuous derivatives.")
+        .summary("Creates a schedule 16/5 sin(PI t / duration)^6 up to the duration, then 0: unit \
+            mean, five continuous derivatives.")
         .example("check_close(smooth_pulse(2).at(1), 3.2, 1e-15);")
         .see(&["pulse"]),
         function("sine", &[number("amplitude"), number("rate").unit("rad/time"), PHASE], |call| {
             schedule(Schedule::sine(call.number("amplitude")?, call.number("rate")?, call.number("phase")?)?)
         })
         .returns(Returns::object(SCHEDULE))
-        .summary("amplitude sin(rate t + phase).")
+        .summary("Creates a schedule amplitude sin(rate t + phase).")
         .example("check_close(sine(2, PI, 0).at(0.5), 2, 1e-15);"),
-        function("table", &[array("rows").doc("[time, factor] pairs; a time given twice is a jump")], table)
+        function("table", &[array("rows").doc("[time, factor] pairs; the same time twice is a jump")], table)
             .returns(Returns::object(SCHEDULE))
-            .summary("Straight lines between [time, factor] points, constant before the first and after the last.")
+            .summary("Creates a piecewise linear schedule through [time, factor] points, constant \
+                before the first and after the last.")
             .example("let load = table([[0, 0], [1, 1], [1, 0.5], [3, 0]]);\ncheck(load.at(2) == 0.25);")
             .see(&["ramp"]),
         function("schedule", &[callback("function"), BREAKS], closure)
             .returns(Returns::object(SCHEDULE))
-            .summary("Any function of time; give the times at which it jumps or bends, if there are any.")
-            .doc("It is called two or three times a step, never inside the iteration. A jump that is not declared costs accuracy.")
+            .summary("Creates a schedule from a function of time, with optional times of its jumps \
+                and kinks.")
+            .doc("The function is called two or three times per step, never inside the Newton \
+                iteration. A jump that is not declared reduces the accuracy.")
             .example("let load = schedule(|t| exp(-t) * sin(3 * t));\ncheck(load.at(0) == 0);"),
         method(SCHEDULE, "at", &[number("t").unit("time")], |call| {
             Ok(call.receiver::<Schedule>()?.value(call.number("t")?, LimitSide::After)?.into())
         })
         .returns(Returns::NUMBER)
-        .summary("The factor at a time, just after it where it jumps.")
+        .summary("Returns the factor at a time; at a jump the value just after it.")
         .example("check(hold_for(1).at(0.5) == 1);"),
         operator("+", &[object("a", SCHEDULE), object("b", SCHEDULE)], |call| {
             schedule(Schedule::combined(Operation::Sum, call.get("a")?, call.get("b")?)?)
         })
         .returns(Returns::object(SCHEDULE))
-        .summary("The sum of schedules.")
+        .summary("Adds schedules.")
         .example("let both = hold_for(1) + pulse(2, 3);\ncheck(both.at(2.5) == 1);"),
         operator("*", &[object("a", SCHEDULE), object("b", SCHEDULE)], |call| {
             schedule(Schedule::combined(Operation::Product, call.get("a")?, call.get("b")?)?)
         })
         .returns(Returns::object(SCHEDULE))
-        .summary("The product of schedules.")
+        .summary("Multiplies schedules.")
         .example("let half = hold_for(2) * ramp(0, 2);\ncheck(half.at(1) == 0.5);"),
         operator("*", &[number("a"), object("b", SCHEDULE)], |call| {
             schedule(scaled(call, call.number("a")?, "b")?)
         })
             .returns(Returns::object(SCHEDULE))
-            .summary("A schedule scaled.")
+            .summary("Multiplies a schedule by a number.")
             .example("check((3 * hold_for(1)).at(0) == 3);"),
         operator("*", &[object("a", SCHEDULE), number("b")], |call| {
             schedule(scaled(call, call.number("b")?, "a")?)
         })
             .returns(Returns::object(SCHEDULE))
-            .summary("A schedule scaled.")
+            .summary("Multiplies a schedule by a number.")
             .example("check((hold_for(1) * 3).at(0) == 3);"),
         operator("/", &[object("a", SCHEDULE), number("b")], |call| {
             schedule(scaled(call, 1.0 / call.number("b")?, "a")?)
         })
         .returns(Returns::object(SCHEDULE))
-        .summary("A schedule divided by a number.")
+        .summary("Divides a schedule by a number.")
         .example("check((hold_for(1) / 2).at(0) == 0.5);"),
         operator("-", &[object("a", SCHEDULE), object("b", SCHEDULE)], |call| {
             let opposite = scaled(call, -1.0, "b")?;
             schedule(Schedule::combined(Operation::Sum, call.get("a")?, opposite)?)
         })
         .returns(Returns::object(SCHEDULE))
-        .summary("The difference of schedules.")
+        .summary("Subtracts schedules.")
         .example("let later = hold_for(2) - hold_for(1);\ncheck(later.at(0.5) == 0 && later.at(1.5) == 1);"),
         operator("-", &[object("a", SCHEDULE)], |call| schedule(scaled(call, -1.0, "a")?))
             .returns(Returns::object(SCHEDULE))
-            .summary("The opposite schedule.")
+            .summary("Negates a schedule.")
             .example("check((-hold_for(1)).at(0) == -1);"),
     ],
 };
@@ -136,11 +143,18 @@ pub const SCHEDULE_KINDS: &[Kind] =
     &[Kind::Object(SCHEDULE), Kind::Number(NumberRange::Finite), Kind::Function];
 
 pub(super) const SAMPLE: Parameter = number("sample").positive().unit("time").doc(
-    "the sampling period of the controller |t, q| …, which is asked at 0, sample, 2 sample, … and held between; steps end there; at every step unless given",
+    "sampling period of the controller |t, q| …, which is called at 0, sample, 2 sample, … with \
+    its value held in between; steps end there; default: every step",
 ).optional();
-pub(super) const DELAY: Parameter = number("delay").non_negative().unit("time").doc(
-    "the dead time of the controller: a command acts so much later than it is said, and nothing does before the first",
-).beside("sample").optional();
+pub(super) const DELAY: Parameter = number("delay")
+    .non_negative()
+    .unit("time")
+    .doc(
+        "dead time of the controller: a value acts this much later; before the first value nothing \
+    acts",
+    )
+    .beside("sample")
+    .optional();
 
 const TIME: Parameter = number("time").positive().unit("time");
 const FROM: Parameter = number("from").unit("time");
@@ -150,7 +164,7 @@ const BREAKS: Parameter = numbers("breaks").unit("time").optional();
 
 impl Scripted for Schedule {
     const NAME: &'static str = "schedule";
-    const DOC: &'static str = "A factor over time that multiplies a load.";
+    const DOC: &'static str = "A function of time that multiplies a load.";
 
     fn show(&self) -> String {
         self.describe()
@@ -272,7 +286,7 @@ pub(super) fn expect_controller<'a>(
     if beat.is_none() || schedules.any(Schedule::is_sampled) {
         return Ok(());
     }
-    let told = "sample is how often a controller is asked, and there is none";
+    let told = "the option sample is given without a controller";
     let hint = "give a function of time and simulation, |t, q| …, or leave out sample";
     Err(call.error(told).hint(hint).at(CallPart::Key("sample".into())))
 }

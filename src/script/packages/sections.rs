@@ -26,21 +26,24 @@ use crate::script::presentation::details;
 
 pub const TABLE: BindingTable = BindingTable {
     name: "sections",
-    doc: "What a beam is made of and how it is discretised. Any consistent set of units will do.",
+    doc: "Cross sections and meshes of beams, in any consistent set of units.",
     types: &[SECTION, MESH],
     setup: "",
     constants: &[],
     rows: &[
         function("section", &[SECTION_OPTIONS], section)
             .returns(Returns::object(SECTION))
-            .summary("A cross section, from its stiffness and inertia or from a material and a shape.")
+            .summary("Creates a cross section from stiffness and inertia, or from a material and a \
+                shape.")
             .doc(
-                "Either EA, GA, EI, rho_A and rho_I; or E, nu, density and a shape: \"rectangle\" with width and height \
-                 (height lies in the plane of motion), \"circle\" with radius, \"tube\" with outer and inner radius. GA \
-                 contains the shear correction factor; that of shapes is Cowper's (1966). damping gives the material relaxation times \
-                 (Kelvin–Voigt): a section then resists with EI (κ + bending · κ̇), and so in tension and shear, and what it dissipates is \
-                 in the columns dissipated and dissipated.NAME of its beam. A vibration of frequency ω loses energy as with the damping \
-                 ratio bending · ω/2.",
+                "Give either EA, GA, EI, rho_A and rho_I; or E, nu, density and a shape: \
+                \"rectangle\" with width and height (height lies in the plane of motion), \
+                \"circle\" with radius, \"tube\" with outer and inner radius. GA includes the \
+                shear correction factor; shapes use that of Cowper (1966). damping sets the \
+                relaxation times of a Kelvin–Voigt material: the bending moment is EI (κ + \
+                bending · κ̇), and likewise for axial and shear strain. The dissipated energy \
+                is recorded in the columns dissipated and dissipated.NAME of the beam. At \
+                frequency ω the damping ratio in bending is bending · ω/2.",
             )
             .example(
                 "let rubber = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10, damping: #{ bending: 1e-3, axial: 1e-4 } });\n\
@@ -51,32 +54,33 @@ pub const TABLE: BindingTable = BindingTable {
             .see(&["taper", "beam"]),
         property(SECTION, "EA", |call| of_uniform(call, |section| section.axial_stiffness))
             .returns(Returns::NUMBER)
-            .summary("The axial stiffness [force].")
+            .summary("Axial stiffness [force].")
             .example("let slender = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\ncheck(slender.EA == 1e4);"),
         property(SECTION, "GA", |call| of_uniform(call, |section| section.shear_stiffness))
             .returns(Returns::NUMBER)
-            .summary("The shear stiffness, correction factor included [force].")
+            .summary("Shear stiffness, including the shear correction factor [force].")
             .example("let slender = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\ncheck(slender.GA == 1e4);"),
         property(SECTION, "EI", |call| of_uniform(call, |section| section.bending_stiffness))
             .returns(Returns::NUMBER)
-            .summary("The bending stiffness [force·length²].")
+            .summary("Bending stiffness [force·length²].")
             .example("let slender = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\ncheck(slender.EI == 100);"),
         property(SECTION, "rho_A", |call| of_uniform(call, |section| section.mass_per_length))
             .returns(Returns::NUMBER)
-            .summary("The mass per length [mass/length].")
+            .summary("Mass per length [mass/length].")
             .example("let slender = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\ncheck(slender.rho_A == 1);"),
         property(SECTION, "rho_I", |call| of_uniform(call, |section| section.rotary_inertia))
             .returns(Returns::NUMBER)
-            .summary("The rotary inertia per length [mass·length].")
+            .summary("Rotary inertia per length [mass·length].")
             .example("let slender = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\ncheck(slender.rho_I == 10);"),
         function("bspline", &[either("spans", &[COUNT, Kind::Options(BSPLINE)])], bspline)
             .returns(Returns::object(MESH))
-            .summary("A mesh of B-splines; cubic and C2 unless told otherwise.")
+            .summary("Creates a mesh of B-splines; default: cubic and C2.")
             .doc(
-                "bspline(14) has 14 equal spans. Options: spans, degree (3), continuity (degree - 1), quadrature. The \
-                 quadrature says where axial and shear strain are sampled: \"patch\" (the default) neither locks nor leaves \
-                 zero-energy modes, whatever degree and continuity are; a whole number is so many Gauss points in every span, for study: \
-                 such a mesh tells when printed whether it has too many (it locks on stiff beams) or too few.",
+                "bspline(14) has 14 equal spans. quadrature selects the points at which axial \
+                and shear strain are sampled. \"patch\" (default) has neither locking nor \
+                zero-energy modes for any degree and continuity. A whole number gives that \
+                many Gauss points per span, for studies; such a mesh states when printed if it \
+                has too many points (locking of stiff beams) or too few (zero-energy modes).",
             )
             .example(
                 "let mesh = bspline(14);\ncheck(mesh.spans == 14);\n\
@@ -85,20 +89,20 @@ pub const TABLE: BindingTable = BindingTable {
             .see(&["lagrange", "knots", "beam"]),
         function("lagrange", &[either("elements", &[COUNT, Kind::Options(LAGRANGE)])], lagrange)
             .returns(Returns::object(MESH))
-            .summary("A mesh of Lagrange elements of degree 1 (unless told otherwise), 2 or 3.")
+            .summary("Creates a mesh of Lagrange elements of degree 1 (default), 2 or 3.")
             .example("let mesh = lagrange(#{ elements: 5, degree: 3 });\ncheck(mesh.degree == 3);")
             .see(&["bspline"]),
         property(MESH, "spans", |call| whole_number(call.receiver::<Mesh>()?.spans()))
             .returns(Returns::WHOLE)
-            .summary("The number of spans or elements.")
+            .summary("Number of spans or elements.")
             .example("check(bspline(7).spans == 7);"),
         property(MESH, "degree", |call| whole_number(call.receiver::<Mesh>()?.basis().degree()))
             .returns(Returns::WHOLE)
-            .summary("The degree of its functions.")
+            .summary("Polynomial degree of the basis functions.")
             .example("check(bspline(7).degree == 3);"),
         property(MESH, "functions", |call| whole_number(call.receiver::<Mesh>()?.basis().functions()))
             .returns(Returns::WHOLE)
-            .summary("The number of its functions, and of control points or nodes.")
+            .summary("Number of basis functions, equal to the number of control points or nodes.")
             .example("check(bspline(#{ spans: 7, continuity: 1 }).functions == 16);"),
     ],
 };
@@ -110,21 +114,24 @@ const COUNT: Kind = Kind::Whole(NumberRange::Positive);
 const SECTION_OPTIONS: Parameter = options("options", SECTION_KEYS);
 const SECTION_KEYS: &[Parameter] = &[
     number("EA").unit("force").doc("axial stiffness").optional(),
-    number("GA").unit("force").doc("shear stiffness, with its correction factor").optional(),
+    number("GA")
+        .unit("force")
+        .doc("shear stiffness, including the shear correction factor")
+        .optional(),
     number("EI").unit("force·length²").doc("bending stiffness").optional(),
     number("rho_A").unit("mass/length").doc("mass per length").optional(),
     number("rho_I").unit("mass·length").doc("rotary inertia per length").optional(),
     number("E").unit("force/length²").doc("Young's modulus").optional(),
     number("nu").doc("Poisson's ratio").optional(),
     number("density").unit("mass/length³").doc("density").optional(),
-    choice("shape", &["rectangle", "circle", "tube"]).doc("the outline").optional(),
-    number("width").unit("length").doc("of a rectangle, out of the plane").optional(),
-    number("height").unit("length").doc("of a rectangle, in the plane").optional(),
-    number("radius").unit("length").doc("of a circle").optional(),
+    choice("shape", &["rectangle", "circle", "tube"]).doc("shape of the cross section").optional(),
+    number("width").unit("length").doc("width of a rectangle, out of the plane").optional(),
+    number("height").unit("length").doc("height of a rectangle, in the plane").optional(),
+    number("radius").unit("length").doc("radius of a circle").optional(),
     number("outer").unit("length").doc("outer radius of a tube").optional(),
     number("inner").unit("length").doc("inner radius of a tube").optional(),
     options("damping", DAMPING_KEYS)
-        .doc("relaxation times of the material; none unless given")
+        .doc("relaxation times of the material; default: no damping")
         .optional(),
 ];
 const DAMPING_KEYS: &[Parameter] = &[
@@ -175,23 +182,23 @@ const QUADRATURE: Parameter = either("quadrature", &[Kind::Choice(&["patch"]), C
     .doc("points for axial and shear strain")
     .or(Presence::Text("patch"));
 const BSPLINE: &[Parameter] = &[
-    whole("spans").positive().doc("equal spans"),
+    whole("spans").positive().doc("number of equal spans"),
     whole("degree").positive().or(Presence::Whole(3)),
     whole("continuity")
         .non_negative()
-        .doc("continuous derivatives between spans; degree - 1 unless given")
+        .doc("number of continuous derivatives between spans; default: degree - 1")
         .optional(),
     QUADRATURE,
 ];
 const LAGRANGE: &[Parameter] = &[
-    whole("elements").positive().doc("equal elements"),
+    whole("elements").positive().doc("number of equal elements"),
     whole("degree").between(1.0, 3.0).or(Presence::Whole(1)),
     QUADRATURE,
 ];
 
 impl Scripted for Mesh {
     const NAME: &'static str = "mesh";
-    const DOC: &'static str = "A basis for a beam, and where its strains are sampled.";
+    const DOC: &'static str = "A basis for a beam with the quadrature points of its strains.";
 
     fn show(&self) -> String {
         self.describe()
@@ -219,8 +226,8 @@ fn of_uniform(call: &Call, number: fn(&Section) -> f64) -> Result<Dynamic, Scrip
         tapered => {
             let [start, end] = [0.0, 1.0].map(|part| number(&tapered.at(part)));
             let told =
-                format!("this number varies along a taper: {start} at its start, {end} at its end");
-            Err(call.error(told).hint("ask the section at a place: taper.at(0.5).EI"))
+                format!("this value varies along a taper: {start} at its start, {end} at its end");
+            Err(call.error(told).hint("read the section at one place: taper.at(0.5).EI"))
         }
     }
 }

@@ -28,21 +28,32 @@ use crate::system::{Reactions, Scene, SectionSample, SystemError};
 
 pub const TABLE: BindingTable = BindingTable {
     name: "sensors",
-    doc: "A scene records what it is asked to: scene.record(\"rod.end.x\") makes a column of the history, which is told, drawn, saved and counted like every other. \
-          A ready sensor is an object, a place and a quantity. Places of a beam: rod.start, rod.end, rod[0.5] (arc length as drawn); with x, y, vx, vy, speed, ax, ay, angle, spin, \
-          N, Q, M, axial_strain, shear_strain, curvature. A particle has x to ay; a rigid body x to ay, angle and spin, of its centre of mass, and of its points: hub.x, hub.pin.y. A beam, a particle or a body as a whole: energy, kinetic, strain, axial, shear, bending, potential. \
-          Joints, counted by kind as they were made (hinge1, hinge2, clamp1, rigid1): force, fx, fy, moment, on the station that was named first, and mean_force, mean_fx, mean_fy, mean_moment in the mean of the last step. Sliders: present_force, present_force_x, present_force_y, on the beam. Section forces, accelerations and forces are \
-          those of the present moment, by the equations of motion, of second order like the motion; where a stiff beam rings from step to step they ring with it, and \
-          sim.history.averaged(column) does not. A scene without sensors pays nothing.",
+    doc: "Sensors record quantities: scene.record(\"rod.end.x\") adds a column to the history, \
+        which is printed, plotted, saved and evaluated like every other. The name of a \
+        built-in sensor consists of an object, a place and a quantity. Places of a beam: \
+        rod.start, rod.end, rod[0.5] (undeformed arc length), with x, y, vx, vy, speed, ax, \
+        ay, angle, spin, N, Q, M, axial_strain, shear_strain, curvature. Particles: x to ay. \
+        Rigid bodies: x to ay, angle and spin, of the centre of mass and of points: hub.x, \
+        hub.pin.y. Whole beams, particles and bodies: energy, kinetic, strain, axial, shear, \
+        bending, potential. Joints, numbered by kind in the order of creation (hinge1, hinge2, \
+        clamp1, rigid1): force, fx, fy, moment, on the first station, and mean_force, mean_fx, \
+        mean_fy, mean_moment as means of the last step. Sliders: present_force, \
+        present_force_x, present_force_y, on the beam. Section forces, accelerations and \
+        forces are present values computed from the equations of motion, of second order. They \
+        alternate where a stiff beam vibrates from step to step; sim.history.averaged(column) \
+        removes this. Scenes without sensors have no extra cost.",
     types: &[],
     setup: HANGING,
     constants: &[],
     rows: &[
-        method(SCENE, "record", &[text("column").doc("a ready sensor, or the name of a column for a function"), callback("function").doc("|q| …, gives a number; q is the simulation").optional()], record)
-            .summary("Records one more column in the histories of simulations that are started from here on.")
+        method(SCENE, "record", &[text("column").doc("built-in sensor, or name of the column for a function"), callback("function").doc("|q| …, returns a number; q is the simulation").optional()], record)
+            .summary("Adds a column to the histories of simulations that are started later.")
             .doc(
-                "A function is asked at the start, and after every recorded step as soon as that is done; it looks, and does not move the simulation. Of the parts of a step of \
-                 scene.step that had to be halved, the last is asked alone. A simulation with a function cannot be saved, and studies leave functions out; with ready sensors it can, and they do not.",
+                "A function is called at the start and at the end of every recorded step; it \
+                must read the simulation and not advance it. If a step of scene.step had to be \
+                halved, it is called only after the last part. A simulation with a function \
+                cannot be saved, and studies ignore functions; built-in sensors have no such \
+                restriction.",
             )
             .example(
                 "scene.record(\"rod.end.x\");\nscene.record(\"height\", |q| q.position(rod.end).y + 3);\nlet sim = scene.start(#{ dt: 0.05 });\nsim.run_to(1);\n\
@@ -60,14 +71,25 @@ pub const TABLE: BindingTable = BindingTable {
             }
         })
         .returns(Returns::one_of(&[ValueKind::Map, ValueKind::Array(&ValueKind::Map)]))
-        .summary("Axial force, shear force and moment of a beam: at an arc length, or along all of it.")
+        .summary("Returns axial force, shear force and moment of a beam at an undeformed arc length, \
+            or along the whole beam.")
         .doc(
-            "The map holds N (positive in tension), Q (positive to the left of the axis) and M (positive counter-clockwise) [force, force, force·length], which the part of the beam that follows puts on \
-             the part before, in the frame of the section; and axial_strain, shear_strain and curvature. Forces follow from strains by the law of the material; where that is damped (Kelvin–Voigt), what the present rates of strain add is in N, Q and M. Where steps are too long for these rates, they alternate; then the mean rates of the last two steps are carried on to the present and used instead (not in the first step after a start or a blow). Along a beam there is one for each knot and three between, with \
-             its arc length s; where a joint cuts the beam there are two of one s. They balance loads and inertia up to the ends of a beam, with errors that fall with the length of a \
-             span to the power of the degree (N, Q), and to that of two or more (M). Of linear elements each has one value. \
-             A force, moment, mass, spring or slider *inside* a beam jumps where smooth functions cannot: over two spans beside it M errs by a part of what a span is long, and Q rings by up to a fifth of the jump on any mesh. \
-             A joint cuts a beam: where such values count, make it of two beams with scene.rigid(…) there.",
+            "The map has N (positive in tension), Q (positive to the left of the axis) and M \
+            (positive counter-clockwise) [force, force, force·length], acting from the \
+            following part of the beam on the preceding one, in the frame of the section; and \
+            axial_strain, shear_strain and curvature. Forces follow from strains by the \
+            material law; with damping (Kelvin–Voigt) they include the present strain rates. \
+            If the steps are too long for these rates, which then alternate, the rates are \
+            extrapolated from the means of the last two steps (not in the first step after a \
+            start or an impact). For a whole beam the result is an array with a map at each \
+            knot and at three points between, with the arc length s; where a joint divides the \
+            beam there are two with the same s. The values balance loads and inertia up to the \
+            ends of a beam; errors decrease with the span length to the power of the degree \
+            (N, Q), and of at least two (M). Linear elements have one value each. A force, \
+            moment, mass, spring or slider *inside* a beam causes a jump that smooth functions \
+            cannot represent: in the two neighbouring spans M has an error proportional to the \
+            span length, and Q oscillates by up to a fifth of the jump on any mesh. If such \
+            values matter, make two beams and join them there with scene.rigid(…).",
         )
         .example(
             "let sim = scene.start(#{ dt: 0.01 });\nsim.step();\nlet along = sim.section_forces(rod);\ncheck(along[0].s == 0 && along.len() == 17);\n\
@@ -85,8 +107,9 @@ pub const TABLE: BindingTable = BindingTable {
             }
         })
         .returns(Returns::one_of(&[ValueKind::Map, ValueKind::Array(&ValueKind::Map)]))
-        .summary("Axial force, shear force and moment of a beam at rest: at an arc length, or along all of it.")
-        .doc("As those of a simulation.")
+        .summary("Returns axial force, shear force and moment of a beam in equilibrium at an \
+            undeformed arc length, or along the whole beam.")
+        .doc("See section_forces of a simulation for signs and accuracy.")
         .example(
             "scene.hinge(rod.end);\nlet rest = scene.equilibrium();\nlet middle = rest.section_forces(rod, 1);\n\
              check_close(middle.Q, 0, 1e-6);\ncheck_close(middle.M, 9.81 * 2^2 / 8, 0.06);",
@@ -102,18 +125,24 @@ pub const TABLE: BindingTable = BindingTable {
             reaction.map(force_and_moment).ok_or_else(|| holds_nothing(call, &station))
         })
         .returns(Returns::MAP)
-        .summary("What the support at a station gives at the present moment: force, a vector, and moment.")
+        .summary("Returns the present reaction of the support at a station: force, a vector, and \
+            moment.")
         .doc(
-            "By the equations of motion, with loads as they are just after the present: the configuration and the rates at the end of a step are of second order in the step size \
-             with every method, and so is this. What loads, weight and supports gave together over a step, in the mean, is the change of the columns impulse_x and impulse_y over its length.",
+            "Computed from the equations of motion, with loads evaluated just after the present \
+            time; second order in the step size with every method, like configuration and \
+            rates. The mean sum of the forces of loads, gravity and supports over a step is \
+            the change of the columns impulse_x and impulse_y divided by the step size.",
         )
         .example("let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(1);\nlet given = sim.reaction(rod.start);\ncheck(norm(given.force) > 1 && given.moment == 0);")
         .see(&["mean_reaction", "joint_force", "section_forces", "record"]),
         method(SIMULATION, "joint_force", &[WHICH], joint_force)
             .returns(Returns::MAP)
-            .summary("What a joint gives to the station that was named first: force, a vector, and moment.")
-            .doc("At the present moment, by the equations of motion, of second order in the step size as those of `reaction`. A joint with the ground is a support. It is what scene.hinge gave, or its name: its kind, and \
-                  the how-manieth of that. One that has let go gives nothing.")
+            .summary("Returns the present force and moment of a joint on its first station: force, a \
+                vector, and moment.")
+            .doc("Computed from the equations of motion; second order in the step size, as for \
+                `reaction`. A joint with the ground is a support. The joint is given by the \
+                return value of scene.hinge or by its name, the kind and its number. A \
+                released joint has zero force.")
             .example("let sim = scene.start(#{ dt: 0.01 });\ncheck(sim.joint_force(\"hinge1\").force == sim.reaction(rod.start).force);")
             .see(&["mean_joint_force", "reaction"]),
         method(SIMULATION, "mean_reaction", &[AT], |call| {
@@ -124,7 +153,8 @@ pub const TABLE: BindingTable = BindingTable {
             reaction.map(force_and_moment).ok_or_else(|| holds_nothing(call, &station))
         })
         .returns(Returns::MAP)
-        .summary("What the support at a station gave in the mean of the last step: force, a vector, and moment.")
+        .summary("Returns the mean reaction of the support at a station over the last step: force, a \
+            vector, and moment.")
         .doc(MEAN)
         .example(
             "scene.record(\"hinge1.mean_force\");\nlet sim = scene.start(#{ dt: 0.01 });\nsim.run_to(1);\nlet momentum = sim.history.column(\"momentum_y\");\n\
@@ -140,7 +170,8 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(force_and_moment(joint.read(&given)))
         })
         .returns(Returns::MAP)
-        .summary("What a joint gave in the mean of the last step to the station that was named first: force, a vector, and moment.")
+        .summary("Returns the mean force and moment of a joint on its first station over the last \
+            step: force, a vector, and moment.")
         .doc(MEAN)
         .example(
             "scene.record(\"hinge1.mean_fy\");\nlet sim = scene.start(#{ dt: 0.01 });\nsim.run_to(1);\n\
@@ -155,10 +186,12 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(Dynamic::from(now.contact(slider)))
         })
         .returns(Returns::object(VECTOR).unit("force"))
-        .summary("The force of a slider on its master at the present moment.")
+        .summary("Returns the present contact force of a slider on its master.")
         .doc(
-            "By the equations of motion, with the order of the motion: second, fourth with fourth_order(). contact_force and the columns NAME.force are those of the steps: \
-             the mean of a step, which belongs to its middle, and may alternate from step to step. As a column: scene.record(\"NAME.present_force\").",
+            "Computed from the equations of motion, with the order of the motion: second, \
+            fourth with fourth_order(). contact_force and the columns NAME.force are means of \
+            a step, which belong to its middle and may alternate from step to step. As a \
+            column: scene.record(\"NAME.present_force\").",
         )
         .example(
             "let bead = scene.slider(scene.particle([1, 0], 0.5), rod, #{ at: 0.5 });\nlet sim = scene.start(#{ dt: 0.001 });\nsim.run_to(0.1);\n\
@@ -175,20 +208,22 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(Dynamic::from(acceleration))
         })
         .returns(Returns::object(VECTOR).unit("length/time²"))
-        .summary("How a station accelerates at the present moment, by the equations of motion.")
+        .summary("Returns the present acceleration of a station, computed from the equations of \
+            motion.")
         .example("let sim = scene.start(#{ dt: 0.01 });\ncheck(norm(sim.acceleration(rod.start)) == 0);\ncheck_close(sim.acceleration(rod.end).y, -9.81, 0.5);")
         .see(&["velocity", "spin"]),
         method(SIMULATION, "spin", &[AT], |call| {
             let (handle, station) = (call.receiver::<SimulationHandle>()?, call.get::<StationHandle>("station")?);
             let place = station.on(&handle)?;
             if !station.station.turns() {
-                let told = format!("{} does not turn: it has no spin", station.show());
-                return Err(call.error(told).hint("ask for the spin at a station of a beam or a body"));
+                let told = format!("{} has no spin, because a particle does not rotate", station.show());
+                return Err(call.error(told).hint("read the spin at a station of a beam or a body"));
             }
             Ok(handle.simulation().model().spin(&place).into())
         })
         .returns(Returns::NUMBER.unit("1/time"))
-        .summary("The angular velocity of the section at a station, counter-clockwise.")
+        .summary("Returns the angular velocity of the section at a station, positive \
+            counter-clockwise.")
         .example("let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(0.1);\ncheck(sim.spin(rod.end) < 0);")
         .see(&["angle", "acceleration"]),
         method(SIMULATION, "energy", &[object("beam", BEAM)], |call| {
@@ -207,8 +242,10 @@ pub const TABLE: BindingTable = BindingTable {
             ]))
         })
         .returns(Returns::MAP.unit("energy"))
-        .summary("The energy of a beam and of what stands on it, by kind: with what springs store, those of all bodies add up to that of the scene.")
-        .doc("The map holds energy, kinetic, strain, axial, shear, bending and potential. Without a beam, sim.energy is that of the scene.")
+        .summary("Returns the energy of a beam, including the masses attached to it, by kind.")
+        .doc("The map has energy, kinetic, strain, axial, shear, bending and potential. The sum \
+            over all bodies and the energy of springs is the energy of the scene. Without a \
+            beam, use sim.energy for the energy of the scene.")
         .example("let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(0.1);\ncheck_close(sim.energy(rod).energy, sim.energy, 1e-12);")
         .see(&["record"]),
     ],
@@ -220,17 +257,20 @@ const HANGING: &str = "let scene = new_scene(\"example\");\n\
     scene.hinge(rod.start);\n\
     scene.gravity([0, -9.81]);";
 
-const MEAN: &str = "It is summed up while steps are made, where one of the columns mean_force, mean_fx, mean_fy, mean_moment is recorded, as in \
-    scene.record(\"hinge1.mean_force\"), and then for all joints and supports. With loads, weight and drives, these forces change the momentum over the step, and with \
-    the moments about a place, each force in the middle of its way over the step, the angular momentum: to rounding with energy_momentum() and energy_decaying(), and \
-    the momentum with fourth_order() and trapezoidal() too. It belongs to the middle of the step, to second order, and holds the blows of sliders that bounced. \
-    Zero before the first step. generalized_alpha() has none.";
+const MEAN: &str = "Means are computed only if one of the columns mean_force, mean_fx, mean_fy, mean_moment is \
+    recorded, as in scene.record(\"hinge1.mean_force\"), and then for all joints and supports. \
+    Together with loads, gravity and drives they are the change of the momentum over the step; \
+    their moments about a point, with each force at the midpoint of its path, are the change \
+    of the angular momentum. This holds to rounding with energy_momentum() and \
+    energy_decaying(), and for the momentum also with fourth_order() and trapezoidal(). The \
+    means belong to the middle of the step, to second order, and include the impulses of \
+    bouncing sliders. Zero before the first step. Not available with generalized_alpha().";
 
 const AT: Parameter = object("station", STATION);
 const WHICH: Parameter = either("joint", &[Kind::Object(JOINT), Kind::Text]);
 const S: Parameter = number("s")
     .unit("length")
-    .doc("arc length from the start, as drawn; along the beam if not given")
+    .doc("undeformed arc length from the start; default: along the whole beam")
     .optional();
 
 fn record(call: &mut Call) -> Result<Dynamic, ScriptError> {
@@ -289,14 +329,14 @@ fn given_in_step(call: &Call, handle: &SimulationHandle) -> Result<Reactions, Sc
     handle.simulation().model().given_in_step().ok_or_else(|| {
         let names = handle.simulation().scene().joint_names();
         let joint = names.first().map_or("hinge1", String::as_str);
-        call.error("what joints and supports gave over a step was not summed up")
+        call.error("mean forces of joints and supports were not recorded")
             .hint(format!("write scene.record(\"{joint}.mean_force\") before scene.start(…)"))
     })
 }
 
 fn holds_nothing(call: &Call, station: &StationHandle) -> ScriptError {
     call.error(format!("nothing holds the scene at {}", station.show()))
-        .hint("ask where scene.clamp(…) or scene.hinge(…) ties it to the ground")
+        .hint("use a station with scene.clamp(…) or scene.hinge(…) to the ground")
 }
 
 fn unknown<'a>(
@@ -309,7 +349,7 @@ fn unknown<'a>(
     let hint = match (nearest(name, known), all.as_slice()) {
         (Some(meant), _) => format!("did you mean \"{meant}\"?"),
         (None, []) => format!("the scene has no {what}s"),
-        (None, all) => format!("there are: {}", all.join(", ")),
+        (None, all) => format!("available: {}", all.join(", ")),
     };
     call.error(format!("there is no {what} '{name}'")).hint(hint).at(CallPart::Argument(0))
 }
@@ -319,7 +359,7 @@ fn known(call: &Call, built: &Scene, index: usize, beam: &BeamHandle) -> Result<
         return Ok(());
     }
     let told = format!("{} was added after the scene was started", beam.show());
-    Err(call.error(told).hint("add everything before scene.start(…), or start again"))
+    Err(call.error(told).hint("add everything before scene.start(…), or start the scene again"))
 }
 
 fn wanted(call: &Call, scene: &Scene, beam: usize) -> Result<Option<Station>, ScriptError> {

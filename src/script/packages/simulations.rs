@@ -34,29 +34,32 @@ use crate::system::Measures;
 
 pub const TABLE: BindingTable = BindingTable {
     name: "simulations",
-    doc: "A simulation is live: step it, look, step on. Everything it went through is in its history.",
+    doc: "A simulation advances in steps and can be read between them. All recorded steps are in \
+        its history.",
     types: &[SIMULATION, INVARIANTS],
     setup: SPINNING,
     constants: &[],
     rows: &[
         method(SCENE, "start", &[options("options", START)], start)
             .returns(Returns::object(SIMULATION))
-            .summary("Builds the scene and puts it at its start, t = 0.")
-            .doc("Changes of the scene after that do not reach the simulation; start it again for another one.")
+            .summary("Creates a simulation of the scene at its initial state, t = 0.")
+            .doc("Later changes of the scene do not affect the simulation; call start again for \
+                a new one.")
             .example("let again = scene.start(#{ integrator: trapezoidal(), dt: 0.05 });\nprint(again);")
             .see(&["energy_momentum", "trapezoidal", "every", "step", "run_to", "back"]),
         method(SIMULATION, "step", &[whole("count").non_negative().or(Presence::Whole(1))], |call| {
             call.receiver::<SimulationHandle>()?.go_on(call, &RunTarget::Steps(call.count("count")?))?;
             Ok(Dynamic::UNIT)
         })
-        .summary("Takes a step, or so many; a step is shorter where a schedule cuts the time grid.")
+        .summary("Takes one step, or the given number of steps; a step is shorter where a schedule \
+            requires the end of a step.")
         .example("sim.step();\nsim.step(3);\ncheck(sim.steps == 4);")
         .see(&["run_to"]),
         method(SIMULATION, "run_to", &[number("t").any_number().unit("time")], |call| {
             call.receiver::<SimulationHandle>()?.go_on(call, &RunTarget::Time(call.number("t")?))?;
             Ok(Dynamic::UNIT)
         })
-        .summary("Steps until a time, which ends the last step.")
+        .summary("Takes steps until a time; the last step ends exactly there.")
         .example("sim.run_to(1);\ncheck(sim.t == 1);")
         .see(&["step", "at"]),
         method(SIMULATION, "at", &[number("t").unit("time"), callback("function")], |call| {
@@ -66,24 +69,25 @@ pub const TABLE: BindingTable = BindingTable {
             call.receiver::<SimulationHandle>()?.at(call.number("t")?, function)?;
             Ok(Dynamic::UNIT)
         })
-        .summary("Calls a function with the simulation when a time is reached; a step ends there.")
+        .summary("Registers a function that is called with the simulation when a time is reached; a \
+            step ends there.")
         .example("sim.at(0.25, |sim| print(`energy ${sim.energy} at t = ${sim.t}`));\nsim.run_to(0.5);"),
         property(SIMULATION, "t", |call| Ok(call.receiver::<SimulationHandle>()?.time().into()))
             .returns(Returns::NUMBER.unit("time"))
-            .summary("Where the simulation is.")
+            .summary("Current time of the simulation.")
             .example("sim.run_to(0.3);\ncheck(sim.t == 0.3);"),
-        measure("energy", "Kinetic, strain and potential energy together [energy].", |call| last(call, |m| m.energy.total()))
+        measure("energy", "Sum of kinetic, strain and potential energy [energy].", |call| last(call, |m| m.energy.total()))
             .example("let turning = 1 * 2^3 / 12 + 10 * 2;\ncheck_close(sim.energy, turning / 2, 1e-12);"),
-        measure("kinetic", "The kinetic energy [energy].", |call| last(call, |m| m.energy.kinetic)).example("check(sim.kinetic > 0);"),
-        measure("strain", "The strain energy [energy].", |call| last(call, |m| m.energy.strain)).example("check(sim.strain == 0);"),
-        measure("potential", "The potential of gravity, zero at the origin [energy].", |call| last(call, |m| m.energy.potential))
+        measure("kinetic", "Kinetic energy [energy].", |call| last(call, |m| m.energy.kinetic)).example("check(sim.kinetic > 0);"),
+        measure("strain", "Strain energy [energy].", |call| last(call, |m| m.energy.strain)).example("check(sim.strain == 0);"),
+        measure("potential", "Potential energy of gravity, zero at the origin [energy].", |call| last(call, |m| m.energy.potential))
             .example("check(sim.potential == 0);"),
-        measure("work", "The work of the loads so far [energy].", |call| last(call, |m| m.work)).example("check(sim.work == 0);"),
-        measure("angular_momentum", "The angular momentum about the origin [mass·length²/time].", |call| {
+        measure("work", "Work of the loads so far [energy].", |call| last(call, |m| m.work)).example("check(sim.work == 0);"),
+        measure("angular_momentum", "Angular momentum about the origin [mass·length²/time].", |call| {
             last(call, |m| m.angular_momentum)
         })
         .example("let before = sim.angular_momentum;\nsim.run_to(1);\ncheck_close(sim.angular_momentum, before, 1e-10);"),
-        measure("gap", "The largest distance between the partners of a joint [length].", |call| last(call, |m| m.gap))
+        measure("gap", "Largest distance between the partners of a joint [length].", |call| last(call, |m| m.gap))
             .example("check(sim.gap == 0);"),
         property(SIMULATION, "momentum", |call| {
             let simulation = call.receiver::<SimulationHandle>()?;
@@ -91,32 +95,33 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(Dynamic::from(momentum))
         })
         .returns(Returns::object(VECTOR).unit("mass·length/time"))
-        .summary("The linear momentum.")
+        .summary("Linear momentum.")
         .example("check(norm(sim.momentum) < 1e-12);"),
         property(SIMULATION, "history", |call| {
             let of = call.receiver::<SimulationHandle>()?;
             Ok(Dynamic::from(HistoryHandle { of, from: f64::NEG_INFINITY, to: f64::INFINITY }))
         })
         .returns(Returns::object(HISTORY))
-        .summary("All steps so far.")
+        .summary("History of all recorded steps so far.")
         .example("sim.run_to(1);\ncheck(sim.history.drift(\"energy\") < 1e-12);"),
         method(SIMULATION, "invariants", &[], |call| Ok(Dynamic::from(Invariants::of(&call.receiver()?))))
             .returns(Returns::object(INVARIANTS))
-            .summary("How well energy, momenta and gap were kept so far; prints as a table.")
-            .doc("The values are E - W + D, p - ∫F dt and L - ∫M dt, with what loads, gravity and supports have given taken off.")
+            .summary("Largest errors of energy, momenta and gap so far; printed as a table.")
+            .doc("The conserved values are E - W + D, p - ∫F dt and L - ∫M dt, in which the \
+                contributions of loads, gravity and supports are subtracted.")
             .example("sim.run_to(1);\nprint(sim.invariants());\ncheck(sim.invariants().energy < 1e-12);")
             .see(&["drift"]),
-        invariant("energy", |call| Ok(drift(call)?[0].into())).summary("The largest relative change of E - W + D."),
-        invariant("momentum", |call| Ok(drift(call)?[1].into())).summary("The largest relative change of p - ∫F dt."),
-        invariant("angular_momentum", |call| Ok(drift(call)?[2].into())).summary("The largest relative change of L - ∫M dt."),
-        invariant("gap", |call| Ok(drift(call)?[3].into())).summary("The largest gap of a joint [length]."),
+        invariant("energy", |call| Ok(drift(call)?[0].into())).summary("Largest relative change of E - W + D."),
+        invariant("momentum", |call| Ok(drift(call)?[1].into())).summary("Largest relative change of p - ∫F dt."),
+        invariant("angular_momentum", |call| Ok(drift(call)?[2].into())).summary("Largest relative change of L - ∫M dt."),
+        invariant("gap", |call| Ok(drift(call)?[3].into())).summary("Largest gap of a joint [length]."),
         method(SIMULATION, "position", &[AT], |call| {
             let (handle, place) = place(call)?;
             let position = handle.simulation().model().position(&place);
             Ok(Dynamic::from(position))
         })
         .returns(Returns::object(VECTOR).unit("length"))
-        .summary("Where a station is.")
+        .summary("Returns the position of a station.")
         .example("check(norm(sim.position(rod.start)) < 1e-15);"),
         method(SIMULATION, "velocity", &[AT], |call| {
             let (handle, place) = place(call)?;
@@ -124,31 +129,36 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(Dynamic::from(velocity))
         })
         .returns(Returns::object(VECTOR).unit("length/time"))
-        .summary("How fast a station moves.")
+        .summary("Returns the velocity of a station.")
         .example("check_close(sim.velocity(rod.end).y, 1, 1e-12);"),
         method(SIMULATION, "angle", &[AT], angle)
             .returns(Returns::NUMBER.unit("rad"))
-            .summary("The angle of the section at a station, that of the axis as drawn at first, counter-clockwise and not wrapped.")
-            .doc("Stations inside a beam are followed if they were made before the scene was started.")
+            .summary("Returns the angle of the section at a station, initially that of the \
+                undeformed axis, counter-clockwise and not wrapped.")
+            .doc("An interior station of a beam must have been created before the scene was \
+                started; otherwise the angle is refused with an error.")
             .example("sim.run_to(1);\ncheck_close(sim.angle(rod.end), 1, 0.01);"),
-        count("steps", |call| counted(call, |simulation| simulation.counts().steps)).summary("Steps taken."),
+        count("steps", |call| counted(call, |simulation| simulation.counts().steps)).summary("Number of steps taken."),
         count("newton_iterations", |call| counted(call, |simulation| simulation.counts().newton_iterations))
-            .summary("Newton iterations of all steps, each with a factorisation."),
+            .summary("Number of Newton iterations of all steps, each with a factorisation."),
         count("corrections", |call| counted(call, |simulation| simulation.counts().corrections))
-            .summary("Corrections of all steps with factors at hand: back substitutions beside those of the Newton iterations."),
-        count("retries", |call| counted(call, |simulation| simulation.counts().retries)).summary("Steps that failed and were halved."),
+            .summary("Number of corrections of all steps with existing factors: back substitutions \
+                besides those of the Newton iterations."),
+        count("retries", |call| counted(call, |simulation| simulation.counts().retries)).summary("Number of steps that failed and were halved."),
         count("rejected", |call| counted(call, |simulation| simulation.counts().rejected))
-            .summary("Adaptive steps that erred by more than the tolerance allows, and were taken again.")
+            .summary("Number of adaptive steps whose error exceeded the tolerance and that were \
+                repeated.")
             .see(&["adaptive"]),
-        count("unknowns", |call| counted(call, Simulation::unknowns)).summary("Unknowns of a step."),
+        count("unknowns", |call| counted(call, Simulation::unknowns)).summary("Number of unknowns of a step."),
         property(SIMULATION, "dt", |call| Ok(call.receiver::<SimulationHandle>()?.simulation().dt().into()))
             .returns(Returns::NUMBER.unit("time"))
-            .summary("The step size of the grid; with adaptive steps that of the next step, if nothing cuts it.")
+            .summary("Step size of the grid; with adaptive steps the size of the next step, unless \
+                it must end earlier.")
             .example("check(sim.dt == 0.1);")
             .see(&["adaptive"]),
         property(SIMULATION, "name", |call| Ok(call.receiver::<SimulationHandle>()?.name().into()))
             .returns(Returns::TEXT)
-            .summary("Its name: that of the scene unless given.")
+            .summary("Name of the simulation; default: the name of the scene.")
             .example("check(sim.name == \"example\");"),
     ],
 };
@@ -165,17 +175,21 @@ const AT: Parameter = object("station", STATION);
 pub(super) const START: &[Parameter] = &[
     either("dt", &[Kind::Number(NumberRange::Positive), Kind::Object(STEP_CONTROL)])
         .unit("time")
-        .doc("the step size, or adaptive(#{ tolerance: 1e-4 })"),
-    object("integrator", INTEGRATOR).doc("energy_momentum() unless given").optional(),
-    name("name").doc("the name in the report; that of the scene unless given").optional(),
-    object("record", RECORDING).doc("every(n) or nothing(); every step unless given").optional(),
+        .doc("step size, or adaptive(#{ tolerance: 1e-4 })"),
+    object("integrator", INTEGRATOR).doc("integrator; default: energy_momentum()").optional(),
+    name("name").doc("name in the report; default: the name of the scene").optional(),
+    object("record", RECORDING)
+        .doc("recorded steps: every(n) or nothing(); default: every step")
+        .optional(),
     number("snapshots")
         .non_negative()
         .unit("MB")
-        .doc("memory for states to go back to; 256 where the script says back or rewind or imports a file, else 0")
+        .doc(
+            "memory for states to go back to; default: 256 if the script contains back or rewind or imports a file, else 0",
+        )
         .optional(),
     choice("notes", &[PRINTING[0].0, PRINTING[1].0])
-        .doc("what the steps do not resolve: told when a run ends, or only kept in sim.notes")
+        .doc("notes on unresolved steps: printed when a run ends, or only kept in sim.notes")
         .or(Presence::Text("print")),
 ];
 
@@ -201,7 +215,7 @@ impl Invariants {
 
 impl Scripted for Invariants {
     const NAME: &'static str = "invariants";
-    const DOC: &'static str = "How well energy, momenta and gap were kept.";
+    const DOC: &'static str = "Largest errors of energy, momenta and gap.";
 
     fn show(&self) -> String {
         let mut table = TextTable::new(&["invariant", "value", self.changes]);
@@ -318,11 +332,17 @@ pub(super) fn followed(
     angle: Option<f64>,
 ) -> Result<Dynamic, ScriptError> {
     if !station.station.turns() {
-        let told = format!("{} does not turn: it has no angle", station.show());
-        return Err(call.error(told).hint("ask for the angle at a station of a beam or a body"));
+        let told = format!("{} has no angle, because a particle does not rotate", station.show());
+        return Err(call.error(told).hint("read the angle at a station of a beam or a body"));
     }
     angle.map(Dynamic::from).ok_or_else(|| {
-        call.error(format!("the angle at {} was not followed", station.show()))
-            .hint("make the station with beam.at(s) before scene.start(…) or scene.equilibrium(…)")
+        call.error(format!(
+            "the angle at {} is not available, because the station was created too late",
+            station.show()
+        ))
+        .hint(
+            "create the station with beam.at(s) before scene.start(…) or \
+                scene.equilibrium(…)",
+        )
     })
 }

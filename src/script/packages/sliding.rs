@@ -25,9 +25,10 @@ use crate::system::{Scene, SliderError, System, SystemError};
 
 pub const TABLE: BindingTable = BindingTable {
     name: "sliding joints",
-    doc: "A slider keeps a station, the end of a beam or a particle, on the axis of another beam, along which it slides without \
-          friction. Its rule says how a step does that; its history has NAME.position (from 0 to 1 along the beam), NAME.speed (length/time), NAME.force, \
-          NAME.force_x and NAME.force_y.",
+    doc: "A slider keeps a station (of a beam or a particle) on the axis of another beam, along \
+        which it moves without friction. A rule selects the discretisation. The history has \
+        the columns NAME.position (from 0 to 1 along the beam), NAME.speed (length/time), \
+        NAME.force, NAME.force_x and NAME.force_y.",
     types: &[RULE, SLIDER],
     setup: "let scene = new_scene(\"example\");\n\
             let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 1 });\n\
@@ -40,39 +41,53 @@ pub const TABLE: BindingTable = BindingTable {
     constants: &[],
     rows: &[
         rule("conserving", |_| Ok(Dynamic::from(SlidingRule::Conserving)))
-            .summary("The rule that keeps everything at any step size; the default.")
-            .doc("With energy_momentum(): keeps energy, linear momentum, angular momentum and the gap to rounding. withy, docs/theory.md, section 10.")
+            .summary("Selects the conserving sliding rule (default), which keeps energy, momenta and \
+                gap at any step size.")
+            .doc("With energy_momentum(): keeps energy, linear momentum, angular momentum and \
+                the gap to rounding. withy, docs/theory.md, section 10.")
             .see(&["kinked", "exact", "relaxed", "slider"]),
         rule("kinked", |_| Ok(Dynamic::from(SlidingRule::Kinked)))
-            .summary("The conserving rule on the beam as the contact force kinks it: of second order in the mesh, where conserving() is of first.")
-            .doc("On meshes of smooth splines. With energy_momentum(): keeps energy, linear momentum, angular momentum and the gap to rounding. \
-                  Beside ends, and where a slider comes to 0.8 of the speed of the beam's shear waves, sqrt(GA/rho_A), it is of first order only. \
-                  For sliders that are struck again and again on soft beams take conserving(): a step may have no solution. withy, docs/theory.md, section 10.1.")
+            .summary("Selects the conserving rule with the kink of the beam at the contact force: \
+                second order in the mesh, where conserving() is first order.")
+            .doc("Requires meshes of smooth splines. With energy_momentum(): keeps energy, \
+                linear momentum, angular momentum and the gap to rounding. Only first order \
+                near the ends of the beam, and where the slider reaches 0.8 of the shear wave \
+                speed of the beam, sqrt(GA/rho_A). Use conserving() for sliders with repeated \
+                impacts on soft beams: with kinked() a step may have no solution. withy, \
+                docs/theory.md, section 10.1.")
             .see(&["conserving", "exact", "relaxed"]),
         rule("exact", |_| Ok(Dynamic::from(SlidingRule::Exact)))
-            .summary("For comparison: the slave is exactly on the beam at the end of a step; angular momentum is lost at second order.")
-            .doc("With energy_momentum(): keeps energy, linear momentum and the gap to rounding. Sibileau & Muñoz, equations 15 and 17.")
+            .summary("Selects a rule for comparison: the slave is exactly on the beam at the end of \
+                a step; the error of the angular momentum is of second order.")
+            .doc("With energy_momentum(): keeps energy, linear momentum and the gap to rounding. \
+                Sibileau & Muñoz, equations 15 and 17.")
             .see(&["conserving", "relaxed"]),
         rule("relaxed", |_| Ok(Dynamic::from(SlidingRule::Relaxed)))
-            .summary("For comparison: the slave is on the beam in the mean of a step; the gap drifts, and a step may have no solution.")
-            .doc("With energy_momentum(): keeps energy, linear momentum and angular momentum to rounding. Sibileau & Muñoz, equations 11 to 14.")
+            .summary("Selects a rule for comparison: the slave is on the beam in the mean of a step; \
+                the gap drifts, and a step may have no solution.")
+            .doc("With energy_momentum(): keeps energy, linear momentum and angular momentum to \
+                rounding. Sibileau & Muñoz, equations 11 to 14.")
             .see(&["conserving", "exact"]),
         method(SCENE, "slider", &[object("station", STATION), ON, options("options", SLIDER_KEYS).optional()], slider)
             .returns(Returns::object(SLIDER))
-            .summary("Lets a station, a place on another beam or a particle, slide along a beam or a track.")
+            .summary("Adds a slider: a station of another beam or a particle moves along a beam or a \
+                track.")
             .doc(
-                "The joint must close at the start: the station lies on the beam as drawn, at `at`, to six digits, and is moved \
-                 onto it exactly. Where the beam ends, the run \
-                 stops, or the slider bounces off, or is released. A station held by the ground is an eyelet through which the \
-                 beam slides. On a curved beam, whose mesh is slightly off the curve, the station is moved onto the line of the mesh, and \
-                 velocities: \"project\" makes start velocities fit that line. All that bounces at one \
-                 time does so in one impact. With ends: \"bounce\" restitution says how much of its speed the slider keeps, at any step: beams do not stretch in that \
-                 instant, and springs and dampers give nothing; what is lost is in the column dissipated.NAME. With ends: \"contact\" the waves in the beam decide: where steps are shorter \
-                 than an eighth of a blow, in which a wave runs through the beam and back, \
-                 2 L √(rho_A/EA), or less for a slider that is lighter than the beam, the slider leans on the end until that would have to pull; in steps much \
-                 longer than the blow the beam is struck as if it were rigid, and sim.notes tells. \
-                 One that bounces again and again within few steps comes to lean on the end, until it is drawn away. Sliders are called slider1, slider2, … \
-                 unless they get a name.",
+                "The station must lie on the undeformed beam, at `at`, to six digits; it is \
+                 then moved onto it exactly. On a curved beam, whose mesh differs slightly from \
+                 the curve, it is moved onto the axis of the mesh, and velocities: \"project\" \
+                 makes the initial velocities compatible. A station fixed to the ground is an \
+                 eyelet through which the beam slides. Simultaneous impacts are one impact. \
+                 With ends: \"bounce\" the restitution law holds at any step: beams do not \
+                 stretch during the impact, and springs and dampers take no part; the lost \
+                 energy is in the column dissipated.NAME. With ends: \"contact\" the waves in the \
+                 beam determine the rebound. The contact time is that of a wave through the \
+                 beam and back, 2 L √(rho_A/EA), or less for a slider lighter than the beam. In \
+                 steps shorter than an eighth of it, the slider stays in contact with the end \
+                 stop until the contact force would be tensile. In much longer steps the beam \
+                 is treated as rigid in the impact, and sim.notes reports this. A slider that \
+                 bounces repeatedly within few steps stays in contact with the end stop until \
+                 it is pulled away. Default names: slider1, slider2, …",
             )
             .example(
                 "let hook = scene.beam(#{ name: \"hook\", axis: line([1, 0], [1, 1]), basis: bspline(4), section: s });\n\
@@ -82,18 +97,24 @@ pub const TABLE: BindingTable = BindingTable {
             .see(&["particle", "track", "conserving", "contact_force"]),
         property(SLIDER, "name", |call| Ok(call.receiver::<SliderHandle>()?.name().into()))
             .returns(Returns::TEXT)
-            .summary("Its name.")
+            .summary("Name of the slider.")
             .example("check(ring.name == \"ring\");"),
         method(SIMULATION, "contact_force", &[WHICH], |call| {
             asked(call, |model, slider| Dynamic::from(model.contact_force(slider)))
         })
         .returns(Returns::object(VECTOR).unit("force"))
-        .summary("The force that a slider put on its beam in the last step, the mean of the step; its station got the opposite.")
+        .summary("Returns the contact force of a slider on its beam, as the mean of the last step; \
+            the force on its station is the opposite.")
         .doc(
-            "Zero before the first step and after a release. It belongs to the middle of the step; with kinked() it is that at its end, to the order of the method, and with fourth_order() that of the \
-             last of its seven parts, so of first order: present_contact_force has the order of the motion with every rule, and scene.record(\"ring.present_force\") makes a column of it. On splines and with the conserving rule it is smooth where the motion \
-             is; where it alternates from step to step (kinks of Lagrange elements, the relaxed rule), averaged(\"ring.force\") of \
-             the history is free of that. scripts/contact_force.rhai shows how much. The impulse of a blow at an end, or at a corner of a track, is in none of them.",
+            "Zero before the first step and after a release. The value belongs to the middle of \
+            the step; with kinked() to its end, with the order of the method; with \
+            fourth_order() to the last of its seven substeps, so that it is first order. \
+            present_contact_force has the order of the motion with every rule; \
+            scene.record(\"ring.present_force\") records it. On splines with the conserving \
+            rule the force is smooth where the motion is. Where it alternates between steps \
+            (kinks of Lagrange elements, the relaxed rule), averaged(\"ring.force\") of the \
+            history removes this; see scripts/contact_force.rhai. Impulses of impacts at an \
+            end, or at a corner of a track, are not included.",
         )
         .example("check(norm(sim.contact_force(ring)) == 0);\nsim.step();\ncheck(sim.contact_force(ring).y < 0);")
         .see(&["present_contact_force", "slider_position", "averaged"]),
@@ -101,10 +122,13 @@ pub const TABLE: BindingTable = BindingTable {
             asked(call, |model, slider| model.slider_position(slider).into())
         })
         .returns(Returns::NUMBER)
-        .summary("Where a slider is on its beam or track: 0 at the start, 1 at the end, by length as drawn.")
+        .summary("Returns the position of a slider on its beam or track, by undeformed length: 0 at \
+            the start, 1 at the end.")
         .doc(
-            "Times the length of the beam as drawn it is slider_arc_length, whose rate is slider_speed: in the history NAME.speed is \
-             the rate of NAME.position times that length. Round a closed track it counts on: 2.5 is half-way round for the third time, -0.5 half-way back.",
+            "The product with the undeformed length of the beam is slider_arc_length; its rate \
+            is slider_speed. In the history NAME.speed is the rate of NAME.position times that \
+            length. On a closed track the turns are counted: 2.5 is half-way round for the \
+            third time, -0.5 half-way back.",
         )
         .example("check_close(sim.slider_position(ring), 0.25, 1e-12);")
         .see(&["slider_arc_length", "slider_speed"]),
@@ -112,7 +136,8 @@ pub const TABLE: BindingTable = BindingTable {
             asked(call, |model, slider| model.slider_arc_length(slider).into())
         })
         .returns(Returns::NUMBER.unit("length"))
-        .summary("How far a slider is from the start of its beam or track, by length as drawn and with all turns of a closed track; slider_speed is its rate.")
+        .summary("Returns the undeformed arc length from the start of the beam or track to the \
+            slider, including all turns of a closed track; its rate is slider_speed.")
         .example(
             "check_close(sim.slider_arc_length(ring), 0.5, 1e-12);\n\
              check_close(sim.slider_arc_length(ring) / rod.length, sim.slider_position(ring), 1e-12);",
@@ -122,30 +147,36 @@ pub const TABLE: BindingTable = BindingTable {
             asked(call, |model, slider| model.slider_speed(slider).into())
         })
         .returns(Returns::NUMBER.unit("length/time"))
-        .summary("How fast a slider moves along its beam or track as drawn, positive towards the end.")
+        .summary("Returns the speed of a slider along its undeformed beam or track, positive towards \
+            the end.")
         .example("check_close(sim.slider_speed(ring), 1, 1e-12);")
         .see(&["slider_arc_length", "slider_position"]),
         property(SIMULATION, "ended", |call| Ok(call.receiver::<SimulationHandle>()?.simulation().has_ended().into()))
             .returns(Returns::TRUTH)
-            .summary("Whether a slider has reached the end of its beam and ended the run.")
-            .doc("After that run_to returns at once, step is an error, and functions set for later times are not called.")
+            .summary("True if a slider has reached the end of its beam and ended the run.")
+            .doc("After that run_to returns at once, step is refused with an error, and \
+                functions registered for later times are not called.")
             .example("while !sim.ended {\n    sim.step();\n}\ncheck(sim.ended);\ncheck_close(sim.slider_position(ring), 1, 1e-12);")
             .see(&["ending", "slider"]),
         property(SIMULATION, "ending", |call| {
             Ok(call.receiver::<SimulationHandle>()?.simulation().ending().unwrap_or_default().into())
         })
         .returns(Returns::TEXT.note(", empty while the run goes on"))
-        .summary("Why the run has ended.")
+        .summary("Reason for which the run has ended.")
         .example("check(sim.ending == \"\");\nsim.run_to(5);\nprint(sim.ending);")
         .see(&["ended", "events"]),
         property(SIMULATION, "events", events)
             .returns(Returns::array_of(&ValueKind::Map).note(" #{ t, slider, end, what, impulse }"))
-            .summary("When sliders reached ends of their beams and seams of their tracks so far, and what happened there.")
+            .summary("Events of sliders so far, at the ends of their beams and the seams of their \
+                tracks.")
             .doc(
-                "slider is its name; end is \"start\" or \"end\"; what is \"stopped\", \"bounced\", \"rested\" (it leans on the \
-                 end until that would have to pull: in an elastic contact, or until it is drawn away), \"released\" or, on a track, \"passed\": to the next beam. impulse is \
-                 what the slider gave its beams in that instant, in the impact with all else that arrived then, a vector (mass·length/time): contact forces have no part of it. On a track \
-                 the map has the name of the beam as well, at one of whose ends that was: beam.",
+                "slider is the name of the slider; end is \"start\" or \"end\"; what is \
+                \"stopped\", \"bounced\", \"rested\" (in contact with the end stop until the \
+                contact force would be tensile or the slider is pulled away), \"released\" or, \
+                on a track, \"passed\" (to the next beam). impulse is the vector of the total \
+                impulse of the slider on its beams in the impact with all simultaneous \
+                arrivals (mass·length/time), without contact forces. On a track the map also \
+                has beam, the name of the beam at whose end the event was.",
             )
             .example("sim.run_to(5);\nfor event in sim.events {\n    print(`${event.slider} ${event.what} at ${event.end}, t = ${event.t}`);\n}")
             .see(&["ended", "slider"]),
@@ -168,19 +199,31 @@ const VELOCITIES: [(&str, StartVelocities); 2] =
 const SLIDER_KEYS: &[Parameter] = &[
     number("at")
         .between(0.0, 1.0)
-        .unit("part of the length")
-        .doc("where it starts, as a part of the length of the beam or the track as drawn; the nearest place unless given")
+        .unit("fraction of the length")
+        .doc(
+            "initial position as a fraction of the undeformed length of the beam or the track; \
+            default: the nearest place",
+        )
         .optional(),
-    object("rule", RULE).doc("conserving() unless given").optional(),
+    object("rule", RULE).doc("sliding rule; default: conserving()").optional(),
     choice("ends", &[ENDS[0].0, ENDS[1].0, ENDS[2].0, ENDS[3].0])
-        .doc("what happens where the beam or the track ends: the run stops, the slider bounces off by its restitution, it leans on the end for as long as that pushes, or it flies free")
+        .doc(
+            "event at the end of the beam or track: the run stops, the slider bounces by its \
+            restitution, it stays in elastic contact, or it is released",
+        )
         .or(Presence::Text("stop")),
     number("restitution")
         .between(0.0, 1.0)
-        .doc("how much of its speed a slider with ends: \"bounce\" keeps where it bounces: 1 unless given, all of it")
+        .doc(
+            "ratio of the speeds after and before a bounce, for ends: \"bounce\"; default: 1, \
+            no loss",
+        )
         .optional(),
     choice("velocities", &[VELOCITIES[0].0, VELOCITIES[1].0])
-        .doc("start velocities across the beam: an error, or replaced by the nearest that fit")
+        .doc(
+            "treatment of incompatible initial velocities across the beam: refused with an \
+            error, or projected to the nearest compatible ones",
+        )
         .or(Presence::Text("check")),
     text("name").optional(),
 ];
@@ -210,7 +253,8 @@ impl SliderHandle {
             return Ok(self.index);
         }
         let told = format!("the slider '{}' was added after the scene was started", self.name());
-        Err(ScriptError::new(told).hint("add all sliders before scene.start(…), or start again"))
+        Err(ScriptError::new(told)
+            .hint("add all sliders before scene.start(…), or start the scene again"))
     }
 }
 
@@ -244,7 +288,7 @@ impl Scripted for SliderHandle {
 
 impl Scripted for SlidingRule {
     const NAME: &'static str = "sliding rule";
-    const DOC: &'static str = "How a step keeps a slider on its beam.";
+    const DOC: &'static str = "Discretisation of the sliding constraint in a step.";
 
     fn show(&self) -> String {
         let entry = self.entry();
@@ -275,7 +319,7 @@ fn slider(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let ends = meant(&ENDS, &options.text("ends")?);
     let restitution = options.number_if_given("restitution");
     if restitution.is_some() && ends != EndAction::Bounce {
-        let told = "slider: 'restitution' is of sliders that bounce, with ends: \"bounce\"";
+        let told = "slider: 'restitution' is allowed only with ends: \"bounce\"";
         return Err(ScriptError::new(told).at(CallPart::Key("restitution".into())));
     }
     let restitution = restitution.unwrap_or(1.0);

@@ -44,7 +44,8 @@ pub(super) fn law(
             Acts::Pull | Acts::Push => Some("acts"),
         };
         if let Some(odd) = odd {
-            let told = format!("a table says all about the force, and {odd} is given besides");
+            let told =
+                format!("both a table and {odd} are given, but the table determines the force");
             let hint = format!("leave out {odd}, or the table");
             return Err(call.error(told).hint(hint).at(CallPart::Key(odd.into())));
         }
@@ -56,7 +57,7 @@ pub(super) fn law(
             return Ok((None, Origin::Zero));
         }
         let hint = format!("give stiffness: a number, or table: [[{ease}, …], …]");
-        return Err(call.error("how strongly it resists is missing").hint(hint));
+        return Err(call.error("the stiffness, law or table is missing").hint(hint));
     };
     let (natural, origin) = match options.number_if_given(ease) {
         Some(natural) => (natural, Origin::Zero),
@@ -76,7 +77,7 @@ pub(super) fn law(
 pub(super) fn damping(call: &Call, options: &Options) -> Result<DampingLaw, ScriptError> {
     let Some(function) = options.get_if::<FnPtr>("damping") else {
         if options.has("rates") {
-            let told = "rates are those for which a function is asked, and damping is none";
+            let told = "rates are given, but damping is not a function";
             return Err(call.error(told).hint("leave out rates").at(CallPart::Key("rates".into())));
         }
         return Ok(match options.get_if::<Vec<Vec2>>("damping") {
@@ -89,20 +90,20 @@ pub(super) fn damping(call: &Call, options: &Options) -> Result<DampingLaw, Scri
     };
     call.expect_arguments(&function, 1, "damping: |rate| 3 * rate * abs(rate)")?;
     if !options.has("rates") {
-        let told = "for which rates the damping is asked is missing";
-        let hint = "give rates: [-10, 10], from the fastest approach to the fastest parting";
+        let told = "the range of rates for the damping function is missing";
+        let hint = "give rates: [-10, 10], from the fastest approach to the fastest separation";
         return Err(call.error(told).hint(hint).at(CallPart::Key("damping".into())));
     }
     let rates = options.point("rates")?;
     if !(rates.x < 0.0 && rates.y > 0.0) {
-        let told = format!("the rates [{}, {}] do not have rest between them", rates.x, rates.y);
-        let hint = "give a negative and a positive one: [-10, 10]";
+        let told = format!("the rates [{}, {}] do not contain 0 between them", rates.x, rates.y);
+        let hint = "give a negative and a positive rate: [-10, 10]";
         return Err(call.error(told).hint(hint).at(CallPart::Key("rates".into())));
     }
     let force = force_of(call, &function, ("damping", "rate"));
     let law = DampingLaw::sampled((rates.x, rates.y), force)?;
     if let DampingLaw::Curve(curve) = &law {
-        let hint = "make a jump a short ramp, as tanh(rate / 0.01) of dry friction";
+        let hint = "replace a jump by a short ramp, for example tanh(rate / 0.01) for dry friction";
         expect_smooth(call, curve, ("damping", hint))?;
     }
     Ok(law)
@@ -111,27 +112,27 @@ pub(super) fn damping(call: &Call, options: &Options) -> Result<DampingLaw, Scri
 /// Law of a function, which is sampled over a range of elongations now and not called again.
 fn sampled(call: &Call, options: &Options, ease: &str) -> Result<ParsedLaw, ScriptError> {
     let function = options.callback("law")?;
-    call.expect_arguments(&function, 1, "law: |e| 100 * e, e being the elongation")?;
+    call.expect_arguments(&function, 1, "law: |e| 100 * e, where e is the elongation")?;
     let odd = options.given().find(|key| ["stiffness", "table"].contains(key));
     if let Some(odd) = odd {
-        let told = format!("a law says all about the force, and {odd} is given besides");
+        let told = format!("both a law and {odd} are given, but the law determines the force");
         let hint = format!("leave out {odd}, or the law");
         return Err(call.error(told).hint(hint).at(CallPart::Key(odd.into())));
     }
     if !options.has("range") {
-        let told = "for which elongations the law is asked is missing";
+        let told = "the range of elongations for the law is missing";
         let hint = "give range: [-0.1, 0.1], from the shortest to the longest";
         return Err(call.error(told).hint(hint).at(CallPart::Key("law".into())));
     }
     let range = options.point("range")?;
     if range.x >= range.y {
-        let told = format!("the range [{}, {}] does not rise", range.x, range.y);
+        let told = format!("the range [{}, {}] is not ascending", range.x, range.y);
         let hint = "give the smaller elongation first";
         return Err(call.error(told).hint(hint).at(CallPart::Key("range".into())));
     }
     let force = force_of(call, &function, ("law", "elongation"));
     let law = SpringLaw::sampled((range.x, range.y), force)?;
-    expect_smooth(call, &law, ("law", "make a jump a short ramp"))?;
+    expect_smooth(call, &law, ("law", "replace a jump by a short ramp"))?;
     Ok(match options.number_if_given(ease) {
         Some(natural) => (Some(law.shifted(natural)), Origin::Zero),
         None => (Some(law), Origin::AsBuilt),
@@ -146,7 +147,7 @@ fn force_of<'a>(
     move |at| {
         let value = call.invoke(function, [Dynamic::from(at)])?;
         as_number(&value).filter(|force| force.is_finite()).ok_or_else(|| {
-            let told = format!("the {key} gives no finite number at the {over} {at}");
+            let told = format!("the {key} does not return a finite number at the {over} {at}");
             call.error(told).at(CallPart::Key(key.into()))
         })
     }
@@ -161,7 +162,8 @@ fn expect_smooth(
     let Some((error, largest)) = polygon.missed() else { return Ok(()) };
     let [error, largest] = [error, largest].map(|force| significant(force, 3));
     let told = format!(
-        "the {key} jumps or swings too fast: the finest polygon is off by {error}, its largest force being {largest}"
+        "the {key} has a jump or varies too fast: the finest polygon has an error of {error} at \
+        a largest force of {largest}"
     );
     Err(call.error(told).hint(hint).at(CallPart::Key(key.into())))
 }

@@ -26,10 +26,11 @@ use crate::system::{
 
 pub const TABLE: BindingTable = BindingTable {
     name: "springs and dampers",
-    doc: "What stores energy and gives it back, and what takes it. The energies of springs are a part of the energy of the scene, and \
-          what dampers take is kept in the ledger: E - W + D stays constant to rounding with energy_momentum() and fourth_order(), at any \
-          step and any stiffness. The history has stored and dissipated, and for each of them NAME.length or NAME.angle, NAME.force, \
-          stored.NAME and dissipated.NAME.",
+    doc: "Springs store energy and dampers dissipate it. The energy of springs is part of the \
+        energy of the scene; the dissipated energy is D in the balance E - W + D, which is \
+        constant to rounding with energy_momentum() and fourth_order() for any step size and \
+        stiffness. The history has the columns stored and dissipated, and for each spring or \
+        damper NAME.length or NAME.angle, NAME.force, stored.NAME and dissipated.NAME.",
     types: &[SPRING],
     setup: "let scene = new_scene(\"example\");\n\
             let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 1 });\n\
@@ -44,12 +45,16 @@ pub const TABLE: BindingTable = BindingTable {
             resist(call, SpringKind::Way(anchors), &call.options("options")?)
         })
         .returns(Returns::object(SPRING))
-        .summary("A spring between two stations, or a station and a point of the ground; a damper may act beside it.")
-        .doc("It pulls with stiffness · (distance - length), and with damping · the rate of the distance. A spring as stiff as a rod takes no more \
-              iterations than a soft one. Where the distance is zero it has no direction and no force; without length at ease, length: 0, it needs none. A damper acts at any \
-              length, also where the spring is slack. A law is asked when the spring is made, at so many elongations \
-              of its range that the polygon through them is right to 1e-7 of the largest force: its energy is known exactly, and files keep it. Printed, the spring \
-              tells how far it is off; a law that 20 000 points do not meet, as one that jumps, is refused.")
+        .summary("Adds a spring, optionally with a parallel damper, between two stations or between \
+            a station and a point of the ground.")
+        .doc("The tension is stiffness · (distance - length), plus damping · the rate of the \
+            distance. Very stiff springs need no more iterations than soft ones. At distance \
+            zero the direction is undefined and the force is zero; springs with length: 0 need \
+            no direction. The damper acts also where the spring is slack. A law is sampled \
+            when the spring is created, so that the polygon through the samples is exact to \
+            1e-7 of the largest force. The stored energy is the exact integral of this \
+            polygon, which files contain. print shows the remaining error. A law that needs \
+            more than 20 000 samples, such as one with a jump, is refused with an error.")
         .example("let s1 = scene.spring(rod.end, bead, #{ stiffness: 100, length: 0.5, damping: 0.5 });\n\
                   scene.spring([2, -2], bead, #{ stiffness: 20, acts: \"pull\" });\n\
                   scene.spring([0, 1], bead, #{ law: |e| 20 * e + 5 * e * e * e, range: [-2, 2] });\n\
@@ -63,10 +68,14 @@ pub const TABLE: BindingTable = BindingTable {
             add(call, SpringKind::Way(anchors), law, &options)
         })
         .returns(Returns::object(SPRING))
-        .summary("A damper between two stations, or a station and a point of the ground: a force against the rate of their distance.")
-        .doc("damping may be a law: a function of the rate, asked over `rates` when the damper is made and a table from then on as laws of springs are, or points \
-              [rate, force]. The rate is positive where the distance grows, the force where it pulls: 0 at rest and never of the other sign, else it is refused, \
-              so that a damper only takes energy. A step takes the force of its mean rate. Springs, tendons and torsion springs take the same.")
+        .summary("Adds a damper between two stations, or between a station and a point of the \
+            ground, with a force that depends on the rate of their distance.")
+        .doc("damping may be a constant or a law: points [rate, force], or a function of the \
+            rate, which is sampled over `rates` when the damper is created. The rate is \
+            positive while the distance grows; the force is positive in tension. The force \
+            must be 0 at rate 0 and have the sign of the rate, so that a damper only \
+            dissipates; other laws are refused with an error. A step uses the force at its \
+            mean rate. Springs, tendons and torsion springs accept the same laws.")
         .example("scene.damper(rod.end, [2, -1], #{ damping: 3 });\n\
                   // Of a fluid; saturated beyond 1; in one direction only.\n\
                   scene.damper(rod.end, [3, 0], #{ damping: |r| 2 * r * abs(r), rates: [-5, 5] });\n\
@@ -76,15 +85,19 @@ pub const TABLE: BindingTable = BindingTable {
         .see(&["spring"]),
         method(SCENE, "tendon", &[array("places").doc("stations and points of the ground"), options("options", SPRING_KEYS)], tendon)
             .returns(Returns::object(SPRING))
-            .summary("A rope over three or more places, with one tension: it slides over those between its ends without friction.")
-            .doc("It resists its whole length; with acts: \"pull\" it hangs slack where it is shorter than `length`.")
+            .summary("Adds a rope over three or more places with uniform tension; it slides over the \
+                inner places without friction.")
+            .doc("The tension depends on the total length. With acts: \"pull\" the rope is slack \
+                where it is shorter than `length`.")
             .example("let rope = scene.tendon([[0, 1], rod.end, bead], #{ stiffness: 1e4, acts: \"pull\" });\nprint(rope);")
             .see(&["spring"]),
         method(SCENE, "torsion_spring", &[object("from", STATION), either("to", TURNED), options("options", TORSION_KEYS).optional()], torsion)
             .returns(Returns::object(SPRING))
-            .summary("A spring, and a damper beside it, that turns two sections, or a section and the ground, towards each other.")
-            .doc("Its moment is stiffness · (angle of the second section less that of the first one - angle), and damping · the rate of that. The angle is followed \
-                  over any number of turns.")
+            .summary("Adds a torsion spring, optionally with a parallel damper, between two sections \
+                or between a section and the ground.")
+            .doc("The moment is stiffness · (angle of the second section - angle of the first \
+                section - angle), plus damping · the rate of that difference. Angles are \
+                counted over any number of turns.")
             .example("let arm = scene.beam(#{ axis: line([2, 0], [3, 0]), basis: bspline(4), section: s });\n\
                       scene.hinge(rod.end, arm.start);\n\
                       scene.torsion_spring(rod.end, arm.start, #{ stiffness: 3, damping: 0.1 });\n\
@@ -92,18 +105,21 @@ pub const TABLE: BindingTable = BindingTable {
             .see(&["spring", "hinge"]),
         property(SPRING, "name", |call| Ok(call.receiver::<SpringHandle>()?.name().into()))
             .returns(Returns::TEXT)
-            .summary("Its name.")
+            .summary("Name of the spring.")
             .example("check(scene.spring(rod.end, bead, #{ stiffness: 1 }).name == \"spring1\");"),
         method(SIMULATION, "spring_force", &[WHICH], |call| asked(call, |spring| spring.force))
             .returns(Returns::NUMBER.unit("force"))
-            .summary("The force of a spring and its damper, positive where they pull, the mean of the last step; of a torsion spring the moment.")
-            .doc("With trapezoidal() and generalized_alpha(), which take forces at the ends of steps, it is that at the end of the last step.")
+            .summary("Returns the force of a spring and its damper, positive in tension, as the mean \
+                of the last step; for a torsion spring the moment.")
+            .doc("trapezoidal() and generalized_alpha() evaluate forces at the ends of steps; \
+                with them it is the force at the end of the last step.")
             .example("let s1 = scene.spring(rod.end, bead, #{ stiffness: 100, length: 0.9 });\nlet sim = scene.start(#{ dt: 0.01 });\n\
                       check_close(sim.spring_force(s1), 10, 1e-9);")
             .see(&["spring_length", "spring"]),
         method(SIMULATION, "spring_length", &[WHICH], |call| asked(call, |spring| spring.elongation))
             .returns(Returns::NUMBER.unit("length"))
-            .summary("How long a spring or a tendon is; of a torsion spring the angle.")
+            .summary("Returns the current length of a spring or tendon; for a torsion spring the \
+                angle.")
             .example("let s1 = scene.spring(rod.end, bead, #{ stiffness: 100 });\nlet sim = scene.start(#{ dt: 0.01 });\n\
                       check_close(sim.spring_length(s1), 1, 1e-9);")
             .see(&["spring_force", "spring"]),
@@ -121,28 +137,43 @@ const TURNED: &[Kind] = &[Kind::Object(STATION), Kind::Options(TORSION_KEYS)];
 const STIFFNESS: Parameter = number("stiffness").positive().unit("force/length").optional();
 const DAMPING_KINDS: &[Kind] = &[Kind::Number(NumberRange::Finite), Kind::Function, Kind::Points];
 const DAMPER_KINDS: &[Kind] = &[Kind::Number(NumberRange::Positive), Kind::Function, Kind::Points];
-const DAMPING_DOC: &str =
-    "a constant, or a law: the force over the rate, |rate| …, or points [rate, force]";
+const DAMPING_DOC: &str = "constant, or law: function of the rate that returns the force, |rate| …, or points [rate, \
+    force]";
 const DAMPING: Parameter = either("damping", DAMPING_KINDS)
     .unit("force·time/length")
     .doc(DAMPING_DOC)
     .or(Presence::Number(0.0));
 const RATES: Parameter = point("rates")
     .unit("length/time")
-    .doc("the rates for which a function is asked, [-1, 1]; beyond them it goes on straight")
+    .doc(
+        "range of rates in which a function is sampled, such as [-1, 1]; linear extrapolation \
+        beyond it",
+    )
     .beside("damping")
     .optional();
 const SPRING_KEYS: &[Parameter] = &[
     STIFFNESS,
-    number("length").unit("length").doc("where it is at ease; as drawn unless given").optional(),
+    number("length")
+        .unit("length")
+        .doc("length without force; default: the length in the undeformed scene")
+        .optional(),
     choice("acts", &[ACTS[0].0, ACTS[1].0, ACTS[2].0])
-        .doc("a rope can only pull, a bumper only push")
+        .doc("direction of the force: \"pull\" for a rope, \"push\" for a bumper")
         .or(Presence::Text("both")),
     points("table")
-        .doc("points [length, force] in place of a stiffness: a polygon, which goes on beyond its ends as in its last parts")
+        .doc(
+            "points [length, force] in place of a stiffness; piecewise linear, extrapolated by \
+            the last segments",
+        )
         .optional(),
-    callback("law").doc("the force over the elongation, |e| …, in place of a stiffness").optional(),
-    point("range").unit("length").doc("the elongations for which the law is asked; beyond it goes on straight").beside("law").optional(),
+    callback("law")
+        .doc("function of the elongation that returns the force, |e| …, in place of a stiffness")
+        .optional(),
+    point("range")
+        .unit("length")
+        .doc("range of elongations in which the law is sampled; linear extrapolation beyond it")
+        .beside("law")
+        .optional(),
     DAMPING,
     RATES,
     text("name").optional(),
@@ -156,24 +187,33 @@ const TORSION_KEYS: &[Parameter] = &[
     number("stiffness").positive().unit("force·length/rad").optional(),
     number("angle")
         .unit("rad")
-        .doc("where it is at ease, with the ground from the x axis like sim.angle; as drawn unless given")
+        .doc(
+            "angle without moment; to the ground measured from the x axis like sim.angle; \
+            default: the angle in the undeformed scene",
+        )
         .optional(),
     points("table").doc("points [angle, moment] in place of a stiffness").optional(),
     callback("law")
-        .doc("the moment over the angle beyond ease, |a| …, in place of a stiffness")
+        .doc(
+            "function of the angle from the position without moment, returns the moment, |a| …, \
+            in place of a stiffness",
+        )
         .optional(),
     point("range")
         .unit("rad")
-        .doc("the angles for which the law is asked")
+        .doc("range of angles in which the law is sampled")
         .beside("law")
         .optional(),
     either("damping", DAMPING_KINDS)
         .unit("force·length·time/rad")
-        .doc("a constant, or a law: the moment over the rate, |rate| …, or points [rate, moment]")
+        .doc(
+            "constant, or law: function of the rate that returns the moment, |rate| …, or \
+            points [rate, moment]",
+        )
         .or(Presence::Number(0.0)),
     point("rates")
         .unit("rad/time")
-        .doc("the rates for which a function is asked")
+        .doc("range of rates in which a function is sampled")
         .beside("damping")
         .optional(),
     text("name").optional(),
@@ -285,11 +325,10 @@ fn tendon(call: &mut Call) -> Result<Dynamic, ScriptError> {
         });
     }
     if anchors.len() < 3 {
-        let told =
-            format!("a tendon goes over three or more places, and {} are given", anchors.len());
+        let told = format!("a tendon needs three or more places, but {} are given", anchors.len());
         return Err(call
             .error(told)
-            .hint("between two places, use scene.spring")
+            .hint("use scene.spring between two places")
             .at(CallPart::Argument(0)));
     }
     resist(call, SpringKind::Way(anchors), &call.options("options")?)
@@ -336,7 +375,9 @@ fn asked(call: &Call, ask: impl FnOnce(&SpringState) -> f64) -> Result<Dynamic, 
         Some(state) => Ok(ask(&state).into()),
         None => {
             let told = format!("'{}' was added after the scene was started", spring.name());
-            Err(call.error(told).hint("add everything before scene.start(…), or start again"))
+            Err(call
+                .error(told)
+                .hint("add everything before scene.start(…), or start the scene again"))
         }
     }
 }

@@ -18,7 +18,7 @@ use crate::script::studies::stability::{MapColouring, StabilityMap, StabilityPla
 
 pub const TABLE: BindingTable = BindingTable {
     name: "stability maps",
-    doc: "What becomes of a simulation on the edge: a run for every combination of parameters, on all cores.",
+    doc: "Stability maps: runs for every combination of parameters, on all cores.",
     types: &[STABILITY_MAP],
     setup: "let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\n\
             let spinning = |cell| {\n\
@@ -30,14 +30,18 @@ pub const TABLE: BindingTable = BindingTable {
     rows: &[
         function("study_stability", &[options("options", StabilityOptions::KEYS)], study)
             .returns(Returns::object(STABILITY_MAP))
-            .summary("Runs a scene for all combinations of parameters and shows which runs come to their end, and whose energy grows.")
+            .summary("Runs a scene for all combinations of parameters and shows which runs finish, \
+                and in which the energy grows.")
             .doc(
-                "`scene` is a function of a map that has the values of a cell under their names. It gives a scene, or a map of the scene \
-                 and how it is simulated: #{ scene: scene, dt: 0.1, end: 5, integrator: trapezoidal() }. What that leaves open is taken \
-                 from the values named dt, end or integrator, then from the options of the study. When it throws, that is what became of the cell. The energy growth of a cell is the \
-                 largest rise of E - W above an earlier value after the last break of the schedules, relative to the largest energy. The \
-                 maps are printed, drawn into NAME.svg and written into NAME.csv. Labels are numbers, texts, the names of integrators, or \
-                 what a map says under `name`.",
+                "`scene` is a function of a map with the values of a cell by name. It returns a \
+                scene, or a map with settings of the simulation: #{ scene: scene, dt: 0.1, \
+                end: 5, integrator: trapezoidal() }. Missing settings are taken from the \
+                values of the cell, then from the options of the study. An exception of the \
+                function is the outcome of the cell. The energy growth of a cell is the \
+                largest rise of E - W above an earlier value after the last kink or jump of \
+                the schedules, relative to the largest energy. The maps are printed, plotted \
+                in NAME.svg and written to NAME.csv. Labels are numbers, texts, names of \
+                integrators, or the key `name` of a map.",
             )
             .example(
                 "let map = study_stability(#{\n    name: \"spin\", scene: spinning, end: 0.5,\n    rows: #{ dt: [0.05, 0.1] },\n    columns: #{ integrator: [energy_momentum(), trapezoidal()] },\n});\n\
@@ -49,7 +53,8 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(Dynamic::from(cells.into_iter().map(Dynamic::from).collect::<Array>()))
         })
         .returns(Returns::array_of(&ValueKind::Map))
-        .summary("A map for each cell: its values, and finished, outcome, energy_growth, iterations, most_iterations, retries and steps.")
+        .summary("Array with a map for each cell: its values, and finished, outcome, energy_growth, \
+            iterations, most_iterations, retries and steps.")
         .example(
             "let map = study_stability(#{ name: \"spin\", scene: spinning, end: 1, rows: #{ dt: [0.1] }, columns: #{ integrator: [fourth_order()] } });\n\
              check(map.cells.len() == 1 && map.cells[0].steps == 10 && map.cells[0].dt == 0.1);",
@@ -61,7 +66,7 @@ const STABILITY_MAP: Type = Type::of::<StabilityMap>();
 
 impl Scripted for StabilityMap {
     const NAME: &'static str = "stability map";
-    const DOC: &'static str = "What became of a run for every combination of parameters.";
+    const DOC: &'static str = "Outcomes of runs for every combination of parameters.";
 
     fn show(&self) -> String {
         let (all, finished) = self.counts();

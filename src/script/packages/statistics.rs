@@ -14,15 +14,18 @@ use crate::simulation::{History, SpectrumPeak, TimeSeries};
 
 pub const TABLE: BindingTable = BindingTable {
     name: "statistics",
-    doc: "What a column of a history tells as a whole. Between rows it is taken as straight. Windows narrow it: sim.history.after(2).statistics(\"energy\").",
+    doc: "Statistics of a column of a history, which is linearly interpolated between rows. For \
+        a time window use: sim.history.after(2).statistics(\"energy\").",
     types: &[],
     setup: SPINNING,
     constants: &[],
     rows: &[
         method(HISTORY, "statistics", &[COLUMN], statistics)
             .returns(Returns::MAP)
-            .summary("The extremes of a column with their times, its means and its integral over time.")
-            .doc("The map holds min, min_at, max, max_at, mean (over time), rms (root mean square) and integral.")
+            .summary("Returns the extremes of a column with their times, its means and its integral \
+                over time.")
+            .doc("The map has min, min_at, max, max_at, mean (over time), rms (root mean square) \
+                and integral.")
             .example(
                 "sim.run_to(1);\nlet t = sim.history.statistics(\"t\");\n\
                  check(t.min == 0 && t.max == 1 && t.max_at == 1);\n\
@@ -31,10 +34,11 @@ pub const TABLE: BindingTable = BindingTable {
             .see(&["largest", "spectrum", "crossings", "derivative"]),
         method(HISTORY, "derivative", &[COLUMN], |call| Ok(numbers(series(call)?.derivative())))
             .returns(Returns::NUMBERS)
-            .summary("The derivative of a column by time, for each row.")
+            .summary("Returns the time derivative of a column at each row.")
             .doc(
-                "That of the parabola through a row and its neighbours: of second order, also where steps vary. Where two rows have one time, at a jump, \
-                 each has the quotient on its own side.",
+                "Computed from the parabola through a row and its neighbours: second order, \
+                also with varying steps. At a jump, where two rows have the same time, each \
+                has the one-sided difference quotient.",
             )
             .example("sim.run_to(1);\ncheck_close(sim.history.derivative(\"t\")[5], 1, 1e-12);")
             .see(&["column", "crossings"]),
@@ -42,16 +46,20 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(numbers(series(call)?.crossings(call.number("level")?)))
         })
         .returns(Returns::NUMBERS.unit("time"))
-        .summary("When a column passes a level, up or down.")
+        .summary("Returns the times at which a column crosses a level, upwards or downwards.")
         .example("sim.run_to(1);\ncheck_close(sim.history.crossings(\"t\", 0.25)[0], 0.25, 1e-12);")
         .see(&["statistics", "spectrum"]),
         method(HISTORY, "spectrum", &[COLUMN, whole("most").positive().or(Presence::Whole(5))], spectrum)
             .returns(Returns::array_of(&ValueKind::Map))
-            .summary("The strongest vibrations in a column, the strongest first: frequency and amplitude of each.")
+            .summary("Returns frequency and amplitude of the strongest vibrations in a column, in \
+                descending order of amplitude.")
             .doc(
-                "The frequency is in periods a unit of time; the circular one is 2π times as much. The mean is no vibration. Rows must be evenly spaced: with \
-                 adaptive steps or cuts take a fixed dt, or a window without the cut. Two vibrations that are nearer than about four periods over the window \
-                 are not told apart, and slower ones are not seen. Window of Blackman and Harris; F. J. Harris, Proc. IEEE 66 (1978) 51-83.",
+                "The frequency is in cycles per unit of time; multiply by 2π for the angular \
+                frequency. The mean is excluded. Rows must be evenly spaced: use a fixed dt, \
+                and a window without additional ends of steps. Two vibrations less than about \
+                four cycles over the window apart are not separated, and slower ones are not \
+                found. Window of Blackman and Harris; F. J. Harris, Proc. IEEE 66 (1978) \
+                51-83.",
             )
             .example(
                 "let swing = new_scene(\"swing\");\nlet bob = swing.beam(#{ name: \"bob\", axis: line([0, 0], [1, 0]), basis: bspline(2), section: s, spin: 8, about: [0, 0] });\n\
@@ -62,7 +70,7 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-const COLUMN: Parameter = text("column").doc("the name of a column of this history");
+const COLUMN: Parameter = text("column").doc("name of a column of this history");
 
 fn series(call: &Call) -> Result<TimeSeries, ScriptError> {
     let values = column(call, History::column)?;
@@ -91,7 +99,8 @@ fn statistics(call: &mut Call) -> Result<Dynamic, ScriptError> {
 
 fn spectrum(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let peaks = series(call)?.spectrum(call.count("most")?).map_err(|error| {
-        let hint = "take sim.history.between(t1, t2) with steps of one size: a fixed dt, record: every(n), no cut inside";
+        let hint = "use sim.history.between(t1, t2) with steps of one size: a fixed dt, record: \
+            every(n), no shortened steps";
         call.error(error).hint(hint)
     })?;
     let told =

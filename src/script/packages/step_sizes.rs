@@ -12,7 +12,8 @@ use crate::simulation::{StepControl, StepSize};
 
 pub const TABLE: BindingTable = BindingTable {
     name: "step sizes",
-    doc: "A scene is started with a step size, dt: 0.1, or with a tolerance, dt: adaptive(#{ tolerance: 1e-4 }).",
+    doc: "Fixed and adaptive step sizes. A scene is started with a step size, dt: 0.1, or with a \
+        tolerance, dt: adaptive(#{ tolerance: 1e-4 }).",
     types: &[STEP_CONTROL],
     setup: super::simulations::SPINNING,
     constants: &[],
@@ -30,14 +31,19 @@ pub const TABLE: BindingTable = BindingTable {
         Ok(Dynamic::from(control))
     })
     .returns(Returns::object(STEP_CONTROL))
-    .summary("Steps as long as a tolerance allows, with any integrator: dt: adaptive(#{ tolerance: 1e-4 }).")
+    .summary(
+        "Selects adaptive steps with an error tolerance, for any integrator: dt: adaptive(#{ \
+        tolerance: 1e-4 }).",
+    )
     .doc(
-        "A step is two equal ones of the integrator, compared with a single one as long as both, which is thrown away: 3 solves for 2. \
-         What is accepted is a plain step of the integrator, so whatever that keeps is kept. The tolerance is the error that may gather \
-         while the scene moves about as far as it is long, as a part of that length (of the longest beam) and in radians, whichever is \
-         the largest; 100 times smaller, it takes 10 times as many steps of a method of order 2. Steps end at times where schedules \
-         jump or bend, at the end of run_to and where sim.at says; they are small again after a jump. sim.rejected counts steps that \
-         erred by too much, the column dt has the sizes.",
+        "Two equal steps of the integrator are compared with a single step of the same total \
+        length, which is discarded: 3 solves for 2 steps. Accepted steps keep what the \
+        integrator keeps. The tolerance is the error accumulated while the scene moves by \
+        about its own length, as a fraction of the length of the longest beam and in rad, \
+        whichever is larger. A tolerance 100 times smaller needs 10 times as many steps with a \
+        method of order 2. Steps end where schedules jump or have kinks, at the end of run_to \
+        and at the times of sim.at; after a jump the steps are small again. sim.rejected \
+        counts rejected steps; the column dt has the step sizes.",
     )
     .example(
         "let careful = scene.start(#{ dt: adaptive(#{ tolerance: 1e-5, largest: 0.2 }) });\n\
@@ -53,21 +59,27 @@ const ADAPTIVE: &[Parameter] = &[
     number("tolerance")
         .between(StepControl::LEAST_TOLERANCE, StepControl::MOST_TOLERANCE)
         .or(Presence::Number(1e-4))
-        .doc("the error that may gather, as a part of the longest beam, or without beams of the extent of what springs and joints hold together, and in rad"),
+        .doc(
+            "accumulated error as a fraction of the length of the longest beam, and in rad; \
+            without beams, of the extent of the parts connected by springs and joints",
+        ),
     number("first")
         .positive()
         .unit("time")
-        .doc("the first step, and the first after a jump; found from the scene unless given")
+        .doc("first step, also after a jump; default: computed from the scene")
         .optional(),
     number("smallest")
         .positive()
         .unit("time")
-        .doc("the run stops where shorter steps are needed; a millionth of the first unless given")
+        .doc(
+            "smallest step; the run stops with an error where a smaller one is needed; default: \
+            1e-6 of the first step",
+        )
         .optional(),
     number("largest")
         .positive()
         .unit("time")
-        .doc("no step is longer; a million times the first unless given")
+        .doc("largest step; default: 1e6 times the first step")
         .optional(),
 ];
 
@@ -75,7 +87,7 @@ pub const STEP_CONTROL: Type = Type::of::<StepControl>();
 
 impl Scripted for StepControl {
     const NAME: &'static str = "step control";
-    const DOC: &'static str = "How steps of varying size are found.";
+    const DOC: &'static str = "Selection of the step sizes of a simulation.";
 
     fn show(&self) -> String {
         format!("{self} steps")

@@ -16,9 +16,12 @@ use crate::script::studies::sweeps::table::SweepTable;
 
 pub const TABLE: BindingTable = BindingTable {
     name: "pictures of sweeps",
-    doc: "Each is written into a file that is named by the sweep and its columns: NAME-speed-mass-peak.svg. Rows that failed are not drawn. What sweeps have, \
-          their tables have too, so that some rows can be drawn: sweep.table.where(|row| row.mass < 2).plot(\"speed\", \"peak\"). Pictures of some rows \
-          are numbered from 2: NAME-speed-peak-2.svg. A column of texts or other values that are no numbers cannot be drawn; truth values are 0 and 1.",
+    doc: "Pictures of sweeps. The file name consists of the sweep and the columns: \
+        NAME-speed-mass-peak.svg. Failed rows are omitted. Tables of sweeps have the same \
+        functions, so that selected rows can be plotted: sweep.table.where(|row| row.mass < \
+        2).plot(\"speed\", \"peak\"). Pictures of selected rows are numbered from 2: \
+        NAME-speed-peak-2.svg. Columns of texts or other values that are not numbers cannot be \
+        plotted; booleans are 0 and 1.",
     types: &[],
     setup: SETUP,
     constants: &[],
@@ -36,16 +39,19 @@ const fn plot(of: Type) -> FunctionBinding {
     const PARAMETERS: &[Parameter] = &[
         text("x").doc("a parameter or result"),
         text("y").doc("a parameter or result"),
-        text("z").doc("what is shown as colours").optional(),
+        text("z").doc("parameter or result shown as colours").optional(),
     ];
     method(of, "plot", PARAMETERS, draw)
-        .summary("Draws a column over another one, or as colours over two others.")
+        .summary("Plots a column over another one, or as colours over two others.")
         .doc(
-            "Over a parameter that goes through an array: a curve for each combination of the others, or mean, least and largest where there are more \
-             than eight. Over other columns: points, of more than 2000 rows as many, drawn by lot. The axis of x is logarithmic for logspace(…) and \
-             distributions of logarithms over a decade or more. With z a map: a cell for each pair of values of two such parameters, or for points twenty by twenty; \
-             the mean where several runs fall into a cell, hatched where none does. Of more than 160 values along an axis neighbours are drawn as one cell, which \
-             has the mean of theirs.",
+            "Over a parameter given by an array: a curve for each combination of the other \
+            parameters, or mean, minimum and maximum if there are more than eight. Over other \
+            columns: points, at most 2000, selected at random. The axis of x is logarithmic \
+            for logspace(…) and for logarithmic distributions over a decade or more. With z: a \
+            map with a cell for each pair of values of two such parameters, or 20 × 20 cells \
+            for points; a cell with several runs shows their mean, and an empty cell is \
+            hatched. Of more than 160 values along an axis, neighbours are combined into one \
+            cell with their mean.",
         )
         .example("sweep.plot(\"speed\", \"energy\");\nsweep.plot(\"speed\", \"mass\", \"energy\");\nsweep.table.where(|row| row.mass == 2).plot(\"speed\", \"energy\");")
         .see(&["plot_matrix", "plot_histogram", "sensitivity"])
@@ -53,10 +59,11 @@ const fn plot(of: Type) -> FunctionBinding {
 
 const fn matrix(of: Type) -> FunctionBinding {
     method(of, "plot_matrix", &[], draw_matrix)
-        .summary(
-            "Draws all columns of numbers, six at most, over all others, with their histograms.",
+        .summary("Plots up to six numeric columns over each other, with their histograms.")
+        .doc(
+            "At most 500 rows are shown, selected at random and the same in all panels; the \
+            histograms contain all rows.",
         )
-        .doc("Of more than 500 rows as many are shown, drawn by lot, the same in all panels; the histograms are of all.")
         .example("sweep.plot_matrix();\nsweep.table.plot_matrix();")
         .see(&["plot"])
 }
@@ -64,8 +71,11 @@ const fn matrix(of: Type) -> FunctionBinding {
 const fn histogram(of: Type) -> FunctionBinding {
     const COLUMN: &[Parameter] = &[text("column").doc("a parameter or result")];
     method(of, "plot_histogram", COLUMN, draw_histogram)
-        .summary("Draws how many runs have which values of a column.")
-        .doc("Of at most 64 values that come back, each has a class of its own; else classes are equally wide.")
+        .summary("Plots a histogram of a column.")
+        .doc(
+            "A column with at most 64 different, repeated values has a class for each value; \
+            otherwise classes have equal width.",
+        )
         .example("sweep.plot_histogram(\"energy\");\nsweep.table.plot_histogram(\"energy\");")
         .see(&["plot", "plot_matrix"])
 }
@@ -114,10 +124,11 @@ fn expect_rows(call: &Call, picture: &Picture, names: &[&str]) -> Result<(), Scr
     }
     let (count, all) = (picture.table.length(), picture.table.sweep().design.rows);
     let hint = match count {
-        0 => "no row was chosen: loosen the condition of where(…)",
-        _ => "rows that failed have no results: print(sweep.failures) says why",
+        0 => "no row was selected: change the condition of where(…)",
+        _ => "failed rows have no results: print(sweep.failures) shows the reasons",
     };
-    let told = format!("there is nothing to draw in {count} of the {all} rows of the sweep");
+    let told =
+        format!("{count} of the {all} rows of the sweep are selected, and none can be plotted");
     Err(call.error(told).hint(hint))
 }
 
@@ -137,11 +148,12 @@ fn expect_columns(call: &Call, table: &SweepTable, names: &[&str]) -> Result<(),
     };
     let name = names[at];
     let few: Vec<&str> = labels.iter().take(3).map(String::as_str).collect();
-    let told = format!("the values of \"{name}\" are no numbers: {}", few.join(", "));
+    let told = format!("\"{name}\" has values that are not numbers: {}", few.join(", "));
     Err(call
         .error(told)
         .hint(format!(
-            "over a parameter of numbers there is a curve for each of them; where(|row| row.{name} == …) has the rows of one"
+            "plot over a numeric parameter for one curve per value, or select the rows of one \
+            value with where(|row| row.{name} == …)"
         ))
         .at(CallPart::Argument(at)))
 }

@@ -31,24 +31,31 @@ use crate::script::studies::sweeps::table::{FAILURE, FinishedSweep, SweepTable};
 
 pub const TABLE: BindingTable = BindingTable {
     name: "sweeps",
-    doc: "A function of parameters, called with all of their values on all cores: what a thousand runs say together. withy study FILE keeps what is finished \
-          when it is interrupted, and goes on there the next time.",
+    doc: "Sweeps call a function with many values of parameters on all cores and collect the \
+        results in a table. withy study FILE saves finished runs when it is interrupted, and \
+        continues from them the next time.",
     types: &[SWEEP, SWEEP_TABLE],
     setup: SETUP,
     constants: &[],
     rows: &[
         function("study_sweep", &[options("options", KEYS)], study)
             .returns(Returns::object(SWEEP))
-            .summary("Calls a function with all combinations of parameters, or at sampled points, on all cores, and gives the table of what it finds.")
+            .summary("Calls a function with all combinations of parameters, or at sampled points, on \
+                all cores, and returns a table of the results.")
             .doc(
-                "`parameters` are arrays, of which every value is taken with every other (a grid, whose last name in the alphabet goes fastest), or with `samples` \
-                 distributions and arrays, whose values are equally likely. `run` is a function of a map of the values, which gives a map of numbers and \
-                 truth values (kept as 1 and 0), with the same names in all runs. What it throws, a result that is not finite and a check that fails are \
-                 the reason of a failed row; the others are not touched. \
-                 Every run is made in an engine of another thread, which has the functions and imports of the script, but has run none of its statements: \
-                 the function may use numbers, texts, arrays, maps, vectors, functions, sections, meshes, curves, integrators and schedules from outside, \
-                 and each run begins with these as they were. It prints nothing and writes no files. The table is the same whatever the number of \
-                 cores. At the prompt, where there is no whole script, one core makes all runs. A summary is printed, and the table written into NAME.csv.",
+                "`parameters` are arrays, of which all combinations are used (a grid; the \
+                alphabetically last name varies fastest), or with `samples` distributions and \
+                arrays, whose values are equally likely. `run` is a function of a map of the \
+                values that returns a map of numbers and booleans (stored as 1 and 0), with \
+                the same names in all runs. An exception, a result that is not finite or a \
+                failed check makes a failed row with this reason; other rows are not affected. \
+                Runs are made in other threads, with the functions and imports of the script, \
+                but without its statements. The function may use numbers, texts, arrays, maps, \
+                vectors, functions, sections, meshes, curves, integrators and schedules from \
+                outside; each run starts with their original values. It prints nothing and \
+                writes no files. The table does not depend on the number of cores. At the \
+                prompt all runs are made on one core. A summary is printed, and the table is \
+                written to NAME.csv.",
             )
             .example(
                 "let sweep = study_sweep(#{\n    name: \"throw\", parameters: #{ angle: linspace(0.2, 1.4, 7), speed: [5, 10] },\n    \
@@ -58,28 +65,35 @@ pub const TABLE: BindingTable = BindingTable {
             .see(&["latin_hypercube", "sobol", "sensitivity", "study_stability"]),
         property(SWEEP, "table", |call| Ok(Dynamic::from(table_of(call)?)))
             .returns(Returns::object(SWEEP_TABLE))
-            .summary("All rows: parameters, results, and the reasons of those that failed.")
+            .summary("Table of all rows: parameters, results, and the reasons of failed runs.")
             .example("print(sweep.table);\ncheck(sweep.table.rows[5].energy == 9);"),
         property(SWEEP, "failures", |call| Ok(Dynamic::from(table_of(call)?.failures())))
             .returns(Returns::object(SWEEP_TABLE))
-            .summary("The rows that failed, with their reasons.")
+            .summary("Table of the failed rows, with their reasons.")
             .example("check(sweep.failures.count == 0);")
             .see(&["where"]),
         method(SWEEP, "sensitivity", &[RESULT], sensitivity)
             .returns(Returns::array_of(&ValueKind::Map))
-            .summary("How much of the variance of a result each parameter explains, the one that explains most first: Sobol' indices.")
+            .summary("Returns the share of the variance of a result that each parameter explains \
+                (Sobol' indices), in descending order.")
             .doc(
-                "A map for each parameter: parameter, first (by itself: the variance of the mean over all others, as a part of the whole; its main effect) and \
-                 total (together with all others; () where the points do not tell). Of a grid they are exact for its values, each taken as equally likely; of \
-                 saltelli(…) they are estimated as M. J. W. Jansen does (Computer Physics Communications 117 (1999) 35-43); of other points first alone, by \
-                 groups of neighbours. Estimates from N blocks or points are uncertain by about 1/√N: at least 30 are asked for, and thousands tell small shares \
-                 apart. How many rows are left out because runs failed is told. Parameters must be independent of one another, which those of sweeps are.",
+                "An array with a map for each parameter: parameter, first (main effect: \
+                variance of the mean over all other parameters, as a fraction of the total \
+                variance) and total (including interactions; () if the points do not allow \
+                it). For a grid of equally likely values the indices are exact; for saltelli(…) they are estimated by \
+                the formulas of M. J. W. Jansen (Computer Physics Communications 117 (1999) \
+                35-43); for other points only first is estimated, from groups of neighbours. \
+                Estimates from N blocks or points have an uncertainty of about 1/√N: at least \
+                30 are required, and thousands resolve small shares. The number of rows \
+                omitted because of failed runs is reported. Parameters must be independent, as \
+                those of sweeps are.",
             )
             .example("let main = sweep.sensitivity(\"energy\")[0];\ncheck(main.parameter == \"speed\" && main.first < main.total);")
             .see(&["saltelli", "study_sweep"]),
         method(SWEEP_TABLE, "where", &[callback("condition").doc("|row| …, true or false")], rows_where)
             .returns(Returns::object(SWEEP_TABLE))
-            .summary("The rows for which a function of the row, a map, is true; failed rows have a `failure` and no results.")
+            .summary("Returns the rows for which a function of the row, a map, returns true; failed \
+                rows have a `failure` and no results.")
             .example("check(sweep.table.where(|row| row.mass == 2 && row.energy > 2).count == 2);")
             .see(&["failures", "column"]),
         method(SWEEP_TABLE, "column", &[text("name")], |call| {
@@ -88,7 +102,8 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(numbers.into_iter().map(Dynamic::from).collect::<Array>().into())
         })
         .returns(Returns::NUMBERS)
-        .summary("A parameter or result of all rows as numbers; not-a-number where a row failed, or the value is no number.")
+        .summary("Returns a parameter or result of all rows as numbers; NaN in failed rows and where \
+            the value is not a number.")
         .example("check(sweep.table.column(\"energy\") == [0.5, 2, 4.5, 1, 4, 9]);"),
         property(SWEEP_TABLE, "rows", |call| {
             let table = call.receiver::<SweepTable>()?;
@@ -96,11 +111,12 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(table.rows().map(|row| table.row(row).into()).collect::<Array>().into())
         })
         .returns(Returns::array_of(&ValueKind::Map))
-        .summary("A map for each row: parameters, results, and `failure` in the place of results where it failed.")
+        .summary("Array with a map for each row: parameters and results, or `failure` for a failed \
+            run.")
         .example("for row in sweep.table.rows { check(row.energy == row.mass * row.speed ** 2 / 2); }"),
         property(SWEEP_TABLE, "count", |call| Ok((call.receiver::<SweepTable>()?.length() as i64).into()))
             .returns(Returns::WHOLE)
-            .summary("How many rows there are.")
+            .summary("Number of rows.")
             .example("check(sweep.table.count == 6);"),
     ],
 };
@@ -109,18 +125,19 @@ pub(super) const SETUP: &str = "let sweep = study_sweep(#{\n    name: \"first\",
             run: |p| #{ energy: p.mass * p.speed ** 2 / 2 },\n});";
 pub(super) const SWEEP: Type = Type::of::<SweepHandle>();
 pub(super) const SWEEP_TABLE: Type = Type::of::<SweepTable>();
-const RESULT: Parameter = text("result").doc("a name that the runs give");
+const RESULT: Parameter = text("result").doc("name of a result of the runs");
 const KEYS: &[Parameter] = SweepOptions::KEYS;
 const BYTES_OF_A_ROW: u64 = 500;
 
 option_set! {
     /// The options of `study_sweep`.
     pub struct SweepOptions {
-        name: String = name("name").doc("of the study and its files"),
+        name: String = name("name").doc("name of the study and its files"),
         parameters: Dynamic = anything("parameters").doc("names with values or distributions: #{ speed: linspace(0.1, 2, 20), mass: [1, 2] }"),
-        run: FnPtr = callback("run").doc("|p| …, a function of the values of a row that gives a map of numbers"),
-        samples: Option<Samples> = object("samples", SAMPLES).doc("points in the place of a grid: latin_hypercube(2000), sobol(4096), saltelli(1024)").optional(),
-        patience: f64 = number("patience").positive().unit("s").or(Presence::Number(600.0)).doc("the longest that a run may take by the clock"),
+        run: FnPtr = callback("run").doc("|p| …, a function of the values of a row that returns a map of numbers"),
+        samples: Option<Samples> = object("samples", SAMPLES).doc("sampling plan in place of a grid: latin_hypercube(2000), sobol(4096), \
+            saltelli(1024)").optional(),
+        patience: f64 = number("patience").positive().unit("s").or(Presence::Number(600.0)).doc("longest time of a run by the clock"),
     }
 }
 
@@ -141,12 +158,12 @@ impl SweepHandle {
 
 impl Scripted for SweepHandle {
     const NAME: &'static str = "sweep";
-    const DOC: &'static str = "What a function of parameters gave for all of their values.";
+    const DOC: &'static str = "Results of a function for many values of its parameters.";
 
     fn show(&self) -> String {
         let Sweep { name, design, results } = &self.0.sweep;
         let finished = design.rows - results.failures().len();
-        format!("sweep '{name}': {finished} of {} runs came to their end", design.rows)
+        format!("sweep '{name}': {finished} of {} runs finished", design.rows)
     }
 
     fn details(&self) -> Details {
@@ -162,7 +179,7 @@ impl Scripted for SweepHandle {
 
 impl Scripted for SweepTable {
     const NAME: &'static str = "sweep table";
-    const DOC: &'static str = "Rows of a sweep: parameters, results, and why runs failed.";
+    const DOC: &'static str = "Rows of a sweep: parameters, results, and reasons of failed runs.";
 
     fn show(&self) -> String {
         self.text()
@@ -209,8 +226,8 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
         return Err(at_key(
             call,
             "parameters",
-            format!("a parameter is called '{unread}'"),
-            "give it another name: a row that failed says so there",
+            format!("'{unread}' is not allowed as the name of a parameter"),
+            "choose another name: this key holds the reason of a failed row",
         ));
     }
     RunFunction::expect_read(call, ("run", &options.run), names)?;
@@ -236,8 +253,13 @@ fn expect_other_names(call: &Call, sweep: &Sweep) -> Result<(), ScriptError> {
     let own = |name: &&String| sweep.design.parameters.iter().any(|of| of.name == **name);
     let wrong = sweep.results.names.iter().find(|name| own(name) || *name == FAILURE);
     wrong.map_or(Ok(()), |name| {
-        let told = format!("run: a result is called '{name}', as another column of the table is");
-        Err(at_key(call, "run", told, "give it another name: parameters stand beside results"))
+        let told = format!("run: the name '{name}' of a result is already a column of the table");
+        Err(at_key(
+            call,
+            "run",
+            told,
+            "choose another name: parameters and results share one table",
+        ))
     })
 }
 
@@ -256,7 +278,7 @@ fn pretended(call: &Call, order: SweepRequest) -> Result<FinishedSweep, ScriptEr
             Vec::new(),
         ),
         RowOutcome::Wrong(told) => {
-            let hint = "its last expression is a map of numbers: #{ peak: peak }";
+            let hint = "its last expression must be a map of numbers: #{ peak: peak }";
             return Err(at_key(call, "run", format!("run: {told}"), hint));
         }
     };
@@ -290,26 +312,30 @@ fn sensitivity(call: &mut Call) -> Result<Dynamic, ScriptError> {
         }
         let (failed, rows) = (sweep.results.failures().len(), sweep.design.rows);
         if failed > 0 && matches!(sweep.design.arrangement, RowLayout::Grid) {
-            let told = format!(
-                "{failed} of {rows} runs failed: of a grid all must have come to their end"
-            );
-            let hint =
-                "leave out the values at which they fail, or take points: samples: saltelli(1024)";
+            let told =
+                format!("{failed} of {rows} runs failed, but all runs of a grid must finish");
+            let hint = "leave out the values of the failed runs, or use sampled points: samples: \
+                saltelli(1024)";
             return Err(call.error(told).hint(hint).at(CallPart::Argument(0)));
         }
         return Err(call
-            .error(format!("the runs do not tell what '{result}' depends on"))
-            .hint("it must vary; a grid must have no failed rows; points, or blocks of saltelli(…) without failed rows, must be at least 30; saltelli(1024) gives the best")
+            .error(format!("the sensitivity of '{result}' cannot be computed from these runs"))
+            .hint(
+                "the result must vary; a grid must have no failed rows; at least 30 points, or \
+                30 blocks of saltelli(…) without failed rows, are required; saltelli(1024) \
+                gives the best estimate",
+            )
             .at(CallPart::Argument(0)));
     };
     let (used, rows) = (sweep.telling_rows(&result), sweep.design.rows);
     if used < rows && call.context().mode() == RunMode::Run {
         let failed = sweep.results.failures().len();
         let told = format!(
-            "note: the sensitivity of '{result}' is told by {used} of {rows} rows: {failed} failed"
+            "note: the sensitivity of '{result}' is computed from {used} of {rows} rows: \
+            {failed} failed"
         );
         let blocks = match sweep.design.arrangement {
-            RowLayout::Saltelli => ", and with them their blocks are left out",
+            RowLayout::Saltelli => ", and their blocks are left out",
             RowLayout::Grid | RowLayout::Points => "",
         };
         call.context().tell(&(told + blocks));
@@ -330,10 +356,10 @@ fn rows_where(call: &mut Call) -> Result<Dynamic, ScriptError> {
             Ok(true) => chosen.push(row as u32),
             Ok(false) => (),
             Err(_) => {
-                let told = format!("the function gives {} for a row", call.describe(&given));
+                let told = format!("the function returns {} for a row", call.describe(&given));
                 return Err(call
                     .error(told)
-                    .hint("it says true or false: |row| row.peak > 1")
+                    .hint("it must return true or false: |row| row.peak > 1")
                     .at(CallPart::Argument(0)));
             }
         }

@@ -18,9 +18,14 @@ use crate::script::messages::numbers::as_number;
 use crate::script::presentation::arrays;
 use crate::script::studies::sweeps::table::SweepTable;
 
-pub(super) const TABULAR: Parameter =
-    either("of", &[Kind::Object(SIMULATION), Kind::Object(HISTORY), Kind::Object(SWEEP_TABLE), Kind::Array])
-        .doc("a simulation or history, the table of a sweep, or an array of maps such as the cells of a stability map");
+pub(super) const TABULAR: Parameter = either(
+    "of",
+    &[Kind::Object(SIMULATION), Kind::Object(HISTORY), Kind::Object(SWEEP_TABLE), Kind::Array],
+)
+.doc(
+    "a simulation or history, the table of a sweep, or an array of maps such as the \
+            cells of a stability map",
+);
 
 pub(super) fn table(call: &Call) -> Result<DataTable, ScriptError> {
     let of = call.value("of")?;
@@ -39,7 +44,7 @@ pub(super) fn table(call: &Call) -> Result<DataTable, ScriptError> {
     let rows = of.try_cast::<Array>().unwrap_or_default().into_iter();
     let rows: Option<Vec<Map>> = rows.map(Dynamic::try_cast::<Map>).collect();
     let rows = rows.filter(|rows| !rows.is_empty()).ok_or_else(|| {
-        call.error("the array must hold maps, at least one, each a row of the table")
+        call.error("the array must hold one or more maps, each a row of the table")
             .hint(
                 "for example map.cells, or [#{ mesh: 8, error: 0.1 }, #{ mesh: 16, error: 0.02 }]",
             )

@@ -14,18 +14,21 @@ use crate::script::messages::error::{CallPart, ScriptError};
 
 pub const TABLE: BindingTable = BindingTable {
     name: "tapers",
-    doc: "Sections that vary along a beam: blades, whips, fly rods.",
+    doc: "Sections that vary along a beam, for example for blades, whips and fly rods.",
     types: &[],
     setup: "",
     constants: &[],
     rows: &[
         function("taper", &[array("places")], taper)
             .returns(Returns::object(SECTION))
-            .summary("A section that varies along a beam, between the sections at some places: [[0, thick], [1, thin]].")
+            .summary("Creates a section that varies along a beam, interpolated between sections at \
+                given places: [[0, thick], [1, thin]].")
             .doc(
-                "Places are parts of the length as drawn and rise from 0 to 1. Where all sections were made from a material and one kind of shape, dimensions and \
-                 material are linear between the places: the height of a wedge, so that its EI is cubic. Otherwise EA, GA, EI, rho_A and rho_I themselves are. Sections \
-                 of one taper have the same damping.",
+                "Places are fractions of the undeformed length and increase from 0 to 1. If all \
+                sections have a material and the same kind of shape, dimensions and material \
+                are interpolated linearly: a wedge has linear height and cubic EI. Otherwise \
+                EA, GA, EI, rho_A and rho_I are interpolated linearly. All sections of a taper \
+                must have the same damping.",
             )
             .example(
                 "fn solid(height) { section(#{ E: 12e9, nu: 0.3, density: 700, shape: \"rectangle\", width: 0.02, height: height }) }\n\
@@ -34,13 +37,13 @@ pub const TABLE: BindingTable = BindingTable {
                  let scene = new_scene(\"blade\");\nlet beam = scene.beam(#{ axis: line([0, 0], [1, 0]), section: blade });\nscene.clamp(beam.start);",
             )
             .see(&["section", "beam"]),
-        method(SECTION, "at", &[number("part").between(0.0, 1.0).doc("of the length, from the start")], |call| {
+        method(SECTION, "at", &[number("part").between(0.0, 1.0).doc("fraction of the length, from the start")], |call| {
             let handle = call.receiver::<SectionHandle>()?;
             let section = handle.variation.at(call.number("part")?);
             Ok(Dynamic::from(SectionHandle { variation: section.into(), solid: None, ..handle }))
         })
         .returns(Returns::object(SECTION))
-        .summary("The section of a taper at a part of the length.")
+        .summary("Returns the section of a taper at a fraction of the length.")
         .example("fn of(bending) { section(#{ EA: 1e4, GA: 1e4, EI: bending, rho_A: 1, rho_I: 1 }) }\ncheck(taper([[0, of(4)], [1, of(2)]]).at(0.25).EI == 3.5);")
         .see(&["taper"]),
     ],
@@ -53,7 +56,7 @@ fn taper(call: &mut Call) -> Result<Dynamic, ScriptError> {
     }
     let relaxation = all.first().and_then(|(_, section)| section.relaxation);
     if let Some((place, _)) = all.iter().find(|(_, section)| section.relaxation != relaxation) {
-        let told = format!("the section at {place} has another damping than that at the start");
+        let told = format!("the damping of the section at {place} differs from that at the start");
         let hint = "give the sections of a taper the same damping";
         return Err(call.error(told).hint(hint).at(CallPart::Argument(0)));
     }
@@ -90,9 +93,9 @@ fn place(call: &Call, index: usize, given: Dynamic) -> Result<(f64, SectionHandl
         matches!(section.variation, SectionVariation::Uniform(_)).then_some((place, section))
     };
     read(given).ok_or_else(|| {
-        let told = format!("place {} is not a part of the length and a section", index + 1);
+        let told = format!("place {} is not a fraction of the length with a section", index + 1);
         call.error(told)
-            .hint("write [0.5, section], 0.5 being the middle")
+            .hint("write [0.5, section], where 0.5 is the middle")
             .at(CallPart::Argument(0))
     })
 }

@@ -12,32 +12,34 @@ use crate::script::messages::numbers::{format_fixed, format_scientific};
 
 pub const TABLE: BindingTable = BindingTable {
     name: "text",
-    doc: "Numbers print with as many digits as they need: 0.05, 3, 1e-12. These functions choose the digits, and \
-          set tables.",
+    doc: "Formatting of numbers and tables. By default numbers print with as many digits as \
+        needed: 0.05, 3, 1e-12.",
     types: &[],
     setup: "",
     constants: &[],
     rows: &[
         function("sci", &[X, DIGITS.or(Presence::Whole(2))], |call| write(call, format_scientific))
             .returns(Returns::TEXT)
-            .summary("A number with an exponent; two digits after the point unless told otherwise.")
+            .summary("Formats a number with an exponent; default: two digits after the decimal \
+                point.")
             .example("check(sci(1.234e-13) == \"1.23e-13\");\ncheck(sci(1250, 1) == \"1.2e3\");")
             .see(&["fixed"]),
         function("fixed", &[X, DIGITS.or(Presence::Whole(3))], |call| write(call, format_fixed))
             .returns(Returns::TEXT)
-            .summary("A number with a fixed count of digits after the point; three unless told otherwise.")
+            .summary("Formats a number with a fixed number of digits after the decimal point; \
+                default: three.")
             .example("check(fixed(0.05) == \"0.050\");\ncheck(fixed(PI, 1) == \"3.1\");")
             .see(&["sci", "round_to", "tabulate"]),
-        function("tabulate", &[array("headings"), array("rows").doc("arrays of numbers, texts or anything that prints")], tabulate)
+        function("tabulate", &[array("headings"), array("rows").doc("arrays of numbers, texts or other printable values")], tabulate)
             .returns(Returns::TEXT)
-            .summary("A table with aligned columns: words to the left, numbers to the right.")
+            .summary("Formats a table with aligned columns: texts to the left, numbers to the right.")
             .example("print(tabulate([\"rule\", \"drift\"], [[\"conserving\", sci(2e-14)], [\"exact\", sci(3e-4)]]));")
             .see(&["sci", "fixed"]),
     ],
 };
 
 const X: Parameter = number("x").any_number();
-const DIGITS: Parameter = whole("digits").between(0.0, 17.0).doc("digits after the point");
+const DIGITS: Parameter = whole("digits").between(0.0, 17.0).doc("digits after the decimal point");
 
 fn write(call: &Call, format: fn(f64, usize) -> String) -> Result<Dynamic, ScriptError> {
     Ok(format(call.number("x")?, call.count("digits")?).into())
@@ -55,7 +57,7 @@ fn tabulate(call: &mut Call) -> Result<Dynamic, ScriptError> {
         let row = row.try_cast::<Array>().filter(|row| row.len() == headings.len());
         let row = row.ok_or_else(|| {
             let told = format!("row {number} is not an array of {} cells", headings.len());
-            call.error(told).hint("a row has one cell for each heading").at(CallPart::Argument(1))
+            call.error(told).hint("give one cell for each heading").at(CallPart::Argument(1))
         })?;
         table.row(row.iter().map(|cell| {
             let text = words(cell);

@@ -12,9 +12,11 @@ use crate::script::messages::error::ScriptError;
 
 pub const TABLE: BindingTable = BindingTable {
     name: "going back",
-    doc: "A simulation can go back to states that it was in, bit for bit, as long as these fit into the memory set aside for them. \
-          That is 256 MB for each simulation of a script that says back or rewind or imports a file somewhere (the library does not count), and none else; \
-          scene.start(#{ …, snapshots: 64 }) sets aside 64 MB. When it is full, the oldest states but the start are forgotten.",
+    doc: "A simulation can go back to its earlier states, bit for bit, as far as they are stored \
+        in memory. The default limit is 256 MB for each simulation if the script contains back \
+        or rewind or imports a file (other than of the library), else 0; scene.start(#{ …, \
+        snapshots: 64 }) sets 64 MB. If the limit is exceeded, the oldest states except the \
+        start are deleted.",
     types: &[],
     setup: SPINNING,
     constants: &[],
@@ -22,11 +24,12 @@ pub const TABLE: BindingTable = BindingTable {
         method(SIMULATION, "back", &[whole("count").non_negative().or(Presence::Whole(1))], |call| {
             go_back(call, RunTarget::Steps(call.count("count")?))
         })
-        .summary("Goes back a step, or so many.")
+        .summary("Goes back by one step or the given number of steps.")
         .doc(
-            "State, time, history and counts of work are what they were, to the last bit. Steps are rows of the history: halves of a \
-             step that failed, and steps cut where a slider arrives, count as well. Functions set with sim.at for times that lie \
-             ahead again are called again. Variables of the script stay as they are.",
+            "State, time, history and counts of work are restored exactly. Steps are rows of \
+            the history: halves of a failed step and steps shortened by the arrival of a \
+            slider count as well. Functions registered with sim.at for later times are called \
+            again. Variables of the script do not change.",
         )
         .example("sim.step(10);\nlet energy = sim.energy;\nsim.step(5);\nsim.back(5);\ncheck(sim.steps == 10 && sim.energy == energy);\nsim.back();\ncheck(sim.steps == 9);")
         .see(&["rewind", "fork", "keep_snapshots"]),
@@ -34,7 +37,7 @@ pub const TABLE: BindingTable = BindingTable {
             go_back(call, RunTarget::Time(call.number("t")?))
         })
         .summary("Goes back to a time: to the end of the last step at or before it.")
-        .doc("sim.rewind(0) leads to the start, whenever that was, which is kept whatever else was forgotten.")
+        .doc("sim.rewind(0) goes to the start, at any start time; the start is always stored.")
         .example("sim.run_to(1);\nsim.rewind(0.55);\ncheck(sim.t == 0.5);\nsim.rewind(0);\ncheck(sim.t == 0);")
         .see(&["back", "run_to"]),
         method(SIMULATION, "fork", &[name("name").optional()], |call| {
@@ -43,8 +46,9 @@ pub const TABLE: BindingTable = BindingTable {
             Ok(Dynamic::from(handle.fork(name, call.context())?))
         })
         .returns(Returns::object(SIMULATION))
-        .summary("A copy that has been through the same and goes its own way from here.")
-        .doc("It has a history of its own, can go back as far, and calls the functions that were set with sim.at. Stations, beams and sliders of the scene work with both.")
+        .summary("Returns an independent copy of the simulation with the same past.")
+        .doc("It has its own history, can go back as far, and calls the functions registered \
+            with sim.at. Stations, beams and sliders of the scene are valid for both.")
         .example("sim.run_to(0.5);\nlet other = sim.fork(\"what if\");\nother.run_to(1);\ncheck(sim.t == 0.5 && other.t == 1);\nsim.run_to(1);\ncheck(sim.energy == other.energy);")
         .see(&["back", "save"]),
         method(SIMULATION, "keep_snapshots", &[number("megabytes").non_negative()], |call| {
@@ -52,8 +56,8 @@ pub const TABLE: BindingTable = BindingTable {
             call.receiver::<SimulationHandle>()?.keep_snapshots(limit);
             Ok(Dynamic::UNIT)
         })
-        .summary("Sets aside so much memory for states to go back to, from here on; 0 forgets them all.")
-        .doc("A megabyte is a million bytes. A smaller limit than before forgets at once.")
+        .summary("Sets the memory limit for stored states from now on; 0 deletes all of them.")
+        .doc("A megabyte is a million bytes. A smaller limit deletes states at once.")
         .example("sim.keep_snapshots(1);\nsim.step(20);\nsim.keep_snapshots(0);")
         .see(&["back", "start"]),
     ],

@@ -18,8 +18,9 @@ use crate::system::{Scene, SystemError, TrackError};
 
 pub const TABLE: BindingTable = BindingTable {
     name: "tracks",
-    doc: "Beams that meet end to end are a track, along which a slider passes from one to the next: scene.slider(bead, track). Its position counts along the whole track, and \
-          round a closed one turn after turn.",
+    doc: "Tracks of beams that meet end to end. A slider moves along all beams of a track: \
+        scene.slider(bead, track). Its position is counted along the whole track, and on a \
+        closed track over all turns.",
     types: &[TRACK],
     setup: "let scene = new_scene(\"example\");\n\
             let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 1 });\n\
@@ -31,38 +32,51 @@ pub const TABLE: BindingTable = BindingTable {
             let track = scene.track([ramp, floor]);",
     constants: &[],
     rows: &[
-        method(SCENE, "track", &[array("beams").doc("in the order in which the track leads along them"), options("options", TRACK_KEYS).optional()], track)
-            .returns(Returns::object(TRACK))
-            .summary("Makes a track of beams that are joined end to end, along which sliders pass from one to the next.")
-            .doc(
-                "Which way it leads along a beam follows from where the beams touch, however they are drawn. They must be joined there already, by scene.rigid or scene.hinge or by way \
-                 of other joints, or be held by the ground. A slider passes a corner as it would a rounded one whose radius is next to nothing: it keeps its energy, and its momentum \
-                 changes by an impulse across the track. Where a joint of the track has let go and the beams have come apart, the track ends, also for one that leans there. One that starts at a corner is on the beam behind it. A closed \
-                 track of two beams leads along the first as it is drawn. Tracks are called track1, track2, … unless \
-                 they get a name.",
-            )
-            .example(
-                "scene.gravity([0, -10]);\n\
+        method(
+            SCENE,
+            "track",
+            &[
+                array("beams").doc("beams in the order of the track"),
+                options("options", TRACK_KEYS).optional(),
+            ],
+            track,
+        )
+        .returns(Returns::object(TRACK))
+        .summary(
+            "Creates a track of beams joined end to end, on which sliders pass from one \
+                beam to the next.",
+        )
+        .doc(
+            "The direction along each beam follows from the ends that meet. The beams must \
+            already be joined there, by scene.rigid, scene.hinge or other joints, or be fixed \
+            to the ground. A slider passes a corner like a rounded corner of vanishing radius: \
+            its energy is kept, and its momentum changes by an impulse normal to the track. \
+            Where a joint of the track is released and the beams have separated, the track \
+            ends. A slider that starts at a corner is on the beam after it. A closed track of \
+            two beams has the direction of the first beam. Default names: track1, track2, …",
+        )
+        .example(
+            "scene.gravity([0, -10]);\n\
                  let bead = scene.particle([0, 1], 1, #{ name: \"bead\" });\n\
                  let ring = scene.slider(bead, track, #{ name: \"ring\", at: 0 });\n\
                  let sim = scene.start(#{ dt: 0.02 });\n\
                  sim.run_to(1.2);\n\
                  check(sim.slider_arc_length(ring) > ramp.length);\n\
                  check(sim.events[0].what == \"passed\" && sim.history.drift(\"energy\") < 1e-10);",
-            )
-            .see(&["slider", "rigid", "events"]),
+        )
+        .see(&["slider", "rigid", "events"]),
         property(TRACK, "name", |call| Ok(call.receiver::<TrackHandle>()?.name().into()))
             .returns(Returns::TEXT)
-            .summary("Its name.")
+            .summary("Name of the track.")
             .example("check(track.name == \"track1\");"),
         property(TRACK, "length", |call| Ok(call.receiver::<TrackHandle>()?.length().into()))
             .returns(Returns::NUMBER.unit("length"))
-            .summary("Its length as drawn, that of all its beams.")
+            .summary("Total undeformed length of the beams of the track.")
             .example("check_close(track.length, ramp.length + floor.length, 1e-12);")
             .see(&["slider_arc_length"]),
         property(TRACK, "closed", |call| Ok(call.receiver::<TrackHandle>()?.is_closed().into()))
             .returns(Returns::TRUTH)
-            .summary("Whether it goes on along its first beam behind its last one.")
+            .summary("True if the last beam leads back to the first one.")
             .example("check(!track.closed);"),
     ],
 };
@@ -71,7 +85,10 @@ pub(super) const TRACK: Type = Type::of::<TrackHandle>();
 
 const TRACK_KEYS: &[Parameter] = &[
     boolean("closed")
-        .doc("whether the last beam leads back to where the first one begins, so that a slider goes round and round; it does not unless given")
+        .doc(
+            "true if the last beam leads back to the start of the first one, so that sliders \
+            circulate; default: false",
+        )
         .optional(),
     text("name").optional(),
 ];

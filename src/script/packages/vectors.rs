@@ -25,82 +25,89 @@ pub const TABLE: BindingTable = BindingTable {
     rows: &[
         function("vec", &[number("x"), number("y")], cartesian)
             .returns(Returns::object(VECTOR))
-            .summary("The vector with components x and y.")
-            .doc("An array [x, y] will do wherever a point is asked for; a vector can also be added and scaled.")
+            .summary("Creates a vector with components x and y.")
+            .doc(
+                "An array [x, y] is accepted wherever a point is required; a vector can also be \
+                added and multiplied by a number.",
+            )
             .example("let a = vec(1, 2) + [3, 4];\ncheck(a == vec(4, 6));")
             .see(&["polar", "norm"]),
-        function("polar", &[number("length").doc("its length"), number("angle").unit("rad")], polar)
-            .returns(Returns::object(VECTOR))
-            .summary("The vector of this length at this angle from the first axis.")
-            .example("check(norm(polar(2, PI / 2) - [0, 2]) < 1e-15);")
-            .see(&["angle"]),
+        function(
+            "polar",
+            &[number("length").doc("length of the vector"), number("angle").unit("rad")],
+            polar,
+        )
+        .returns(Returns::object(VECTOR))
+        .summary("Creates a vector from its length and its angle from the x axis.")
+        .example("check(norm(polar(2, PI / 2) - [0, 2]) < 1e-15);")
+        .see(&["angle"]),
         property(VECTOR, "x", |call| Ok(call.receiver::<Vec2>()?.x.into()))
             .writable(&[number("value")], |call| set(call, |vector, x| vector.x = x))
             .returns(Returns::NUMBER)
-            .summary("The first component.")
+            .summary("First component.")
             .example("let a = vec(1, 2);\na.x = 5;\ncheck(a.x == 5);"),
         property(VECTOR, "y", |call| Ok(call.receiver::<Vec2>()?.y.into()))
             .writable(&[number("value")], |call| set(call, |vector, y| vector.y = y))
             .returns(Returns::NUMBER)
-            .summary("The second component.")
+            .summary("Second component.")
             .example("check(vec(1, 2).y == 2);"),
         function("dot", &[A, B], |call| Ok(a(call)?.dot(&b(call)?).into()))
             .returns(Returns::NUMBER)
-            .summary("The scalar product.")
+            .summary("Returns the scalar product of two vectors.")
             .example("check(dot([1, 2], [3, 4]) == 11);"),
         function("cross", &[A, B], |call| Ok(cross(a(call)?, b(call)?).into()))
             .returns(Returns::NUMBER)
-            .summary("a1 b2 - a2 b1, positive when b lies counter-clockwise of a.")
+            .summary("Returns a1 b2 - a2 b1, positive if b is counter-clockwise of a.")
             .example("check(cross([1, 0], [0, 1]) == 1);"),
         function("norm", &[A], |call| Ok(call.point("a")?.norm().into()))
             .returns(Returns::NUMBER)
-            .summary("The length of a vector.")
+            .summary("Returns the length of a vector.")
             .example("check(norm([3, 4]) == 5);\ncheck(vec(3, 4).norm() == 5);")
             .see(&["hypot", "distance"])
             .corner(at_zero_vector),
         function("angle", &[A], angle)
             .returns(Returns::NUMBER.words("an angle from -PI to PI"))
-            .summary("The angle of a vector from the first axis, counter-clockwise.")
+            .summary("Returns the angle of a vector from the x axis, counter-clockwise.")
             .example("check(angle([0, 2]) == PI / 2);")
             .see(&["polar", "atan2"])
             .corner(at_cut_of_vector),
         function("distance", &[A, B], |call| Ok((b(call)? - a(call)?).norm().into()))
             .returns(Returns::NUMBER)
-            .summary("The distance of two points.")
+            .summary("Returns the distance of two points.")
             .example("check(distance([1, 1], [4, 5]) == 5);")
             .corner(where_points_meet),
         operator("+", &[A, B], |call| vector(a(call)? + b(call)?))
             .returns(Returns::object(VECTOR))
-            .summary("The sum; one of the two may be an array [x, y].")
+            .summary("Adds vectors; one of the two may be an array [x, y].")
             .example("check(vec(1, 2) + [1, 1] == vec(2, 3));"),
         operator("-", &[A, B], |call| vector(a(call)? - b(call)?))
             .returns(Returns::object(VECTOR))
-            .summary("The difference; one of the two may be an array [x, y].")
+            .summary("Subtracts vectors; one of the two may be an array [x, y].")
             .example("check(vec(1, 2) - [1, 1] == vec(0, 1));"),
         operator("-", &[object("a", VECTOR)], |call| vector(-call.point("a")?))
             .returns(Returns::object(VECTOR))
-            .summary("The opposite vector.")
+            .summary("Negates a vector.")
             .example("check(-vec(1, 2) == vec(-1, -2));"),
         operator("*", &[object("a", VECTOR), number("factor")], scaled)
             .returns(Returns::object(VECTOR))
-            .summary("The vector scaled.")
+            .summary("Multiplies a vector by a number.")
             .example("check(vec(1, 2) * 3 == vec(3, 6));"),
         operator("*", &[number("factor"), object("a", VECTOR)], scaled)
             .returns(Returns::object(VECTOR))
-            .summary("The vector scaled.")
+            .summary("Multiplies a vector by a number.")
             .example("check(3 * vec(1, 2) == vec(3, 6));"),
         operator("/", &[object("a", VECTOR), number("divisor")], divided)
             .returns(Returns::object(VECTOR))
-            .summary("The vector divided by a number.")
+            .summary("Divides a vector by a number.")
             .example("check(vec(1, 2) / 2 == vec(0.5, 1));")
             .corner(near_zero_divisor),
         operator("==", &[A, B], |call| Ok((a(call)? == b(call)?).into()))
             .returns(Returns::TRUTH)
-            .summary("Whether both components are equal.")
+            .summary("Compares vectors: true if both components are equal.")
             .example("check(vec(1, 2) == [1, 2]);"),
         operator("!=", &[A, B], |call| Ok((a(call)? != b(call)?).into()))
             .returns(Returns::TRUTH)
-            .summary("Whether a component differs.")
+            .summary("Compares vectors: true if a component differs.")
             .example("check(vec(1, 2) != [1, 3]);"),
     ],
 };

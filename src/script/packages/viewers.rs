@@ -25,22 +25,26 @@ use crate::script::state::settings::RunMode;
 
 pub const TABLE: BindingTable = BindingTable {
     name: "viewers",
-    doc: "A viewer is one HTML file that plays simulations in any browser, without network and without withy: to look at, to send, to keep. \
-          `withy view FILE` makes one of a saved simulation, or of those that a script leaves in its variables, and opens it; `:view` does at the prompt.",
+    doc: "A viewer is one HTML file that plays simulations in any browser, without network and \
+        without withy. `withy view FILE` creates and opens a viewer of a saved simulation, or \
+        of the simulations in the variables of a script; at the prompt use `:view`.",
     types: &[],
     setup: SPINNING,
     constants: &[],
     rows: &[
         function("write_viewer", &[MOVING, FILE, options("options", VIEWER).optional()], write_viewer)
-            .summary("Writes a page on which the motion can be played, zoomed, coloured and read; energies below it, with the time as a cursor.")
+            .summary("Writes an HTML page that plays the motion, with zoom, colours and values, and \
+                plots the energies below it.")
             .doc(
-                "Given an array, simulations stand side by side with one time and one view; of more than four, two are shown until others are \
-                 chosen. Frames are configurations that the simulation has recorded, none is made up between them; places are kept in 16 bits, \
-                 which is far below a pixel until one zooms in some hundred times. Colours: speed, from the configurations before and after; \
-                 M, N, Q and strain_energy (per length), from the states themselves; \
-                 stretch, how much longer the axis is than as drawn; curvature, how much more it bends than as drawn. Where states are forgotten (option \
-                 `snapshots`), the run is made again for them in a copy, as by write_vtk; `fields: [\"speed\", \"stretch\", \"curvature\"]` does without. Keys are listed by `?` on \
-                 the page.",
+                "An array of simulations is shown side by side with one time and one view; of \
+                more than four, two are shown at first. Frames are recorded configurations, \
+                without interpolation; positions have 16 bits, which is visible only at \
+                magnifications of several hundred. Colours: speed, from the configurations \
+                before and after; M, N, Q and strain_energy (per length), from the stored \
+                states; stretch and curvature, the change from the undeformed axis. States \
+                that are not stored (option `snapshots`) are computed again in a copy of the \
+                run, as by write_vtk; `fields: [\"speed\", \"stretch\", \"curvature\"]` needs \
+                no states. `?` on the page lists its keys.",
             )
             .example(
                 "sim.run_to(2);\nwrite_viewer(sim, \"spin.html\", #{ trails: [rod.end], columns: [\"kinetic\", \"angular_momentum\"] });\n\
@@ -52,22 +56,25 @@ pub const TABLE: BindingTable = BindingTable {
 };
 
 const VIEWER: &[Parameter] = &[
-    text("title").doc("the name of the first simulation unless given").optional(),
-    array("labels").doc("what the simulations are called; their names unless given").optional(),
-    number("from").unit("time").doc("first frame; the start unless given").optional(),
-    number("to").unit("time").doc("last frame; the present unless given").optional(),
+    text("title").doc("title; default: the name of the first simulation").optional(),
+    array("labels").doc("labels of the simulations; default: their names").optional(),
+    number("from").unit("time").doc("time of the first frame; default: the start").optional(),
+    number("to").unit("time").doc("time of the last frame; default: the present").optional(),
     whole("frames")
         .between(2.0, 20_000.0)
-        .doc("most frames, evenly spread over the time")
+        .doc("largest number of frames, evenly spaced in time")
         .or(Presence::Whole(1000)),
     array("trails")
-        .doc("stations whose paths are drawn; free ends, where there are eight at most, unless given")
+        .doc("stations whose paths are plotted; default: free ends, if there are at most eight")
         .optional(),
     array("columns")
-        .doc("columns of the history; kinetic, strain, potential, energy and work unless given")
+        .doc("columns of the history; default: kinetic, strain, potential, energy and work")
         .optional(),
     array("fields")
-        .doc("what beams can be coloured by: \"speed\", \"M\", \"strain_energy\", \"N\", \"Q\", \"stretch\", \"curvature\"; speed, M, stretch and curvature unless given")
+        .doc(
+            "quantities for the colours of beams: \"speed\", \"M\", \"strain_energy\", \"N\", \
+            \"Q\", \"stretch\", \"curvature\"; default: speed, M, stretch and curvature",
+        )
         .optional(),
 ];
 const MISSING: Missing = Missing {
@@ -179,7 +186,7 @@ pub(super) fn span(
     let to = options.number_if_given("to").unwrap_or(f64::INFINITY).min(simulation.time());
     if simulation.frames_between(from, to, 2).is_empty() {
         let [from, to, now] = [from, to, simulation.time()].map(format_number);
-        let told = format!("nothing of '{}' is recorded from t = {from} to {to}", of.name());
+        let told = format!("'{}' has no recorded state from t = {from} to {to}", of.name());
         return Err(call.error(told).hint(format!("it has run from t = 0 to {now}")));
     }
     Ok((from, to))

@@ -98,9 +98,7 @@ impl SectionForceProfile {
     /// Strips perpendicular to the beams.
     pub fn strips(&self, quantity: &BeamQuantity) -> StripPicture {
         let caption = match quantity.name {
-            "M" | "curvature" => {
-                "positive on the right of a beam from its start: where it is stretched"
-            }
+            "M" | "curvature" => "positive on the right of a beam from its start, the tension side",
             _ => "positive on the left of a beam from its start",
         };
         let of_beam = |beam: &BeamProfile| BeamStrip {

@@ -142,7 +142,7 @@ impl MotionView {
         let picture = match self.magnify {
             Some(factor) => {
                 let factor = significant(factor, DIGITS);
-                picture.caption(format!("displacements since the start, {factor} times as large"))
+                picture.caption(format!("displacements since the start, magnified {factor} times"))
             }
             None => picture,
         };
@@ -195,7 +195,7 @@ fn times(simulation: &Simulation, times: &Times) -> Result<Vec<f64>, ScriptError
     let now = simulation.time();
     if to < from || from > now || to < 0.0 {
         let (from, to) = (format_number(from), format_number(to));
-        return Err(ScriptError::new(format!("there is nothing from t = {from} to {to}"))
+        return Err(ScriptError::new(format!("there is no snapshot from t = {from} to {to}"))
             .hint(format!("the simulation has run from t = 0 to {}", format_number(now))));
     }
     let last = to.min(now);

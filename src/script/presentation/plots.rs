@@ -23,7 +23,7 @@ pub fn history_chart(
 ) -> Result<String, ScriptError> {
     if columns.is_empty() {
         let hint = format!("columns: {}", column_names(history));
-        return Err(ScriptError::new("no column is named").hint(hint));
+        return Err(ScriptError::new("no column is given").hint(hint));
     }
     for name in columns {
         expect_column(history, name)?;
@@ -209,11 +209,13 @@ pub fn column_hint(history: &History, name: &str) -> String {
 const MISSING: [(&str, &str); 2] = [
     (
         "dissipated",
-        "nothing in the scene dissipates: it has no damper, no damped section, no drag and no slider that loses by its bounces, so that it would be 0 all along",
+        "nothing in the scene dissipates energy: it has no damper, no damped section, no drag \
+        and no slider with losses by bounces, so the column would be 0",
     ),
     (
         "stored",
-        "nothing in the scene stores energy but beams (strain) and weight (potential): it has no spring",
+        "only beams (strain) and gravity (potential) store energy in the scene: it has no \
+        spring",
     ),
 ];
 

@@ -50,7 +50,7 @@ impl Program {
                 std::io::ErrorKind::NotFound => "there is no such file".into(),
                 _ => error.to_string(),
             };
-            refused(why, "check the path, relative to the folder you are in")
+            refused(why, "check the path, relative to the current folder")
         })?;
         Self::from_bytes(path, bytes)
     }

@@ -216,7 +216,7 @@ impl Nesting {
                 token
             }
             Token::FloatConstant(ref literal) if is_too_large(&literal.1) => {
-                refuse("write it with a point: the whole number is too large for 64 bits")
+                refuse("write it with a decimal point: the whole number is too large for 64 bits")
             }
             Token::FloatConstant(ref literal) => {
                 self.current.minus |= literal.0.is_sign_negative();
@@ -254,9 +254,7 @@ impl Nesting {
     fn power(&mut self) -> Token {
         let chain = self.current.powers;
         if self.current.minus {
-            return refuse(
-                "write -(x^2) or (-x)^2: a minus before a power can be read in both ways",
-            );
+            return refuse("write -(x^2) or (-x)^2: a minus before a power is ambiguous");
         }
         if chain == LONGEST_CHAIN {
             return refuse("too many powers in a row: use parentheses");

@@ -139,7 +139,7 @@ impl Context {
                 let told = format!(
                     "{what} take about {needed} MB of memory, and a run may use {limit} MB"
                 );
-                Err(ScriptError::new(told).hint("ask for less, or allow more with --max-memory MB"))
+                Err(ScriptError::new(told).hint("request less, or allow more with --max-memory MB"))
             }
         }
     }

@@ -135,7 +135,7 @@ impl OutputFolder {
         InputFolders::new(folders).read(name, most).map_err(|error| match self.mode {
             RunMode::Run => error,
             RunMode::DryBuild => {
-                error.hint("run the script that writes it first; a check writes nothing")
+                error.hint("first run the script that writes it; a check writes no files")
             }
         })
     }
@@ -159,7 +159,7 @@ impl OutputFolder {
             return Err(ScriptError::new(format!(
                 "\"{name}\" is not the name of a file in the output folder"
             ))
-            .hint("give a plain name such as \"motion.svg\"; --out chooses the folder"));
+            .hint("give a plain name such as \"motion.svg\"; --out sets the folder"));
         }
         Ok(self.folder.join(name))
     }
@@ -220,8 +220,8 @@ impl InputFolders {
         let allowed = words.collect::<Vec<_>>().join(" and ");
         let path = Path::new(name);
         if !is_plain(path) {
-            return Err(ScriptError::new(format!("\"{name}\" leads out of {allowed}"))
-                .hint("give a name without .. and without a / at its beginning"));
+            return Err(ScriptError::new(format!("\"{name}\" is outside of {allowed}"))
+                .hint("give a name without .. and without a leading /"));
         }
         for folder in &self.0 {
             match (folder.open)(&folder.path).and_then(|folder| folder.read(path, most)) {
@@ -233,7 +233,7 @@ impl InputFolders {
                         folder.word,
                         folder.path.display()
                     ))
-                    .hint("put an ordinary file there"));
+                    .hint("the name must be that of an ordinary file"));
                 }
             }
         }

@@ -207,15 +207,15 @@ impl RowKeeper {
 
 fn refused_rows(path: &Path, error: &io::Error) -> ScriptError {
     ScriptError::new(format!(
-        "the journal '{}' of the sweep cannot be kept: {error}",
+        "the journal '{}' of the sweep cannot be written: {error}",
         path.display()
     ))
-    .hint("choose another folder with --out DIR, or begin anew with --fresh")
+    .hint("choose another folder with --out DIR, or start again with --fresh")
 }
 
 fn refused(error: JournalError) -> ScriptError {
     ScriptError::new(error.to_string())
-        .hint("choose another folder with --out DIR, or begin anew with --fresh")
+        .hint("choose another folder with --out DIR, or start again with --fresh")
 }
 
 #[cfg(test)]

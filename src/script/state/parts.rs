@@ -18,7 +18,7 @@ pub struct StudyPart {
 
 /// Error of parsing a part.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("a part is written as 3/16: its number, from 1, and how many there are")]
+#[error("write a part as 3/16: its number, from 1, and the number of parts")]
 pub struct InvalidStudyPart;
 
 impl FromStr for StudyPart {
@@ -67,7 +67,7 @@ pub fn find_parts(
     for folder in folders {
         let names = file_names(&folder.join(study)).map_err(|error| {
             ScriptError::new(format!("cannot read the folder '{}': {error}", folder.display()))
-                .hint("--merge takes the folders that --out of the parts named")
+                .hint("--merge takes the output folders (--out) of the parts")
         })?;
         let base = Path::new(study).file_name().unwrap_or_default().to_string_lossy().into_owned();
         for name in names {
@@ -78,22 +78,23 @@ pub fn find_parts(
     }
     found.sort();
     let Some((StudyPart { of, .. }, _)) = found.first().cloned() else {
-        let told = format!("there is no part of the study '{study}' in the folders to be merged");
+        let told = format!("the folders to be merged contain no part of the study '{study}'");
         return Err(ScriptError::new(told)
-            .hint("make them with withy study FILE --part 1/4 --out DIR, and so on"));
+            .hint("create parts with withy study FILE --part 1/4 --out DIR, and so on"));
     };
     if let Some((other, path)) = found.iter().find(|(part, _)| part.of != of) {
         let told =
-            format!("'{}' is one of {} parts, and others are of {of}", path.display(), other.of);
-        return Err(ScriptError::new(told).hint("give the folders of one division alone"));
+            format!("'{}' is one of {} parts, but others are of {of}", path.display(), other.of);
+        return Err(ScriptError::new(told).hint("give only folders of the same number of parts"));
     }
     if let Some(pair) = found.windows(2).find(|pair| pair[0].0 == pair[1].0) {
         let ((part, first), (_, second)) = (&pair[0], &pair[1]);
         let (number, first, second) = (part.number, first.display(), second.display());
         let told = format!(
-            "part {number} of {of} of the study '{study}' is there twice: '{first}' and '{second}'"
+            "part {number} of {of} of the study '{study}' exists twice: '{first}' and \
+            '{second}'"
         );
-        return Err(ScriptError::new(told).hint("give the folder of one of them alone"));
+        return Err(ScriptError::new(told).hint("give only one of their folders"));
     }
     let is_there = |number: &u32| found.iter().any(|(part, _)| part.number == *number);
     let missing: Vec<String> =
@@ -106,7 +107,7 @@ pub fn find_parts(
                 missing.join(", ")
             );
             Err(ScriptError::new(told)
-                .hint("make them with the same command and --part, or name their folders too"))
+                .hint("create them with the same command and --part, or add their folders"))
         }
     }
 }
@@ -157,17 +158,17 @@ mod tests {
                 Err(other) => format!("{other:?}"),
             }
         };
-        assert!(told(&["a"]).contains("there is no part of the study 'crane'"));
+        assert!(told(&["a"]).contains("no part of the study 'crane'"));
         lay("a", 1, 3);
         lay("a", 3, 3);
         assert!(told(&["a"]).ends_with("these are missing: 2"), "{}", told(&["a"]));
         lay("b", 2, 3);
         assert_eq!(told(&["a", "b"]), "1 2 3");
         lay("c", 3, 3);
-        assert!(told(&["a", "b", "c"]).contains("part 3 of 3 of the study 'crane' is there twice"));
+        assert!(told(&["a", "b", "c"]).contains("part 3 of 3 of the study 'crane' exists twice"));
         lay("d", 1, 2);
         assert!(
-            told(&["a", "b", "d"]).contains("is one of 3 parts, and others are of 2"),
+            told(&["a", "b", "d"]).contains("is one of 3 parts, but others are of 2"),
             "{}",
             told(&["a", "b", "d"])
         );

@@ -213,10 +213,13 @@ impl<'c> CaseRunner<'c> {
             (0, _) => Ok(()),
             (missing, all) => {
                 let (name, what) = (&self.name, task.name);
-                let told =
-                    format!("of the {all} {what} of the study '{name}' {missing} are in no part");
+                let told = format!(
+                    "of the {all} {what} of the study '{name}' {missing} are missing in all \
+                        parts"
+                );
                 Err(ScriptError::new(told).hint(
-                    "they are of another script or another build of withy, or not finished: the same command with --part goes on with them",
+                    "these parts are of another script or another build of withy, or not \
+                    finished: continue with the same command with --part",
                 ))
             }
         }
@@ -252,7 +255,8 @@ impl<'c> CaseRunner<'c> {
             let name = &self.name;
             let what = task.name;
             let told = format!(
-                "study '{name}' goes on: {known} of {all} {what} are known from an earlier run"
+                "study '{name}' continues: {known} of {all} {what} are known from an earlier \
+                run"
             );
             self.context.tell(&told);
         }

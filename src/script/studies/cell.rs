@@ -43,14 +43,18 @@ pub fn case(
     let find = |name: &str| own.get(name).or_else(|| values.get(name)).cloned();
     let scene = scene.try_cast::<SceneHandle>().ok_or_else(|| {
         let got = call.describe(&given);
-        call.error(format!("the function gives {got} instead of a scene"))
-            .hint("its last expression is the scene, or a map: #{ scene: scene, dt: 0.1, end: 5 }")
+        call.error(format!("the function returns {got} instead of a scene"))
+            .hint(
+                "its last expression must be the scene, or a map: #{ scene: scene, dt: 0.1, \
+                end: 5 }",
+            )
             .at(CallPart::Key("scene".into()))
     })?;
     scene.expect_unasked()?;
     let missing = |name: &str| {
-        call.error(format!("no '{name}' is given")).hint(format!(
-            "as an option of the study, among its values, or in what the function gives: #{{ scene: scene, {name}: 0.1 }}"
+        call.error(format!("the setting '{name}' is missing")).hint(format!(
+            "give it as an option of the study, among its values, or in the result of the \
+            function: #{{ scene: scene, {name}: 0.1 }}"
         ))
     };
     // An invalid setting must not be replaced by an option, or the cell would differ from its label.
@@ -99,10 +103,8 @@ fn expect_no_other_value(call: &Call, own: &Map, values: &Map) -> Result<(), Scr
     let Some((name, (own, labelled))) = other.into_iter().flatten().next() else { return Ok(()) };
     let (own, labelled) = (label(call, own), label(call, labelled));
     let told =
-        format!("the function gives {name}: {own} for the cell that is called {name} {labelled}");
-    let hint = format!(
-        "leave '{name}' out of what it gives, or give the values of the cells another name"
-    );
+        format!("the function returns {name}: {own} for the cell with the value {name} {labelled}");
+    let hint = format!("omit '{name}' in its result, or give the values of the cells another name");
     Err(call.error(told).hint(hint).at(CallPart::Key("scene".into())))
 }
 
@@ -113,7 +115,7 @@ fn expect_known_keys(call: &Call, given: &Map) -> Result<(), ScriptError> {
     let meant = nearest(unknown, KEYS);
     let suggestion = meant.map(|name| format!("did you mean '{name}'? ")).unwrap_or_default();
     Err(call
-        .error(format!("the function gives a map with the unknown key '{unknown}'"))
+        .error(format!("the function returns a map with the unknown key '{unknown}'"))
         .hint(format!("{suggestion}known keys: {}", KEYS.join(", ")))
         .at(CallPart::Key("scene".into())))
 }

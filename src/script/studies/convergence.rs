@@ -71,7 +71,7 @@ pub fn study(call: &Call, options: &ErrorOptions) -> Result<Convergence, ScriptE
 fn refined(call: &Call, plan: &ErrorStudyPlan) -> Result<RefinedParameter, ScriptError> {
     let is_adaptive = |dt: &StepSize| matches!(dt, StepSize::Adaptive(_));
     if plan.dts.len() > 1 && plan.dts.iter().any(is_adaptive) {
-        let hint = "orders are told of numbers; study_work_precision takes adaptive steps too";
+        let hint = "orders need fixed step sizes; study_work_precision also accepts adaptive steps";
         return Err(at_key(call, "dts", "adaptive steps have no size to refine", hint));
     }
     match (plan.subjects.len(), plan.dts.len()) {

@@ -65,8 +65,8 @@ pub fn cases(
         let given = call.invoke(make, [])?;
         given.clone().try_cast::<SceneHandle>().ok_or_else(|| {
             let got = call.describe(&given);
-            call.error(format!("the function gives {got} instead of a scene"))
-                .hint("its last expression is the scene")
+            call.error(format!("the function returns {got} instead of a scene"))
+                .hint("its last expression must be the scene")
                 .at(CallPart::Key("scene".into()))
         })
     };
@@ -89,7 +89,7 @@ pub fn cases(
             for (name, add) in features {
                 let handle = handle()?;
                 let add: FnPtr = add.try_cast().ok_or_else(|| {
-                    call.error(format!("the feature '{name}' is no function"))
+                    call.error(format!("the feature '{name}' is not a function"))
                         .hint("write |scene| …, a function that adds it")
                         .at(CallPart::Key("features".into()))
                 })?;
@@ -214,8 +214,8 @@ impl CostTable {
         let ratio = self.ratio(self.costs.get(1).filter(|cost| cost.name == PLAIN[1])?);
         (!(1.0 / TRUSTED_RATIO..=TRUSTED_RATIO).contains(&ratio)).then(|| {
             format!(
-                "warning: {} took {ratio:.2} times as long; ratios are no surer than that. Try again when the machine is \
-                 idle, or with more steps or repeats",
+                "warning: {} took {ratio:.2} times as long, so ratios are not more accurate \
+                than this. Repeat on an idle machine, or with more steps or repeats",
                 PLAIN[1]
             )
         })

@@ -148,7 +148,8 @@ fn column_of(
     };
     if factor == 0.0 || !factor.is_finite() {
         let told = format!("columns: the factor of '{name}' is {}", format_number(factor));
-        let hint = "it turns the column of the history into that of the reference: give a number other than zero";
+        let hint = "it converts the column of the history to that of the reference: give a number \
+            other than zero";
         return Err(at_key(call, "columns", told, hint));
     }
     if history.dimension(&column).is_none() {
@@ -162,8 +163,8 @@ fn column_of(
 /// Checks the name of a study and its files, which must be unique in the run.
 pub fn study_name(call: &Call, name: &str) -> Result<String, ScriptError> {
     if !call.context().claim_study(name) {
-        let told = format!("there is a study '{name}' in this run already");
-        let hint = "give each study a name of its own, for its files would be overwritten";
+        let told = format!("this run already has a study '{name}'");
+        let hint = "give each study its own name, otherwise its files are overwritten";
         return Err(at_key(call, "name", told, hint));
     }
     Ok(name.to_owned())
@@ -260,9 +261,9 @@ pub fn subject_on(
 }
 
 fn subject(call: &Call, mesh: String, made: &Dynamic) -> Result<ObservedScene, ScriptError> {
-    let hint = "it gives the scene, or #{ scene: scene, stations: #{ tip: rod.end } }";
+    let hint = "it must return the scene, or #{ scene: scene, stations: #{ tip: rod.end } }";
     let refused = || {
-        let told = format!("the function `scene` gives {}", call.describe(made));
+        let told = format!("the function `scene` returns {}", call.describe(made));
         at_key(call, "scene", told, hint)
     };
     let map = made.read_lock::<Map>().map(|map| map.clone());
@@ -275,7 +276,7 @@ fn subject(call: &Call, mesh: String, made: &Dynamic) -> Result<ObservedScene, S
     if let Some(unknown) =
         map.iter().flat_map(Map::keys).find(|key| !["scene", "stations"].contains(&key.as_str()))
     {
-        let told = format!("the function `scene` gives a map with the unknown key '{unknown}'");
+        let told = format!("the function `scene` returns a map with the unknown key '{unknown}'");
         return Err(at_key(call, "scene", told, hint));
     }
     let stations = map.and_then(|map| map.get("stations").cloned());
@@ -327,7 +328,7 @@ pub fn expect_same_observables(
     let other = others.iter().find(|of| of.observables != first.observables);
     other.map_or(Ok(()), |other| {
         let told = format!(
-            "the stations with the mesh '{}' are not those with '{}'",
+            "the stations with the mesh '{}' differ from those with '{}'",
             other.mesh, first.mesh
         );
         Err(at_key(call, "scene", told, "a study compares the same stations on all meshes"))

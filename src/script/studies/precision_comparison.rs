@@ -74,7 +74,7 @@ fn confirmation(study: &Precision, error: f64) -> Option<String> {
         None => "none".to_owned(),
     };
     let error = format_number(error);
-    Some(format!("\n{error} at all smaller steps of the mesh, too, and not by luck: {told}"))
+    Some(format!("\n{error} also at all smaller steps of the mesh, confirmed: {told}"))
 }
 
 /// Other programs with a run of at most this error, or the first one; `None` without other programs.

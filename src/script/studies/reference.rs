@@ -32,7 +32,7 @@ pub struct FinestRun {
 
 impl Scripted for FinestRun {
     const NAME: &'static str = "finest run";
-    const DOC: &'static str = "A run of our own that a study takes as its reference.";
+    const DOC: &'static str = "A fine run that a study uses as its reference.";
 
     fn show(&self) -> String {
         let dt = self.dt.map(|dt| format!(", dt = {}", format_number(dt)));
@@ -100,9 +100,8 @@ pub fn expect_finer_than_all_meshes(
         Some(ReferenceOption::Run(run)) if run.mesh.is_some() => return Ok(()),
         _ => (),
     }
-    let told = "the errors of meshes cannot be told from a run on the finest of them";
-    let hint =
-        "add reference: finest_run(#{ mesh: … }) with a still finer mesh, or the name of a table";
+    let told = "a run on the finest mesh of the study cannot be the reference for errors of meshes";
+    let hint = "add reference: finest_run(#{ mesh: … }) with a finer mesh, or the name of a table";
     Err(at_key(call, "meshes", told, hint))
 }
 
@@ -132,10 +131,12 @@ fn expect_finer_steps(
         format_number(PART_OF_THE_SMALLEST_STEP * smallest),
     );
     let told = format!(
-        "the reference is no finer than the finest run of the study: it has dt = {own}, and the study goes down to {smallest}"
+        "the reference must be finer than the finest run of the study: it has dt = {own}, but \
+        the study has {smallest}"
     );
     let hint = format!(
-        "leave dt out of finest_run(…), it is then {usual}; or give a smaller one, or the name of a table"
+        "omit dt in finest_run(…), default: {usual}; or give a smaller one, or the name of a \
+        table"
     );
     Err(at_key(call, "reference", told, hint))
 }
@@ -146,7 +147,8 @@ fn expect_other_steps_if_doubled(call: &Call, finest: &Case) -> Result<(), Scrip
         StepSize::Fixed(dt) if finest.is_one_step_from_stop_to_stop(dt) => {
             let dt = format_number(dt);
             let told = format!(
-                "the reference, dt = {dt}, takes the same steps when its step size is doubled, so that nothing tells how good it is"
+                "the reference, dt = {dt}, takes the same steps with twice the step size, so \
+                that its error is unknown"
             );
             let hint = "choose step sizes smaller than the times of the study: reference: finest_run(#{ dt: … }), or smaller dts";
             Err(at_key(call, "reference", told, hint))
@@ -240,7 +242,8 @@ impl Reference {
             (Self::OwnRun(told, _), [finest, coarser @ ..]) => {
                 if let Some(failed) = own.iter().find(|trial| !trial.outcome.is_finished()) {
                     let why = failed.outcome.describe();
-                    let hint = "choose another one with reference: finest_run(#{ … }) or the name of a table";
+                    let hint =
+                        "choose another reference: finest_run(#{ … }) or the name of a table";
                     let told = format!("the reference failed: {told}: {why}");
                     return Err(at_key(call, "reference", told, hint));
                 }

@@ -92,8 +92,9 @@ impl StabilityPlan {
         for (at, (key, axis)) in axes.iter().enumerate() {
             let name = &axis.name;
             if RESULTS.contains(&name.as_str()) {
-                let told = format!("{key}: '{name}' is what a cell says of its run");
-                let hint = format!("give it another name; cells have {}", RESULTS.join(", "));
+                let told = format!("{key}: the name '{name}' is used for results of a cell");
+                let hint =
+                    format!("choose another name; results have the names {}", RESULTS.join(", "));
                 return Err(at_key(call, key, told, hint));
             }
             if let Some((other, _)) = axes[..at].iter().find(|(_, of)| of.name == *name) {
@@ -297,9 +298,7 @@ impl StabilityMap {
         text.push_str(&format!("\nin a cell: {shows}, Newton iterations a step, halved steps (h)"));
         if missing > 0 {
             let file = format!("{}.csv", self.plan.name);
-            let told = format!(
-                "{missing} of {all} cells did not come to their end; all that is known of it is in {file}"
-            );
+            let told = format!("{missing} of {all} cells did not finish; details are in {file}");
             text.push_str(&format!("\n\n{told}"));
             let mut table = TextTable::new(&["cell", "what happened"]);
             for (at, verdict) in early {

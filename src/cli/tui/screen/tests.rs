@@ -31,7 +31,7 @@ fn broken() -> AttemptOutcome {
         length: 4,
     };
     let message = "still to do: the second moment of area, from width and height".into();
-    let help = Some("write it in the place of todo(…), quotes and all".into());
+    let help = Some("replace all of todo(…), including the quotes".into());
     AttemptOutcome::Broken(AttemptError { message, help, place: Some(place), calls: Vec::new() })
 }
 

@@ -5,130 +5,133 @@ use crate::script::bindings::returns::Returns;
 
 pub const TABLE: BuiltInTable = BuiltInTable {
     name: "arrays",
-    doc: "An array [a, b, c] holds values of any kind. Indices count from 0, and -1 is the last. Methods that change an \
-          array change the variable they are called on; a + b makes a new array of both.",
+    doc: "An array [a, b, c] holds values of any kind. Indices count from 0; -1 is the last. \
+        Methods that change an array change the variable they are called on; a + b creates a \
+        new array of both.",
     rows: &[
-        built_in(&["array.len"], "How many elements the array has.", "check([1, 2, 3].len == 3);")
+        built_in(&["array.len"], "Number of elements.", "check([1, 2, 3].len == 3);")
             .returns(Returns::WHOLE),
-        built_in(&["array.is_empty"], "Whether the array has no elements.", "check([].is_empty);")
+        built_in(&["array.is_empty"], "True if the array has no elements.", "check([].is_empty);")
             .returns(Returns::TRUTH),
         built_in(
             &["array.get(index)"],
-            "The element at an index, or nothing if there is none; array[index] is an error then.",
+            "Returns the element at an index, or nothing if there is none; array[index] is then \
+            an error.",
             "check([5, 6].get(1) == 6);\ncheck([5, 6].get(9) == ());",
         )
         .returns(Returns::ANYTHING_OR_NOTHING),
         built_in(
             &["array.set(index, value)"],
-            "Changes the element at an index, if there is one; array[index] = value does the same.",
+            "Sets the element at an index, if there is one; array[index] = value does the same.",
             "let a = [1, 2];\na.set(0, 7);\ncheck(a == [7, 2]);",
         ),
         built_in(
             &["array.push(value)"],
-            "Adds a value to the end.",
+            "Appends a value.",
             "let a = [1];\na.push(2);\ncheck(a == [1, 2]);",
         )
         .see(&["append", "insert", "pop"]),
         built_in(
             &["array.append(other)"],
-            "Adds all elements of another array to the end.",
+            "Appends all elements of another array.",
             "let a = [1];\na.append([2, 3]);\ncheck(a == [1, 2, 3]);",
         )
         .see(&["push"]),
         built_in(
             &["array.insert(index, value)"],
-            "Puts a value before the element at an index.",
+            "Inserts a value before the element at an index.",
             "let a = [1, 3];\na.insert(1, 2);\ncheck(a == [1, 2, 3]);",
         )
         .see(&["push", "splice"]),
         built_in(
             &["array.pop()"],
-            "Takes the last element off and gives it; nothing if there is none.",
+            "Removes the last element and returns it; nothing if there is none.",
             "let a = [1, 2];\ncheck(a.pop() == 2 && a == [1]);",
         )
         .returns(Returns::ANYTHING_OR_NOTHING)
         .see(&["shift", "push"]),
         built_in(
             &["array.shift()"],
-            "Takes the first element off and gives it; nothing if there is none.",
+            "Removes the first element and returns it; nothing if there is none.",
             "let a = [1, 2];\ncheck(a.shift() == 1 && a == [2]);",
         )
         .returns(Returns::ANYTHING_OR_NOTHING)
         .see(&["pop"]),
         built_in(
             &["array.remove(index)"],
-            "Takes the element at an index out and gives it; nothing if there is none.",
+            "Removes the element at an index and returns it; nothing if there is none.",
             "let a = [1, 2, 3];\ncheck(a.remove(1) == 2 && a == [1, 3]);",
         )
         .returns(Returns::ANYTHING_OR_NOTHING),
         built_in(
             &["array.clear()"],
-            "Takes all elements out.",
+            "Removes all elements.",
             "let a = [1, 2];\na.clear();\ncheck(a == []);",
         ),
         built_in(
             &["array.truncate(count)"],
-            "Keeps only so many elements from the beginning.",
+            "Keeps only the given number of elements from the beginning.",
             "let a = [1, 2, 3];\na.truncate(2);\ncheck(a == [1, 2]);",
         )
         .see(&["chop"]),
         built_in(
             &["array.chop(count)"],
-            "Keeps only so many elements from the end.",
+            "Keeps only the given number of elements from the end.",
             "let a = [1, 2, 3];\na.chop(2);\ncheck(a == [2, 3]);",
         )
         .see(&["truncate"]),
         built_in(
             &["array.pad(count, value)"],
-            "Makes the array so long by adding a value at its end.",
+            "Extends the array to a length by appending a value.",
             "let a = [1];\na.pad(3, 0);\ncheck(a == [1, 0, 0]);",
         ),
         built_in(
             &["array.reverse()"],
-            "Turns the order round, in place.",
+            "Reverses the order in place.",
             "let a = [1, 2, 3];\na.reverse();\ncheck(a == [3, 2, 1]);",
         ),
         built_in(
             &["array.extract(start, [count])", "array.extract(range)"],
-            "A piece as a new array; without a count, all from start on.",
+            "Returns a part as a new array; without a count, all elements from start on.",
             "check([1, 2, 3, 4].extract(1, 2) == [2, 3]);\ncheck([1, 2, 3, 4].extract(2..4) == [3, 4]);",
         )
         .returns(Returns::ARRAY)
         .see(&["drain", "split"]),
         built_in(
             &["array.split(index)"],
-            "Cuts the array at an index: keeps what stands before, and gives the rest.",
+            "Splits the array at an index: keeps the elements before it, and returns the rest.",
             "let a = [1, 2, 3];\ncheck(a.split(1) == [2, 3] && a == [1]);",
         )
         .returns(Returns::ARRAY),
         built_in(
             &["array.splice(start, count, other)", "array.splice(range, other)"],
-            "Replaces a piece by the elements of another array.",
+            "Replaces a part by the elements of another array.",
             "let a = [1, 2, 3, 4];\na.splice(1, 2, [9]);\ncheck(a == [1, 9, 4]);",
         )
         .see(&["insert"]),
         built_in(
             &["array.drain(test)", "array.drain(start, count)", "array.drain(range)"],
-            "Takes out the elements that pass a test, or a piece, and gives them.",
+            "Removes the elements that pass a test, or a part, and returns them.",
             "let a = [1, 2, 3, 4];\ncheck(a.drain(|x| x > 2) == [3, 4] && a == [1, 2]);",
         )
         .returns(Returns::ARRAY)
         .see(&["retain", "filter"]),
         built_in(
             &["array.retain(test)", "array.retain(start, count)", "array.retain(range)"],
-            "Keeps the elements that pass a test, or a piece, and gives the others.",
+            "Keeps the elements that pass a test, or a part, and returns the others.",
             "let a = [1, 2, 3, 4];\ncheck(a.retain(|x| x > 2) == [1, 2] && a == [3, 4]);",
         )
         .returns(Returns::ARRAY)
         .see(&["drain", "filter"]),
         built_in(
             &["array.dedup([same])"],
-            "Takes out elements equal to the one before; same(a, b) may say what counts as equal.",
+            "Removes elements equal to the one before; same(a, b) may define equality.",
             "let a = [1, 1, 2, 1];\na.dedup();\ncheck(a == [1, 2, 1]);",
         ),
         built_in(
             &["array.sort([order])"],
-            "Sorts in place; order(a, b) is negative if a comes first, positive if b does.",
+            "Sorts in place; order(a, b) is negative if a comes first, positive if b comes \
+            first.",
             "let a = [3, 1, 2];\na.sort();\ncheck(a == [1, 2, 3]);\na.sort(|a, b| sign(b - a));\ncheck(a == [3, 2, 1]);",
         )
         .see(&["order", "sort_desc"]),
@@ -140,7 +143,7 @@ pub const TABLE: BuiltInTable = BuiltInTable {
         .see(&["sort"]),
         built_in(
             &["array.sort_desc()"],
-            "Sorts in place, the largest first.",
+            "Sorts in place in descending order.",
             "let a = [3, 1, 2];\na.sort_desc();\ncheck(a == [3, 2, 1]);",
         )
         .see(&["sort"]),

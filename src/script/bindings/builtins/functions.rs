@@ -5,45 +5,46 @@ use crate::script::bindings::returns::Returns;
 
 pub const TABLE: BuiltInTable = BuiltInTable {
     name: "functions",
-    doc: "|x| 2 * x is a function without a name, and may be kept in a variable. Written where it stands, it sees the \
-          variables around it.",
+    doc: "|x| 2 * x is a function without a name, which can be stored in a variable. It can use \
+        the variables around it.",
     rows: &[
         built_in(
             &["function.call(values…)"],
             "Calls the function that a variable holds.",
             "let twice = |x| 2 * x;\ncheck(twice.call(4) == 8);",
         )
-        .returns(Returns::ANYTHING.words("what the function gives"))
+        .returns(Returns::ANYTHING.words("the result of the function"))
         .see(&["curry", "Fn"]),
         built_in(
             &["function.curry(values…)"],
-            "A function of fewer arguments, the first of which are fixed.",
+            "Returns a function of fewer arguments, with the first ones fixed.",
             "let power = |n, x| x^n;\nlet cube = power.curry(3);\ncheck(cube.call(2) == 8);",
         )
         .returns(Returns::FUNCTION)
         .see(&["call"]),
         built_in(
             &["Fn(name)"],
-            "The function with this name as a value.",
+            "Returns the function with this name as a value.",
             "fn twice(x) { 2 * x }\ncheck([1, 2].map(Fn(\"twice\")) == [2, 4]);",
         )
         .returns(Returns::FUNCTION)
         .see(&["call"]),
         built_in(
             &["function.name"],
-            "The name of the function.",
+            "Name of the function.",
             "check(Fn(\"sin\").name == \"sin\");",
         )
         .returns(Returns::TEXT),
         built_in(
             &["function.is_anonymous"],
-            "Whether the function was written as |x| … .",
+            "True if the function was written as |x| … .",
             "check((|x| x).is_anonymous);",
         )
         .returns(Returns::TRUTH),
         built_in(
             &["is_def_fn(name, count)", "is_def_fn(type, name, count)"],
-            "Whether the script defines a function with this name and so many parameters.",
+            "Returns true if the script defines a function with this name and number of \
+            parameters.",
             "fn twice(x) { 2 * x }\ncheck(is_def_fn(\"twice\", 1) && !is_def_fn(\"twice\", 2));",
         )
         .returns(Returns::TRUTH)

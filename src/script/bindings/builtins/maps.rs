@@ -5,32 +5,33 @@ use crate::script::bindings::returns::{Returns, ValueKind};
 
 pub const TABLE: BuiltInTable = BuiltInTable {
     name: "maps",
-    doc: "A map #{ key: value } holds values by name: map.key, or map[\"key\"]. To read a key that is not there is an error; \
-          to assign it adds it. Options are given as maps. Methods are written with parentheses: map.len().",
+    doc: "A map #{ key: value } holds values by name: map.key, or map[\"key\"]. Reading a \
+        missing key is an error; assigning adds it. Options are given as maps. Methods are \
+        written with parentheses: map.len().",
     rows: &[
-        built_in(&["map.len()"], "How many keys the map has.", "check(#{ a: 1, b: 2 }.len() == 2);")
+        built_in(&["map.len()"], "Returns the number of keys.", "check(#{ a: 1, b: 2 }.len() == 2);")
             .returns(Returns::WHOLE),
-        built_in(&["map.is_empty()"], "Whether the map has no keys.", "check(#{}.is_empty());")
+        built_in(&["map.is_empty()"], "Returns true if the map has no keys.", "check(#{}.is_empty());")
             .returns(Returns::TRUTH),
-        built_in(&["map.keys()"], "The keys, in the order of the alphabet.", "check(#{ b: 2, a: 1 }.keys() == [\"a\", \"b\"]);")
+        built_in(&["map.keys()"], "Returns the keys in alphabetical order.", "check(#{ b: 2, a: 1 }.keys() == [\"a\", \"b\"]);")
             .returns(Returns::array_of(&ValueKind::Text))
             .see(&["values"]),
         built_in(
             &["map.values()"],
-            "The values, in the order of their keys.",
+            "Returns the values in the order of their keys.",
             "check(#{ b: 2, a: 1 }.values() == [1, 2]);",
         )
         .returns(Returns::ARRAY)
         .see(&["keys"]),
         built_in(
             &["map.contains(key)"],
-            "Whether there is such a key; the same as key in map.",
+            "Returns true if the map has a key; the same as key in map.",
             "let m = #{ dt: 0.1 };\ncheck(m.contains(\"dt\") && \"t\" !in m);",
         )
         .returns(Returns::TRUTH),
         built_in(
             &["map.get(key)"],
-            "The value of a key, or nothing if there is none.",
+            "Returns the value of a key, or nothing if there is none.",
             "let m = #{ dt: 0.1 };\ncheck(m.get(\"dt\") == 0.1 && m.get(\"t\") == ());\ncheck((m.get(\"t\") ?? 5) == 5);",
         )
         .returns(Returns::ANYTHING_OR_NOTHING),
@@ -41,57 +42,59 @@ pub const TABLE: BuiltInTable = BuiltInTable {
         ),
         built_in(
             &["map.remove(key)"],
-            "Takes a key out and gives its value; nothing if there is none.",
+            "Removes a key and returns its value; nothing if there is none.",
             "let m = #{ a: 1, b: 2 };\ncheck(m.remove(\"a\") == 1 && m.len() == 1);",
         )
         .returns(Returns::ANYTHING_OR_NOTHING),
         built_in(
             &["map.clear()"],
-            "Takes all keys out.",
+            "Removes all keys.",
             "let m = #{ a: 1 };\nm.clear();\ncheck(m.is_empty());",
         ),
         built_in(
             &["map.mixin(other)"],
-            "Adds all keys of another map, which wins where both have one; map += other does the same.",
+            "Adds all keys of another map, whose values replace existing ones; map += other \
+            does the same.",
             "let options = #{ dt: 0.1, name: \"a\" };\noptions.mixin(#{ dt: 0.2 });\ncheck(options.dt == 0.2 && options.name == \"a\");",
         )
         .see(&["fill_with"]),
         built_in(
             &["map.fill_with(other)"],
-            "Adds those keys of another map that are missing.",
+            "Adds the missing keys of another map.",
             "let options = #{ dt: 0.1 };\noptions.fill_with(#{ dt: 1, name: \"a\" });\ncheck(options.dt == 0.1 && options.name == \"a\");",
         )
         .see(&["mixin"]),
         built_in(
             &["map.map(function)"],
-            "A map with the same keys, and what function(key, value) makes of each value.",
+            "Returns a map with the same keys and the results of function(key, value) as \
+            values.",
             "check(#{ a: 1, b: 2 }.map(|key, value| value * 10).b == 20);",
         )
         .returns(Returns::MAP),
         built_in(
             &["map.filter(test)"],
-            "A map of the keys that pass test(key, value).",
+            "Returns a map of the keys that pass test(key, value).",
             "check(#{ a: 1, b: 2 }.filter(|key, value| value > 1).keys() == [\"b\"]);",
         )
         .returns(Returns::MAP)
         .see(&["retain"]),
         built_in(
             &["map.drain(test)"],
-            "Takes out the keys that pass test(key, value), and gives them as a map.",
+            "Removes the keys that pass test(key, value), and returns them as a map.",
             "let m = #{ a: 1, b: 2 };\ncheck(m.drain(|key, value| value > 1).keys() == [\"b\"] && m.keys() == [\"a\"]);",
         )
         .returns(Returns::MAP)
         .see(&["retain"]),
         built_in(
             &["map.retain(test)"],
-            "Keeps the keys that pass test(key, value), and gives the others as a map.",
+            "Keeps the keys that pass test(key, value), and returns the others as a map.",
             "let m = #{ a: 1, b: 2 };\ncheck(m.retain(|key, value| value > 1).keys() == [\"a\"] && m.keys() == [\"b\"]);",
         )
         .returns(Returns::MAP)
         .see(&["drain", "filter"]),
         built_in(
             &["map.to_json()"],
-            "The map as JSON text.",
+            "Returns the map as JSON text.",
             "check(#{ dt: 0.5 }.to_json() == \"{\\\"dt\\\":0.5}\");",
         )
         .returns(Returns::TEXT),

@@ -5,49 +5,50 @@ use crate::script::bindings::returns::Returns;
 
 pub const TABLE: BuiltInTable = BuiltInTable {
     name: "values",
-    doc: "Printing, questions about values and variables, and the clock.",
+    doc: "Printing, properties of values and variables, and the clock.",
     rows: &[
         built_in(
             &["print([value])"],
-            "Writes a value and ends the line.",
+            "Prints a value and ends the line.",
             "print(\"the tip\");\nprint(1/20);\nprint(`x = ${fixed(PI, 2)}`);",
         )
         .see(&["debug", "tabulate", "sci", "fixed"]),
         built_in(
             &["debug([value])"],
-            "Writes a value as it would be written in a script, with the line it was called from, to the side of errors.",
+            "Prints a value as it is written in a script, with the line of the call, to the \
+            error output.",
             "debug(#{ dt: 0.1 });\nprint(\"seen\");",
         )
         .see(&["print"]),
         built_in(
             &["type_of(value)", "value.type_of()"],
-            "The name of the type of a value.",
+            "Returns the name of the type of a value.",
             "check(type_of(0.5) == \"number\" && type_of(2) == \"whole number\");\ncheck(type_of(vec(1, 2)) == \"vector\");",
         )
         .returns(Returns::TEXT),
         built_in(
             &["is_def_var(name)"],
-            "Whether there is a variable with this name here.",
+            "Returns true if a variable with this name exists here.",
             "let dt = 0.1;\ncheck(is_def_var(\"dt\") && !is_def_var(\"tip\"));",
         )
         .returns(Returns::TRUTH)
         .see(&["is_def_fn"]),
         built_in(
             &["is_shared(variable)"],
-            "Whether a closure holds the variable as well.",
+            "Returns true if a closure shares the variable.",
             "let count = 0;\nlet add = || count += 1;\ncheck(is_shared(count));",
         )
         .returns(Returns::TRUTH),
         built_in(
             &["timestamp()"],
-            "The time on the clock now, to measure how long something takes.",
+            "Returns the present time of the clock, to measure durations.",
             "let began = timestamp();\ncheck(began.elapsed >= 0);",
         )
         .returns(Returns::TIMESTAMP)
         .see(&["elapsed"]),
         built_in(
             &["timestamp.elapsed", "timestamp.elapsed()"],
-            "Seconds on the clock since a timestamp was taken.",
+            "Seconds of clock time since a timestamp was taken.",
             "let began = timestamp();\nfor i in 0..100 { sqrt(i); }\nprint(`${sci(began.elapsed)} s`);",
         )
         .returns(Returns::NUMBER)

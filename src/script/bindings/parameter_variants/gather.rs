@@ -56,7 +56,7 @@ pub fn gather(
     }
     let undefined = || match (is_defined(first), results.iter().all(is_defined)) {
         (false, _) => Some("it is infinite or undefined".into()),
-        (true, false) => Some("it is infinite or undefined as soon as a parameter changes".into()),
+        (true, false) => Some("it becomes infinite or undefined when a parameter changes".into()),
         (true, true) => None,
     };
     let lost = lost.cloned().or_else(undefined);
@@ -64,8 +64,9 @@ pub fn gather(
 }
 
 fn differ(what: &str) -> ScriptError {
-    ScriptError::new(format!("the {what} has other places when a parameter changes a little")).hint(
-        "only numbers may depend on a parameter; take central differences where more does: plain numbers in the place of scene.parameter(…)",
+    ScriptError::new(format!("the {what} has other places when a parameter changes slightly")).hint(
+        "only numbers may depend on a parameter; for other cases use plain numbers in place of \
+        scene.parameter(…) and central differences",
     )
 }
 

@@ -15,7 +15,8 @@ use crate::script::bindings::table::{CallSyntax, FunctionBinding};
 use crate::script::messages::error::{CallPart, ScriptError};
 
 /// Hint for an error that occurs only in a side variant.
-const BESIDE: &str = "derivatives are found from values on both sides of a parameter: choose it within what is allowed, or give value_of(x) here, which has none";
+const BESIDE: &str = "derivatives are computed from values on both sides of a parameter: choose it inside the \
+    allowed range, or use value_of(x) here, which has no derivatives";
 
 type Make<'m> = &'m mut dyn FnMut(Option<&mut Dynamic>, &[Dynamic]) -> Result<Dynamic, ScriptError>;
 
@@ -48,8 +49,9 @@ pub fn lift(
             return make_at(0, receiver, &given, make);
         }
         (Lifting::Refused, _) => {
-            let told = format!("{} does not follow parameters of a scene", row.name);
-            let hint = "build the scene with plain numbers in the place of scene.parameter(…), twice, and take the difference";
+            let told = format!("{} does not support parameters of a scene", row.name);
+            let hint = "build the scene twice with plain numbers in place of scene.parameter(…), and \
+                take the difference";
             return Err(ScriptError::new(told).hint(hint));
         }
     }
@@ -125,7 +127,7 @@ fn expect_plain_whole_numbers(
                 "{}: '{}' is a whole number, and cannot depend on a parameter of a scene",
                 row.name, parameter.name
             );
-            let hint = "int(x) and round(x) are the whole number next to its value";
+            let hint = "int(x) and round(x) return a whole number without derivatives";
             Err(ScriptError::new(told).hint(hint).at(CallPart::Argument(number)))
         }
     }
@@ -148,7 +150,8 @@ fn refusal(
     let told = format!("{}: '{name}' may not depend on parameters of a scene", row.name);
     let hint = match value.is::<FnPtr>() {
         true => {
-            "the function uses a variable from outside that does: let plain = value_of(x); before it is the number without its derivatives"
+            "the function uses a variable from outside that depends on a parameter: let plain = \
+            value_of(x); before it is the number without derivatives"
         }
         false => "value_of(x) is the number without its derivatives",
     };
@@ -204,9 +207,11 @@ impl ParameterSet {
                             of.parameters().into_iter().map(|(name, _)| format!("'{name}'"));
                         names.collect::<Vec<_>>().join(", ")
                     });
-                    let told =
-                        format!("parameters of two scenes meet: {} and {}", names[0], names[1]);
-                    let hint = "take value_of(x) of the one whose derivatives are not wanted";
+                    let told = format!(
+                        "parameters of two scenes are combined: {} and {}",
+                        names[0], names[1]
+                    );
+                    let hint = "use value_of(x) for the one whose derivatives are not required";
                     return Err(ScriptError::new(told).hint(hint));
                 }
                 _ => found = Some(family),

@@ -52,10 +52,12 @@ pub fn corner_of(
         let rough = corner(&Sides { at: &at, plus: &plus, minus: &minus })?;
         Some(match rough {
             NoDerivative::Broken => format!(
-                "'{name}' has a corner or a jump just there, and no derivative by '{parameter}'"
+                "'{name}' has a kink or a jump at this value, and no derivative by \
+                '{parameter}'"
             ),
             NoDerivative::Steep => format!(
-                "'{name}' is too near to where its slope is infinite or undefined for a derivative by '{parameter}'"
+                "'{name}' is too close to a point where its slope is infinite or undefined, and \
+                has no derivative by '{parameter}'"
             ),
         })
     });

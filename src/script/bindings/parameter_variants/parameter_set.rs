@@ -127,12 +127,16 @@ impl ParameterSet {
         distance: Option<f64>,
     ) -> Result<VariantValue, ScriptError> {
         if self.number_of(name).is_some() {
-            let told = format!("there is a parameter '{name}' already");
-            let hint = "keep the number that scene.parameter gives in a variable and use that, or take another name";
+            let told = format!("the parameter '{name}' already exists");
+            let hint = "store the number that scene.parameter returns in a variable and use it, or \
+                choose another name";
             return Err(ScriptError::new(told).hint(hint).at(CallPart::Argument(0)));
         }
         if self.is_in_use.get() {
-            let told = format!("parameter '{name}' comes after others of its scene are in use");
+            let told = format!(
+                "the parameter '{name}' is declared after other parameters of its scene were \
+                used"
+            );
             let hint = "declare all parameters of a scene first";
             return Err(ScriptError::new(told).hint(hint).at(CallPart::Argument(0)));
         }

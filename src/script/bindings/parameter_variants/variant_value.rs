@@ -75,7 +75,7 @@ impl VariantValue {
         let vector = |value: &Dynamic| value.read_lock::<Vec2>().map(|held| *held);
         match (vector(&plus), vector(&minus)) {
             (Some(plus), Some(minus)) => Ok(Dynamic::from((plus - minus) * per_unit)),
-            _ => Err(ScriptError::new("numbers and vectors have derivatives, this is neither")),
+            _ => Err(ScriptError::new("derivatives exist only of numbers and vectors")),
         }
     }
 }

@@ -35,15 +35,13 @@ impl ForeignName {
 /// Hint for a function called with the number of arguments of its namesake in other languages.
 pub fn called_with(name: &str, count: usize) -> Option<&'static str> {
     Some(match (name, count) {
-        ("print" | "debug", 2..) => "print shows one value: print(`a = ${a}, b = ${b}`)",
-        ("range", 1) => "write 0..10, which ends with 9; range(from, to, step) makes larger steps",
+        ("print" | "debug", 2..) => "print takes one value: print(`a = ${a}, b = ${b}`)",
+        ("range", 1) => "write 0..10, which ends with 9; range(from, to, step) has other steps",
         ("append", 2) => "write array.push(value) for one value; append joins two arrays",
         ("round", 2) => "write round_to(x, digits), or fixed(x, digits) for a text",
         ("max", 3..) => "write max(values) with an array: max([1, 2, 3])",
         ("min", 3..) => "write min(values) with an array: min([1, 2, 3])",
-        ("clamp", 3) => {
-            "write min(max(x, low), high) for the number between two others that is nearest to x"
-        }
+        ("clamp", 3) => "write min(max(x, low), high) to limit x to an interval",
         ("sum", 2..) => "write sum(values) with an array: sum([1, 2, 3])",
         _ => return None,
     })

@@ -11,11 +11,11 @@ pub const WORDS: &[ForeignName] = &[
         &["variables"],
     ),
     entry(&["Infinity", "infinity"], "write inf", &["inf"]),
-    entry(&["eps"], "the distance of 1 to the next number is 2.0^-52", &["numbers"]),
-    entry(&["1j", "imag", "complex"], "there are no complex numbers", &["numbers"]),
+    entry(&["eps"], "the distance from 1 to the next number is 2.0^-52", &["numbers"]),
+    entry(&["1j", "imag", "complex"], "complex numbers are not available", &["numbers"]),
     entry(
         &["Math", "math", "np", "numpy", "scipy", "cmath", "jnp"],
-        "sin, sqrt, PI, linspace and the rest stand by themselves: sin(PI / 2); nothing is imported for them",
+        "sin, sqrt, PI, linspace and others are available without import: sin(PI / 2)",
         &["numbers", "arrays"],
     ),
     entry(
@@ -23,12 +23,13 @@ pub const WORDS: &[ForeignName] = &[
             "console", "disp", "display", "printf", "fprintf", "println", "puts", "cout", "echo",
             "println!",
         ],
-        "write print(`x = ${x}`): values stand in a text between backquotes",
+        "write print(`x = ${x}`): values are inserted in a text between backquotes",
         &["print", "strings"],
     ),
     entry(
         &["sprintf", "num2str", "mat2str", "format", "toFixed", "toPrecision", "toExponential"],
-        "`x = ${x}` makes a text of a value; fixed(x, 2) and sci(x, 2) choose the digits",
+        "`x = ${x}` converts a value to text; fixed(x, 2) and sci(x, 2) set the number of \
+        digits",
         &["strings", "fixed", "sci"],
     ),
     entry(
@@ -38,12 +39,12 @@ pub const WORDS: &[ForeignName] = &[
     ),
     entry(
         &["float", "double", "Number", "parseFloat", "str2num", "str2double"],
-        "parse_float(text) makes a number of a text; a whole number needs nothing",
+        "parse_float(text) converts a text to a number; whole numbers need no conversion",
         &["parse_float", "numbers"],
     ),
     entry(
         &["parseInt", "int32", "int64"],
-        "write parse_int(text), or int(x) of a number",
+        "write parse_int(text), or int(x) for a number",
         &["parse_int", "int"],
     ),
     entry(
@@ -56,7 +57,7 @@ pub const WORDS: &[ForeignName] = &[
         "a map is written #{ key: value }",
         &["maps", "options"],
     ),
-    entry(&["set", "unique"], "arrays have no repeated elements after dedup()", &["dedup"]),
+    entry(&["set", "unique"], "array.dedup() removes repeated elements", &["dedup"]),
     entry(&["append", "add", "push_back", "Add"], "write array.push(value)", &["push"]),
     entry(
         &["includes", "has", "hasKey", "has_key", "ismember"],
@@ -65,17 +66,17 @@ pub const WORDS: &[ForeignName] = &[
     ),
     entry(
         &["size", "numel", "ndims", "shape", "length", "sizeof", "strlen"],
-        "the number of elements is array.len, of characters text.len",
+        "array.len is the number of elements, text.len the number of characters",
         &["len"],
     ),
     entry(
         &["zeros", "ones", "eye", "full", "empty", "repmat", "repeat"],
-        "write let a = []; a.pad(3, 0); for three zeros",
+        "write let a = []; a.pad(3, 0); for an array of three zeros",
         &["pad", "linspace"],
     ),
     entry(
         &["arange", "xrange", "colon"],
-        "write 0..10 for whole numbers, linspace(0, 1, 5) for others",
+        "write 0..10 for whole numbers, linspace(0, 1, 5) for other numbers",
         &["range", "linspace"],
     ),
     entry(&["enumerate"], "write for (x, i) in array { … }", &["loops"]),
@@ -106,12 +107,13 @@ pub const WORDS: &[ForeignName] = &[
     entry(&["arctan2"], "write atan2(y, x)", &["atan2"]),
     entry(
         &["prod", "cumsum", "diff", "median"],
-        "write array.reduce(|sum, x| sum + x, 0) with what is wanted in it; sum, mean, min and max are there",
+        "write array.reduce(|sum, x| sum + x, 0) with the required operation; sum, mean, min \
+        and max are available",
         &["reduce", "sum", "mean"],
     ),
     entry(
         &["rand", "random", "randn", "randint", "rng", "seed"],
-        "there is no randomness: the same script gives the same numbers",
+        "random numbers are not available: the same script always has the same results",
         &["numbers"],
     ),
     entry(&["typeof", "isinstance", "class", "getClass"], "write type_of(x)", &["type_of"]),
@@ -127,27 +129,29 @@ pub const WORDS: &[ForeignName] = &[
     ),
     entry(
         &["input", "raw_input", "readline", "scanf", "gets"],
-        "a script asks nothing while it runs: put values at its top, let x = 3;",
+        "a script has no input while it runs: define values at its top, let x = 3;",
         &["variables"],
     ),
     entry(
         &["open", "fopen", "csvread", "readtable", "loadtxt", "savetxt", "write", "save_csv"],
-        "write_history(sim, \"name\") writes columns to a file, save and load_simulation keep a simulation",
+        "write_history(sim, \"name\") writes columns to a file, save and load_simulation store \
+        a simulation",
         &["write_history", "save", "load_simulation"],
     ),
     entry(
         &["time", "tic", "toc", "clock", "now", "sleep", "delay", "wait", "pause"],
-        "a script does not read the clock: :time INPUT at the prompt measures; the time of a simulation is sim.t",
+        "scripts have no clock: :time INPUT at the prompt measures durations; the time of a \
+        simulation is sim.t",
         &["t"],
     ),
     entry(
         &["exit", "quit", "sys", "bye"],
-        "a script ends at its last line, or by return; the prompt is left by :quit or Ctrl-D",
+        "a script ends at its last line, or by return; leave the prompt by :quit or Ctrl-D",
         &["functions"],
     ),
     entry(
         &["clear", "clc", "close", "clearvars", "who", "whos", "hold"],
-        "at the prompt :reset forgets all variables, :vars lists them",
+        "at the prompt :reset deletes all variables, :vars lists them",
         &["variables"],
     ),
     entry(&["pass"], "an empty block is written { }", &["conditions"]),
@@ -164,15 +168,15 @@ pub const WORDS: &[ForeignName] = &[
     ),
     entry(
         &["self", "cls", "super"],
-        "there are no classes: a function takes what it works on as an argument",
+        "classes are not available: pass the data of a function as arguments",
         &["functions"],
     ),
     entry(
         &["exec", "eval", "evalin"],
-        "texts are not run as scripts: write a function",
+        "texts cannot be executed: write a function",
         &["functions"],
     ),
     entry(&["elif", "elseif"], "write else if … { … }", &["conditions"]),
     entry(&["def", "function", "func"], "a function is written fn f(x) { … }", &["functions"]),
-    entry(&["var", "int8", "auto"], "a variable is made by let x = 3;", &["variables"]),
+    entry(&["var", "int8", "auto"], "declare a variable by let x = 3;", &["variables"]),
 ];

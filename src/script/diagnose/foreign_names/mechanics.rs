@@ -19,23 +19,28 @@ pub const WORDS: &[ForeignName] = &[
             "ground",
             "anchor",
         ],
-        "a station is supported by scene.clamp(station), which holds position and angle, or scene.hinge(station), which holds the position; scene.support(station, #{ y: true }) holds single movements",
+        "scene.clamp(station) fixes position and angle, scene.hinge(station) fixes the \
+        position, scene.support(station, #{ y: true }) fixes single components",
         &["clamp", "hinge", "support", "reaction"],
     ),
     entry(
         &["roller", "rollers", "rail", "guide", "track", "sleeve", "eyelet", "prismatic", "slide"],
-        "scene.support(station, #{ y: true }) is a roller on the ground, #{ along: [1, 1] } an inclined one; along a curve a station slides on a beam that stands still: \
-         clamp a stiff beam as its rail, then scene.slider(station, rail)",
+        "scene.support(station, #{ y: true }) is a roller on the ground, #{ along: [1, 1] } an \
+        inclined one; for a curved path use a stiff, clamped beam as rail and \
+        scene.slider(station, rail)",
         &["support", "slider", "clamp"],
     ),
     entry(
         &["damping", "damp", "dashpot", "viscous", "rayleigh", "dissipation"],
-        "scene.damper(from, to, #{ damping: c }) is a dashpot, damping: |rate| … one with a law; scene.start(#{ integrator: energy_decaying(#{ chi: 0.1 }), dt: 0.1 }) damps vibration and keeps both momenta",
+        "scene.damper(from, to, #{ damping: c }) is a dashpot, damping: |rate| … one with a \
+        law; scene.start(#{ integrator: energy_decaying(#{ chi: 0.1 }), dt: 0.1 }) damps \
+        vibration and keeps both momenta",
         &["damper", "energy_decaying", "generalized_alpha"],
     ),
     entry(
         &["springs", "elastic", "bushing"],
-        "scene.spring(from, to, #{ stiffness: k }) between stations and points of the ground, scene.torsion_spring between sections",
+        "scene.spring(from, to, #{ stiffness: k }) connects stations or points of the ground, \
+        scene.torsion_spring sections",
         &["spring", "torsion_spring", "tendon"],
     ),
     entry(
@@ -55,7 +60,8 @@ pub const WORDS: &[ForeignName] = &[
             "movie",
             "video",
         ],
-        "plot_motion(sim, \"name\") draws the beams, plot_history(sim, [\"energy\"], \"name\") columns over time; at the prompt :show and :plot do",
+        "plot_motion(sim, \"name\") plots the beams, plot_history(sim, [\"energy\"], \"name\") \
+        columns over time; at the prompt use :show and :plot",
         &["plot_motion", "plot_history", "plot_drift", "plot_modes"],
     ),
     entry(
@@ -69,7 +75,8 @@ pub const WORDS: &[ForeignName] = &[
             "add_force",
             "addForce",
         ],
-        "scene.force(station, [x, y]), scene.moment(station, m) and scene.line_load(beam, [x, y]) load a scene",
+        "use scene.force(station, [x, y]), scene.moment(station, m) or scene.line_load(beam, \
+        [x, y])",
         &["force", "moment", "line_load", "schedule"],
     ),
     entry(&["torque", "couple"], "write scene.moment(station, m)", &["moment"]),
@@ -87,7 +94,8 @@ pub const WORDS: &[ForeignName] = &[
             "cross_section",
             "profile",
         ],
-        "section(#{ EA: …, GA: …, EI: …, rho_A: …, rho_I: … }) takes stiffness and mass per length; std/sections makes them of shape and material",
+        "section(#{ EA: …, GA: …, EI: …, rho_A: …, rho_I: … }) takes stiffness and mass per \
+        length; std/sections computes them from shape and material",
         &["section", "std/sections"],
     ),
     entry(
@@ -101,17 +109,19 @@ pub const WORDS: &[ForeignName] = &[
             "refine",
             "nodes",
         ],
-        "a beam is meshed by basis: bspline(16), with so many spans; lagrange makes ordinary elements",
+        "the option basis: bspline(16) of a beam sets the mesh and its number of spans; \
+        lagrange creates Lagrange elements",
         &["bspline", "lagrange", "study_convergence"],
     ),
     entry(
         &["speed", "velocity_magnitude"],
-        "sim.velocity(station).norm() is the speed of a station, sim.spin(station) that at which a section turns",
+        "sim.velocity(station).norm() is the speed of a station, sim.spin(station) the angular \
+        velocity of its section",
         &["velocity", "spin"],
     ),
     entry(
         &["node", "point_at", "tip", "middle"],
-        "a place of a beam is rod.start, rod.end or rod.at(s)",
+        "stations of a beam are rod.start, rod.end and rod.at(s)",
         &["start", "end", "at"],
     ),
     entry(
@@ -125,22 +135,24 @@ pub const WORDS: &[ForeignName] = &[
             "resonance",
             "modal",
         ],
-        "scene.modes(4) finds frequencies and shapes of small vibration",
+        "scene.modes(4) computes frequencies and shapes of small vibrations",
         &["modes", "angular_frequencies"],
     ),
     entry(
         &["static", "statics", "at rest", "balance"],
-        "scene.equilibrium() finds where a scene rests",
+        "scene.equilibrium() computes the static equilibrium of a scene",
         &["equilibrium", "load_control"],
     ),
     entry(
         &["buckling", "snap", "snap-through", "instability", "critical load", "post-buckling"],
-        "arc_length follows a path past limit points; is_stable judges an equilibrium",
+        "arc_length follows a path past limit points; is_stable shows the stability of an \
+        equilibrium",
         &["arc_length", "is_stable", "equilibrium"],
     ),
     entry(
         &["contact", "collision", "impact", "bounce"],
-        "a slider bounces at the ends of its beam by ends: \"bounce\"; bodies do not collide otherwise",
+        "a slider bounces at the ends of its beam with ends: \"bounce\"; other collisions are \
+        not modelled",
         &["slider", "contact_force"],
     ),
     entry(
@@ -150,12 +162,14 @@ pub const WORDS: &[ForeignName] = &[
     ),
     entry(
         &["bead", "ball", "point mass", "lumped"],
-        "scene.particle(point, mass) moves by itself, scene.mass(station, m) is fixed to a beam",
+        "scene.particle(point, mass) is a free point mass, scene.mass(station, m) is attached \
+        to a station",
         &["particle", "mass"],
     ),
     entry(
         &["joint", "joints", "connect", "weld", "attach", "fasten", "revolute"],
-        "scene.hinge(a, b) joins two stations that turn freely, scene.rigid(a, b) position and angle, scene.slider lets one slide",
+        "scene.hinge(a, b) joins two stations with free rotation, scene.rigid(a, b) joins \
+        position and angle, scene.slider allows sliding",
         &["hinge", "rigid", "slider"],
     ),
     entry(
@@ -165,17 +179,19 @@ pub const WORDS: &[ForeignName] = &[
     ),
     entry(
         &["timestep", "time_step", "time step", "delta_t", "Dt"],
-        "the step size is given at the start: scene.start(#{ dt: 0.01 })",
+        "set the step size at the start: scene.start(#{ dt: 0.01 })",
         &["start", "dt", "adaptive"],
     ),
     entry(
         &["spin", "rotate", "rotation", "omega", "angular_velocity"],
-        "a beam starts to turn by scene.beam(#{ …, spin: 2 }); sim.angle(station) is the angle of a section",
+        "scene.beam(#{ …, spin: 2 }) sets the initial angular velocity of a beam; \
+        sim.angle(station) is the angle of a section",
         &["beam", "angle", "angular_momentum"],
     ),
     entry(
         &["bending_moment", "shear_force", "axial_force", "internal forces", "stress"],
-        "reaction of an equilibrium and contact_force of a slider are forces that can be read; sim.strain is the energy of deformation",
+        "reaction of an equilibrium and contact_force of a slider return forces; sim.strain is \
+        the strain energy",
         &["reaction", "contact_force", "strain"],
     ),
     entry(
@@ -200,12 +216,15 @@ pub const WORDS: &[ForeignName] = &[
             "latency",
             "dead_time",
         ],
-        "a load or a motor takes a function of time and simulation, asked at the start of every step: scene.force(rod.end, [0, 1], |t, q| -2 * q.velocity(rod.end).y), or every 0.01 and 0.003 late with #{ sample: 0.01, delay: 0.003 }",
+        "a load or a motor takes a function of time and simulation, called at the start of \
+        every step: scene.force(rod.end, [0, 1], |t, q| -2 * q.velocity(rod.end).y), or with \
+        sampling period and delay: #{ sample: 0.01, delay: 0.003 }",
         &["motor", "force"],
     ),
     entry(
         &["shaker", "prescribed", "imposed", "excitation", "displacement"],
-        "scene.move(station, #{ y: |t| 0.01 * sin(40 * t) }) gives a motion, scene.motor(section, #{ angle: |t| 3 * t }) a rotation",
+        "scene.move(station, #{ y: |t| 0.01 * sin(40 * t) }) prescribes a displacement, \
+        scene.motor(section, #{ angle: |t| 3 * t }) a rotation",
         &["move", "motor"],
     ),
 ];

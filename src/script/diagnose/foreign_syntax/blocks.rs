@@ -38,12 +38,12 @@ fn counting_loop(spot: &TokenWindow) -> Option<SyntaxFix> {
     let is_type = matches!(name, "let" | "var" | "int" | "const");
     let after = if is_in_parentheses { spot.word(at + 3) } else { spot.word(at + 2) };
     if after == "of" || (is_type && spot.word(at + 4) == "of") {
-        let hint = "write for x in array { … }; for (x, i) in array { … } counts along";
-        return spot.cure(0, "a loop goes over something by 'in'", hint);
+        let hint = "write for x in array { … }; for (x, i) in array { … } also counts the index";
+        return spot.cure(0, "a for loop needs 'in'", hint);
     }
     if is_type || matches!(after, "=" | ";" | "<-") {
         let hint = "write for i in 0..10 { … }, which ends with 9, or 0..=10, which ends with 10; range(0, 10, 2) makes larger steps";
-        return spot.cure(0, "a loop goes over a range, and does not count by itself", hint);
+        return spot.cure(0, "a for loop needs a range in place of a counter", hint);
     }
     None
 }
@@ -69,8 +69,8 @@ fn colon(spot: &TokenWindow) -> Option<SyntaxFix> {
     };
     spot.cure(
         0,
-        "a block does not begin with a colon, and blanks do not mark it",
-        format!("write it in braces: {head}"),
+        "a block is written in braces; a colon and indentation have no meaning",
+        format!("write braces: {head}"),
     )
 }
 
@@ -80,8 +80,8 @@ fn body(spot: &TokenWindow) -> Option<SyntaxFix> {
     let is_body = token == "{" && why.contains("block");
     is_body.then_some(())?;
     let told = match spot.word(0) {
-        "then" | "do" => format!("'{}' does not begin a block here", spot.word(0)),
-        _ => "the body of if, else, for and while stands in braces".into(),
+        "then" | "do" => format!("'{}' does not begin a block", spot.word(0)),
+        _ => "the body of if, else, for and while needs braces".into(),
     };
     let head = match spot.in_statement(0) {
         "else" => "else { … }",
@@ -113,7 +113,7 @@ fn case(spot: &TokenWindow) -> Option<SyntaxFix> {
     matches!(spot.word(0), "case" | "default").then_some(())?;
     spot.cure(
         0,
-        format!("'{}' is not written in a switch", spot.word(0)),
+        format!("'{}' is not used in a switch", spot.word(0)),
         "write switch x { 1 => \"one\", 2 => \"two\", _ => \"many\" }",
     )
 }
@@ -125,14 +125,14 @@ fn end(spot: &TokenWindow) -> Option<SyntaxFix> {
         "end" | "endif" | "endfor" | "endwhile" | "endfunction" | "fi" | "done"
     ) {
         let told = format!("'{}' does not end a block", spot.word(0));
-        return spot.cure(0, told, "a block stands in braces: if a == 1 { … }");
+        return spot.cure(0, told, "a block is written in braces: if a == 1 { … }");
     }
     let closes = matches!(spot.word(0), ")" | "]" | "}");
     let is_unexpected =
         matches!(spot.error, ParseErrorType::MissingToken(token, _) if token == ";");
     if closes && is_unexpected {
-        let told = format!("there is no bracket that this '{}' closes", spot.word(0));
-        return spot.cure(0, told, "take it away, or open one before it");
+        let told = format!("this '{}' has no opening bracket", spot.word(0));
+        return spot.cure(0, told, "remove it, or add the opening bracket before it");
     }
     None
 }

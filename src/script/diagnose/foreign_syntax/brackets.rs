@@ -24,7 +24,7 @@ fn assigned_key(spot: &TokenWindow) -> Option<SyntaxFix> {
     let is_key = missing == ":" && why.contains("map") && spot.word(0) == "=";
     is_key.then_some(())?;
     let hint = format!("write {}: …", spot.word(-1));
-    spot.cure(0, "a key of a map is followed by a colon", hint)
+    spot.cure(0, "a key of a map must be followed by a colon", hint)
 }
 
 fn unclosed(spot: &TokenWindow) -> Option<SyntaxFix> {
@@ -47,8 +47,8 @@ fn unclosed(spot: &TokenWindow) -> Option<SyntaxFix> {
     };
     spot.cure(
         at,
-        format!("this '{}' is never closed", spot.word(at)),
-        format!("write '{closing}' where it ends"),
+        format!("this '{}' has no closing bracket", spot.word(at)),
+        format!("add '{closing}' at the end"),
     )
 }
 

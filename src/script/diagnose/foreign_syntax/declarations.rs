@@ -40,7 +40,7 @@ fn function(spot: &TokenWindow) -> Option<SyntaxFix> {
     spot.cure(
         first,
         format!("'{word}' is not a word of the language"),
-        format!("a function is written fn {written} {{ … }}; its last expression is its value"),
+        format!("a function is written fn {written} {{ … }}; its last expression is the result"),
     )
 }
 
@@ -59,8 +59,8 @@ fn function_body(spot: &TokenWindow) -> Option<SyntaxFix> {
     (is_headed || is_arrow || is_let || is_assigned).then_some(())?;
     spot.cure(
         0,
-        "this is not how a function is defined",
-        "write fn f(x) { x^2 }: its body stands in braces, and its last expression is its value",
+        "this definition of a function is not valid",
+        "write fn f(x) { x^2 }: the body needs braces, and its last expression is the result",
     )
 }
 
@@ -72,7 +72,11 @@ fn unnamed_function(spot: &TokenWindow) -> Option<SyntaxFix> {
     }
     let is_value = |before: isize| matches!(spot.word(before), "=" | "(" | "," | ":");
     if spot.word(0) == "fn" && is_value(-1) {
-        return spot.cure(0, "fn stands where a function with a name is defined", hint);
+        return spot.cure(
+            0,
+            "fn is only allowed in the definition of a function with a name",
+            hint,
+        );
     }
     let back = (-12..0).find(|at| FUNCTION_WORDS.contains(&spot.word(*at)) && is_value(at - 1))?;
     let told = format!("'{}' is not a word of the language", spot.word(back));
@@ -91,8 +95,8 @@ fn type_first(spot: &TokenWindow) -> Option<SyntaxFix> {
     (is_declaration && !name.is_empty() && name.starts_with(char::is_alphabetic)).then_some(())?;
     spot.cure(
         spot.first(),
-        format!("'{word}' declares no variable here"),
-        format!("a variable is made by let {name} = …, whatever it holds"),
+        format!("'{word}' does not declare a variable"),
+        format!("declare a variable of any type by let {name} = …"),
     )
 }
 
@@ -105,19 +109,19 @@ fn several_names(spot: &TokenWindow) -> Option<SyntaxFix> {
         spot.is_number(-1) && spot.is_number(1) && spot.is_joined(0) && spot.is_joined(1);
     if is_decimal && !spot.word(-1).contains('.') && spot.in_statement(0) != "return" {
         let (whole, fraction) = (spot.word(-1), spot.word(1));
-        let hint = format!("a number has a decimal point: {whole}.{fraction}");
-        return spot.cure(0, "a comma stands in a number", hint);
+        let hint = format!("use a decimal point in numbers: {whole}.{fraction}");
+        return spot.cure(0, "a number contains a comma", hint);
     }
     if spot.in_statement(0) == "return" {
         let value = spot.piece(spot.first() + 1, 0);
         let hint =
-            format!("give an array back: return [{value}, …]; or a map: return #{{ a: …, b: … }}");
-        return spot.cure(0, "a function gives one value", hint);
+            format!("return an array: return [{value}, …]; or a map: return #{{ a: …, b: … }}");
+        return spot.cure(0, "a function returns one value", hint);
     }
     spot.cure(
         0,
-        "one statement sets one variable",
-        "write a statement for each: let a = 1; let b = 2;",
+        "a statement assigns one variable",
+        "write one statement for each variable: let a = 1; let b = 2;",
     )
 }
 
@@ -127,7 +131,7 @@ fn tuple(spot: &TokenWindow) -> Option<SyntaxFix> {
     let is_missing = spot.missing().0 == ")" || spot.word(-2) == "{";
     (spot.word(0) == "," && is_open && is_missing).then_some(())?;
     let hint = format!("write [{}, …]", spot.word(-1));
-    spot.cure(-2, "several values together are an array", hint)
+    spot.cure(-2, "several values must be an array", hint)
 }
 
 /// `let [a, b] = pair;`
@@ -136,8 +140,8 @@ fn parts(spot: &TokenWindow) -> Option<SyntaxFix> {
     (declares && matches!(spot.word(0), "[" | "{" | "(" | "#{")).then_some(())?;
     spot.cure(
         0,
-        "an array or a map is not taken apart by let",
-        "take the parts one by one: let a = pair[0]; let b = pair[1]; or map.key",
+        "let cannot split an array or a map",
+        "assign the parts one by one: let a = pair[0]; let b = pair[1]; or map.key",
     )
 }
 
@@ -145,7 +149,7 @@ fn parts(spot: &TokenWindow) -> Option<SyntaxFix> {
 fn declared_type(spot: &TokenWindow) -> Option<SyntaxFix> {
     let is_variable = matches!(spot.word(-2), "let" | "const") && spot.word(0) == ":";
     if is_variable {
-        let hint = format!("leave it out: let {} = …", spot.word(-1));
+        let hint = format!("omit the type: let {} = …", spot.word(-1));
         return spot.cure(0, "variables have no declared types", hint);
     }
     if !spot.missing().1.contains("parameters of function") {
@@ -155,12 +159,13 @@ fn declared_type(spot: &TokenWindow) -> Option<SyntaxFix> {
         ":" => spot.cure(
             0,
             "parameters have no declared types",
-            format!("leave it out: fn f({}) {{ … }}", spot.word(-1)),
+            format!("omit the types: fn f({}) {{ … }}", spot.word(-1)),
         ),
         "=" => spot.cure(
             0,
-            "parameters have no values to be left out",
-            "define a second function with fewer parameters, fn f() { f(1) }, or take a map of options",
+            "parameters have no default values",
+            "define a second function with fewer parameters, fn f() { f(1) }, or use a map of \
+            options",
         ),
         _ => None,
     }
@@ -170,12 +175,12 @@ fn declared_type(spot: &TokenWindow) -> Option<SyntaxFix> {
 fn compared(spot: &TokenWindow) -> Option<SyntaxFix> {
     if spot.word(0) == "==" && matches!(spot.word(-2), "let" | "const") {
         let hint = format!("write let {} = …", spot.word(-1));
-        return spot.cure(0, "== compares; it gives no value to a variable", hint);
+        return spot.cure(0, "== compares; use = to assign a value", hint);
     }
     let is_condition = matches!(spot.in_statement(0), "if" | "while" | "until");
     let else_if = spot.in_statement(0) == "else" && spot.in_statement(1) == "if";
     if spot.word(0) == "=" && (is_condition || else_if) {
-        return spot.cure(0, "= gives a value to a variable; it does not compare", "write ==");
+        return spot.cure(0, "= assigns a value; use == to compare", "write ==");
     }
     None
 }
@@ -189,8 +194,9 @@ fn import(spot: &TokenWindow) -> Option<SyntaxFix> {
     (is_import || is_reserved).then_some(())?;
     spot.cure(
         spot.first(),
-        format!("'{}' does not import here", if word.is_empty() { spot.word(0) } else { word }),
-        "sin, PI and the rest are there without import; a module is read by import \"std/sections\" as sections;",
+        format!("'{}' does not import a module", if word.is_empty() { spot.word(0) } else { word }),
+        "sin, PI and others are available without import; import a module by import \
+        \"std/sections\" as sections;",
     )
 }
 
@@ -201,8 +207,9 @@ fn class(spot: &TokenWindow) -> Option<SyntaxFix> {
     (is_class && spot.count() == 1).then_some(())?;
     spot.cure(
         spot.first(),
-        format!("there is no '{word}' in the language"),
-        "values that belong together stand in a map, #{ length: 2, name: \"rod\" }; functions are defined by fn",
+        format!("'{word}' is not part of the language"),
+        "use a map for values that belong together, #{ length: 2, name: \"rod\" }; define \
+        functions by fn",
     )
 }
 

@@ -20,14 +20,14 @@ pub const HABITS: &[ForeignSyntax] = &[
 
 /// `a ? 1 : 2` and `1 if a else 2`.
 fn choice(spot: &TokenWindow) -> Option<SyntaxFix> {
-    let hint = "if gives a value: let x = if a > 0 { 1 } else { 2 };";
+    let hint = "use if as an expression: let x = if a > 0 { 1 } else { 2 };";
     if spot.word(0) == "?" {
-        return spot.cure(0, "'?' does not choose here", hint);
+        return spot.cure(0, "the operator '?' does not exist", hint);
     }
     let follows = spot.is_value(-1) || matches!(spot.word(-1), ")" | "]");
     let is_behind = spot.word(0) == "if" && follows && spot.count() > 0;
     is_behind.then_some(())?;
-    spot.cure(0, "a condition stands before what it chooses", hint)
+    spot.cure(0, "a condition must be written before its branches", hint)
 }
 
 /// `7 // 2`, where the rest of the line is a comment.
@@ -37,7 +37,8 @@ fn whole_division(spot: &TokenWindow) -> Option<SyntaxFix> {
     spot.cure(
         -1,
         "';' is missing before the comment",
-        "statements end with a semicolon; // begins a comment, quotient(n, d) divides whole numbers",
+        "statements end with a semicolon; // begins a comment, quotient(n, d) divides whole \
+        numbers",
     )
 }
 
@@ -47,8 +48,8 @@ fn comprehension(spot: &TokenWindow) -> Option<SyntaxFix> {
     is_within.then_some(())?;
     spot.cure(
         0,
-        "an array is not built by for inside its brackets",
-        "write [1, 2, 3].map(|x| x^2); array.filter(|x| x > 1) keeps some",
+        "for is not allowed inside the brackets of an array",
+        "write [1, 2, 3].map(|x| x^2); array.filter(|x| x > 1) selects elements",
     )
 }
 
@@ -57,8 +58,8 @@ fn slice(spot: &TokenWindow) -> Option<SyntaxFix> {
     (spot.word(0) == ":" && spot.missing().0 == "]").then_some(())?;
     spot.cure(
         0,
-        "a piece of an array is not asked for by a colon",
-        "array.extract(0..2) gives the elements 0 and 1, text.sub_string(0, 2) two characters",
+        "an index must not contain a colon",
+        "array.extract(0..2) returns the elements 0 and 1, text.sub_string(0, 2) two characters",
     )
 }
 
@@ -79,16 +80,16 @@ fn call_without_parentheses(spot: &TokenWindow) -> Option<SyntaxFix> {
     if let ParseErrorType::Reserved(word) = spot.error {
         match word.as_str() {
             "new" => {
-                let hint = "nothing is made by new: call the function, such as new_scene(\"name\")";
-                return spot.cure(0, "'new' is not written here", hint);
+                let hint = "call the function without new, such as new_scene(\"name\")";
+                return spot.cure(0, "'new' is not part of the language", hint);
             }
             "null" | "nil" | "void" => {
-                let told = format!("'{word}' is not a value here");
+                let told = format!("'{word}' is not a value");
                 return spot.cure(0, told, "the value nothing is written (): x == ()");
             }
             "print" | "debug" if spot.is_value(1) => {
                 let hint = format!("write {word}({})", spot.word(1));
-                return spot.cure(0, format!("{word} is called with parentheses"), hint);
+                return spot.cure(0, format!("{word} must be called with parentheses"), hint);
             }
             _ => (),
         }
@@ -105,7 +106,7 @@ fn call_without_parentheses(spot: &TokenWindow) -> Option<SyntaxFix> {
         other => other,
     };
     let hint = format!("write {name}({})", spot.word(0));
-    spot.cure(-1, "a function is called with parentheses", hint)
+    spot.cure(-1, "a function must be called with parentheses", hint)
 }
 
 /// `2x`, `2(x + 1)`, `1e3f`, `[1 2 3]`.
@@ -114,17 +115,17 @@ fn juxtaposed(spot: &TokenWindow) -> Option<SyntaxFix> {
     let in_array = missing == "," && why.contains("array");
     if in_array && spot.word(0) == ";" {
         let hint = "rows are arrays in an array: [[1, 2], [3, 4]]";
-        return spot.cure(0, "a semicolon does not part the rows of an array", hint);
+        return spot.cure(0, "a semicolon cannot separate the rows of an array", hint);
     }
     if in_array && (spot.is_value(0) || spot.word(0) == "-") && !spot.is_joined(0) {
         let hint = format!("write [{}, {}, …]", spot.word(-1), spot.word(0));
-        return spot.cure(0, "commas part the elements of an array", hint);
+        return spot.cure(0, "elements of an array are separated by commas", hint);
     }
     let is_factor = spot.is_number(-1) && (spot.is_name(0) || spot.word(0) == "(");
     (is_factor && spot.is_joined(0)).then_some(())?;
     let factor = if spot.word(0) == "(" { "(…)" } else { spot.word(0) };
-    let hint = format!("write {} * {factor}; a number has no suffix", spot.word(-1));
-    spot.cure(0, "a product is written with *", hint)
+    let hint = format!("write {} * {factor}; numbers have no suffix", spot.word(-1));
+    spot.cure(0, "a product must be written with *", hint)
 }
 
 /// `x++`, if the parser only reports a missing token.
@@ -147,7 +148,7 @@ fn keyword(spot: &TokenWindow) -> Option<SyntaxFix> {
     let called = why.split('\'').nth(1).filter(|name| !name.is_empty()).unwrap_or("f");
     spot.cure(
         0,
-        "arguments are given by their place, not by name",
+        "arguments are given by position, not by name",
         format!("options are written #{{ … }}: {called}(#{{ {}: … }})", spot.word(-1)),
     )
 }

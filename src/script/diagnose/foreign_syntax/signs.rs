@@ -11,15 +11,15 @@ pub const HABITS: &[ForeignSyntax] = &[comment, sign, dotted_operator, quotes, f
 fn comment(spot: &TokenWindow) -> Option<SyntaxFix> {
     let hint = "a comment begins with //";
     match spot.word(0) {
-        "#" => spot.cure(0, "# begins no comment here", hint),
+        "#" => spot.cure(0, "# does not begin a comment", hint),
         text if text.starts_with('#') && !text.starts_with("#{") => {
-            spot.cure(0, "# begins no comment here", hint)
+            spot.cure(0, "# does not begin a comment", hint)
         }
         text if text.starts_with('%') && spot.count() == 0 => {
-            spot.cure(0, "% begins no comment here: it is the remainder", hint)
+            spot.cure(0, "% does not begin a comment: it is the remainder", hint)
         }
         text if text.starts_with('%') && spot.is_value(1) && matches!(spot.word(-1), ";" | "}") => {
-            spot.cure(0, "% begins no comment here: it is the remainder", hint)
+            spot.cure(0, "% does not begin a comment: it is the remainder", hint)
         }
         _ => None,
     }
@@ -31,16 +31,16 @@ fn sign(spot: &TokenWindow) -> Option<SyntaxFix> {
         ("!==", "write != to compare"),
         ("~=", "write != for not equal"),
         ("<>", "write != for not equal"),
-        (":=", "write = to assign, and let where a variable is made: let x = 3;"),
+        (":=", "write = to assign, and let to declare a variable: let x = 3;"),
         ("++", "write x += 1"),
         ("--", "write x -= 1"),
-        ("<-", "write = to assign, and to compare with a negative number a blank between: x < -1"),
-        ("->", "write |x| … for a function without a name; what a function gives is not declared"),
+        ("<-", "write = to assign; to compare with a negative number add a space: x < -1"),
+        ("->", "write |x| … for a function without a name; the type of the result is not declared"),
         ("=>", ARROW),
         ("@", "write |x| x^2 for a function without a name"),
-        ("...", "a statement goes on in the next line by itself: leave the dots out"),
-        ("..", "a range has both ends: 0..10, or 0..=10 with the last one"),
-        ("\\", "a statement goes on in the next line by itself: leave the \\ out"),
+        ("...", "a statement continues on the next line without a sign: remove the dots"),
+        ("..", "a range needs both ends: 0..10, or 0..=10 including the last one"),
+        ("\\", "a statement continues on the next line without a sign: remove the \\"),
         ("$", "names have no $; in a text between backquotes, ${x} is the value of x"),
     ];
     // The parser may see only the first half of an operator.
@@ -60,7 +60,7 @@ fn sign(spot: &TokenWindow) -> Option<SyntaxFix> {
     spot.cure(0, "'~' is not part of the language", hint)
 }
 
-const ARROW: &str = "write |x| … for a function without a name; in switch, => stands behind a case";
+const ARROW: &str = "write |x| … for a function without a name; in switch, => follows a case";
 
 /// `.*`, `./` and `.^`.
 fn dotted_operator(spot: &TokenWindow) -> Option<SyntaxFix> {
@@ -70,7 +70,10 @@ fn dotted_operator(spot: &TokenWindow) -> Option<SyntaxFix> {
     spot.cure(
         -1,
         format!("there is no operator '.{operator}'"),
-        format!("array.map(|x| x {operator} 2) works on each element; points made by vec(x, y) add and scale"),
+        format!(
+            "array.map(|x| x {operator} 2) works on each element; points made by vec(x, y) can \
+            be added and multiplied by numbers"
+        ),
     )
 }
 
@@ -79,20 +82,20 @@ fn quotes(spot: &TokenWindow) -> Option<SyntaxFix> {
     match spot.error {
         ParseErrorType::BadInput(LexError::MalformedChar(text)) => spot.cure(
             0,
-            "single quotes hold one character, and no text",
-            format!("write \"{}\": a text stands in double quotes", text.trim_matches('\'')),
+            "single quotes enclose one character, not a text",
+            format!("write \"{}\": a text is written in double quotes", text.trim_matches('\'')),
         ),
         ParseErrorType::BadInput(_) if is_quote && spot.is_joined(0) && spot.is_transposable() => {
             spot.cure(
                 0,
                 "' does not transpose: it begins a character",
-                "there are no rows and columns here: leave it out; texts stand in double quotes",
+                "matrices are not available: remove the '; texts are written in double quotes",
             )
         }
         ParseErrorType::BadInput(_) if is_quote => spot.cure(
             0,
-            "single quotes hold one character, and no text",
-            "a text stands in double quotes: \"text\"",
+            "single quotes enclose one character, not a text",
+            "write a text in double quotes: \"text\"",
         ),
         _ => None,
     }
@@ -111,7 +114,7 @@ fn formatted_text(spot: &TokenWindow) -> Option<SyntaxFix> {
     (is_prefix && is_text).then_some(())?;
     spot.cure(
         -1,
-        format!("no letter stands before a text, got {}\"", spot.word(-1)),
-        "values stand in texts between backquotes: `x = ${x}`",
+        format!("a text has no letter before its quotes, got {}\"", spot.word(-1)),
+        "texts between backquotes contain values: `x = ${x}`",
     )
 }

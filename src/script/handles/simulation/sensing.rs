@@ -70,7 +70,7 @@ impl ColumnReader {
         match self.is_looking.get() {
             false => Ok(()),
             true => Err(ScriptError::new(
-                "a function that a simulation asks may not move it: it may only look",
+                "a function that is called by a simulation must not advance or change it",
             )
             .hint("step it outside the function, or at a time: sim.at(t, |sim| …)")),
         }
@@ -109,7 +109,7 @@ impl SimulationHandle {
             values.push(as_number(&value).ok_or_else(|| {
                 let engine = function.context().engine();
                 let got = engine.map(|engine| describe(&engine, &value)).unwrap_or_default();
-                ScriptError::new(format!("{} must give a number, got {got}", function.role()))
+                ScriptError::new(format!("{} must return a number, got {got}", function.role()))
                     .hint("for a vector record two columns: |q| q.position(rod.end).x, |q| q.position(rod.end).y")
             })?);
         }
@@ -134,8 +134,11 @@ impl SimulationHandle {
             let is_true = value.as_bool().map_err(|_| {
                 let engine = function.context().engine();
                 let got = engine.map(|engine| describe(&engine, &value)).unwrap_or_default();
-                ScriptError::new(format!("{} must give true or false, got {got}", function.role()))
-                    .hint("compare something: |q| norm(q.joint_force(pin).force) > 10")
+                ScriptError::new(format!(
+                    "{} must return true or false, got {got}",
+                    function.role()
+                ))
+                .hint("return a comparison: |q| norm(q.joint_force(pin).force) > 10")
             })?;
             if is_true {
                 self.0.simulation.borrow_mut().release(*release)?;
@@ -195,7 +198,7 @@ impl SimulationHandle {
             let engine = function.context().engine();
             let got = engine.map(|engine| describe(&engine, &value)).unwrap_or_default();
             ScriptError::new(format!(
-                "{} must give a finite number, got {got} at t = {}",
+                "{} must return a finite number, got {got} at t = {}",
                 self.role_of(controller),
                 self.time()
             ))

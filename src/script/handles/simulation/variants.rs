@@ -11,7 +11,7 @@ pub(super) fn in_words(reason: &DerivativeError) -> String {
     match reason {
         DerivativeError::Event { time, .. } | DerivativeError::NoStep { time, .. } => {
             let time = format_number(*time);
-            format!("{reason}; rows up to there have them: sim.history.before({time})")
+            format!("{reason}; earlier rows have derivatives: sim.history.before({time})")
         }
         other => other.to_string(),
     }

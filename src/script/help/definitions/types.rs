@@ -8,8 +8,8 @@ use crate::script::bindings::returns::ValueKind;
 
 /// Common types: name in messages, name for the language server, description.
 const COMMON: &[(&str, &str, &str)] = &[
-    ("whole number", "int", "A number without a fraction, of 64 bits."),
-    ("number", "int | float", "A number; whole numbers are welcome."),
+    ("whole number", "int", "A whole number of 64 bits."),
+    ("number", "int | float", "A number; whole numbers are accepted."),
     ("truth value", "bool", "true or false."),
     ("text", "String", "Text between quotes."),
     ("character", "char", "One character."),

@@ -70,14 +70,15 @@ fn overview(catalog: &Catalog) -> HelpPage {
     let mut page = HelpPage::default();
     page.heading("Help");
     page.paragraph(
-        "help(\"NAME\") tells about a function, a type such as simulation, an option such as rho_A, a constant, or a heading \
-         below. Every page has an example that runs as it stands: copy its lines into a script or to the prompt.",
+        "help(\"NAME\") explains a function, a type such as simulation, an option such as \
+        rho_A, a constant, or a heading below. Every page has a complete example: copy its \
+        lines into a script or to the prompt.",
     );
     page.gap();
     page.heading("The language");
     TOPICS.iter().for_each(|topic| entry(&mut page, topic.name, topic.summary));
     page.gap();
-    page.heading("Beams and what goes with them");
+    page.heading("Beams and related functions");
     catalog.tables().for_each(|table| entry(&mut page, table.name, first_sentence(table.doc)));
     page.gap();
     page.heading("From Rhai");

@@ -87,10 +87,10 @@ pub fn presence(presence: Presence) -> String {
     match presence {
         Presence::Required => String::new(),
         Presence::Optional => "; optional".to_owned(),
-        Presence::Number(default) => format!("; {default} unless given"),
-        Presence::Whole(default) => format!("; {default} unless given"),
-        Presence::Text(default) => format!("; \"{default}\" unless given"),
-        Presence::Boolean(default) => format!("; {default} unless given"),
+        Presence::Number(default) => format!("; default: {default}"),
+        Presence::Whole(default) => format!("; default: {default}"),
+        Presence::Text(default) => format!("; default: \"{default}\""),
+        Presence::Boolean(default) => format!("; default: {default}"),
     }
 }
 

@@ -15,7 +15,7 @@ fn a_function_has_its_signature_parameters_and_example() {
         shown("round_to"),
         "\
 round_to(x, digits) → a number
-x rounded to this many digits after the point.
+Rounds x to this many digits after the decimal point.
 
   x: a number
   digits: a whole number from 0 to 15
@@ -35,7 +35,7 @@ fn a_function_of_rhai_has_all_its_forms() {
         "\
 text.sub_string(start, [count]) → a text
 text.sub_string(range) → a text
-A piece of the text; without a count, all from start on.
+Returns a part of the text; without a count, everything from start on.
 
 Example
     check(\"spaghetti\".sub_string(0, 3) == \"spa\");
@@ -64,7 +64,10 @@ fn methods_are_found_by_type_by_variable_and_alone() {
     assert_eq!(shown("run_to"), page);
     assert_eq!(shown("sim.run_to()"), page);
     let simulation = shown("simulation");
-    assert!(simulation.contains("\n  simulation.run_to(t): Steps until a time"), "{simulation}");
+    assert!(
+        simulation.contains("\n  simulation.run_to(t): Takes steps until a time"),
+        "{simulation}"
+    );
     assert!(simulation.contains("It comes from"), "{simulation}");
     assert!(simulation.contains("scene.start(options)"), "{simulation}");
     let end = shown("range.end");
@@ -80,7 +83,7 @@ fn a_property_says_what_may_be_assigned() {
 #[test]
 fn domains_and_words_of_the_language_have_pages() {
     assert!(shown("loads").contains("\n  scene.force("), "{}", shown("loads"));
-    assert!(shown("arrays").contains("array.push(value): Adds"), "{}", shown("arrays"));
+    assert!(shown("arrays").contains("array.push(value): Appends"), "{}", shown("arrays"));
     assert!(shown("while").starts_with("The language: loops\n"), "{}", shown("while"));
     assert!(shown("**").starts_with("The language: operators\n"), "{}", shown("**"));
     assert!(shown("").starts_with("Help\n"), "{}", shown(""));

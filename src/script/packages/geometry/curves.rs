@@ -20,8 +20,8 @@ use crate::script::presentation::details;
 /// Domain of planar curves.
 pub const TABLE: BindingTable = BindingTable {
     name: "curves",
-    doc: "Curves of the plane with a parameter ξ: from 0 to 1, or over the domain of the knots. A beam is drawn along a \
-          curve.",
+    doc: "Curves of the plane with a parameter ξ: from 0 to 1, or over the domain of the knots. \
+        The axis of a beam is a curve.",
     types: &[CURVE],
     setup: "",
     constants: &[],
@@ -29,33 +29,34 @@ pub const TABLE: BindingTable = BindingTable {
         function(
             "line",
             &[
-                point("from").unit("length").doc("where it starts"),
-                point("to").unit("length").doc("where it ends"),
+                point("from").unit("length").doc("start point"),
+                point("to").unit("length").doc("end point"),
             ],
             |call| Ok(shared(Curve::line(call.point("from")?, call.point("to")?)?)),
         )
         .returns(Returns::object(CURVE))
-        .summary("The straight line between two points.")
+        .summary("Creates a straight line between two points.")
         .example("let rod = line([0, 8], [6, 0]);\ncheck(rod.length == 10 && rod.at(0.5) == [3, 4]);")
         .see(&["arc", "through", "curve"]),
         function(
             "arc",
             &[
-                point("center").unit("length").doc("the center of the circle"),
+                point("center").unit("length").doc("center of the circle"),
                 number("radius").positive().unit("length"),
-                number("from_angle").unit("rad").doc("where it starts, from the first axis"),
-                number("to_angle").unit("rad").doc("where it ends; counter-clockwise if larger"),
+                number("from_angle").unit("rad").doc("start angle, from the x axis"),
+                number("to_angle").unit("rad").doc("end angle; counter-clockwise if larger"),
             ],
             arc,
         )
         .returns(Returns::object(CURVE))
-        .summary("The arc of a circle between two angles, at most a full turn.")
+        .summary("Creates a circular arc between two angles, at most a full turn.")
         .example("let quarter = arc([0, 0], 2, 0, PI / 2);\ncheck_close(quarter.length, PI, 1e-15);\ncheck(quarter.curvature(0.5) == 0.5);")
         .see(&["line", "through"]),
-        function("through", &[points("points").unit("length").doc("two or more")], through)
+        function("through", &[points("points").unit("length").doc("two or more points")], through)
             .returns(Returns::object(CURVE))
-            .summary("The smooth cubic spline through points, by local interpolation.")
-            .doc("Through n + 1 points it has 2 n + 2 control points, double interior knots and a continuous tangent (The NURBS Book, section 9.3.4).")
+            .summary("Creates a smooth cubic spline through points, by local interpolation.")
+            .doc("Through n + 1 points it has 2 n + 2 control points, double interior knots and \
+                a continuous tangent (The NURBS Book, section 9.3.4).")
             .example("let c = through([[0, 0], [1, 1], [2, 0]]);\ncheck(c.control_points.len() == 6);\ncheck_close(distance(c.at(0.5), [1, 1]), 0, 1e-12);")
             .see(&["curve", "line"]),
         function(
@@ -67,80 +68,81 @@ pub const TABLE: BindingTable = BindingTable {
             spline,
         )
         .returns(Returns::object(CURVE))
-        .summary("The spline with these knots and control points.")
+        .summary("Creates a spline with these knots and control points.")
         .example("let parabola = curve(knots(#{ spans: 1, degree: 2 }), [[0, 0], [0.5, 0], [1, 1]]);\ncheck(parabola.at(0.5) == [0.5, 0.25]);")
         .see(&["knots", "through"]),
         property(CURVE, "length", |call| Ok(curve(call)?.length().into()))
             .returns(Returns::NUMBER.unit("length"))
-            .summary("The length.")
+            .summary("Length of the curve.")
             .example("check(line([0, 0], [3, 4]).length == 5);")
             .see(&["length_to", "parameter"]),
         property(CURVE, "start", |call| Ok(vector(ends(&*curve(call)?)?[0])))
             .returns(Returns::object(VECTOR))
-            .summary("The point where it starts.")
+            .summary("Start point of the curve.")
             .example("check(line([0, 8], [6, 0]).start == [0, 8]);")
             .see(&["end", "at"]),
         property(CURVE, "end", |call| Ok(vector(ends(&*curve(call)?)?[1])))
             .returns(Returns::object(VECTOR))
-            .summary("The point where it ends.")
+            .summary("End point of the curve.")
             .example("check(line([0, 8], [6, 0]).end == [6, 0]);")
             .see(&["start", "at"]),
         property(CURVE, "domain", |call| Ok(pair(curve(call)?.domain())))
             .returns(Returns::ARRAY.note(" [a, b]"))
-            .summary("The interval of the parameter ξ.")
+            .summary("Interval of the parameter ξ.")
             .example("check(line([0, 8], [6, 0]).domain == [0, 1]);"),
         property(CURVE, "knots", |call| Ok(shared_knots(of_spline(&*curve(call)?, call)?.knots().clone())))
             .returns(Returns::object(KNOTS))
-            .summary("The knots of a spline; lines and arcs have none.")
+            .summary("Knots of a spline; refused with an error for lines and arcs.")
             .example("check(through([[0, 0], [1, 1], [2, 0]]).knots.continuity == 1);")
             .see(&["control_points"]),
         property(CURVE, "control_points", control_points)
             .returns(Returns::array_of(&ValueKind::Object(VECTOR)))
-            .summary("The control points of a spline; lines and arcs have none.")
+            .summary("Control points of a spline; refused with an error for lines and arcs.")
             .example("let c = through([[0, 0], [1, 1], [2, 0]]);\ncheck(c.control_points[0] == [0, 0]);")
             .see(&["knots"]),
         method(CURVE, "at", &[XI], |call| Ok(vector(at_xi(call, Curve::point)?)))
             .returns(Returns::object(VECTOR))
-            .summary("The point at ξ.")
+            .summary("Returns the point at ξ.")
             .example("check(line([0, 8], [6, 0]).at(0.5) == [3, 4]);")
             .see(&["derivative", "parameter"]),
         method(CURVE, "derivative", &[XI, ORDER.or(Presence::Whole(1))], derivative)
             .returns(Returns::object(VECTOR))
-            .summary("The derivative by ξ, the first or of the order given; at knots from the right.")
+            .summary("Returns the derivative by ξ of first or given order; at knots from the right.")
             .example("let c = line([0, 8], [6, 0]);\ncheck(c.derivative(0.5) == [6, -8]);\ncheck(c.derivative(0.5, 2) == [0, 0]);")
             .see(&["angle", "curvature"]),
         method(CURVE, "angle", &[XI], |call| Ok(at_xi(call, Curve::tangent_angle)?.into()))
             .returns(Returns::NUMBER.words("an angle from -PI to PI"))
-            .summary("The angle of the tangent from the first axis.")
+            .summary("Returns the angle of the tangent from the x axis.")
             .example("check(line([0, 0], [0, 2]).angle(0.5) == PI / 2);")
             .see(&["derivative"]),
         method(CURVE, "curvature", &[XI], |call| Ok(at_xi(call, Curve::curvature)?.into()))
             .returns(Returns::NUMBER.unit("1/length"))
-            .summary("The curvature, positive where the curve turns counter-clockwise.")
+            .summary("Returns the curvature, positive if the curve turns counter-clockwise.")
             .example("check(arc([0, 0], 2, 0, -PI).curvature(0.5) == -0.5);")
             .see(&["derivative"]),
         method(CURVE, "length_to", &[XI], |call| Ok(at_xi(call, Curve::length_to)?.into()))
             .returns(Returns::NUMBER.unit("length"))
-            .summary("The length from the start to ξ.")
+            .summary("Returns the length from the start to ξ.")
             .example("check(line([0, 8], [6, 0]).length_to(0.5) == 5);")
             .see(&["parameter", "length"]),
-        method(CURVE, "parameter", &[number("s").unit("length").doc("the length from the start")], parameter)
+        method(CURVE, "parameter", &[number("s").unit("length").doc("length from the start")], parameter)
             .returns(Returns::NUMBER)
-            .summary("The parameter ξ at this length from the start.")
+            .summary("Returns the parameter ξ at this length from the start.")
             .example("let c = line([0, 8], [6, 0]);\ncheck(c.at(c.parameter(5)) == [3, 4]);")
             .see(&["length_to", "at"]),
         method(CURVE, "insert", &[XI, TIMES], insert)
             .returns(Returns::object(CURVE))
-            .summary("The same spline with a knot inserted, once or several times: the curve stays, the control points follow.")
+            .summary("Returns the same spline with a knot inserted once or several times: the curve \
+                is unchanged, the control points are computed.")
             .example("let c = through([[0, 0], [1, 1], [2, 0]]);\nlet finer = c.insert(0.3);\ncheck(finer.control_points.len() == 7);\ncheck_close(distance(finer.at(0.7), c.at(0.7)), 0, 1e-14);")
             .see(&["knots"]),
         operator("==", &[A, B], |call| Ok((a(call)? == b(call)?).into()))
             .returns(Returns::TRUTH)
-            .summary("Whether two curves are of one kind and given by equal numbers.")
+            .summary("Compares curves: true if both are of the same kind with equal numbers.")
             .example("check(line([0, 0], [1, 0]) == line([0, 0], [1, 0]));"),
         operator("!=", &[A, B], |call| Ok((a(call)? != b(call)?).into()))
             .returns(Returns::TRUTH)
-            .summary("Whether two curves are of different kinds or a number differs.")
+            .summary("Compares curves: true if the kind or a number differs.")
             .example("check(line([0, 0], [1, 0]) != line([0, 0], [2, 0]));"),
     ],
 };
@@ -194,7 +196,8 @@ fn of_spline<'a>(curve: &'a Curve, call: &Call) -> Result<&'a SplineCurve, Scrip
         Curve::Line(_) | Curve::Arc(_) => {
             let refusal = format!("{} has no knots", with_article(kind(curve)));
             Err(call.error(refusal).hint(
-                "splines have knots and control points: make one with through(points) or curve(knots, points)",
+                "only splines have knots and control points: create one with through(points) or \
+                curve(knots, points)",
             ))
         }
     }

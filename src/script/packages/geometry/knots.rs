@@ -18,87 +18,95 @@ use crate::script::presentation::details;
 /// Domain of knots and basis functions.
 pub const TABLE: BindingTable = BindingTable {
     name: "knots",
-    doc: "Knots say where the polynomial pieces of a spline meet, and how smoothly. They are open: the first and the \
-          last are repeated degree + 1 times. A spline of degree p has p - m continuous derivatives at an interior \
-          knot of multiplicity m.",
+    doc: "Knot vectors define the polynomial pieces of a spline and their smoothness. They are \
+        open: the first and the last knot are repeated degree + 1 times. A spline of degree p \
+        has p - m continuous derivatives at an interior knot of multiplicity m.",
     types: &[KNOTS],
     setup: "",
     constants: &[],
     rows: &[
         function("knots", &[UNIFORM], uniform)
             .returns(Returns::object(KNOTS))
-            .summary("Knots of equal spans on [0, 1], from a number of spans or from options.")
-            .doc("knots(7) has cubic splines with two continuous derivatives; options choose another degree or continuity.")
+            .summary("Creates a knot vector with equal spans on [0, 1], from a number of spans or \
+                from options.")
+            .doc("knots(7) has cubic splines with two continuous derivatives; options select \
+                another degree or continuity.")
             .example("let smooth = knots(7);\nlet paper = knots(#{ spans: 7, continuity: 1 });\ncheck(smooth.functions == 10 && paper.functions == 16);")
             .see(&["curve", "basis"]),
         function("knots", &[DEGREE, VALUES], explicit)
             .returns(Returns::object(KNOTS))
-            .summary("Knots from an array, in which repeated knots stand as often as they count.")
+            .summary("Creates a knot vector from an array in which knots are repeated by their \
+                multiplicity.")
             .example("let k = knots(2, [0, 0, 0, 0.5, 1, 1, 1]);\ncheck(k.functions == 4 && k.multiplicity(0.5) == 1);")
             .see(&["curve", "basis"]),
         property(KNOTS, "degree", |call| Ok(count(knots(call)?.degree())))
             .returns(Returns::WHOLE)
-            .summary("The polynomial degree.")
+            .summary("Polynomial degree.")
             .example("check(knots(7).degree == 3);"),
         property(KNOTS, "values", |call| Ok(numbers(knots(call)?.knots().iter().copied())))
             .returns(Returns::NUMBERS)
-            .summary("All knots, repeated ones as often as they count.")
+            .summary("Array of all knots, repeated by their multiplicity.")
             .example("check(knots(#{ spans: 2, degree: 1 }).values == [0, 0, 0.5, 1, 1]);")
             .see(&["breaks"]),
         property(KNOTS, "functions", |call| Ok(count(knots(call)?.functions())))
             .returns(Returns::WHOLE)
-            .summary("The number of basis functions, and of control points of a curve.")
+            .summary("Number of basis functions, equal to the number of control points of a curve.")
             .example("check(knots(7).functions == 10);"),
         property(KNOTS, "spans", |call| Ok(count(knots(call)?.spans().len())))
             .returns(Returns::WHOLE)
-            .summary("The number of spans between distinct knots.")
+            .summary("Number of spans between distinct knots.")
             .example("check(knots(7).spans == 7);")
             .see(&["span"]),
         property(KNOTS, "continuity", |call| Ok(count(basis(call)?.continuity())))
             .returns(Returns::WHOLE)
-            .summary("The number of continuous derivatives at the least smooth interior knot; the degree if there is none.")
+            .summary("Number of continuous derivatives at the least smooth interior knot; the degree \
+                if there is none.")
             .example("check(knots(7).continuity == 2);\ncheck(knots(7).insert(0.5, 3).continuity == 0);"),
         property(KNOTS, "domain", |call| Ok(pair(knots(call)?.domain())))
             .returns(Returns::ARRAY.note(" [a, b]"))
-            .summary("The first and the last knot.")
+            .summary("First and last knot.")
             .example("check(knots(7).domain == [0, 1]);"),
         property(KNOTS, "breaks", |call| Ok(numbers(knots(call)?.breaks())))
             .returns(Returns::NUMBERS)
-            .summary("The distinct knots: the ends of the spans.")
+            .summary("Distinct knots: the ends of the spans.")
             .example("check(knots(2).breaks == [0, 0.5, 1]);")
             .see(&["values"]),
         property(KNOTS, "greville", |call| Ok(numbers(knots(call)?.greville())))
             .returns(Returns::NUMBERS)
-            .summary("The Greville abscissae, one parameter for each function.")
-            .doc("Control points on a line at these places draw it with uniform speed; they are good places to interpolate at.")
+            .summary("Greville abscissae, one parameter for each function.")
+            .doc("A straight line with control points at these places has uniform speed; they \
+                are suitable interpolation points.")
             .example("check(knots(#{ spans: 2, degree: 2 }).greville == [0, 0.25, 0.75, 1]);"),
         method(KNOTS, "basis", &[XI, ORDER.or(Presence::Whole(0))], |call| all_functions(&basis(call)?, call))
             .returns(Returns::NUMBERS.note(", one for each function"))
-            .summary("The values of all basis functions at ξ, or their derivatives of the order given.")
-            .doc("At most degree + 1 of them are not zero, from number span(xi).first on. At interior knots derivatives are those from the right.")
+            .summary("Returns the values of all basis functions at ξ, or their derivatives of the \
+                given order.")
+            .doc("At most degree + 1 of them are not zero, starting at number span(xi).first. At \
+                interior knots derivatives are those from the right.")
             .example("let k = knots(4);\ncheck_close(sum(k.basis(0.3)), 1, 1e-15);\ncheck_close(sum(k.basis(0.3, 1)), 0, 1e-13);\ncheck(k.basis(0)[0] == 1);")
             .see(&["span", "greville", "gauss"]),
         method(KNOTS, "span", &[XI], span)
             .returns(Returns::MAP.note(" with first, start and end"))
-            .summary("The span that holds ξ: its ends, and the number of the first function that is not zero there.")
-            .doc("A knot belongs to the span on its right, the last one to the last span.")
+            .summary("Returns the span that contains ξ: its ends, and the number of the first \
+                function that is not zero there.")
+            .doc("A knot belongs to the span on its right, the last knot to the last span.")
             .example("let s = knots(4).span(0.3);\ncheck(s.first == 1 && s.start == 0.25 && s.end == 0.5);")
             .see(&["spans", "basis"]),
         method(KNOTS, "multiplicity", &[XI], multiplicity)
             .returns(Returns::WHOLE)
-            .summary("How often ξ occurs among the knots.")
+            .summary("Returns the multiplicity of ξ among the knots.")
             .example("check(knots(4).multiplicity(0) == 4 && knots(4).multiplicity(0.3) == 0);"),
         method(KNOTS, "insert", &[XI, TIMES], insert)
             .returns(Returns::object(KNOTS))
-            .summary("The same knots with ξ in addition, once or several times.")
+            .summary("Returns the knot vector with ξ inserted once or several times.")
             .example("let k = knots(4).insert(0.3, 2);\ncheck(k.functions == 9 && k.multiplicity(0.3) == 2);"),
         operator("==", &[A, B], |call| Ok((a(call)? == b(call)?).into()))
             .returns(Returns::TRUTH)
-            .summary("Whether degree and all knots are equal.")
+            .summary("Compares knot vectors: true if degree and all knots are equal.")
             .example("check(knots(#{ spans: 1, degree: 1 }) == knots(1, [0, 0, 1, 1]));"),
         operator("!=", &[A, B], |call| Ok((a(call)? != b(call)?).into()))
             .returns(Returns::TRUTH)
-            .summary("Whether the degree or a knot differs.")
+            .summary("Compares knot vectors: true if the degree or a knot differs.")
             .example("check(knots(3) != knots(4));"),
     ],
 };
@@ -108,19 +116,18 @@ pub const KNOTS: Type = Type::of::<Rc<KnotVector>>();
 
 const A: Parameter = object("a", KNOTS);
 const B: Parameter = object("b", KNOTS);
-const DEGREE: Parameter =
-    whole("degree").between(1.0, MAX_DEGREE as f64).doc("the polynomial degree");
-const VALUES: Parameter =
-    parameter::numbers("values").doc("the knots in order, the first and the last degree + 1 times");
+const DEGREE: Parameter = whole("degree").between(1.0, MAX_DEGREE as f64).doc("polynomial degree");
+const VALUES: Parameter = parameter::numbers("values")
+    .doc("knots in ascending order, the first and the last degree + 1 times");
 const SPANS: NumberRange = NumberRange::Between(1.0, MAX_SPANS as f64);
-const UNIFORM: Parameter = either("spans", &[Kind::Whole(SPANS), Kind::Options(KEYS)])
-    .doc("the number of spans, or options");
+const UNIFORM: Parameter =
+    either("spans", &[Kind::Whole(SPANS), Kind::Options(KEYS)]).doc("number of spans, or options");
 const KEYS: &[Parameter] = &[
-    whole("spans").between(1.0, MAX_SPANS as f64).doc("the number of equal spans"),
+    whole("spans").between(1.0, MAX_SPANS as f64).doc("number of equal spans"),
     DEGREE.or(Presence::Whole(3)),
     whole("continuity")
         .non_negative()
-        .doc("continuous derivatives at interior knots; degree - 1 if left out")
+        .doc("continuous derivatives at interior knots; default: degree - 1")
         .optional(),
 ];
 
@@ -129,7 +136,8 @@ const PRINTED: usize = 16;
 
 impl Scripted for Rc<KnotVector> {
     const NAME: &'static str = "knots";
-    const DOC: &'static str = "Where the polynomial pieces of a spline meet, and how smoothly.";
+    const DOC: &'static str =
+        "The knots of a spline: ends and smoothness of its polynomial pieces.";
 
     fn show(&self) -> String {
         let spans = self.spans().len();

@@ -27,8 +27,10 @@ pub const TABLE: BindingTable = BindingTable {
         gauss,
     )
     .returns(Returns::MAP.note(" with the arrays points and weights"))
-    .summary("The Gauss-Legendre rule with this many points, on [-1, 1] or another interval.")
-    .doc("With n points it integrates polynomials up to degree 2 n - 1 exactly.")
+    .summary(
+        "Returns the Gauss-Legendre rule with this many points, on [-1, 1] or another interval.",
+    )
+    .doc("A rule with n points integrates polynomials up to degree 2 n - 1 exactly.")
     .example(
         "let rule = gauss(2, 0, 3);\nlet integral = 0;\nfor i in 0..2 {\n    \
          integral += rule.weights[i] * rule.points[i]^2;\n}\ncheck_close(integral, 9, 1e-14);",

@@ -25,18 +25,22 @@ use crate::script::presentation::quantities::{BeamQuantity, NAMES};
 /// Domain of pictures along beams.
 pub const TABLE: BindingTable = BindingTable {
     name: "pictures along beams",
-    doc: "What is inside of beams, of a simulation at the present moment or of an equilibrium. Quantities are N (axial force, positive in \
-          tension), Q (shear force), M (bending moment), axial_strain, shear_strain, curvature, strain_energy (per length) and speed.",
+    doc: "Quantities along beams, of a simulation at the present time or of an equilibrium: N \
+        (axial force, positive in tension), Q (shear force), M (bending moment), axial_strain, \
+        shear_strain, curvature, strain_energy (per length) and speed.",
     types: &[],
     setup: SPINNING,
     constants: &[],
     rows: &[
         function("plot_along", &[OF, QUANTITIES, FILE, options("options", ALONG).optional()], plot_along)
-            .summary("Draws a quantity along beams: as strips across them where they are, and as a chart over their arc length.")
+            .summary("Plots a quantity along beams: as strips on the beams in the present \
+                configuration, and as a chart over their arc length.")
             .doc(
-                "Several quantities stand below each other. A strip stands on the left of a beam, seen from its start, where the value is positive; that of M and of \
-                 curvature on the right, where the beam is stretched. The largest and the least value of each beam are written beside it. Of the past: \
-                 go back with `sim.back`, or draw at a time with `sim.at`. At the prompt `:along M` draws the chart.",
+                "Several quantities are plotted below each other. Positive values are on the \
+                left of a beam, seen from its start; positive values of M and curvature are on \
+                the right, the tension side. The largest and the smallest value of each beam \
+                are written beside it. For past times go back with `sim.back`, or plot at a \
+                time with `sim.at`. At the prompt `:along M` plots the chart.",
             )
             .example(
                 "sim.run_to(1);\nplot_along(sim, \"M\", \"moment.svg\");\n\
@@ -44,20 +48,22 @@ pub const TABLE: BindingTable = BindingTable {
             )
             .see(&["plot_field", "plot", "plot_history", "plot_motion"]),
         function("plot_field", &[OF, QUANTITY, FILE, options("options", FIELD).optional()], plot_field)
-            .summary("Draws beams coloured by the magnitude of a quantity: the larger it is, the darker and the broader is the line.")
-            .doc("The bar beside it tells the numbers; where the magnitude is largest is marked, and how large it is there.")
+            .summary("Plots beams coloured by the magnitude of a quantity; larger magnitudes have \
+                darker and wider lines.")
+            .doc("A colour bar shows the values; the place and the value of the largest \
+                magnitude are marked.")
             .example("sim.run_to(1);\nplot_field(sim, \"strain_energy\", \"energy.svg\");\nplot_field(sim, \"speed\", \"speed.png\");")
             .see(&["plot_along", "plot_motion"]),
     ],
 };
 
 const OF: Parameter = either("of", &[Kind::Object(SIMULATION), Kind::Object(EQUILIBRIUM)])
-    .doc("a simulation, as it is now, or an equilibrium");
+    .doc("a simulation at the present time, or an equilibrium");
 const QUANTITIES: Parameter = either("quantity", &[Kind::Choice(NAMES), Kind::Array])
-    .doc("the name of a quantity, or an array of names");
+    .doc("name of a quantity, or an array of names");
 const QUANTITY: Parameter = choice("quantity", NAMES);
-const BEAMS: Parameter = array("beams").doc("those that are drawn, all unless given").optional();
-const TITLE: Parameter = text("title").doc("the name of the simulation unless given").optional();
+const BEAMS: Parameter = array("beams").doc("beams to be plotted; default: all").optional();
+const TITLE: Parameter = text("title").doc("title; default: the name of the simulation").optional();
 const ALONG: &[Parameter] = &[TITLE, BEAMS, SYMBOLS];
 const FIELD: &[Parameter] = &[TITLE, BEAMS, SYMBOLS, X_LIMITS, Y_LIMITS];
 
@@ -98,8 +104,8 @@ fn quantity(call: &Call, name: &str) -> Result<&'static BeamQuantity, ScriptErro
 fn quantities(call: &Call) -> Result<Vec<&'static BeamQuantity>, ScriptError> {
     if let Some(names) = call.get_if::<Array>("quantity") {
         if names.is_empty() || names.len() > NAMES.len() {
-            let told = format!("{} quantities are named", names.len());
-            let hint = format!("name one or several of {}", NAMES.join(", "));
+            let told = format!("{} quantities are given", names.len());
+            let hint = format!("give one or several of {}", NAMES.join(", "));
             return Err(call.error(told).hint(hint).at(CallPart::Argument(1)));
         }
         return names.iter().map(|name| quantity(call, &name.to_string())).collect();
@@ -154,7 +160,7 @@ fn beams(
             true => Ok(index),
             false => Err(call
                 .error(format!("{} was added after the scene was started", handle.name()))
-                .hint("add everything before scene.start(…), or start again")
+                .hint("add everything before scene.start(…), or start the scene again")
                 .at(at())),
         }
     };

@@ -17,18 +17,23 @@ use crate::script::messages::error::{CallPart, ScriptError};
 /// Domain of charts of arrays.
 pub const TABLE: BindingTable = BindingTable {
     name: "pictures of arrays",
-    doc: "A chart of any numbers: SVG or PNG by the ending of the file name, into the output folder.",
+    doc: "Charts of arrays of numbers: SVG or PNG, depending on the ending of the file name, in \
+        the output folder.",
     types: &[],
     setup: RESTING,
     constants: &[],
     rows: &[
         function("plot", &[X, Y, FILE, options("options", OPTIONS).optional()], plot)
-            .summary("Draws numbers over numbers: one curve, or several in the same axes.")
+            .summary("Plots numbers over numbers: one curve, or several in the same axes.")
             .doc(
-                "x and y are arrays of numbers, or arrays of such arrays, one for each curve; one x serves for all y. A number that is not finite \
-                 leaves a gap; on a logarithmic axis what is not positive stands at its foot. The height of a tip over time, and the bending moment at a clamp: record \
-                 both before the start, as in the example, and draw their columns with `plot_history`; `plot_along` draws the moment along the beam. At the prompt \
-                 `:plot` draws in the terminal what was or was not recorded: `:plot sim.position(rod.end).y`.",
+                "x and y are arrays of numbers, or arrays of such arrays with one for each \
+                curve; one x can be used for all y. A number that is not finite leaves a gap; \
+                on a logarithmic axis numbers that are not positive are drawn at the lower \
+                end. To plot the height of a tip and the bending moment at a clamp over time, \
+                record both before the start, as in the example, and plot their columns with \
+                `plot_history`; `plot_along` plots the moment along the beam. At the prompt, \
+                `:plot` plots any recorded or unrecorded quantity in the terminal: `:plot \
+                sim.position(rod.end).y`.",
             )
             .example(
                 "scene.clamp(rod.start);\nscene.force(rod.end, [0, 1]);\nscene.record(\"rod.end.y\");\nscene.record(\"rod.start.M\");\n\
@@ -46,7 +51,7 @@ const RESTING: &str = "let scene = new_scene(\"example\");\n\
     let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [2, 0]), basis: bspline(4), section: s });";
 
 const X: Parameter = array("x").doc("numbers, or an array of numbers for each curve");
-const Y: Parameter = array("y").doc("as many numbers, or an array of numbers for each curve");
+const Y: Parameter = array("y").doc("as many numbers as x, or an array of numbers for each curve");
 const OPTIONS: &[Parameter] =
     &[TITLE, X_LABEL, Y_LABEL, X_LOG, Y_LOG, X_LIMITS, Y_LIMITS, MARKERS, LABELS];
 
@@ -56,12 +61,13 @@ fn plot(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let options = call.options_or_defaults("options")?;
     let (x, y) = (curves(call, "x", 0)?, curves(call, "y", 1)?);
     if y.len() > MOST_CURVES {
-        let told = format!("{} curves are too many for a picture: {MOST_CURVES} at most", y.len());
+        let told =
+            format!("{} curves are too many for a picture; the limit is {MOST_CURVES}", y.len());
         return Err(call.error(told).at(CallPart::Argument(1)));
     }
     if x.len() != 1 && x.len() != y.len() {
-        let told = format!("x holds {} arrays and y {}", x.len(), y.len());
-        let hint = "give one x for all curves, or one for each";
+        let told = format!("x holds {} arrays, but y holds {}", x.len(), y.len());
+        let hint = "give one x for all curves, or one for each curve";
         return Err(call.error(told).hint(hint).at(CallPart::Argument(0)));
     }
     let title = options.text_if_given("title")?.unwrap_or_default();
@@ -71,8 +77,8 @@ fn plot(call: &mut Call) -> Result<Dynamic, ScriptError> {
         let x = &x[index.min(x.len() - 1)];
         if x.len() != y.len() {
             let which = if count == 1 { String::new() } else { format!("curve {index}: ") };
-            let told = format!("{which}x has {} numbers and y {}", x.len(), y.len());
-            let hint = "they belong together pair by pair";
+            let told = format!("{which}x has {} numbers, but y has {}", x.len(), y.len());
+            let hint = "give as many numbers in y as in x";
             return Err(call.error(told).hint(hint).at(CallPart::Argument(1)));
         }
         let name = if count == 1 { String::new() } else { format!("curve {}", index + 1) };

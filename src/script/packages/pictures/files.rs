@@ -10,7 +10,7 @@ use crate::script::bindings::parameter::{Parameter, text};
 use crate::script::messages::error::ScriptError;
 
 /// Parameter for a file name.
-pub const FILE: Parameter = text("file").doc("its name in the output folder");
+pub const FILE: Parameter = text("file").doc("file name in the output folder");
 
 /// Writes a picture to the output folder, in the format of its extension. Returns the unit value.
 pub fn write_picture(call: &Call, picture: &dyn Panel) -> Result<Dynamic, ScriptError> {

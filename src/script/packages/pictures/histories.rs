@@ -18,13 +18,13 @@ use crate::simulation::History;
 
 pub const COLUMNS: Parameter = array("columns").doc("names of columns of the history");
 pub const HISTORY_OPTIONS: &[Parameter] = &[
-    text("title").doc("the name of the simulation unless given").optional(),
+    text("title").doc("title; default: the name of the simulation").optional(),
     choice("axes", &["own", "shared"])
         .or(Presence::Text("own"))
-        .doc("of several simulations: each has its own, side by side, or all share them"),
-    boolean("logarithmic").doc("whether magnitudes are drawn on a logarithmic axis").optional(),
+        .doc("axes of several simulations: \"own\" axes side by side, or one \"shared\" plot"),
+    boolean("logarithmic").doc("true for magnitudes on a logarithmic axis").optional(),
     boolean("average")
-        .doc("whether each value is drawn as its mean with the one before, as `averaged` gives it")
+        .doc("true to plot the mean of each value and the one before, as `averaged` returns it")
         .optional(),
     X_LABEL,
     Y_LABEL,
@@ -86,7 +86,7 @@ fn columns(call: &Call, histories: &[HistoryHandle]) -> Result<Vec<String>, Scri
     match (columns.as_slice(), histories) {
         ([], [first, ..]) => {
             let hint = format!("columns: {}", first.column_names());
-            Err(call.error("no column is named").hint(hint).at(CallPart::Argument(1)))
+            Err(call.error("no column is given").hint(hint).at(CallPart::Argument(1)))
         }
         _ => Ok(columns.iter().map(Dynamic::to_string).collect()),
     }

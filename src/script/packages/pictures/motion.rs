@@ -21,22 +21,22 @@ pub const MOTION: &[Parameter] = &[
     number("every")
         .positive()
         .unit("time")
-        .doc("between snapshots; a twentieth of the time shown unless given")
+        .doc("time between snapshots; default: 1/20 of the time shown")
         .optional(),
-    number("from").unit("time").doc("first snapshot; the start unless given").optional(),
-    number("to").unit("time").doc("last snapshot; the present unless given").optional(),
-    array("trace").doc("stations whose paths are drawn").optional(),
+    number("from").unit("time").doc("time of the first snapshot; default: the start").optional(),
+    number("to").unit("time").doc("time of the last snapshot; default: the present").optional(),
+    array("trace").doc("stations whose paths are plotted").optional(),
     number("magnify")
         .positive()
-        .doc("displacements since the start are drawn so many times as large")
+        .doc("magnification factor of displacements since the start")
         .optional(),
     boolean("dots")
-        .doc("whether knots or nodes are marked; unless given, up to 40 spans in all")
+        .doc("true to mark knots or nodes; default: true for up to 40 spans in total")
         .optional(),
     SYMBOLS,
     X_LIMITS,
     Y_LIMITS,
-    text("title").doc("the name of the simulation unless given").optional(),
+    text("title").doc("title; default: the name of the simulation").optional(),
 ];
 
 /// Draws one motion or several side by side.

@@ -11,35 +11,36 @@ use crate::script::messages::numbers::{as_number, format_number};
 use crate::script::presentation::motion::Visibility;
 
 /// Option for the title.
-pub const TITLE: Parameter = text("title").doc("what stands above it").optional();
+pub const TITLE: Parameter = text("title").doc("title above the picture").optional();
 /// Option for the label of the horizontal axis.
-pub const X_LABEL: Parameter = text("x_label").doc("of the horizontal axis").optional();
+pub const X_LABEL: Parameter = text("x_label").doc("label of the horizontal axis").optional();
 /// Option for the label of the vertical axis.
-pub const Y_LABEL: Parameter = text("y_label").doc("of the vertical axis").optional();
+pub const Y_LABEL: Parameter = text("y_label").doc("label of the vertical axis").optional();
 /// Option for a logarithmic horizontal axis.
 pub const X_LOG: Parameter =
-    boolean("x_log").doc("whether the horizontal axis is logarithmic").optional();
+    boolean("x_log").doc("true for a logarithmic horizontal axis").optional();
 /// Option for a logarithmic vertical axis.
 pub const Y_LOG: Parameter =
-    boolean("y_log").doc("whether the vertical axis is logarithmic").optional();
+    boolean("y_log").doc("true for a logarithmic vertical axis").optional();
 /// Option for the limits of the horizontal axis.
 pub const X_LIMITS: Parameter =
-    numbers("x_limits").doc("[low, high]: the ends of the horizontal axis").optional();
+    numbers("x_limits").doc("[low, high]: limits of the horizontal axis").optional();
 /// Option for the limits of the vertical axis.
 pub const Y_LIMITS: Parameter =
-    numbers("y_limits").doc("[low, high]: the ends of the vertical axis").optional();
+    numbers("y_limits").doc("[low, high]: limits of the vertical axis").optional();
 /// Option for markers.
 pub const MARKERS: Parameter = choice("markers", &["on_lines", "alone"])
-    .doc("a mark at every point, on the lines or without them; none unless given")
+    .doc("marks at every point, on the lines or without lines; default: no marks")
     .optional();
 /// Option for the names of the curves.
 pub const LABELS: Parameter =
-    array("labels").doc("the name of each curve, a text or a number, for the legend").optional();
+    array("labels").doc("names of the curves in the legend, texts or numbers").optional();
 
 /// Option for symbols.
 pub const SYMBOLS: Parameter = boolean("symbols")
     .doc(
-        "whether supports, joints, sliders, springs and loads are drawn; they are unless given, but for supports, joints and sliders where there are more than 60",
+        "true to show symbols of supports, joints, sliders, springs and loads; default: true, \
+        but supports, joints and sliders are omitted if there are more than 60",
     )
     .optional();
 
@@ -84,7 +85,7 @@ pub fn limits(options: &Options) -> Result<AxisLimits, OptionError> {
             Err(OptionError {
                 key: name.to_owned(),
                 told,
-                hint: "two numbers, the smaller one first",
+                hint: "give two numbers, the smaller one first",
             })
         }
     };
@@ -134,8 +135,8 @@ pub fn labels(options: &Options, count: usize) -> Result<Option<Vec<String>>, Op
     let wrong = |told: String, hint| OptionError { key: "labels".to_owned(), told, hint };
     if given.len() != count {
         let plural = if count == 1 { "" } else { "s" };
-        let told = format!("there are {count} curve{plural} and {} labels", given.len());
-        return Err(wrong(told, "give a label for each curve"));
+        let told = format!("there are {count} curve{plural}, but {} labels", given.len());
+        return Err(wrong(told, "give one label for each curve"));
     }
     let label = |value: &Dynamic| {
         let number = as_number(value).map(|number| significant(number, DIGITS));
@@ -151,14 +152,16 @@ pub fn curves(call: &Call, name: &str, at: usize) -> Result<Vec<Vec<f64>>, Scrip
     let given = call.array(name)?;
     let is_many = !given.is_empty() && given.iter().all(Dynamic::is_array);
     let read = |array: &Array| -> Result<Vec<f64>, ScriptError> {
-        let number = |(index, value): (usize, &Dynamic)| {
-            as_number(value).ok_or_else(|| {
-                let got = call.describe(value);
-                call.error(format!("'{name}' must hold numbers, got {got} at index {index}"))
-                    .hint("an array of numbers is a curve; an array of such arrays, several")
+        let number =
+            |(index, value): (usize, &Dynamic)| {
+                as_number(value).ok_or_else(|| {
+                    let got = call.describe(value);
+                    call.error(format!("'{name}' must hold numbers, got {got} at index {index}"))
+                    .hint("give an array of numbers for one curve, or an array of such arrays for \
+                        several")
                     .at(CallPart::Argument(at))
-            })
-        };
+                })
+            };
         array.iter().enumerate().map(number).collect()
     };
     match is_many {

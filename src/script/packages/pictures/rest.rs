@@ -25,26 +25,30 @@ use crate::simulation::Outline;
 /// Domain of pictures of equilibria and modes.
 pub const TABLE: BindingTable = BindingTable {
     name: "pictures of equilibria and modes",
-    doc: "Like pictures of simulations: SVG or PNG by the ending of the file name, tables as CSV, into the output folder.",
+    doc: "Pictures of equilibria and modes: SVG or PNG, depending on the ending of the file \
+        name, and tables as CSV, in the output folder.",
     types: &[],
     setup: BENT,
     constants: &[],
     rows: &[
         function("plot_equilibrium", &[REST, FILE, options("options", SHAPES).optional()], plot_equilibrium)
-            .summary("Draws configurations along the path of equilibria over each other.")
-            .doc("Symbols of supports, joints, springs and loads stand where the last one has them. Of a long path some are left out, the same number between each two that are drawn.")
+            .summary("Plots configurations along the path of equilibria over each other.")
+            .doc("Symbols of supports, joints, springs and loads show the last configuration. Of \
+                a long path only configurations at equal intervals are plotted.")
             .example("let rest = scene.equilibrium();\nplot_equilibrium(rest, \"bent.svg\", #{ trace: [rod.end] });")
             .see(&["equilibrium", "plot_load_path", "plot_motion"]),
         function("plot_load_path", &[REST, object("station", STATION), FILE], plot_load_path)
-            .summary("Draws the load factor over the displacements of a station, limit points and all.")
+            .summary("Plots the load factor over the displacements of a station, including limit \
+                points.")
             .example("let rest = scene.equilibrium();\nplot_load_path(rest, rod.end, \"path.svg\");")
             .see(&["arc_length", "limit_points", "write_load_path"]),
         function("write_load_path", &[REST, STATIONS, FILE], write_load_path)
-            .summary("Writes load factor, strain energy and the positions of stations along the path as CSV, every digit kept.")
+            .summary("Writes load factor, strain energy and the positions of stations along the path \
+                as CSV with all digits.")
             .example("let rest = scene.equilibrium();\nwrite_load_path(rest, [rod.end], \"path.csv\");")
             .see(&["plot_load_path", "positions"]),
         function("plot_modes", &[object("modes", MODES), FILE, options("options", MODE_SHAPES).optional()], plot_modes)
-            .summary("Draws the shapes of modes beside each other, each over the configuration at rest.")
+            .summary("Plots mode shapes side by side, each over the equilibrium configuration.")
             .example("plot_modes(scene.modes(4), \"modes.svg\", #{ columns: 2 });")
             .see(&["modes"]),
     ],
@@ -53,16 +57,16 @@ pub const TABLE: BindingTable = BindingTable {
 const REST: Parameter = object("equilibrium", EQUILIBRIUM);
 const STATIONS: Parameter = array("stations").doc("stations, such as [rod.end]");
 const SHAPES: &[Parameter] = &[
-    whole("shapes").positive().or(Presence::Whole(20)).doc("at most so many configurations"),
-    array("trace").doc("stations whose paths are drawn").optional(),
-    text("title").doc("the name of the scene unless given").optional(),
+    whole("shapes").positive().or(Presence::Whole(20)).doc("largest number of configurations"),
+    array("trace").doc("stations whose paths are plotted").optional(),
+    text("title").doc("title; default: the name of the scene").optional(),
 ];
 const MODE_SHAPES: &[Parameter] = &[
     number("amplitude")
         .positive()
         .or(Presence::Number(0.1))
-        .doc("the largest displacement, relative to the size of the scene"),
-    whole("columns").positive().or(Presence::Whole(2)).doc("of pictures"),
+        .doc("largest displacement, relative to the size of the scene"),
+    whole("columns").positive().or(Presence::Whole(2)).doc("number of columns of pictures"),
 ];
 
 fn plot_equilibrium(call: &mut Call) -> Result<Dynamic, ScriptError> {

@@ -15,8 +15,8 @@ use crate::script::packages::recording::expect_rows_between;
 use crate::script::packages::simulations::SIMULATION;
 
 /// Parameter for simulations.
-pub const MOVING: Parameter =
-    either("of", &[Kind::Object(SIMULATION), Kind::Array]).doc("a simulation, or an array of them");
+pub const MOVING: Parameter = either("of", &[Kind::Object(SIMULATION), Kind::Array])
+    .doc("a simulation, or an array of simulations");
 /// Parameter for simulations or histories.
 pub const RECORDED: Parameter =
     either("of", &[Kind::Object(SIMULATION), Kind::Object(HISTORY), Kind::Array])
@@ -32,14 +32,14 @@ fn things<T: Scripted>(
     let values = of.read_lock::<Array>().map_or_else(|| vec![of.clone()], |array| array.clone());
     if values.len() > MOST_SIDE_BY_SIDE {
         let told = format!(
-            "{} pictures side by side are too many: {MOST_SIDE_BY_SIDE} at most",
+            "{} pictures side by side are too many; the limit is {MOST_SIDE_BY_SIDE}",
             values.len()
         );
-        return Err(call.error(told).hint("draw some of them").at(CallPart::Argument(0)));
+        return Err(call.error(told).hint("plot fewer of them").at(CallPart::Argument(0)));
     }
     let things: Option<Vec<T>> = values.iter().map(convert).collect();
     things.filter(|things| !things.is_empty()).ok_or_else(|| {
-        call.error("the array must hold simulations, at least one")
+        call.error("the array must hold one or more simulations")
             .hint("for example [first, second]")
             .at(CallPart::Argument(0))
     })

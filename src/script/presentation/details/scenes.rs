@@ -144,8 +144,8 @@ pub fn of_track(scene: &Scene, index: usize) -> Details {
         }
     };
     let behind = match track.course {
-        TrackEnd::Open => "it ends",
-        TrackEnd::Closed => "it goes on along the first one",
+        TrackEnd::Open => "the track ends",
+        TrackEnd::Closed => "continues on the first beam",
     };
     vec![
         line("length", number(scene.track_length(index))),
@@ -161,15 +161,14 @@ pub fn of_slider(scene: &Scene, index: usize) -> Details {
     let ends = match slider.ends {
         EndAction::Stop => "the run stops".to_owned(),
         EndAction::Bounce if slider.restitution < 1.0 => {
-            format!("it bounces off, with {} of its speed", number(slider.restitution))
+            format!("bounces with {} of its speed", number(slider.restitution))
         }
-        EndAction::Bounce => "it bounces off".to_owned(),
-        EndAction::Contact => "it leans on them in elastic contact".to_owned(),
-        EndAction::Release => "it flies free".to_owned(),
+        EndAction::Bounce => "bounces".to_owned(),
+        EndAction::Release => "is released".to_owned(),
     };
     let velocities = match slider.velocities {
-        StartVelocities::Check => "must fit the beam",
-        StartVelocities::Project => "are made to fit the beam",
+        StartVelocities::Check => "must be compatible with the beam",
+        StartVelocities::Project => "are projected to the beam",
     };
     vec![
         line("slides", scene.describe(&slider.slave)),

@@ -22,7 +22,7 @@ impl Write for CountedFile<'_> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         match self.meter.allows_to_write(bytes.len() as u64) {
             true => self.file.write(bytes),
-            false => Err(io::Error::other("the run may write no more")),
+            false => Err(io::Error::other("the limit of written data of the run is reached")),
         }
     }
 
@@ -91,7 +91,7 @@ impl Context {
     fn tell_kept(&self, written: WrittenFile) -> PathBuf {
         if let Some(kept) = written.kept {
             self.tell(&format!(
-                "note: '{}' was there already, and not as withy has written it: it is kept as '{}'",
+                "note: '{}' existed already and was not written by withy: it is kept as '{}'",
                 written.path.display(),
                 kept.display()
             ));

@@ -13,7 +13,7 @@ use crate::script::engine::workers::{EngineConfig, WorkerEvent, WorkerPool, with
 use crate::script::messages::error::ScriptError;
 use crate::script::messages::numbers::as_number;
 
-const NO_FILES: &str = "a run of a study writes no files: give what is to be kept as its result";
+const NO_FILES: &str = "a run of a study cannot write files: return the data as its result";
 
 /// Result of the function at a point.
 pub enum FunctionResult {
@@ -101,7 +101,7 @@ impl FunctionQuery<'_> {
         else {
             return drive(&mut Evaluator::of(calling, self, Executor::ThisThread));
         };
-        let wall = format!("{} s, which is its patience", self.wall.as_secs_f64());
+        let wall = format!("{} s, the limit given by patience", self.wall.as_secs_f64());
         let work = |worker: &_, point: QueryPoint| {
             call(
                 worker,
@@ -112,7 +112,7 @@ impl FunctionQuery<'_> {
             )
         };
         let panicked = |told: String| CallWork {
-            result: FunctionResult::Failed(format!("withy has made a mistake: {told}")),
+            result: FunctionResult::Failed(format!("internal error of withy: {told}")),
             steps: 0,
         };
         with_crew(&blueprint, self.wall, work, panicked, |crew| {
@@ -249,14 +249,16 @@ fn slopes_of(given: &Dynamic, parameters: usize) -> FunctionResult {
     let values = array.iter().flat_map(|array| array.iter());
     let values: Vec<&Dynamic> = values.chain(map.iter().flat_map(|map| map.values())).collect();
     if array.is_none() && map.is_none() {
-        return FunctionResult::Wrong("it gives neither an array nor a map of numbers".into());
+        return FunctionResult::Wrong("it returns neither an array nor a map of numbers".into());
     }
     let mut slopes = Vec::with_capacity(values.len() * (1 + parameters));
     for value in values {
         match as_number(&VariantValue::project(value, 0)).filter(|number| number.is_finite()) {
             Some(number) => slopes.push(number),
             None => {
-                return FunctionResult::Wrong("it gives something that is no finite number".into());
+                return FunctionResult::Wrong(
+                    "it returns a value that is not a finite number".into(),
+                );
             }
         }
         let Some(varied) = value.read_lock::<VariantValue>() else {

@@ -23,7 +23,8 @@ pub struct RunFunction {
 /// Error of a function that changes a captured variable.
 pub fn changes(name: &str) -> String {
     format!(
-        "it changes the variable '{name}' from outside, which every run has for itself: give what is found in the map"
+        "it changes the variable '{name}' from outside, which is separate in every run: return \
+        the value in the map"
     )
 }
 
@@ -44,23 +45,25 @@ impl RunFunction {
                 "{key} is the function '{}', which is not one of this script",
                 function.fn_name()
             );
-            let hint = format!("write {key}: |p| …, and call it there");
+            let hint = format!("write {key}: |p| …, and call the function in it");
             return Err(call.error(told).hint(hint).at(CallPart::Key(key.to_owned())));
         };
         let parameters_of = |function: &FnPtr| call.definition(function).map(|of| of.params.len());
         let named = definition.params.iter().zip(function.curry());
-        let captured = named.map(|(name, value)| {
-            match Portable::of(call.engine(), value, &parameters_of) {
+        let captured =
+            named.map(|(name, value)| match Portable::of(call.engine(), value, &parameters_of) {
                 Ok(value) => Ok((name.to_string(), value)),
                 Err(immovable) => {
                     let kind = with_article(&immovable.kind);
                     let failure = Failure {
                         message: format!(
-                            "the function of '{key}' uses the variable '{name}', which holds {kind}: it cannot go to the engines that make the runs"
+                            "the function of '{key}' uses the variable '{name}', which holds \
+                            {kind} and cannot be copied to other threads"
                         ),
                         hint: Some(
-                            "make it within the function, from the values of the row; numbers, texts, arrays, maps, vectors, functions, sections, meshes, \
-                             curves, integrators and schedules can be used from outside"
+                            "create it inside the function, from the values of the row; \
+                            numbers, texts, arrays, maps, vectors, functions, sections, \
+                            meshes, curves, integrators and schedules from outside are allowed"
                                 .into(),
                         ),
                         place: CallPart::Call,
@@ -68,13 +71,13 @@ impl RunFunction {
                     let at = first_use(&call.body(function), name).unwrap_or(Position::NONE);
                     Err(ScriptError::Engine(ScriptError::Failure(failure).into_engine(at)))
                 }
-            }
-        });
+            });
         let captured = captured.collect::<Result<_, _>>()?;
         if let Some(at) = first_print(&call.body(function)) {
             let (line, column) = (at.line().unwrap_or(0), at.position().unwrap_or(0));
             call.context().tell(&format!(
-                "note: line {line}, column {column}: the runs of a study print nothing: give what is to be seen as a result"
+                "note: line {line}, column {column}: runs of a study do not print: return the \
+                value as a result"
             ));
         }
         Ok(Self { name: function.fn_name().to_owned(), captured, besides: Vec::new() })
@@ -88,11 +91,9 @@ impl RunFunction {
         let parameters_of = |function: &FnPtr| call.definition(function).map(|of| of.params.len());
         let portable = Portable::of(call.engine(), value, &parameters_of).map_err(|immovable| {
             let kind = with_article(&immovable.kind);
-            call.error(format!(
-                "{key} holds {kind}, which cannot go to the engines that make the runs"
-            ))
-            .hint("give numbers, texts, arrays and maps of them")
-            .at(CallPart::Key(key.to_owned()))
+            call.error(format!("{key} holds {kind}, which cannot be copied to other threads"))
+                .hint("give numbers, texts, arrays and maps of them")
+                .at(CallPart::Key(key.to_owned()))
         })?;
         self.besides.push(portable);
         Ok(())
@@ -136,7 +137,7 @@ impl RunFunction {
             None => Ok(found),
             Some(name) => Err(call
                 .error(format!("{key}: {}", changes(name)))
-                .hint("each run begins with the values from outside")
+                .hint("each run starts with the original values from outside")
                 .at(CallPart::Key(key.to_owned()))),
         }
     }
@@ -152,8 +153,10 @@ impl RunFunction {
     ) -> Result<(), ScriptError> {
         let Some(unread) = Self::unread(call, function, names) else { return Ok(()) };
         let told = format!("the function of '{key}' does not use the parameter '{unread}'");
-        let hint =
-            format!("use p.{unread} there, or leave it out: all of its values would give the same");
+        let hint = format!(
+            "use p.{unread} in it, or omit the parameter: all of its values would give the \
+                same result"
+        );
         Err(call.error(told).hint(hint).at(CallPart::Key(unread.to_owned())))
     }
 

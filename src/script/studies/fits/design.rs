@@ -75,7 +75,8 @@ pub struct BestDesign {
     pub derivatives: String,
 }
 
-const TRUTH: &str = "let run give a number that is not negative where it holds, such as #{ room: limit - sag }, and write constraints: #{ room: [0, ()] }";
+const TRUTH: &str = "return a number that must not be negative, such as #{ room: limit - sag }, and write \
+    constraints: #{ room: [0, ()] }";
 
 impl Objective {
     fn name(&self) -> &str {
@@ -88,7 +89,8 @@ impl Objective {
 impl Limit {
     /// Reads the option `constraints`.
     pub fn read_all(call: &Call, given: &Dynamic) -> Result<Vec<Self>, ScriptError> {
-        let shape = "write constraints: #{ sag: [-1e-3, 1e-3], mass: [(), 5] }: the least and the largest that is allowed, () for none";
+        let shape = "write constraints: #{ sag: [-1e-3, 1e-3], mass: [(), 5] }: lower and upper limit, \
+            () for none";
         let Some(map) = given.read_lock::<Map>() else {
             let told = format!("constraints are {}", call.describe(given));
             return Err(at_key(call, "constraints", told, shape));
@@ -107,20 +109,22 @@ impl Limit {
                 true => Ok(None),
                 false => match as_number(value).filter(|x| x.is_finite()) {
                     Some(end) => Ok(Some(end)),
-                    None => Err(wrong(format!("has {}, which is no number", call.describe(value)))),
+                    None => {
+                        Err(wrong(format!("has {}, which is not a number", call.describe(value))))
+                    }
                 },
             };
             let [low, high] = array.as_slice() else {
                 let count = array.len();
                 let plural = if count == 1 { "" } else { "s" };
-                return Err(wrong(format!("has {count} number{plural} in the place of two")));
+                return Err(wrong(format!("has {count} number{plural} instead of two")));
             };
             let (low, high) = (end(low)?, end(high)?);
             match (low, high) {
-                (None, None) => Err(wrong("has neither a least nor a largest number".into())),
+                (None, None) => Err(wrong("has neither a lower nor an upper limit".into())),
                 (Some(low), Some(high)) if low > high => {
                     let [low, high] = [low, high].map(format_number);
-                    Err(wrong(format!("has the least number {low} above the largest, {high}")))
+                    Err(wrong(format!("has a lower limit {low} above the upper limit {high}")))
                 }
                 _ => Ok(Self { name: name.to_string(), low, high }),
             }
@@ -162,7 +166,7 @@ impl Limit {
 fn values(given: &Dynamic) -> FunctionResult {
     let Some(map) = given.read_lock::<Map>() else {
         return FunctionResult::Wrong(
-            "it gives no map of numbers, such as #{ mass: mass, sag: sag }".into(),
+            "it does not return a map of numbers, such as #{ mass: mass, sag: sag }".into(),
         );
     };
     let mut numbers = Vec::with_capacity(map.len());
@@ -172,15 +176,20 @@ fn values(given: &Dynamic) -> FunctionResult {
             Some(_) => return FunctionResult::Failed(format!("'{name}' is not a finite number")),
             None if value.is_bool() => {
                 return FunctionResult::Wrong(format!(
-                    "it gives '{name}', which is a truth value: a search needs numbers, such as how far something is from its limit"
+                    "it returns '{name}', which is a truth value: a search needs numbers, such \
+                    as the distance from a limit"
                 ));
             }
             None if value.is::<Map>() => {
                 return FunctionResult::Wrong(format!(
-                    "it gives '{name}', which is a map: of the map p that it is called with p.x is one number"
+                    "it returns '{name}', which is a map: p.x is one number of the argument p"
                 ));
             }
-            None => return FunctionResult::Wrong(format!("it gives '{name}', which is no number")),
+            None => {
+                return FunctionResult::Wrong(format!(
+                    "it returns '{name}', which is not a number"
+                ));
+            }
         }
     }
     FunctionResult::Numbers(numbers)
@@ -212,9 +221,9 @@ impl DesignRequest<'_> {
         let results = names(&call.context().silently(|| question.here(call, &start))?);
         let place = |name: &str| {
             results.iter().position(|known| known == name).ok_or_else(|| {
-                let told = format!("the function of 'run' gives no '{name}'");
+                let told = format!("the function of 'run' returns no '{name}'");
                 call.error(told)
-                    .hint(format!("it gives {}", results.join(", ")))
+                    .hint(format!("it returns {}", results.join(", ")))
                     .at(CallPart::Key("run".into()))
             })
         };
@@ -261,14 +270,17 @@ impl DesignRequest<'_> {
         })?;
         let Some((found, again)) = found else {
             let reason = failure.into_inner().map_or_else(String::new, |of| format!(": {of}"));
-            let told = format!("it fails, and at all other designs that were tried{reason}");
+            let told = format!("it fails, as at all other designs tried{reason}");
             return Err(question.blame(call, &start, &told));
         };
         if !found.is_feasible {
             let wanted: Vec<String> = self.limits.iter().map(Limit::describe).collect();
-            let told =
-                format!("none of {} runs meets the constraints {}", found.runs, wanted.join(", "));
-            let hint = "begin where they are met, or allow more";
+            let told = format!(
+                "none of {} runs satisfies the constraints {}",
+                found.runs,
+                wanted.join(", ")
+            );
+            let hint = "start at parameters that satisfy them, or widen the limits";
             return Err(at_key(call, "constraints", told, hint));
         }
         let numbers = again.into_iter().next().and_then(Result::ok).unwrap_or_default();

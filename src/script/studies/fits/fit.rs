@@ -172,11 +172,12 @@ impl FitRequest<'_> {
         let at: Vec<String> =
             pairs.map(|(name, x)| format!("{name} = {}", format_number(*x))).collect();
         let told = format!(
-            "{}: with {} it gives {count} numbers, and at the start it gave {before}",
+            "{}: with {} it returns {count} numbers, but at the start it returned {before}",
             self.key,
             at.join(", ")
         );
-        let hint = "it must give as many whatever the parameters: one for each that was measured";
+        let hint = "it must return the same number of values for all parameters: one for each measured \
+            value";
         Err(at_key(call, self.key, told, hint))
     }
 
@@ -226,10 +227,9 @@ impl FitRequest<'_> {
             Compared::Residuals => self.weights.as_ref().map(Vec::len),
         };
         match (expected, &self.compared) {
-            (Some(count), _) if count != found.len() => Err(format!(
-                "it gives {} numbers, and there are {count} to compare them with",
-                found.len()
-            )),
+            (Some(count), _) if count != found.len() => {
+                Err(format!("it returns {} numbers, but {count} are measured", found.len()))
+            }
             (_, Compared::Model { measured, .. }) => {
                 Ok(found.iter().zip(measured).map(|(found, measured)| found - measured).collect())
             }
@@ -247,24 +247,22 @@ fn weighted(roots: Option<&[f64]>, residuals: Vec<f64>) -> Vec<f64> {
 
 fn numbers(given: &Dynamic) -> FunctionResult {
     let Some(array) = given.read_lock::<Array>() else {
-        return FunctionResult::Wrong("it gives no array of numbers".into());
+        return FunctionResult::Wrong("it does not return an array of numbers".into());
     };
     let mut numbers = Vec::with_capacity(array.len());
     for (at, value) in array.iter().enumerate() {
         match VariantValue::number(value) {
             Some(number) if number.is_finite() => numbers.push(number),
             Some(_) => {
-                return FunctionResult::Failed(format!(
-                    "number {at} of what it gives is not finite"
-                ));
+                return FunctionResult::Failed(format!("number {at} of its result is not finite"));
             }
             None => {
-                return FunctionResult::Wrong(format!("what it gives at index {at} is no number"));
+                return FunctionResult::Wrong(format!("its result at index {at} is not a number"));
             }
         }
     }
     match numbers.is_empty() {
-        true => FunctionResult::Wrong("it gives an empty array".into()),
+        true => FunctionResult::Wrong("it returns an empty array".into()),
         false => FunctionResult::Numbers(numbers),
     }
 }
@@ -280,7 +278,9 @@ impl Fit {
     pub fn outcome(&self) -> &'static str {
         match self.fitted.settling {
             TerminationReason::Settled => "settled",
-            TerminationReason::Stuck => "no step is better, though the derivatives promise it",
+            TerminationReason::Stuck => {
+                "no step improves the fit, although the derivatives predict it"
+            }
             TerminationReason::Unfinished => "not settled after the most steps",
         }
     }

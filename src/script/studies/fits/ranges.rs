@@ -17,7 +17,8 @@ pub struct Ranges {
     pub ranges: Vec<SearchRange>,
 }
 
-const SHAPE: &str = "write EI: [10, 1, 100], which is where it begins, the least and the largest value, or EI: 10 where it has no bounds";
+const SHAPE: &str = "write EI: [10, 1, 100] with the initial, lowest and highest value, or EI: 10 without \
+    bounds";
 
 impl Ranges {
     /// Reads the option `parameters`.
@@ -58,7 +59,9 @@ fn range(call: &Call, name: &str, value: &Dynamic) -> Result<SearchRange, Script
         }
         Some(&[start, low, high]) => {
             let [start, low, high] = [start, low, high].map(format_number);
-            Err(wrong(format!("'{name}' begins at {start}, and its bounds are {low} and {high}")))
+            Err(wrong(format!(
+                "'{name}' starts at {start}, outside of its bounds {low} and {high}"
+            )))
         }
         Some(other) => Err(wrong(format!("'{name}' has {} numbers", other.len()))),
         None => Err(wrong(format!("'{name}' is {}", call.describe(value)))),

@@ -22,10 +22,10 @@ pub fn find_root(call: &mut Call) -> Result<Dynamic, ScriptError> {
         let given = call.invoke(&function, [Dynamic::from(x)])?;
         VariantValue::number(&given).ok_or_else(|| {
             let told =
-                format!("the function gives {} at {}", call.describe(&given), format_number(x));
+                format!("the function returns {} at {}", call.describe(&given), format_number(x));
             let hint = match given.is_bool() {
-                true => "give the number that changes its sign there: x - 2 in the place of x > 2",
-                false => "its last expression is a number",
+                true => "return a number that changes its sign: x - 2 in place of x > 2",
+                false => "its last expression must be a number",
             };
             call.error(told).hint(hint).at(CallPart::Argument(0))
         })
@@ -42,13 +42,13 @@ pub fn find_root(call: &mut Call) -> Result<Dynamic, ScriptError> {
         Err(RootError::SameSign(low, high)) => {
             let [from, to, low, high] = [from, to, low, high].map(format_number);
             let told = format!("the function is {low} at {from} and {high} at {to}");
-            Err(wrong(told, "give two places at which its signs differ"))
+            Err(wrong(told, "give two arguments at which the signs differ"))
         }
         Err(RootError::NotFinite(x, value)) => {
             let [x, value] = [x, value].map(format_number);
             Err(wrong(
                 format!("the function is {value} at {x}"),
-                "it must be finite between the two places",
+                "it must be finite between the two arguments",
             ))
         }
     }

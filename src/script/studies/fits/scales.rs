@@ -43,7 +43,7 @@ impl<'s> ResultScales<'s> {
     /// If the derivatives are not usable, with the reason.
     pub(super) fn with_slopes(&self, rows: Vec<(f64, Vec<f64>)>, results: usize) -> SlopesOfRating {
         if rows.len() != results {
-            return Err("it gives other results".into());
+            return Err("it returns different results".into());
         }
         let (numbers, slopes): (Vec<f64>, Vec<Vec<f64>>) = rows.into_iter().unzip();
         let wanted = || self.limits.iter().map(|(at, _)| *at).chain([self.at]);

@@ -86,8 +86,7 @@ impl SweepPlan {
             None => {
                 let spread = given.iter().find(|of| matches!(of.spread, Spread::Distribution(_)));
                 if let Some(ParameterInput { name, .. }) = spread {
-                    let told =
-                        format!("'{name}' is a distribution, and no points are drawn from it");
+                    let told = format!("'{name}' is a distribution, but samples are not given");
                     return Err(wrong(
                         told,
                         "add samples: latin_hypercube(1000), or give an array of values",
@@ -98,18 +97,19 @@ impl SweepPlan {
             }
         };
         if rows > MOST_ROWS {
-            let told = format!("the sweep has {rows} rows, and {MOST_ROWS} are the most");
-            return Err(wrong(told, "take fewer values, or points: samples: sobol(100000)"));
+            let told = format!("the sweep has {rows} rows; the limit is {MOST_ROWS}");
+            return Err(wrong(told, "use fewer values, or sampled points: samples: sobol(100000)"));
         }
         if let Some(Samples { kind, .. }) = samples {
             let dimensions =
                 if kind == SampleKind::Saltelli { 2 * given.len() } else { given.len() };
             if kind != SampleKind::LatinHypercube && dimensions > MOST_DIMENSIONS {
                 let told = format!(
-                    "a Sobol' sequence for {} parameters has {dimensions} coordinates, and {MOST_DIMENSIONS} are the most",
+                    "a Sobol' sequence for {} parameters has {dimensions} coordinates; the \
+                    limit is {MOST_DIMENSIONS}",
                     given.len()
                 );
-                return Err(at_key(call, "samples", told, "take latin_hypercube(…)"));
+                return Err(at_key(call, "samples", told, "use latin_hypercube(…)"));
             }
         }
         let columns = samples.map(|Samples { kind, count, seed }| match kind {
@@ -192,7 +192,7 @@ fn given(call: &Call, name: &str, value: &Dynamic) -> Result<ParameterInput, Scr
     let portable = |value: &Dynamic| {
         Portable::of(call.engine(), value, &parameters_of).map_err(|_| {
             wrong(format!(
-                "'{name}' has the value {}, which cannot go to other threads",
+                "'{name}' has the value {}, which cannot be copied to other threads",
                 call.describe(value)
             ))
         })

@@ -63,11 +63,11 @@ impl SweepRequest<'_> {
             })?;
             if is_same != Some(true) {
                 let told = format!(
-                    "'{file}' is not a part of this study: it is of another script, of other parameters, or of another build of withy"
+                    "'{file}' is not a part of this study: it is of another script, of other \
+                    parameters, or of another build of withy"
                 );
-                return Err(
-                    ScriptError::new(told).hint("make it anew with this script and this withy")
-                );
+                return Err(ScriptError::new(told)
+                    .hint("run the part again with this script and this withy"));
             }
             let is_missing = |row: &usize| part.has(*row) && !ledger.knows(*row);
             let missing = (0..ledger.rows).filter(is_missing).count();
@@ -77,7 +77,7 @@ impl SweepRequest<'_> {
                     "part {number} of {of} of the study '{name}' is not finished: {missing} rows are missing in '{file}'"
                 );
                 return Err(
-                    ScriptError::new(told).hint("the same command with --part goes on with it")
+                    ScriptError::new(told).hint("continue with the same command with --part")
                 );
             }
         }

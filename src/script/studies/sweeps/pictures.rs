@@ -110,7 +110,8 @@ impl Picture<'_> {
             false => {
                 let points: Vec<(f64, f64)> = found.iter().map(|(_, x, y)| (*x, *y)).collect();
                 let shown = thinned(&points, MOST_POINTS);
-                let told = format!("{} of {} points, drawn by lot", shown.len(), points.len());
+                let told =
+                    format!("{} of {} points, selected at random", shown.len(), points.len());
                 let series =
                     Series::new("", shown).stroke(Stroke::Unjoined).marker(Marker::Ring).thin();
                 let chart = empty.series(series);
@@ -221,7 +222,12 @@ impl Picture<'_> {
         let shown = thinned(&whole, MOST_POINTS_AMONG);
         let title = match whole.len() > shown.len() {
             true => {
-                format!("{}: {} of {} runs, drawn by lot", self.title, shown.len(), whole.len())
+                format!(
+                    "{}: {} of {} runs, selected at random",
+                    self.title,
+                    shown.len(),
+                    whole.len()
+                )
             }
             false => self.title.clone(),
         };

@@ -32,10 +32,12 @@ impl RowOutcome {
 /// Converts the returned map to numbers.
 pub fn found(given: &Dynamic) -> RowOutcome {
     let Some(map) = given.read_lock::<Map>() else {
-        return RowOutcome::Wrong("it gives no map of numbers, such as #{ peak: peak }".into());
+        return RowOutcome::Wrong(
+            "it does not return a map of numbers, such as #{ peak: peak }".into(),
+        );
     };
     if map.is_empty() {
-        return RowOutcome::Wrong("it gives an empty map".into());
+        return RowOutcome::Wrong("it returns an empty map".into());
     }
     let mut numbers = Vec::with_capacity(map.len());
     for (name, value) in map.iter() {
@@ -48,7 +50,7 @@ pub fn found(given: &Dynamic) -> RowOutcome {
             Some(_) => return RowOutcome::Failed(format!("'{name}' is infinite")),
             None => {
                 return RowOutcome::Wrong(format!(
-                    "it gives '{name}', which is neither a number nor true or false"
+                    "it returns '{name}', which is neither a number nor true or false"
                 ));
             }
         }

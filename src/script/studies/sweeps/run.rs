@@ -19,7 +19,7 @@ use crate::script::studies::calls::calling::{CallWork, call, thrown};
 use crate::script::studies::calls::function::RunFunction;
 use crate::script::studies::plan::at_key;
 
-const NO_FILES: &str = "a run of a sweep writes no files: give what is to be kept in its map";
+const NO_FILES: &str = "a run of a sweep cannot write files: return the data in its map";
 
 /// Rows queued ahead per worker, enough to keep it busy while results are collected.
 const AHEAD: usize = 4096;
@@ -79,11 +79,11 @@ impl SweepRequest<'_> {
             && part.is_none()
             && let Some((row, reason)) = results.failures().next()
         {
-            let told = format!("no run came to its end; the first one failed: {reason}");
+            let told = format!("no run finished; the first one failed: {reason}");
             return Err(context
                 .tracelessly(NO_FILES, || self.invoked(call, row))
                 .err()
-                .unwrap_or_else(|| at_key(call, "run", told, "see what the function throws")));
+                .unwrap_or_else(|| at_key(call, "run", told, "check the errors of the function")));
         }
         let sweep = Sweep { name: self.name, design: self.plan.design.clone(), results };
         Ok(FinishedSweep { sweep, plan: self.plan })
@@ -97,14 +97,14 @@ impl SweepRequest<'_> {
         (ledger, keeper): (&mut SweepProgress, &mut Option<RowKeeper>),
     ) -> Result<(), SweepError> {
         let plan = &self.plan;
-        let wall = format!("{} s, which is the patience of the sweep", self.wall.as_secs_f64());
+        let wall = format!("{} s, the limit given by patience", self.wall.as_secs_f64());
         let work = |worker: &_, row| {
             let values =
                 |function_of: &dyn Fn(&str, usize) -> Option<FnPtr>| plan.values(row, function_of);
             call(worker, function, values, &wall, RowOutcome::of)
         };
         let panicked = |told: String| CallWork {
-            result: RowOutcome::Failed(format!("withy has made a mistake: {told}")),
+            result: RowOutcome::Failed(format!("internal error of withy: {told}")),
             steps: 0,
         };
         let driven = with_crew(blueprint, self.wall, work, panicked, |crew| {
@@ -162,14 +162,15 @@ impl SweepRequest<'_> {
                 let values = self.row_in_words(row);
                 let other = ledger.model.map_or(String::new(), |model| {
                     let names = listed(&ledger.results.names);
-                    format!("; the run with {} gave {names}", self.row_in_words(model))
+                    format!("; the run with {} returned {names}", self.row_in_words(model))
                 });
                 let told = format!("run: with {values}, {told}{other}");
                 at_key(
                     call,
                     "run",
                     told,
-                    "its last expression is a map of numbers, with the same names in all runs: #{ peak: peak }",
+                    "its last expression must be a map of numbers, with the same names in all \
+                    runs: #{ peak: peak }",
                 )
             }
         }
@@ -246,7 +247,7 @@ fn beat(keeper: &mut Option<RowKeeper>) -> Result<(), ScriptError> {
 fn tell_known(context: &Context, name: &str, known: usize, all: usize) {
     if known > 0 {
         context.tell(&format!(
-            "study '{name}' goes on: {known} of {all} rows are known from an earlier run"
+            "study '{name}' continues: {known} of {all} rows are known from an earlier run"
         ));
     }
 }

@@ -106,7 +106,7 @@ impl SweepProgress {
                     self.results.begin(names.to_vec(), self.rows);
                     entries.push(RowEntry::Names(names.to_vec()));
                 } else if *names != *self.results.names {
-                    let told = format!("it gives {} here", listed(&names));
+                    let told = format!("it returns {} here", listed(&names));
                     return Err(SweepError::Row(at, told));
                 }
                 self.know(at);

@@ -192,11 +192,8 @@ impl FinishedSweep {
     pub fn summary(&self) -> String {
         let Sweep { name, design, results } = &self.sweep;
         let failed = results.failures().len();
-        let mut text = format!(
-            "sweep '{name}': {} of {} runs came to their end",
-            design.rows - failed,
-            design.rows
-        );
+        let mut text =
+            format!("sweep '{name}': {} of {} runs finished", design.rows - failed, design.rows);
         let mut table = TextTable::new(&["result", "least", "at", "mean", "largest", "at"]);
         for name in &results.names {
             let Some(column) = results.column(name) else { continue };
@@ -223,7 +220,7 @@ impl FinishedSweep {
             text.push_str(&format!("\nfailed with {}: {reason}", self.place(row)));
         }
         if failed > 3 {
-            text.push_str(&format!("\n… and {} more, told in {name}.csv", failed - 3));
+            text.push_str(&format!("\n… and {} more, listed in {name}.csv", failed - 3));
         }
         text
     }
