@@ -48,7 +48,6 @@ impl<const N: usize> AxisPoints<N> {
         axis
     }
 
-    /// Point of a lane.
     pub(super) fn point(&self, lane: usize) -> AxisPoint<N> {
         AxisPoint {
             shape: self.shape.map(|value| value.lane(lane)),
@@ -72,7 +71,6 @@ impl<const N: usize> AxisPoints<N> {
 pub(super) struct Windows<'a, const N: usize>([&'a [Movement; N]; LANES]);
 
 impl<const N: usize> Windows<'_, N> {
-    /// A component of the movements of the control points of a function.
     #[inline(always)]
     pub(super) fn component(&self, function: usize, component: usize) -> Lanes {
         let mut lanes = Lanes::default();
@@ -97,7 +95,6 @@ impl<'a> BeamAxis<'a> {
         Self { basis, control_points, standstill: STANDSTILL * length / (end - start) }
     }
 
-    /// Points of a rule on a span, with their unit tangents.
     pub(super) fn points<const N: usize>(
         &self,
         span: Span,

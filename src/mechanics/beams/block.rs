@@ -17,7 +17,6 @@ impl<S: Simd, const N: usize> SpanTangent<S, N> {
         Self { simd, rows: [[[[0.0; 3]; N]; 3]; N] }
     }
 
-    /// Adds a multiple of a row to the row of one control point and one component.
     #[inline(always)]
     pub(super) fn add_multiple(
         &mut self,
@@ -37,7 +36,6 @@ impl<S: Simd, const N: usize> SpanTangent<S, N> {
         }
     }
 
-    /// Entries of the tangent, row by row.
     #[inline(always)]
     pub(super) fn entries(&self) -> &[f64] {
         self.rows.as_flattened().as_flattened().as_flattened()

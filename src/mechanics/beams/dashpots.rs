@@ -79,7 +79,6 @@ impl Functions {
     }
 }
 
-/// Dashpots of one span.
 #[derive(Debug, Clone)]
 struct SpanDashpots {
     first: usize,
@@ -317,7 +316,6 @@ pub(super) fn strain_missing(force: f64, resistance: f64) -> f64 {
     if resistance > 0.0 { (force / resistance).abs() } else { 0.0 }
 }
 
-/// Larger of two strain mismatches.
 pub(super) fn larger_missing(missing: Vec2, resistance: Vec2) -> f64 {
     larger(strain_missing(missing.x, resistance.x), strain_missing(missing.y, resistance.y))
 }

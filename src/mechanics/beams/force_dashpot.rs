@@ -28,14 +28,11 @@ pub(super) struct ForceDashpot {
     start_rate: Vec2,
     /// `N` of the iterate.
     force: Vec2,
-    /// Force of the last step.
     last_force: Vec2,
-    /// Target force minus force.
     mismatch: Vec2,
     linearised_at: DashpotKinematics,
 }
 
-/// Kinematics of movements.
 #[derive(Debug, Clone, Copy)]
 struct DashpotKinematics {
     end_rotation: Rotation,

@@ -41,7 +41,6 @@ impl ForceMaxima<Lanes> {
         self.moment.put(part, self.moment.get(part).larger(moment));
     }
 
-    /// Adds the maxima of all lanes to a summary.
     #[inline(always)]
     pub(super) fn join_to(&self, summary: &mut ForceSummary) {
         let (mismatch, force) = (self.strain_mismatch.numbers(), self.force.numbers());

@@ -1,13 +1,13 @@
-//! A quadrature point for `Γ` between two steps: what is kept of it, and how it resists small movements.
+//! Quadrature point for `Γ` between two steps: stored state, and stiffness against small movements.
 //!
-//! What happens to it in a step is in [`force_points`](super::force_points).
+//! Its evaluation within a step is in [`force_points`](super::force_points).
 
 use super::axis_point::AxisPoint;
 use super::span_stiffness::{SpanStiffness, StrainKind};
 use super::{Rotation, Section};
 use crate::geometry::{Vec2, cross, larger, perpendicular};
 
-/// Strains that differ by less are the same but for rounding.
+/// Strain difference due to rounding.
 const SAME_STRAIN: f64 = 64.0 * f64::EPSILON;
 
 #[derive(Debug, Clone)]
@@ -19,12 +19,12 @@ pub(super) struct ForcePoint<const N: usize> {
     pub(super) rotation: Rotation,
     /// `Γ0`
     pub(super) strain: Vec2,
-    /// The section force `N` of the last step.
+    /// Section force `N` of the last step.
     pub(super) last_force: Vec2,
 }
 
 impl<const N: usize> ForcePoint<N> {
-    /// No point: it stands still, without strain, whatever moves.
+    /// Placeholder without strain for any movements.
     pub(super) const NOWHERE: Self = Self {
         axis: AxisPoint::NOWHERE,
         gradient: Vec2::new(1.0, 0.0),
@@ -33,7 +33,7 @@ impl<const N: usize> ForcePoint<N> {
         last_force: Vec2::new(0.0, 0.0),
     };
 
-    /// A quadrature point for axial and shear strain at a point of the undeformed axis, with its unit tangent there.
+    /// Creates a quadrature point for axial and shear strain at a point of the undeformed axis with its unit tangent.
     pub(super) fn new((axis, tangent): (AxisPoint<N>, Vec2)) -> Self {
         Self {
             axis,
@@ -44,7 +44,7 @@ impl<const N: usize> ForcePoint<N> {
         }
     }
 
-    /// Adds the rows of axial and shear strain at rest at this point, and those of the section force if there is one.
+    /// Adds the rows of axial and shear strain at rest, and those of a nonzero section force.
     pub(super) fn write_at_rest(&self, section: &Section, span: &mut SpanStiffness) {
         let w = self.axis.weight;
         let row = |by_gradient: Vec2, by_rotation: f64| -> [[f64; 3]; N] {
@@ -68,23 +68,23 @@ impl<const N: usize> ForcePoint<N> {
         }
     }
 
-    /// The section force of the present strain, and whether it is the one of the last solution.
+    /// Section force of the present strain, and true if it is that of the last solution.
     ///
-    /// The section force that was an unknown of the last solution is known to its own rounding, that of the strain to the stiffness times the
-    /// rounding of a number of size one.
+    /// A section force that was an unknown of the last solution has its own rounding; that of the strain has the stiffness times the rounding of a
+    /// number of size one.
     fn present_force(&self, section: &Section) -> (Vec2, bool) {
         let missing = self.strain - strain_from(section, self.last_force);
         let is_known = larger(missing.x.abs(), missing.y.abs()) <= SAME_STRAIN;
         (if is_known { self.last_force } else { force_of(section, self.strain) }, is_known)
     }
 
-    /// The section force `n` in space [force] and `w x' × n` [force·length] of this point at the start of the step.
+    /// Section force `n` in space [force] and `w x' × n` [force·length] at the start of the step.
     pub(super) fn transmitted(&self, section: &Section) -> (Vec2, f64) {
         let force = self.rotation.to_space(self.present_force(section).0);
         (force, self.axis.weight * cross(self.gradient, force))
     }
 
-    /// The strain energies of stretching and of shear at this point [energy].
+    /// Axial and shear strain energies [energy].
     pub(super) fn strain_energies(&self, section: &Section) -> [f64; 2] {
         let energies = self.strain.component_mul(&force_of(section, self.strain));
         [0.5 * self.axis.weight * energies.x, 0.5 * self.axis.weight * energies.y]
@@ -94,14 +94,14 @@ impl<const N: usize> ForcePoint<N> {
         0.5 * self.axis.weight * self.strain.dot(&force_of(section, self.strain))
     }
 
-    /// The normal [-] of the section at this point, in space, at the start of the step.
+    /// Normal [-] of the section in space at the start of the step.
     pub(super) fn normal(&self) -> Vec2 {
         Vec2::new(self.rotation.cos, self.rotation.sin)
     }
 
     pub(super) fn save(&self, state: &mut Vec<f64>) {
         state.extend([self.gradient.x, self.gradient.y, self.rotation.cos, self.rotation.sin]);
-        // At the start the strain is zero; that of the configuration there is only rounded to it.
+        // The initial strain is zero, whereas that of the configuration has rounding.
         state.extend([self.last_force.x, self.last_force.y, self.strain.x, self.strain.y]);
     }
 

@@ -107,7 +107,6 @@ impl<const N: usize> ForcePoints<N> {
         side_by_side
     }
 
-    /// Persistent state of the point of a lane.
     pub(super) fn point(&self, lane: usize) -> ForcePoint<N> {
         ForcePoint {
             axis: self.axis.point(lane),
@@ -118,7 +117,6 @@ impl<const N: usize> ForcePoints<N> {
         }
     }
 
-    /// Sets the state of the point of a lane.
     pub(super) fn set(&mut self, lane: usize, point: &ForcePoint<N>) {
         self.gradient.set_lane(lane, point.gradient);
         self.rotation.set_lane(lane, point.rotation);
@@ -205,7 +203,6 @@ impl<const N: usize> ForcePoints<N> {
         }
     }
 
-    /// Forces at the current section forces.
     #[inline(always)]
     pub(super) fn take_forces<V: Simd>(
         &mut self,
@@ -239,7 +236,6 @@ impl<const N: usize> ForcePoints<N> {
         );
     }
 
-    /// Condensed forces and their derivatives.
     #[inline(always)]
     pub(super) fn linearise<V: Simd>(
         &mut self,
@@ -283,7 +279,6 @@ impl<const N: usize> ForcePoints<N> {
         self.linearised_stress = at.stress;
     }
 
-    /// Adds the force derivatives of the point of a lane to the block of its span.
     #[inline(always)]
     pub(super) fn add_tangent<V: Simd>(
         &self,

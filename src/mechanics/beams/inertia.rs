@@ -31,7 +31,6 @@ impl<const N: usize, I: MassIntegral> InertiaMatrix<N, I> {
         Self { diagonals: std::array::from_fn(diagonal), shares, section, gram }
     }
 
-    /// Row sums by control point.
     pub(super) fn lumped(&self, of: impl Fn(I) -> f64) -> Vec<f64> {
         let mut sums = vec![0.0; self.gram.len()];
         for (a, row) in self.gram.iter().enumerate() {
@@ -178,7 +177,6 @@ fn multiply<S: Simd>(simd: S, factor: f64, [one, two]: [&[f64]; 2], out: &mut [f
     }
 }
 
-/// Adds the products of a factor with three vectors, entry by entry.
 #[inline(always)]
 fn add_products<S: Simd>(simd: S, factor: f64, [one, two, three]: [&[f64]; 3], out: &mut [f64]) {
     let (head, rest) = S::as_mut_simd_f64s(out);

@@ -167,7 +167,6 @@ impl Mesh {
         }
     }
 
-    /// Dimension of the derivatives of the functions of a run.
     fn derivatives(&self, run: &[Span]) -> usize {
         run[run.len() - 1].first - run[0].first + self.basis.degree()
     }
@@ -200,7 +199,6 @@ impl Mesh {
         spans.chunk_by(|a, b| self.is_smooth(a, b)).map(<[Span]>::to_vec).collect()
     }
 
-    /// Returns true if two neighbouring spans are joined at least C¹.
     pub(super) fn is_smooth(&self, a: &Span, b: &Span) -> bool {
         // C⁰ neighbours share a single function.
         b.first < a.first + self.basis.degree()
@@ -234,7 +232,6 @@ impl Mesh {
         if run.len() > 1 && is_fully_smooth { (degree - 1).max(2) } else { degree }
     }
 
-    /// Gauss rule that integrates the inertia of a straight span exactly.
     pub(super) fn inertia_rule(&self) -> Result<GaussRule, GeometryError> {
         GaussRule::new(self.points_of_inertia())
     }

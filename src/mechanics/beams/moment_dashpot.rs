@@ -9,7 +9,6 @@ use super::dashpots::{Functions, RateCollocation, strain_missing};
 use super::dynamics::{ForceSummary, Movement};
 use super::present_rates::{DashpotRates, RateMismatch};
 
-/// Dashpot for the rate of curvature.
 #[derive(Debug, Clone)]
 pub(super) struct MomentDashpot {
     functions: Functions,
@@ -22,14 +21,11 @@ pub(super) struct MomentDashpot {
     start_rate: f64,
     /// `M` of the iterate.
     moment: f64,
-    /// Moment of the last step.
     last_moment: f64,
-    /// Target moment minus moment.
     mismatch: f64,
     linearised_at: RotationKinematics,
 }
 
-/// Kinematics of movements.
 #[derive(Debug, Clone, Copy, Default)]
 struct RotationKinematics {
     /// `Δω'`

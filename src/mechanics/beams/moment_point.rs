@@ -1,12 +1,12 @@
-//! A quadrature point for `κ` between two steps: what is kept of it, and how it resists small movements.
+//! Quadrature point for `κ` between two steps: stored state, and stiffness against small movements.
 //!
-//! What happens to it in a step is in [`moment_points`](super::moment_points).
+//! Its evaluation within a step is in [`moment_points`](super::moment_points).
 
 use super::Section;
 use super::axis_point::AxisPoint;
 use super::span_stiffness::{SpanStiffness, StrainKind};
 
-/// Curvatures that turn a section less, over the length they stand for, are the same but for rounding [rad].
+/// Curvature difference due to rounding, as rotation over the integration length [rad].
 const SAME_TURN: f64 = 64.0 * f64::EPSILON;
 
 #[derive(Debug, Clone)]
@@ -14,28 +14,25 @@ pub(super) struct MomentPoint<const N: usize> {
     pub(super) axis: AxisPoint<N>,
     /// `κ0`
     pub(super) curvature: f64,
-    /// The moment `M` of the last step.
+    /// Moment `M` of the last step.
     pub(super) last_moment: f64,
 }
 
 impl<const N: usize> MomentPoint<N> {
-    /// No point: it is not bent, whatever moves.
+    /// Placeholder without curvature for any movements.
     pub(super) const NOWHERE: Self =
         Self { axis: AxisPoint::NOWHERE, curvature: 0.0, last_moment: 0.0 };
 
-    /// A quadrature point for the curvature at a point of the undeformed axis.
     pub(super) fn new(axis: AxisPoint<N>) -> Self {
         Self { axis, ..Self::NOWHERE }
     }
 
-    /// Adds the row of the curvature at rest at this point.
     pub(super) fn write_at_rest(&self, section: &Section, span: &mut SpanStiffness) {
         let row: [[f64; 3]; N] = std::array::from_fn(|a| [0.0, 0.0, self.axis.slope[a]]);
         span.add_strain(StrainKind::Bending, self.axis.weight * section.bending_stiffness, row);
     }
 
-    /// The moment `M` of this point at the start of the step [force·length]: the one that was an unknown of the last solution, where it is
-    /// that of the curvature but for rounding.
+    /// Moment `M` at the start of the step [force·length]: that of the last solution if it agrees with the curvature within rounding.
     pub(super) fn transmitted(&self, section: &Section) -> f64 {
         let missing = self.curvature - self.last_moment / section.bending_stiffness;
         let is_known = self.axis.weight * missing.abs() <= SAME_TURN;

@@ -33,7 +33,6 @@ pub(super) struct MomentPoints<const N: usize> {
     linearised_stress: f64,
 }
 
-/// Kinematics of increments.
 #[derive(Debug, Clone, Copy, Default)]
 struct CurvatureKinematics<T> {
     /// `Δω'`
@@ -96,7 +95,6 @@ impl<const N: usize> MomentPoints<N> {
         side_by_side
     }
 
-    /// Persistent state of the point of a lane.
     pub(super) fn point(&self, lane: usize) -> MomentPoint<N> {
         MomentPoint {
             axis: self.axis.point(lane),
@@ -105,7 +103,6 @@ impl<const N: usize> MomentPoints<N> {
         }
     }
 
-    /// Sets the state of the point of a lane.
     pub(super) fn set(&mut self, lane: usize, point: &MomentPoint<N>) {
         self.curvature.set_lane(lane, point.curvature);
         self.last_moment.set_lane(lane, point.last_moment);
@@ -176,7 +173,6 @@ impl<const N: usize> MomentPoints<N> {
         maxima.join_moment(part, length * mismatch.abs(), moment.abs());
     }
 
-    /// Condensed moments and their derivatives.
     #[inline(always)]
     pub(super) fn linearise<V: Simd>(
         &mut self,
@@ -211,7 +207,6 @@ impl<const N: usize> MomentPoints<N> {
         self.linearised_stress = at.stress;
     }
 
-    /// Adds the moment derivatives of the point of a lane to the block of its span.
     #[inline(always)]
     pub(super) fn add_tangent<V: Simd>(
         &self,

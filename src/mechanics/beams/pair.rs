@@ -27,7 +27,6 @@ impl Planar<f64> for Vec2 {
     }
 }
 
-/// Vector of the plane with generic components.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Pair<T> {
     pub(super) x: T,
@@ -86,7 +85,6 @@ impl<T: Number> Pair<T> {
         Self { x: self.x / other.x, y: self.y / other.y }
     }
 
-    /// Larger magnitude of both components.
     #[inline(always)]
     pub(super) fn larger_magnitude(self) -> T {
         self.x.abs().larger(self.y.abs())

@@ -9,7 +9,6 @@ use super::Movement;
 /// Rates for the evaluation of dashpot forces at the present time.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct DashpotRates<'a> {
-    /// Present rates of the control points of the span.
     pub(super) present: &'a [Movement],
     /// Extrapolation distance from the middle of the last step to its end, relative to the time between the middles of the last two steps [-].
     pub(super) late: f64,

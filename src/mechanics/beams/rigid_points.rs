@@ -29,7 +29,6 @@ impl RigidPoints {
         Self { positions, remainders, rotation: Some(Rotation::by(angle)) }
     }
 
-    /// Contains the rotation only.
     fn summary(&self, moved: &[Movement]) -> ForceSummary {
         let rotation = moved.iter().fold(0.0, |most, moved| larger(most, moved[2].abs()));
         ForceSummary { rotation, ..ForceSummary::default() }

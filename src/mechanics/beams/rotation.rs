@@ -109,7 +109,6 @@ impl<T: Number> Rotation<T> {
         self.times(&kind.turn(increment))
     }
 
-    /// Product of this rotation and a turn.
     #[inline(always)]
     pub(super) fn times(self, turn: &Turn<T>) -> Self {
         Self {

@@ -130,7 +130,6 @@ impl Section {
         Self::of_solid(solid).validated()
     }
 
-    /// Section of a validated solid.
     pub(super) fn of_solid(Solid { young, poisson, density, shape }: Solid) -> Self {
         let (area, inertia) = (shape.area(), shape.second_moment());
         Self {
@@ -154,7 +153,6 @@ impl Section {
         }
     }
 
-    /// Linear interpolation to another section.
     pub(super) fn mixed(&self, other: &Self, share: f64) -> Self {
         self.each(other, |a, b| a + share * (b - a))
     }

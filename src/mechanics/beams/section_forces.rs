@@ -90,7 +90,6 @@ pub struct SectionPlace {
 }
 
 impl SectionPlace {
-    /// Weighted sum over the quadrature points of the spans.
     pub(super) fn sum_up<const N: usize, S: Sections>(
         &self,
         section: &Section,
@@ -145,7 +144,6 @@ pub struct SectionPoints {
     most: usize,
 }
 
-/// Smoothly joined spans.
 #[derive(Debug, Clone)]
 struct SmoothRun {
     splines: LowerSplines,
@@ -270,7 +268,6 @@ impl SmoothRun {
     }
 }
 
-/// Points nearest to a parameter, half of them on either side if available.
 fn nearest(points: &[PointAt], most: usize, xi: f64) -> std::ops::Range<usize> {
     let count = most.min(points.len());
     let next = points.partition_point(|point| point.xi <= xi);
@@ -278,7 +275,6 @@ fn nearest(points: &[PointAt], most: usize, xi: f64) -> std::ops::Range<usize> {
     first..first + count
 }
 
-/// Lagrange polynomial of one of the points.
 fn lagrange(points: &[PointAt], of: &PointAt, xi: f64) -> f64 {
     let others = points.iter().filter(|other| other.xi != of.xi);
     others.map(|other| (xi - other.xi) / (of.xi - other.xi)).product()

@@ -35,7 +35,6 @@ impl<V: Simd> LaneChunk<V> {
         Self { simd, index }
     }
 
-    /// Broadcasts a number to all lanes.
     #[inline(always)]
     pub(super) fn splat(self, number: f64) -> Vector<V> {
         Vector { simd: self.simd, numbers: self.simd.splat_f64s(number) }
@@ -113,7 +112,6 @@ impl Number for f64 {
     }
 }
 
-/// Lanes of one vector instruction.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Vector<V: Simd> {
     simd: V,
@@ -199,7 +197,6 @@ mod tests {
     use proptest::prelude::*;
     use pulp::{Arch, WithSimd};
 
-    /// Operations of typical formulas on all lanes.
     struct Formula([Lanes; 2]);
 
     fn formula<T: Number>(a: T, b: T) -> T {

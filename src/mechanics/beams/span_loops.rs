@@ -28,7 +28,6 @@ pub(super) trait SpanLoop<const N: usize, S> {
     }
 }
 
-/// Loop with its range of spans.
 pub(super) struct LoopRange<'a, const N: usize, S, W> {
     pub(super) groups: &'a mut [SpanGroup<N, S>],
     pub(super) work: W,
@@ -54,14 +53,12 @@ pub(super) struct SpanInputs<'a> {
     pub(super) weight: f64,
 }
 
-/// Forces on consecutive control points.
 pub(super) struct ForcesFrom<'a> {
     pub(super) first: usize,
     pub(super) forces: &'a mut [Movement],
 }
 
 impl ForcesFrom<'_> {
-    /// Forces on the control points of the span with the given first control point.
     #[inline(always)]
     fn of<const N: usize>(&mut self, first: usize) -> &mut [Movement; N] {
         window_mut(self.forces, first - self.first)
@@ -226,7 +223,6 @@ impl<const N: usize, S: Sections> SpanLoop<N, S> for ForceCorrection<'_> {
     }
 }
 
-/// Accepts the movements of a step.
 #[derive(Clone, Copy)]
 pub(super) struct Advance<'a> {
     pub(super) moved: &'a [Movement],

@@ -28,12 +28,9 @@ fn count_spans<const N: usize, S>(groups: &[SpanGroup<N, S>]) -> usize {
     groups.iter().map(|group| group.spans.len()).sum()
 }
 
-/// Boundary between two parts.
 #[derive(Debug, Clone, PartialEq)]
 struct SpanCut {
-    /// First control point behind it.
     point: usize,
-    /// Groups of spans across it.
     astride: Range<usize>,
 }
 
@@ -68,12 +65,10 @@ impl SpanPartition {
         self.cuts.len() + 1
     }
 
-    /// First control point of each part except the first.
     pub(super) fn first_points(&self) -> Vec<usize> {
         self.cuts.iter().map(|cut| cut.point).collect()
     }
 
-    /// Returns true if the parts are large enough for light operations.
     fn are_large(&self, spans: usize) -> bool {
         !self.cuts.is_empty() && spans >= SMALLEST_LIGHT_PART * self.count()
     }
@@ -91,7 +86,6 @@ impl SpanPartition {
         at_once(groups.chunks_mut(most), work);
     }
 
-    /// Applies a light operation to the sums of the control points, with concurrent parts.
     pub(super) fn each_point(
         &self,
         sums: &mut [Movement],
@@ -154,7 +148,6 @@ impl SpanPartition {
         }
     }
 
-    /// The same for light operations.
     pub(super) fn sum_lightly<const N: usize, S: Sections>(
         &self,
         groups: &mut [SpanGroup<N, S>],
@@ -168,7 +161,6 @@ impl SpanPartition {
         self.sum(groups, sums, own, |(), groups, first, sums| work(groups, first, sums));
     }
 
-    /// Splits the data by parts, without the spans astride.
     fn split<'a, const N: usize, S, C>(
         &self,
         mut groups: &'a mut [SpanGroup<N, S>],

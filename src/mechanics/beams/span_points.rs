@@ -22,7 +22,6 @@ pub(super) const SPANS_AT_ONCE: usize = 16;
 /// Span with the range of its points in the group.
 #[derive(Debug, Clone)]
 pub(super) struct SpanPlace {
-    /// First control point of the span.
     pub(super) first: usize,
     pub(super) force_points: Range<usize>,
     pub(super) moment_points: Range<usize>,
@@ -30,7 +29,6 @@ pub(super) struct SpanPlace {
 
 /// Span with `N` nonzero basis functions and its individual points.
 pub(super) struct SpanOfPoints<const N: usize> {
-    /// First control point of the span.
     pub(super) first: usize,
     pub(super) force_points: Vec<(ForcePoint<N>, Section)>,
     pub(super) moment_points: Vec<(MomentPoint<N>, Section)>,
@@ -63,7 +61,6 @@ pub(super) fn window_mut<const N: usize>(
         .expect("a span has as many control points as its basis has functions")
 }
 
-/// Group of a span, and its index in the group.
 pub(super) fn group_of<const N: usize, S>(
     groups: &[SpanGroup<N, S>],
     span: usize,
@@ -105,7 +102,6 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
         }
     }
 
-    /// Control points of these spans.
     pub(super) fn control_points(&self) -> Range<usize> {
         self.spans[0].first..self.spans[self.spans.len() - 1].first + N
     }
@@ -115,7 +111,6 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
         self.moment_points.iter_mut().for_each(MomentPoints::begin_step);
     }
 
-    /// Updates the section forces after a correction of the movements of all control points.
     #[inline(always)]
     pub(super) fn correct_section_forces<V: Simd>(
         &mut self,
@@ -141,7 +136,6 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
         }
     }
 
-    /// Accepts the movements of all control points.
     #[inline(always)]
     pub(super) fn advance<V: Simd>(
         &mut self,
@@ -217,7 +211,6 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
         self.moment_points[index / LANES].point(index % LANES)
     }
 
-    /// Passes the stiffness of each span at rest to the callback.
     pub(super) fn each_at_rest(
         &self,
         section: &Section,
@@ -236,7 +229,6 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
         }
     }
 
-    /// Strain energy of each span.
     pub(super) fn strain_energies_of_spans(&self, section: &Section) -> impl Iterator<Item = f64> {
         self.spans.iter().map(move |span| {
             let points = self.force_points_of(section, span);
@@ -292,7 +284,6 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
     }
 }
 
-/// Points in lanes, with the first control points of their spans. Remaining lanes are empty.
 fn in_lanes<'a, P>(
     points: &'a [(usize, &'a (P, Section))],
     nowhere: &'a P,

@@ -210,7 +210,6 @@ mod tests {
         assert!(smooth.with_break(1.1).is_err());
     }
 
-    /// Parameter strictly inside a span, with the span.
     fn inside(basis: &Basis, t: f64) -> (Span, f64) {
         let spans = basis.spans();
         let place = t * spans.len() as f64;

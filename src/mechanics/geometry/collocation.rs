@@ -4,7 +4,6 @@ use std::ops::{AddAssign, Div, Mul, SubAssign};
 
 /// Row of a collocation system, such as `Σ_i N_i(ξ_r) P_i = x(ξ_r)`.
 pub(super) struct CollocationRow<R> {
-    /// First unknown with an entry in this row.
     pub(super) first: usize,
     pub(super) entries: Vec<f64>,
     pub(super) right_side: R,

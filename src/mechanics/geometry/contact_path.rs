@@ -41,7 +41,6 @@ enum PathQuantity {
 /// Number of rows.
 const QUANTITIES: usize = PathQuantity::Change as usize + 1;
 
-/// Basis and spans of the paths.
 #[derive(Debug)]
 struct PathSupport {
     basis: Basis,
@@ -61,11 +60,9 @@ struct PathInterval {
     arrival: usize,
 }
 
-/// Part of a path within one span.
 struct PathPiece {
     enter: f64,
     leave: f64,
-    /// Fraction of the path before the part.
     before: f64,
     /// Length of the part as a fraction of the path.
     share: f64,
@@ -203,7 +200,6 @@ impl ContactPath {
         self.line.spans[departure..=arrival].iter().map(part).sum()
     }
 
-    /// Locates the spans of a path.
     fn way(&self, from: f64, to: f64) -> PathInterval {
         let spans = &self.line.spans;
         let last = spans.len() - 1;
@@ -219,7 +215,6 @@ impl ContactPath {
         PathInterval { from, to, departure, arrival }
     }
 
-    /// Row of one quantity.
     #[inline]
     fn row(&self, quantity: PathQuantity) -> &[f64] {
         &self.numbers[quantity as usize * self.length..][..self.length]
@@ -290,7 +285,6 @@ impl PathInterval {
         (self.departure.min(self.arrival), self.departure.max(self.arrival))
     }
 
-    /// Part within a span of the path.
     fn piece(self, index: usize, span: &Span) -> PathPiece {
         if self.departure == self.arrival {
             // Separate, because the other case divides by the length of the path, which may be zero.

@@ -258,7 +258,6 @@ pub enum GeometryError {
     },
 }
 
-/// Formats the end of an open knot vector.
 fn open_end(end: &str, knot: f64, degree: usize) -> String {
     let repeated = vec![knot.to_string(); degree + 1].join(", ");
     if end == "first" { format!("[{repeated}, …]") } else { format!("[…, {repeated}]") }

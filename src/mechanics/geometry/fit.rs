@@ -59,7 +59,6 @@ mod tests {
         Basis::BSpline(KnotVector::uniform(spans, degree, continuity).unwrap())
     }
 
-    /// Largest distance between curve and interpolant.
     fn error(curve: &Curve, basis: &Basis) -> f64 {
         let points = interpolate(curve, basis).unwrap();
         (0..=200)

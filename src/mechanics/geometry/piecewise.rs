@@ -6,11 +6,9 @@ use nalgebra::{DMatrix, DVector};
 /// Function of the parameter ξ of a basis that is a polynomial of one degree on each of its spans.
 #[derive(Debug, Clone)]
 pub struct PiecewisePolynomial {
-    /// Centre and half width of each span.
     spans: Vec<(f64, f64)>,
     /// Coefficients of all spans in sequence: `Σ c_k t^k` with `t` from -1 to 1 on the span.
     coefficients: Vec<f64>,
-    /// Number of coefficients per span.
     count: usize,
     /// Points and weights on `[0, 1]`, exact for polynomials of one degree less.
     rule: Vec<(f64, f64)>,

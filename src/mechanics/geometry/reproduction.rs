@@ -64,7 +64,6 @@ impl LowerSplines {
         Ok(())
     }
 
-    /// First function of a span, relative to the first of the run.
     fn first(&self, span: &Span) -> usize {
         span.first - self.run[0].first
     }

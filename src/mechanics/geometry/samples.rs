@@ -3,7 +3,6 @@
 use super::{Basis, KnotVector, LagrangeBasis, MAX_DEGREE, SplineCurve, Vec2};
 use proptest::prelude::*;
 
-/// Knot vectors of any degree on any interval, with one to five spans and repeated knots.
 pub fn knot_vectors() -> impl Strategy<Value = KnotVector> {
     (1..=MAX_DEGREE)
         .prop_flat_map(|degree| {
@@ -22,7 +21,6 @@ pub fn knot_vectors() -> impl Strategy<Value = KnotVector> {
         })
 }
 
-/// B-spline or Lagrange bases.
 pub fn bases() -> impl Strategy<Value = Basis> {
     let lagrange = (1..=3usize, -2.0..2.0f64, prop::collection::vec(0.1..1.0f64, 1..5));
     prop_oneof![

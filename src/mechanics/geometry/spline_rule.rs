@@ -41,7 +41,6 @@ fn gauss_points(count: usize, span: &Span) -> Option<Vec<(f64, f64)>> {
     Some(GaussRule::new(count).ok()?.iter_on(span.start, span.end).collect())
 }
 
-/// Returns true for three or more equal spans of cubics with full continuity.
 fn is_equal_and_cubic(basis: &Basis, run: &[Span]) -> bool {
     let length = |span: &Span| span.end - span.start;
     let is_like_the_first =
@@ -52,7 +51,6 @@ fn is_equal_and_cubic(basis: &Basis, run: &[Span]) -> bool {
         && run.windows(2).all(|pair| pair[1].first == pair[0].first + 1)
 }
 
-/// Two Gauss points in the first and the last span, and the middles of the others.
 fn middles(run: &[Span]) -> Option<Vec<Vec<f64>>> {
     let last = run.len() - 1;
     let of = |(at, span): (usize, &Span)| {
@@ -72,7 +70,6 @@ pub fn lower_splines(values: &BasisValues) -> impl Iterator<Item = f64> + '_ {
     partial.take(values.slopes().len() - 1)
 }
 
-/// Number of lower splines of a run, one less than its functions.
 pub(super) fn lower_count(basis: &Basis, run: &[Span]) -> Option<usize> {
     Some(run.last()?.first + basis.degree() - run.first()?.first)
 }
@@ -156,7 +153,6 @@ fn zeros(basis: &Basis, run: &[Span], coefficients: &[f64]) -> Option<Vec<Vec<f6
 struct Polynomial(Vec<f64>);
 
 impl Polynomial {
-    /// Polynomial of the functions of a span with the given leading coefficients.
     fn of(basis: &Basis, span: &Span, coefficients: &[f64]) -> Self {
         let (middle, half) = (0.5 * (span.start + span.end), 0.5 * (span.end - span.start));
         let values = basis.evaluate_in(span, middle);

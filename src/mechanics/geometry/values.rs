@@ -22,7 +22,6 @@ pub struct BasisValues {
 }
 
 impl BasisValues {
-    /// Zero values and derivatives, to be filled by the basis.
     pub(super) fn zeros(first: usize, degree: usize) -> Self {
         Self { first, degree, rows: [ZERO; WIDTH] }
     }

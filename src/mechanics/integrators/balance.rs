@@ -1,4 +1,4 @@
-//! The equations of one step, and the work space to solve them: what all integrators here share.
+//! Equations of one step with their work space, shared by all integrators.
 
 use super::prescribed::BalancedAt;
 use super::{FailureSource, Interval, Mechanism, Solution, Stage, StepError};
@@ -6,28 +6,26 @@ use crate::elementary::square;
 use crate::linalg::BorderedMatrix;
 use crate::newton::{Equations, Newton, NewtonError, NewtonReport, ResidualNorms, Tolerance};
 
-/// The largest increment `Δω`, mean rate times step: beyond it a turn cannot be told from one the other way round.
+/// Largest increment `Δω`, mean rate times step. Beyond it the direction of rotation is ambiguous.
 const LARGEST_INCREMENT: f64 = std::f64::consts::PI;
 
-/// The shortest chord: where the mean configuration folds the way of a slider up, by a turn of about π, the equations of its contact have
-/// no direction, and are solved by what is no solution.
+/// Shortest chord. If the mean configuration folds the path of a slider by a rotation of about π, the contact equations have no direction and
+/// spurious solutions.
 const SHORTEST_CHORD: f64 = 1e-3;
 
-/// What a method puts into the balance of a step: how much inertia, and forces of which stage.
+/// Coefficients of a method in the balance of a step: inertia, and the stage of forces.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct BalanceCoefficients {
-    /// The factor `ι` of the inertia, which is that of the acceleration `ι d/Δt²`, but for what is carried [-].
+    /// Factor `ι` of the inertia: the acceleration is `ι d/Δt²` plus the carried part [-].
     pub(super) inertia: f64,
-    /// The stage of the step at which forces are taken that depend on the increments.
     pub(super) stage: Stage,
-    /// The factor of the forces that depend on the increments [-].
+    /// Factor of the forces that depend on the increments [-].
     pub(super) weight: f64,
-    /// The acceleration of prescribed movements that is balanced.
     pub(super) prescribed: BalancedAt,
 }
 
 impl BalanceCoefficients {
-    /// The balance of methods with `(v0 + v1)/2 = Δq/Δt` and the acceleration `(v1 - v0)/Δt`.
+    /// Balance of methods with `(v0 + v1)/2 = Δq/Δt` and the acceleration `(v1 - v0)/Δt`.
     pub(super) fn mean(stage: Stage, weight: f64) -> Self {
         Self { inertia: 2.0, stage, weight, prescribed: BalancedAt::Mean }
     }
@@ -35,9 +33,8 @@ impl BalanceCoefficients {
 
 /// `R(d, z) = ι/Δt² M d + weight · F(stage, u) + carried + G(u, z)`, `u = Δt v0 + d`.
 ///
-/// `z` are the unknowns of constraints and `G` their forces, for the whole step. The unknown of the movements is the deviation `d` from coasting, not the
-/// increment `u`: `v1 = v0 + 2/Δt d` then rounds like the change
-/// of the velocity, so that momenta do not creep over many steps.
+/// `z` are the constraint multipliers and `G` their forces, for the whole step. The unknown is the deviation `d` from coasting, not the increment
+/// `u`. Then `v1 = v0 + 2/Δt d` has the rounding of the velocity change, so that momenta do not drift over many steps.
 pub(super) struct StepBalance<'a> {
     mechanism: &'a mut dyn Mechanism,
     rule: BalanceCoefficients,
@@ -49,7 +46,6 @@ pub(super) struct StepBalance<'a> {
 }
 
 impl StepBalance<'_> {
-    /// The deviation from coasting, and the unknowns of the constraints.
     fn split<'u>(&self, unknowns: &'u [f64]) -> (&'u [f64], &'u [f64]) {
         unknowns.split_at(self.movements)
     }
@@ -62,7 +58,6 @@ impl StepBalance<'_> {
         self.mechanism.add_inertia(self.inertia(), deviation, residual);
     }
 
-    /// What a solve failed at.
     fn culprit(&self, error: &NewtonError, residual: &[f64]) -> Option<FailureSource> {
         if let NewtonError::Linear { source, .. } = error {
             return Some(FailureSource::Unknown(source.unknown()));
@@ -113,23 +108,20 @@ impl Equations for StepBalance<'_> {
     }
 }
 
-/// The equations of a step: its vectors and the Newton solver, allocated once.
+/// Equations of a step with preallocated vectors and the Newton solver.
 #[derive(Debug, Clone)]
 pub(super) struct StepSolver {
     newton: Newton,
     /// `Δt v0`
     coasting: Vec<f64>,
-    /// The deviation from coasting, then the unknowns of the constraints.
     unknowns: Vec<f64>,
-    /// Of the unknown movements, and behind them of those that are prescribed.
     increments: Vec<f64>,
-    /// The part of the residual that does not depend on the increments.
+    /// Part of the residual that is independent of the increments.
     carried: Vec<f64>,
     rates: Vec<f64>,
     residual: Vec<f64>,
-    /// The stages of the step at which forces were taken, with their shares.
     balanced: Vec<(Stage, f64)>,
-    /// Whether the balance is that of the change of the rates.
+    /// True if the balance is that of the momentum change.
     balances_rates: bool,
 }
 
@@ -156,7 +148,6 @@ impl StepSolver {
         }
     }
 
-    /// Predicts the increments of a step with the rates that the mechanism expects.
     pub(super) fn predict(&mut self, mechanism: &mut dyn Mechanism, interval: Interval) {
         let duration = interval.duration();
         self.coasting.iter_mut().zip(mechanism.rates()).for_each(|(u, rate)| *u = duration * rate);
@@ -172,14 +163,13 @@ impl StepSolver {
         self.balances_rates = true;
     }
 
-    /// Carries a share of the forces of a stage at which nothing has moved yet into the balance of the step.
+    /// Adds a share of the forces of a stage at zero increments to the balance of the step.
     pub(super) fn carry(&mut self, mechanism: &mut dyn Mechanism, stage: Stage, share: f64) {
         self.increments.fill(0.0);
         mechanism.add_forces(stage, &self.increments, share, &mut self.carried);
         self.balanced.push((stage, share));
     }
 
-    /// Carries the inertia of accelerations times a factor into the balance of the step.
     pub(super) fn carry_inertia(
         &mut self,
         mechanism: &mut dyn Mechanism,
@@ -190,7 +180,6 @@ impl StepSolver {
         self.balances_rates = false;
     }
 
-    /// Solves the balance of the step for the increments.
     pub(super) fn solve(
         &mut self,
         mechanism: &mut dyn Mechanism,
@@ -202,12 +191,11 @@ impl StepSolver {
         })
     }
 
-    /// Begins to solve a balance from the solution of one near by.
     pub(super) fn begin_at(&mut self, solution: &[f64]) {
         self.unknowns.copy_from_slice(solution);
     }
 
-    /// Solves the balance of the step for the increments in a way of Newton's method: with its solver, the equations, their unknowns and their residual.
+    /// Solves the balance of the step by a callback, which gets the Newton solver, the equations, their unknowns and their residual.
     pub(super) fn solve_by(
         &mut self,
         mechanism: &mut dyn Mechanism,
@@ -263,7 +251,7 @@ impl StepSolver {
         }
     }
 
-    /// Takes over the increments that are prescribed, and carries the inertia of what moves so into the balance of the step.
+    /// Copies the prescribed increments, and adds the inertia of prescribed movements to the balance of the step.
     fn take_prescribed(&mut self, mechanism: &mut dyn Mechanism, at: BalancedAt) {
         let movements = self.coasting.len();
         let prescribed = mechanism.prescribed();
@@ -286,8 +274,7 @@ impl StepSolver {
         self.accept(mechanism, |_, v0, d| v0 + twice_inverse * d);
     }
 
-    /// Accepts the increments of the step, with the rates at its end that a method makes of the number of an unknown, its rate at
-    /// the start and its deviation from coasting.
+    /// Accepts the increments of the step, with final rates computed from the index of an unknown, its initial rate and its deviation from coasting.
     pub(super) fn accept(
         &mut self,
         mechanism: &mut dyn Mechanism,

@@ -90,7 +90,6 @@ mod tests {
         1.0,
     ];
 
-    /// Lengths of substeps from their ends.
     fn parts(ends: &[f64]) -> Vec<f64> {
         let starts = std::iter::once(&0.0).chain(ends);
         starts.zip(ends).map(|(start, end)| end - start).collect()

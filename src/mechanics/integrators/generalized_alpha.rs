@@ -27,7 +27,6 @@ pub struct GeneralizedAlpha {
     accelerations: Vec<f64>,
 }
 
-/// Coefficients of the method.
 #[derive(Debug, Clone, Copy)]
 struct Weights {
     /// `αm`.
@@ -67,7 +66,6 @@ impl GeneralizedAlpha {
         }
     }
 
-    /// Step without initial accelerations.
     fn step_without(
         &mut self,
         mechanism: &mut dyn Mechanism,

@@ -1,53 +1,52 @@
-//! What an integrator may ask of the mechanical system that it advances.
+//! Interface between integrators and a mechanical system.
 
 use super::{FailureSource, Interval, PrescribedKinematics, StepError};
 use crate::linalg::{BandedMatrix, BlockLayout, Border, BorderShape};
 use crate::newton::ResidualPart;
 
-/// The place in a step where forces are taken. Increments are counted from the start of the step.
+/// Place in a step at which forces are taken. Increments are relative to the start of the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stage {
-    /// Forces are taken at the start of the step, loads as they are just after it.
+    /// Start of the step, with loads as right limits.
     Start,
-    /// Forces are taken between start and end: mean configuration, averaged section forces, mean loads.
+    /// Middle of the step: mean configuration, averaged section forces, mean loads.
     ///
-    /// The internal forces then do exactly the work by which the strain energy changes
-    /// (Stander & Stein 1996; Simo, Tarnow & Doblaré 1995).
+    /// The internal forces then do exactly the work by which the strain energy changes (Stander & Stein 1996; Simo, Tarnow & Doblaré 1995).
     Midpoint,
-    /// As at the [midpoint](Self::Midpoint), loads too, but with section forces of a later strain: half of its change times
-    /// this number `χ` is added to its mean.
+    /// As the [midpoint](Self::Midpoint), including loads, but with section forces of a later strain: half of its change times this number `χ` is
+    /// added to its mean.
     ///
-    /// The internal forces then do more work than that by `χ/2` times the integral of `ΔΓ·C ΔΓ + EI Δκ²`.
+    /// The internal forces then do additional work of `χ/2` times the integral of `ΔΓ·C ΔΓ + EI Δκ²`.
     DampedMidpoint(f64),
-    /// Forces are taken at the end of the step, loads as they are just before it.
+    /// End of the step, with loads as left limits.
     End,
 }
 
 impl Stage {
-    /// The stages at which loads have values of their own, in the order of time.
+    /// Stages with separate load values, in the order of time.
     pub const ALL: [Self; 3] = [Self::Start, Self::Midpoint, Self::End];
 }
 
-/// The constant inertia matrix `M` of a mechanical system.
+/// Constant inertia matrix `M` of a mechanical system.
 pub trait Inertia {
-    /// Adds `factor · M · rates` to `out`, one entry for each unknown movement.
+    /// Adds `factor · M · rates` to `out`, one entry per unknown movement.
     fn add_inertia(&mut self, factor: f64, rates: &[f64], out: &mut [f64]);
 
-    /// Adds the inertia `factor · M` to the tangent.
+    /// Adds `factor · M` to the tangent.
     fn add_inertia_tangent(&self, factor: f64, tangent: &mut BandedMatrix);
 }
 
-/// The forces of a mechanical system, which depend on its configuration.
+/// Configuration-dependent forces of a mechanical system.
 ///
-/// Section forces may be unknowns of their own, which forces are condensed by and which are corrected with the increments.
+/// Section forces may be internal unknowns, which are condensed and corrected with the increments.
 pub trait Forces {
-    /// Adds `weight` times the forces of a stage (internal minus loads), as its section forces have them, to `out`.
+    /// Adds `weight` times the forces of a stage (internal minus loads) at the current section forces to `out`.
     ///
-    /// Returns the largest mismatch between the strain of the section forces and that of the configuration.
+    /// Returns the largest mismatch between the strains of section forces and configuration.
     fn add_forces(&mut self, stage: Stage, increments: &[f64], weight: f64, out: &mut [f64])
     -> f64;
 
-    /// Adds `weight` times the condensed forces of a stage to `out`, and their derivative by the increments to the tangent.
+    /// Adds `weight` times the condensed forces of a stage to `out`, and their derivatives with respect to the increments to the tangent.
     fn add_linearised_forces(
         &mut self,
         stage: Stage,
@@ -57,43 +56,41 @@ pub trait Forces {
         tangent: &mut BandedMatrix,
     );
 
-    /// Adds `weight` times the forces that would close the strain mismatch met by the last forces, in the directions
-    /// of the last linearisation.
+    /// Adds `weight` times the forces that would remove the current strain mismatch, in the directions of the last linearisation.
     fn add_mismatch_forces(&mut self, weight: f64, out: &mut [f64]);
 
-    /// Carries a correction of the increments over to the section forces of the last linearisation.
+    /// Updates the section forces after a correction of the increments of the last linearisation.
     fn correct_section_forces(&mut self, correction: &[f64]);
 
-    /// The largest residual of a movement, relative to the forces that balance in this step [-].
+    /// Largest residual of a movement, relative to the forces of this step [-].
     fn relative_imbalance(&self, residual: &[f64]) -> f64;
 
-    /// What is worst where a residual was left, of that part of its imbalance which is. For messages; it changes nothing.
+    /// Location of the largest residual of a part, for messages.
     fn worst(&self, _part: ResidualPart, _residual: &[f64]) -> Option<FailureSource> {
         None
     }
 
-    /// The largest rotation increment `Δω` that the last forces met at any section [rad].
+    /// Largest rotation increment `Δω` of a section in the last evaluation [rad].
     fn largest_rotation(&self) -> f64;
 }
 
-/// The constraints of a mechanical system, with unknowns of their own.
+/// Constraints of a mechanical system, with multipliers as unknowns.
 pub trait Constraints {
-    /// How many unknowns the constraints of the mechanism add, and how many entries their equations may have.
+    /// Number of constraint unknowns, and the largest number of entries of their equations.
     fn constraint_shape(&self) -> BorderShape;
 
-    /// The blocks that the unknowns of the constraints form, where these are better eliminated one by one than together; each has five.
+    /// Blocks of five constraint unknowns, if these should be eliminated block by block.
     fn constraint_blocks(&self) -> Option<&BlockLayout> {
         None
     }
 
-    /// Guesses the unknowns of the constraints for a step over the interval.
+    /// Predicts the constraint unknowns for a step over the interval.
     fn predict_constraints(&mut self, interval: Interval, unknowns: &mut [f64]);
 
-    /// Adds the forces of the constraints to `out`, and behind the movements by how much the constraints are violated.
+    /// Adds the constraint forces to `out`, followed by the constraint violations.
     fn add_constraints(&mut self, increments: &[f64], unknowns: &[f64], out: &mut [f64]);
 
-    /// Adds forces and violations of the constraints to `out`, and their derivatives by the increments and by the unknowns of the constraints to the
-    /// tangent.
+    /// Adds constraint forces and violations to `out`, and their derivatives with respect to increments and constraint unknowns to the tangent.
     fn add_linearised_constraints(
         &mut self,
         increments: &[f64],
@@ -102,109 +99,106 @@ pub trait Constraints {
         border: &mut Border,
     );
 
-    /// The largest violation of a constraint, relative to its size [-].
+    /// Largest relative constraint violation [-].
     fn relative_violation(&self, residual: &[f64]) -> f64;
 
-    /// Whether the unknowns of the constraints are such that the step may be accepted.
+    /// Checks that the constraint unknowns allow the step to be accepted.
     ///
     /// # Errors
-    /// When a constraint ends within the step, or not where it should.
+    /// Fails if a constraint ends within the step, or not where it should.
     fn check_constraints(&mut self, unknowns: &[f64]) -> Result<(), Overshoot>;
 
-    /// The shortest chord of a way along a constraint in the mean configuration that the last forces met, relative to the length
-    /// of that way as it is built [-].
+    /// Shortest chord of a path along a constraint in the mean configuration of the last evaluation, relative to the path as built [-].
     fn shortest_chord(&self) -> f64;
 }
 
-/// A mechanical system that integrators advance: its unknowns, its state, and the present step.
+/// Mechanical system that integrators advance: its unknowns, its state, and the present step.
 ///
-/// Increments and rates are those of the movements that are unknown. Constraints add unknowns of their own (contact forces,
-/// places of contacts), which have no inertia and stand behind the movements, with as many equations. Forces have, after the
-/// entries of all these, those of the supported degrees of freedom, which do not move, or move as is prescribed: what is left of a
-/// residual there is the reaction of the supports. Where movements are prescribed, increments and rates have as many entries as
-/// lead up to them.
+/// Increments and rates belong to the unknown movements. Constraints add their own unknowns (contact forces, contact positions), without inertia and
+/// with as many equations, after the movements. Force vectors have further entries for supported degrees of freedom, which are fixed or prescribed.
+/// The residual there is the support reaction. If movements are prescribed, increments and rates include entries up to them.
 pub trait Mechanism: Inertia + Forces + Constraints {
-    /// The number of unknown movements of the mechanism in a step.
+    /// Number of unknown movements.
     fn unknowns(&self) -> usize;
 
-    /// The number of entries of a force vector of the mechanism: movements, constraints and supported degrees of freedom.
+    /// Length of force vectors: movements, constraints and supported degrees of freedom.
     fn degrees_of_freedom(&self) -> usize;
 
-    /// The half-bandwidth of the tangent of the mechanism: how far from the diagonal it has entries.
+    /// Half-bandwidth of the tangent.
     fn half_bandwidth(&self) -> usize;
 
-    /// How many threads may work on the equations of the mechanism at once, with the same results.
+    /// Number of threads for the equations, which does not affect results.
     fn threads(&self) -> usize {
         1
     }
 
-    /// The rates of the unknown movements at the start of the step [length/time, 1/time].
+    /// Rates of the unknown movements at the start of the step [length/time, 1/time].
     fn rates(&self) -> &[f64];
 
-    /// The rates with which the unknown movements of the next step may be guessed [length/time, 1/time].
+    /// Rates that predict the next step [length/time, 1/time].
     fn expected_rates(&self) -> &[f64];
 
-    /// The movements that are prescribed in the present step.
+    /// Prescribed movements in the present step.
     fn prescribed(&self) -> &PrescribedKinematics;
 
-    /// Prepares a step that takes forces at the given stages: evaluates what depends on time only.
+    /// Prepares a step with forces at the given stages: evaluates time-dependent values.
     ///
     /// # Errors
-    /// When a load has no finite value.
+    /// Fails if a load has no finite value.
     fn begin_step(&mut self, interval: Interval, stages: &[Stage]) -> Result<(), StepError>;
 
-    /// Accepts a step of the mechanism: new configuration and rates, work and impulse of loads and supports.
+    /// Accepts a step: configuration, rates, work and impulse.
     fn advance(&mut self, solution: &Solution<'_>);
 
-    /// The mechanism as one that remembers a state, for methods that go back within a step.
+    /// Checkpoint interface, for methods that go back within a step.
     fn checkpoint(&mut self) -> &mut dyn Checkpoint;
 
-    /// The mechanism as one that keeps accelerations, for methods whose state they are a part of.
+    /// Acceleration interface, for methods with accelerations in their state.
     fn accelerated(&mut self) -> &mut dyn Accelerated;
 }
 
-/// A mechanical system that remembers one of its states: what a method asks for whose steps have parts.
+/// Mechanical system that stores one of its states, for methods with substeps.
 pub trait Checkpoint {
-    /// Remembers the present state of the mechanism, at the start of a step, in the place of the one remembered before.
+    /// Stores the present state at the start of a step, replacing the previous one.
     fn keep(&mut self);
 
-    /// Goes back to the state of the mechanism that is remembered, bit for bit.
+    /// Restores the stored state bit for bit.
     fn go_back(&mut self);
 }
 
-/// A mechanical system with accelerations as a part of its state: what a method asks for that uses those of the step before.
+/// Mechanical system with accelerations in its state.
 pub trait Accelerated {
-    /// Makes accelerations a part of the mechanism's state from here on; they are unknown until they are set.
+    /// Enables accelerations in the state. They are unknown until set.
     fn keep_accelerations(&mut self);
 
-    /// The accelerations just after the start of the step that has begun, if they are known [length/time², 1/time²].
+    /// Accelerations just after the start of the present step, if known [length/time², 1/time²].
     fn accelerations(&self) -> Option<&[f64]>;
 
-    /// Sets the accelerations of the mechanism [length/time², 1/time²], where they are kept.
+    /// Sets the accelerations [length/time², 1/time²], if enabled.
     fn set_accelerations(&mut self, accelerations: &[f64]);
 }
 
-/// What an integrator has found in a step.
+/// Result of an integrator for a step.
 #[derive(Debug, Clone, Copy)]
 pub struct Solution<'a> {
-    /// The increments of the movements in the step [length, rad].
+    /// Increments of the movements [length, rad].
     pub increments: &'a [f64],
-    /// The unknowns of the constraints that the step has found, in the units of each.
+    /// Constraint unknowns.
     pub constraints: &'a [f64],
-    /// The rates of the movements at the end of the step [length/time, 1/time].
+    /// Rates at the end of the step [length/time, 1/time].
     pub rates: &'a [f64],
-    /// What is left of the equations of the step [force, force·length]; reactions at supported degrees of freedom.
+    /// Residual of the equations [force, force·length]; reactions at supported degrees of freedom.
     pub residual: &'a [f64],
-    /// The stages at which forces were taken, with their shares [-]: what these did, with constraints and supports, changed the momenta. Empty
-    /// where the method balances accelerations of its own, and not the change of the rates.
+    /// Stages of the forces with their shares [-], which together with constraints and supports changed the momenta. Empty if the method balances
+    /// accelerations instead.
     pub balanced: &'a [(Stage, f64)],
 }
 
-/// A limit of a constraint that is passed within a step.
+/// Constraint limit that is passed within a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Overshoot {
-    /// The number of the limit that is passed, among those of its constraint.
+    /// Index of the limit among those of its constraint.
     pub limit: usize,
-    /// How far beyond its limit the constraint was found [length]; negative when it should have come further.
+    /// Distance beyond the limit [length]; negative if it was not reached.
     pub distance: f64,
 }

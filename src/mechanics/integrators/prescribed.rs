@@ -17,9 +17,7 @@ pub struct PrescribedKinematics {
 /// Acceleration of prescribed movements in the balance of a method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum BalancedAt {
-    /// Mean acceleration of the step.
     Mean,
-    /// Acceleration at a fraction of the step.
     Share(f64),
 }
 
@@ -40,7 +38,6 @@ impl PrescribedKinematics {
         self.increments.len()
     }
 
-    /// Accelerations in the balance of a method, by entry.
     pub(super) fn balanced(&self, at: BalancedAt) -> impl Iterator<Item = f64> {
         let [start, end] = &self.accelerations;
         let all = self.mean_accelerations.iter().zip(start.iter().zip(end));

@@ -18,7 +18,6 @@ pub struct SharedFactorStepper {
     parts: SubstepCount,
 }
 
-/// Number of energy–momentum substeps of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum SubstepCount {
     One,

@@ -18,9 +18,7 @@ pub(super) struct Arrangement {
     pub(super) runs_to: Vec<usize>,
     /// First place of the delayed unknowns of each block; `NOWHERE` if it delays none.
     pub(super) delayed: Vec<usize>,
-    /// Profile: last entry of each place.
     pub(super) ends: Vec<usize>,
-    /// Profile without the blocks that delay nothing.
     own_ends: Vec<usize>,
     /// Number of delayed unknowns behind each unknown of the order.
     behind: Vec<usize>,
@@ -49,7 +47,6 @@ impl Arrangement {
         new
     }
 
-    /// Number of places.
     pub(super) fn size(&self) -> usize {
         self.ends.len()
     }
@@ -169,7 +166,6 @@ fn couple(ends: &mut [usize], places: impl Iterator<Item = usize> + Clone) {
     places.for_each(|place| ends[place] = ends[place].max(last));
 }
 
-/// Approximate number of multiplications for a profile.
 fn work(ends: &[usize]) -> usize {
     ends.iter().enumerate().map(|(at, end)| (end - at) * (end - at)).sum()
 }

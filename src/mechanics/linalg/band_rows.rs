@@ -10,7 +10,6 @@ pub struct BandRows<'a> {
     pub(super) rows: Range<usize>,
     /// Stored entries from the first of these rows on, row by row.
     pub(super) entries: &'a mut [f64],
-    /// Number of stored entries per row.
     pub(super) stride: usize,
     /// Index of the diagonal entry among the stored entries of a row.
     pub(super) centre: usize,

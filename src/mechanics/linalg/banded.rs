@@ -1,7 +1,7 @@
-//! A square banded matrix and its LU factorisation with pivoting.
+//! Square banded matrix and its pivoted LU factorisation.
 //!
-//! Rows are stored one after another, with room for the fill-in that row exchanges cause, so that elimination is a
-//! sequence of short vector updates (Golub & Van Loan, Matrix Computations, 4th ed., section 4.3.5).
+//! Rows are stored in sequence with space for the fill-in of row exchanges, so that elimination is a sequence of short vector updates (Golub & Van
+//! Loan, Matrix Computations, 4th ed., section 4.3.5).
 
 use pulp::Arch;
 
@@ -10,7 +10,7 @@ use super::storage::{Factors, Storage};
 use super::substitution::{StripSubstitution, Substitution};
 use super::{BandRows, LinearError};
 
-/// A square matrix of numbers whose entries `(i, j)` vanish for `|i - j|` above the half-bandwidth.
+/// Square matrix whose entries `(i, j)` vanish for `|i - j|` above the half-bandwidth.
 #[derive(Debug, Clone)]
 pub struct BandedMatrix {
     size: usize,
@@ -18,34 +18,34 @@ pub struct BandedMatrix {
     storage: Storage,
 }
 
-/// The factors `P A = L U` of a [`BandedMatrix`], kept in its storage.
+/// Factors `P A = L U` of a [`BandedMatrix`], kept in its storage.
 #[derive(Debug)]
 pub struct BandedLu<'a> {
     factors: Factors<'a>,
 }
 
 impl BandedMatrix {
-    /// The zero matrix of `size` rows with entries up to `half_bandwidth` places off the diagonal.
+    /// Creates a zero matrix of `size` rows with entries up to `half_bandwidth` from the diagonal.
     pub fn zeros(size: usize, half_bandwidth: usize) -> Self {
         Self { size, half_bandwidth, storage: Storage::zeros(size, half_bandwidth) }
     }
 
-    /// The number of rows of the matrix, and of its columns.
+    /// Number of rows.
     pub fn size(&self) -> usize {
         self.size
     }
 
-    /// The half-bandwidth of the matrix: how many places off the diagonal entries may be.
+    /// Half-bandwidth.
     pub fn half_bandwidth(&self) -> usize {
         self.half_bandwidth
     }
 
-    /// Sets every entry of the matrix to zero.
+    /// Sets every entry to zero.
     pub fn clear(&mut self) {
         self.storage.clear();
     }
 
-    /// All rows of the matrix, to add entries to.
+    /// All rows, for the assembly of entries.
     #[inline]
     pub fn rows_mut(&mut self) -> BandRows<'_> {
         let (stride, centre) = (self.storage.stride(), self.storage.centre());
@@ -53,13 +53,13 @@ impl BandedMatrix {
         BandRows { rows, entries: &mut self.storage.rows, stride, centre, half_bandwidth }
     }
 
-    /// Adds `value` to the entry at `(row, column)` of the matrix, which must lie in the band.
+    /// Adds `value` to the entry at `(row, column)`, which must lie in the band.
     #[inline]
     pub fn add(&mut self, row: usize, column: usize, value: f64) {
         self.rows_mut().add(row, column, value);
     }
 
-    /// The entry of the matrix at `(row, column)`; zero outside the band.
+    /// Entry at `(row, column)`; zero outside the band.
     pub fn get(&self, row: usize, column: usize) -> f64 {
         if row.abs_diff(column) > self.half_bandwidth {
             0.0
@@ -68,7 +68,6 @@ impl BandedMatrix {
         }
     }
 
-    /// The first column of a row in the band, and the entries of the row from there on.
     pub(super) fn row(&self, row: usize) -> (usize, &[f64]) {
         let first = row.saturating_sub(self.half_bandwidth);
         let last = (row + self.half_bandwidth).min(self.size - 1);
@@ -84,10 +83,10 @@ impl BandedMatrix {
         &mut self.storage
     }
 
-    /// Replaces the entries of the matrix by its factors `P A = L U`.
+    /// Replaces the entries by the factors `P A = L U`.
     ///
     /// # Errors
-    /// When a column has no non-zero or no finite pivot; the entries are then lost.
+    /// Fails if a column has no nonzero finite pivot. The entries are then lost.
     pub fn factorise(&mut self) -> Result<BandedLu<'_>, LinearError> {
         Arch::new().dispatch(Elimination(self.storage.rows_mut()))?;
         Ok(BandedLu { factors: self.storage.factors() })
@@ -95,14 +94,14 @@ impl BandedMatrix {
 }
 
 impl BandedLu<'_> {
-    /// Replaces the right-hand side `x`, one number a row, by the solution of `A x = b`.
+    /// Replaces the right-hand side `x` by the solution of `A x = b`.
     pub fn solve(&self, x: &mut [f64]) {
         Arch::new().dispatch(Substitution { factors: self.factors, x });
     }
 
-    /// Replaces `W` right-hand sides, the entries of a row side by side, by their solutions.
+    /// Replaces `W` right-hand sides with interleaved entries by their solutions.
     ///
-    /// Rows before `first` must be zero: forward elimination begins there.
+    /// Rows before `first` must be zero.
     pub fn solve_strip<const W: usize>(&self, x: &mut [[f64; W]], first: usize) {
         Arch::new().dispatch(StripSubstitution { factors: self.factors, x, first });
     }
@@ -122,7 +121,7 @@ mod tests {
         #[test]
         fn the_banded_solution_is_the_dense_one(
             size in 1_usize..40, half_bandwidth in 0_usize..12, entries in prop::collection::vec(-1.0..1.0_f64, 2000),
-            // Rows are exchanged, or not, or only here and there.
+            // Diagonals with no, some or many row exchanges.
             diagonal in prop::sample::select(vec![0.0, 0.5, 3.0, 30.0]),
         ) {
             let mut matrix = BandedMatrix::zeros(size, half_bandwidth);
@@ -178,7 +177,7 @@ mod tests {
         assert_eq!(matrix.factorise().unwrap_err(), LinearError::Singular { unknown: 1, size: 3 });
     }
 
-    /// Of small whole numbers, with a heavy diagonal.
+    /// Matrix of small integers with a dominant diagonal.
     fn whole_numbers(size: usize, half_bandwidth: usize) -> BandedMatrix {
         let mut matrix = BandedMatrix::zeros(size, half_bandwidth);
         for i in 0..size {
@@ -200,7 +199,7 @@ mod tests {
             }
             let singular = |unknown| LinearError::Singular { unknown, size: 12 };
             assert_eq!(column.factorise().unwrap_err(), singular(zero));
-            // Rows are exchanged until the zero one is left, with the last one, which has only its diagonal.
+            // Rows are exchanged until the zero row remains, with the last one, which has only its diagonal.
             assert_eq!(row.factorise().unwrap_err(), singular(zero.max(10)));
         }
     }
@@ -227,7 +226,7 @@ mod tests {
     #[test]
     fn graded_rows_are_solved_as_well_as_by_a_dense_matrix_with_pivoting() {
         let size = 24;
-        // Powers of two, up to 1e12, keep the right-hand side of a solution of ones exact.
+        // Powers of two up to 1e12 keep the right-hand side of a solution of ones exact.
         let gradings: [fn(i32) -> i32; 4] =
             [|_| 0, |i| 40 * i / 23, |i| 40 - 40 * i / 23, |i| 7 * i % 41];
         for (number, grading) in gradings.into_iter().enumerate() {
@@ -258,7 +257,7 @@ mod tests {
         assert_eq!(matrix.factorise().unwrap_err(), LinearError::NotFinite { unknown: 0, size: 2 });
     }
 
-    /// The bits of factors and solutions, by one kind of instructions; none where there are no factors.
+    /// Bits of factors and solutions for one instruction set; `None` without factors.
     fn worked_on(arch: Arch, matrix: &BandedMatrix, right: &[f64]) -> Option<Vec<u64>> {
         let mut storage = matrix.storage.clone();
         arch.dispatch(Elimination(storage.rows_mut())).ok()?;

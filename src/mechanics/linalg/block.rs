@@ -1,48 +1,44 @@
-//! One block of a local border: a few unknowns beside a band, with the few unknowns of the band that they touch, eliminated by themselves.
+//! Block of a local border: a few unknowns beside a band with the few unknowns of the band that they touch, eliminated separately.
 //!
-//! The block is a small dense matrix, as the front of a multifrontal method is (Duff & Reid 1983, The multifrontal solution of indefinite sparse
-//! symmetric linear equations, ACM Trans. Math. Softw. 9, 302–325): its own unknowns are eliminated with complete pivoting, and what that does to the unknowns that it touches is added to
-//! the band. Own unknowns that touch the band only through what they hold (the force of a contact whose slave is held) have no pivot yet: they are *delayed*, and stand in the band beside
-//! what they touch.
+//! The block is a small dense matrix, like the front of a multifrontal method (Duff & Reid 1983, The multifrontal solution of indefinite sparse
+//! symmetric linear equations, ACM Trans. Math. Softw. 9, 302–325). Its own unknowns are eliminated with complete pivoting, and the Schur complement
+//! on the touched unknowns is added to the band. Own unknowns coupled to the band through a constraint only (the contact force of a supported slave)
+//! have no pivot yet. They are *delayed*, and placed in the band beside the touched unknowns.
 
 use super::{BandedMatrix, LinearError};
 
-/// The number of unknowns that a block adds to those of the band: those of a sliding contact.
+/// Number of unknowns that a block adds to those of the band: those of a sliding contact.
 pub(super) const BLOCK: usize = 5;
 
-/// How many unknowns of a block may be delayed, at most.
+/// Largest number of delayed unknowns of a block.
 pub(super) const MOST_DELAYED: usize = 2;
 
-/// A pivot that would add more than so many times the largest diagonal entry of the band there, is none.
+/// Largest contribution of a pivot relative to the largest diagonal entry of the band there.
 const LARGEST_FILL: f64 = 100.0;
 
 /// Marks an unknown of the band that a block does not touch.
 pub(super) const NOWHERE: usize = usize::MAX;
 
-/// The entries of a block, and what elimination makes of them.
 #[derive(Debug, Clone)]
 pub(super) struct Block {
-    /// Unknowns of the band that nothing but this block couples with others: they are eliminated with it.
+    /// Unknowns of the band that only this block couples with others. They are eliminated with it.
     pub(super) own: Vec<usize>,
     /// `B`: row of the band, column of the block; `C`: row of the block, column of the band; `D`.
     columns: Vec<(usize, usize, f64)>,
     rows: Vec<(usize, usize, f64)>,
     corner: [[f64; BLOCK]; BLOCK],
-    /// The unknowns of the band that the block touches, besides its own.
+    /// Unknowns of the band that the block touches, except its own.
     pub(super) touched: Vec<usize>,
-    /// Rows of the dense matrix: own unknowns, those of the block, those that are touched; after elimination factors, and what is left.
+    /// Rows of the dense matrix: own unknowns, those of the block, touched ones. After elimination it holds the factors and the Schur complement.
     front: Vec<f64>,
-    /// Which of its own rows, and which of its own columns, has come to a place.
     row_at: Vec<usize>,
     column_at: Vec<usize>,
-    /// How many pivots were found; the rest is delayed.
     pub(super) pivots: usize,
-    /// What the equations of delayed unknowns are multiplied by, to be like those of the band.
+    /// Scale of the equations of delayed unknowns, to match those of the band.
     pub(super) scale: f64,
 }
 
 impl Block {
-    /// A block without entries, with room for such numbers of them.
     pub(super) fn new(own: Vec<usize>, entries: usize) -> Self {
         let touched = entries / BLOCK;
         let size = own.len() + BLOCK;
@@ -78,13 +74,11 @@ impl Block {
         self.corner[row][column] += value;
     }
 
-    /// The entry in a row of the band and a column of the block.
     pub(super) fn in_column(&self, row: usize, column: usize) -> f64 {
         let here = |entry: &&(usize, usize, f64)| (entry.0, entry.1) == (row, column);
         self.columns.iter().filter(here).map(|(.., value)| value).sum()
     }
 
-    /// The entry in a row of the block and a column of the band.
     pub(super) fn in_row(&self, row: usize, column: usize) -> f64 {
         let here = |entry: &&(usize, usize, f64)| (entry.0, entry.1) == (row, column);
         self.rows.iter().filter(here).map(|(.., value)| value).sum()
@@ -94,17 +88,16 @@ impl Block {
         self.corner[row][column]
     }
 
-    /// The number of unknowns that may be eliminated in the block.
+    /// Number of unknowns that may be eliminated in the block.
     pub(super) fn candidates(&self) -> usize {
         self.own.len() + BLOCK
     }
 
-    /// Whether unknowns of the block may be delayed: nothing of its own can take its forces.
+    /// Returns true if unknowns of the block may be delayed, because it has no own unknowns of the band.
     pub(super) fn may_delay(&self) -> bool {
         self.own.is_empty()
     }
 
-    /// How many unknowns are delayed.
     pub(super) fn delayed(&self) -> usize {
         self.candidates() - self.pivots
     }
@@ -113,10 +106,10 @@ impl Block {
         self.candidates() + self.touched.len()
     }
 
-    /// Eliminates the own unknowns of the block; `places` is nowhere for all unknowns of the band, and is so again.
+    /// Eliminates the own unknowns of the block. `places` is a buffer of `NOWHERE` entries, and restored on return.
     ///
     /// # Errors
-    /// When there is no pivot, told of the block alone.
+    /// Fails without a pivot, with the index in the block.
     pub(super) fn eliminate(
         &mut self,
         band: &BandedMatrix,
@@ -150,7 +143,7 @@ impl Block {
         Ok(())
     }
 
-    /// Finds which unknowns are touched, and fills the dense matrix.
+    /// Finds the touched unknowns and fills the dense matrix.
     fn gather(&mut self, band: &BandedMatrix, places: &mut [usize]) {
         let (own, candidates) = (self.own.len(), self.candidates());
         for (place, &at) in self.own.iter().enumerate() {
@@ -184,7 +177,7 @@ impl Block {
         self.own.iter().chain(&self.touched).for_each(|&at| places[at] = NOWHERE);
     }
 
-    /// The largest entry among candidates from a place on; not a number if one is not.
+    /// Largest entry among candidates from a place on; NaN if one is NaN.
     fn largest_from(&self, first: usize) -> (usize, usize, f64) {
         let (size, candidates) = (self.size(), self.candidates());
         let mut found = (first, first, 0.0);
@@ -203,7 +196,6 @@ impl Block {
         found
     }
 
-    /// What a pivot of one in a row and a column would add to what is touched, at most.
     fn fill(&self, row: usize, column: usize) -> f64 {
         let (size, candidates) = (self.size(), self.candidates());
         let of_row = self.front[row * size..][candidates..size].iter().map(|entry| entry.abs());
@@ -243,15 +235,15 @@ impl Block {
         }
     }
 
-    /// What elimination has left: entries by the places of row and column among the delayed unknowns and, behind them, those that are touched.
+    /// Schur complement by the places of row and column, delayed unknowns first, then touched ones.
     pub(super) fn left(&self) -> impl Iterator<Item = (usize, &[f64])> {
         let (size, first) = (self.size(), self.pivots);
         let rows = self.front.chunks_exact(size).skip(first);
         rows.map(move |row| &row[first..]).enumerate()
     }
 
-    /// Eliminates a right-hand side: `own` has its entries of own unknowns and of the block, in the order of the pivots; `subtract` is told what to take
-    /// from what is touched, by its number.
+    /// Eliminates a right-hand side: `own` holds its entries of own unknowns and of the block in pivot order; `subtract` receives the contributions
+    /// to touched unknowns.
     pub(super) fn substitute(&self, own: &mut [f64], mut subtract: impl FnMut(usize, f64)) {
         let rows = self.front.chunks_exact(self.size());
         for (at, row) in rows.enumerate() {
@@ -264,7 +256,7 @@ impl Block {
         }
     }
 
-    /// Solves for the eliminated unknowns, which stand first, when those behind them are known: delayed ones, and what is touched.
+    /// Solves for the eliminated unknowns, which come first, given the delayed and touched ones behind them.
     pub(super) fn back_substitute(&self, all: &mut [f64]) {
         let size = self.size();
         for at in (0..self.pivots).rev() {
@@ -275,7 +267,7 @@ impl Block {
         }
     }
 
-    /// The entries of a vector in the order of the pivots' rows: first of the own unknowns, then of the block.
+    /// Entries of a vector in the order of pivot rows, from own unknowns and the block.
     pub(super) fn by_rows<'a>(
         &'a self,
         own: impl Fn(usize) -> f64 + 'a,
@@ -287,7 +279,7 @@ impl Block {
         })
     }
 
-    /// The unknown that stands at each place of the columns: of the band, or of the block.
+    /// Unknown at each place of the columns: `Ok` of the band, or `Err` of the block.
     pub(super) fn unknowns(&self) -> impl Iterator<Item = Result<usize, usize>> + '_ {
         self.column_at
             .iter()

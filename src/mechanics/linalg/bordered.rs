@@ -1,7 +1,7 @@
-//! A banded matrix with more columns and rows at its end: a border, which couples whatever it likes.
+//! Banded matrix with a border of additional columns and rows with arbitrary couplings.
 //!
-//! A border of few unknowns is one of full columns, which leaves the band as it is. One of many blocks that each touch but a few unknowns
-//! of the band is eliminated there, in work that grows with their number only.
+//! A border of few unknowns is stored as dense columns, which do not affect the band. A border of many blocks that each touch few unknowns of the
+//! band is eliminated locally, with work proportional to their number.
 
 use super::full_border::FullLu;
 use super::local_border::LocalLu;
@@ -9,36 +9,36 @@ use super::together::{Together, TogetherLu};
 use super::two_ended::{TwoEnded, TwoEndedLu};
 use super::{BandedLu, BandedMatrix, BlockLayout, FullBorder, LinearError, LocalBorder};
 
-/// A square matrix that is banded but for its last rows and columns, the border.
+/// Square matrix that is banded except for its last rows and columns, the border.
 #[derive(Debug, Clone)]
 pub struct BorderedMatrix {
     band: BandedMatrix,
     border: Border,
-    /// Where the band alone may be singular.
+    /// Joint elimination, if the band alone may be singular.
     together: Option<Together>,
-    /// Where the band is long, and has no border.
+    /// Elimination from both ends, if the band is long and has no border.
     ends: Option<Box<TwoEnded>>,
 }
 
-/// The size of the border of a [`BorderedMatrix`]: its last rows and columns.
+/// Size of the border of a [`BorderedMatrix`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct BorderShape {
-    /// The number of rows of the border, and of its columns.
+    /// Number of border rows and columns.
     pub width: usize,
-    /// How many entries the rows of the border may have together in the columns of the band.
+    /// Largest number of entries of the border rows in the columns of the band.
     pub row_entries: usize,
 }
 
-/// The border of a [`BorderedMatrix`]: its last columns `B`, its last rows `C` and their common corner `D`.
+/// Border of a [`BorderedMatrix`]: its last columns `B`, its last rows `C` and their common corner `D`.
 #[derive(Debug, Clone)]
 pub enum Border {
-    /// Full columns and rows.
+    /// Dense columns and rows.
     Full(FullBorder),
     /// Blocks of five unknowns, each of which touches few unknowns of the band and no other block.
     Local(Box<LocalBorder>),
 }
 
-/// The factors of a [`BorderedMatrix`], kept in its storage.
+/// Factors of a [`BorderedMatrix`], kept in its storage.
 #[derive(Debug)]
 pub struct BorderedLu<'a>(BorderFactors<'a>);
 
@@ -52,7 +52,7 @@ enum BorderFactors<'a> {
 }
 
 impl Border {
-    /// The number of rows of the border, which is that of its columns.
+    /// Number of border rows and columns.
     pub fn width(&self) -> usize {
         match self {
             Self::Full(border) => border.width(),
@@ -67,7 +67,7 @@ impl Border {
         }
     }
 
-    /// Adds `value` to the part `B` of the border, at a row of the band and a column of the border.
+    /// Adds `value` to the part `B`, at a row of the band and a column of the border.
     pub fn add_to_column(&mut self, row: usize, border_column: usize, value: f64) {
         match self {
             Self::Full(border) => border.add_to_column(row, border_column, value),
@@ -78,7 +78,7 @@ impl Border {
         }
     }
 
-    /// Adds `value` to the part `C` of the border, at a row of the border and a column of the band.
+    /// Adds `value` to the part `C`, at a row of the border and a column of the band.
     pub fn add_to_row(&mut self, border_row: usize, column: usize, value: f64) {
         match self {
             Self::Full(border) => border.add_to_row(border_row, column, value),
@@ -89,7 +89,7 @@ impl Border {
         }
     }
 
-    /// Adds `value` to the corner `D` of the border, at a row and a column of the border, in a border of blocks of the same block.
+    /// Adds `value` to the corner `D`, at a row and a column of the border; in a border of blocks both of the same block.
     pub fn add_to_corner(&mut self, border_row: usize, border_column: usize, value: f64) {
         match self {
             Self::Full(border) => border.add_to_corner(border_row, border_column, value),
@@ -112,7 +112,7 @@ impl Border {
 }
 
 impl BorderedMatrix {
-    /// The zero matrix: `size` rows with entries up to `half_bandwidth` places off the diagonal, and a border of full columns.
+    /// Creates a zero matrix of `size` band rows with entries up to `half_bandwidth` from the diagonal, and a dense border.
     pub fn zeros(size: usize, half_bandwidth: usize, border: BorderShape) -> Self {
         Self {
             band: BandedMatrix::zeros(size, half_bandwidth),
@@ -126,7 +126,7 @@ impl BorderedMatrix {
         }
     }
 
-    /// The zero matrix: `size` rows with entries up to `half_bandwidth` places off the diagonal, and a border of blocks.
+    /// Creates a zero matrix of `size` band rows with entries up to `half_bandwidth` from the diagonal, and a border of blocks.
     pub fn with_blocks(size: usize, half_bandwidth: usize, layout: BlockLayout) -> Self {
         Self {
             band: BandedMatrix::zeros(size, half_bandwidth),
@@ -136,40 +136,40 @@ impl BorderedMatrix {
         }
     }
 
-    /// The same matrix, if its border is one of full columns, to be eliminated with the border among the rows of the band, which alone may
-    /// be singular; the last `full` rows and columns, which couple with all others, are a border still.
+    /// Returns the matrix with its dense border eliminated jointly with the band, which alone may be singular. The last `full` rows and columns,
+    /// which couple with all others, remain a border.
     pub fn together(self, full: usize) -> Self {
         Self { together: Some(Together::new(self.size(), full)), ends: None, ..self }
     }
 
-    /// Lets so many threads eliminate a long band from here on, with the same results.
+    /// Sets the number of threads for a long band, with unchanged results.
     pub fn use_threads(&mut self, threads: usize) {
         if let Some(ends) = &mut self.ends {
             ends.use_threads(threads);
         }
     }
 
-    /// The number of rows of the matrix, those of the border included.
+    /// Number of rows, including those of the border.
     pub fn size(&self) -> usize {
         self.band.size() + self.border.width()
     }
 
-    /// The banded part `A` of a bordered matrix, to be read.
+    /// Banded part `A`.
     pub fn band(&self) -> &BandedMatrix {
         &self.band
     }
 
-    /// The banded part `A` of a bordered matrix, to be changed.
+    /// Mutable banded part `A`.
     pub fn band_mut(&mut self) -> &mut BandedMatrix {
         &mut self.band
     }
 
-    /// The border of the matrix, to add entries to.
+    /// Border, for the assembly of entries.
     pub fn border_mut(&mut self) -> &mut Border {
         &mut self.border
     }
 
-    /// Sets every entry of the matrix, those of the border included, to zero.
+    /// Sets every entry to zero, including those of the border.
     pub fn clear(&mut self) {
         match &self.ends {
             Some(ends) => ends.clear(&mut self.band),
@@ -178,7 +178,7 @@ impl BorderedMatrix {
         self.border.clear();
     }
 
-    /// The entry of the matrix at `(row, column)`; zero outside band and border.
+    /// Entry at `(row, column)`; zero outside band and border.
     pub fn get(&self, row: usize, column: usize) -> f64 {
         let place = |at: usize| at.checked_sub(self.band.size()).map_or(Ok(at), Err);
         match (place(row), place(column)) {
@@ -187,10 +187,10 @@ impl BorderedMatrix {
         }
     }
 
-    /// Replaces the entries of the matrix by its factors. Without a border these are the factors of the band and nothing else.
+    /// Replaces the entries by the factors. Without a border these are the factors of the band.
     ///
     /// # Errors
-    /// When a column has no non-zero or no finite pivot; the entries are then lost.
+    /// Fails if a column has no nonzero finite pivot. The entries are then lost.
     pub fn factorise(&mut self) -> Result<BorderedLu<'_>, LinearError> {
         let Self { band, border, together, ends } = self;
         let size = band.size();
@@ -212,7 +212,7 @@ impl BorderedMatrix {
 }
 
 impl BorderedLu<'_> {
-    /// Replaces the right-hand side `x`, one number a row, those of the border last, by the solution of `A x = b`.
+    /// Replaces the right-hand side `x`, with the border last, by the solution of `A x = b`.
     pub fn solve(&mut self, x: &mut [f64]) {
         match &mut self.0 {
             BorderFactors::Band(factors) => factors.solve(x),
@@ -268,7 +268,7 @@ mod tests {
 
     #[test]
     fn what_only_the_border_holds_is_solved_with_it() {
-        // Three masses on springs of stiffness 2 and 3, of which the border holds the last; the last border row is full.
+        // Three masses on springs of stiffness 2 and 3, of which the border fixes the last. The last border row is dense.
         let border = BorderShape { width: 2, row_entries: 4 };
         let mut matrix = BorderedMatrix::zeros(3, 1, border).together(1);
         for (at, stiffness) in [2e6, 3e6].into_iter().enumerate() {

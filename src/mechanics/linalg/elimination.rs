@@ -145,7 +145,6 @@ fn eliminate_in_profile<S: Simd>(
 pub(super) struct PanelFactors {
     /// Multipliers left of the diagonal, the upper factor from there on.
     pub(super) factors: [[f64; PANEL]; PANEL],
-    /// Inverse pivots.
     pub(super) inverses: [f64; PANEL],
     /// True if no multiplier is large and all numbers are finite.
     pub(super) is_stable: bool,
@@ -235,7 +234,6 @@ fn eliminate_panel<S: Simd>(
     true
 }
 
-/// Subtracts multiples of rows from a row of the same length, in sequence.
 #[inline(always)]
 pub(super) fn subtract<S: Simd, const COUNT: usize>(
     simd: S,

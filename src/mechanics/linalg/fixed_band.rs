@@ -74,7 +74,6 @@ pub(super) fn eliminate_panel<
     true
 }
 
-/// Forward substitution with a panel of columns.
 #[inline(always)]
 pub(super) fn substitute_forward<const REACH: usize, const STRIDE: usize>(
     panel: &[[f64; STRIDE]; PANEL],
@@ -95,7 +94,6 @@ pub(super) fn substitute_forward<const REACH: usize, const STRIDE: usize>(
     }
 }
 
-/// Backward substitution of one row.
 #[inline(always)]
 pub(super) fn substitute_backward<const REACH: usize, const STRIDE: usize>(
     row: &[f64; STRIDE],

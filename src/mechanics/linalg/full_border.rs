@@ -1,38 +1,36 @@
-//! The border of a banded matrix as full columns and rows, eliminated by blocks.
+//! Dense border of a banded matrix, eliminated by blocks.
 //!
 //! ```text
 //! [ A  B ] [x]   [f]        Z = A⁻¹ B      y = A⁻¹ f
 //! [ C  D ] [z] = [g]        (D - C Z) z = g - C y      x = y - Z z
 //! ```
 //!
-//! The band keeps its width whatever the border couples (Govaerts & Pryce, Block elimination with one iterative
-//! refinement solves bordered linear systems accurately, BIT 30 (1990) 490–507; refining is the business of the caller).
+//! The band keeps its width for any couplings of the border (Govaerts & Pryce, Block elimination with one iterative refinement solves bordered linear
+//! systems accurately, BIT 30 (1990) 490–507; refinement is up to the caller).
 
 use super::{BandedLu, BandedMatrix, BorderShape, LinearError};
 
-/// Columns of the border are kept and solved in strips of so many, a number that the compiler knows: that of the unknowns of
-/// a sliding contact, for which borders are.
+/// Number of border columns stored and solved together: the number of unknowns of a sliding contact, a compile-time constant.
 const STRIP: usize = 5;
 
-/// Some columns of `B`; after factorising, of `Z`.
+/// Columns of `B`; after factorising of `Z`.
 #[derive(Debug, Clone)]
 struct BorderStrip {
     rows: Vec<[f64; STRIP]>,
-    /// The first row with an entry.
     first_row: Option<usize>,
 }
 
-/// A border of full columns `B` and rows `C` with their common corner `D`.
+/// Border of dense columns `B` and rows `C` with their common corner `D`.
 #[derive(Debug, Clone)]
 pub struct FullBorder {
     width: usize,
     strips: Vec<BorderStrip>,
-    /// `C`: (row of the border, column, value); entries of one place add up.
+    /// `C`: (row of the border, column, value). Entries of the same place add up.
     rows: Vec<(usize, usize, f64)>,
     corner: BandedMatrix,
 }
 
-/// The factors of a matrix with a [`FullBorder`].
+/// Factors of a matrix with a [`FullBorder`].
 #[derive(Debug)]
 pub(super) struct FullLu<'a> {
     width: usize,
@@ -105,7 +103,7 @@ impl FullBorder {
         self.corner.get(border_row, border_column)
     }
 
-    /// All entries of a matrix with this border and a band that are not zero: row, column, value; those of one place add up.
+    /// All nonzero entries of a matrix with this border and a band: row, column, value. Entries of the same place add up.
     pub(super) fn entries_with(&self, band: &BandedMatrix) -> Vec<(usize, usize, f64)> {
         let (Self { width, strips, rows, corner }, n) = (self, band.size());
         let reach = band.half_bandwidth();
@@ -126,7 +124,7 @@ impl FullBorder {
         all.filter(|(.., value)| *value != 0.0).collect()
     }
 
-    /// The factors of a matrix with this border, and a band of which these are the factors.
+    /// Factorises a matrix with this border and a factorised band.
     pub(super) fn factorise<'a>(
         &'a mut self,
         band: BandedLu<'a>,
@@ -138,7 +136,7 @@ impl FullBorder {
         Ok(FullLu { width: *width, band, solved: strips, rows, complement })
     }
 
-    /// Makes `Z` of `B` and `D - C Z` of `D`.
+    /// Replaces `B` by `Z` and `D` by `D - C Z`.
     fn eliminate(&mut self, band: &BandedLu<'_>) {
         for strip in &mut self.strips {
             if let Some(first) = strip.first_row {
@@ -155,7 +153,7 @@ impl FullBorder {
 }
 
 impl FullLu<'_> {
-    /// Replaces the right-hand side `x`, one number a row, those of the border last, by the solution.
+    /// Replaces the right-hand side `x`, with the border last, by the solution.
     pub(super) fn solve(&self, x: &mut [f64]) {
         let (x, z) = x.split_at_mut(x.len() - self.width);
         self.band.solve(x);

@@ -1,4 +1,4 @@
-//! A border of many blocks each of which touches but a few unknowns of the band, eliminated where they touch it.
+//! Border of many blocks that each touch few unknowns of the band, eliminated locally.
 //!
 //! ```text
 //! [ A    B1   B2  … ]
@@ -7,7 +7,7 @@
 //! [ …             … ]
 //! ```
 //!
-//! The work grows with the number of blocks as with that of the unknowns, wherever they are: they may wander along the band.
+//! The work is proportional to the number of blocks and unknowns. Blocks may move along the band.
 
 use std::sync::Arc;
 
@@ -16,37 +16,35 @@ use super::block::{BLOCK, Block, NOWHERE};
 use super::profile::{ProfileLu, ProfileMatrix};
 use super::{BandedMatrix, LinearError};
 
-/// How much further than the band entries may reach before more memory is taken.
+/// Additional half-bandwidth before memory is reallocated.
 const SPARE_REACH: usize = 16;
 
-/// What is known of the blocks of a border, and of the band beside them, whatever their entries.
+/// Structure of the blocks of a border, and of the band beside them.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct BlockLayout {
-    /// For each block the unknowns of the band that nothing but this block couples with others: they are eliminated with it.
+    /// For each block, the unknowns of the band that only this block couples with others. They are eliminated with it.
     pub own: Vec<Vec<usize>>,
-    /// Which unknowns of the band are coupled with each other.
+    /// Groups of coupled unknowns of the band.
     pub groups: Arc<[Vec<usize>]>,
-    /// How many entries a block may have before more memory is taken.
+    /// Number of entries of a block before memory is reallocated.
     pub block_entries: usize,
 }
 
-/// A border of blocks of five unknowns, with the order in which what they leave is eliminated.
+/// Border of blocks of five unknowns, with the elimination order of their Schur complements.
 #[derive(Debug, Clone)]
 pub struct LocalBorder {
     blocks: Vec<Block>,
     arrangement: Arrangement,
-    /// The band and what the blocks leave on it, in the order of the arrangement.
+    /// Band with the Schur complements of the blocks, in the order of the arrangement.
     matrix: ProfileMatrix,
-    /// For each unknown of the band its place in a block, nowhere but for a moment.
+    /// Buffer: place of each unknown of the band in a block, `NOWHERE` between uses.
     places: Vec<usize>,
     right: Vec<f64>,
-    /// What the right-hand side becomes in the blocks.
     own: Vec<f64>,
-    /// All unknowns of one block, with those that it touches.
     all: Vec<f64>,
 }
 
-/// The factors of a matrix with a [`LocalBorder`].
+/// Factors of a matrix with a [`LocalBorder`].
 #[derive(Debug)]
 pub(super) struct LocalLu<'a> {
     blocks: &'a [Block],
@@ -58,7 +56,7 @@ pub(super) struct LocalLu<'a> {
 }
 
 impl LocalBorder {
-    /// A border without entries beside a band of so many unknowns.
+    /// Creates an empty border beside a band of `size` unknowns.
     pub(super) fn zeros(size: usize, half_bandwidth: usize, layout: BlockLayout) -> Self {
         let entries = layout.block_entries;
         let blocks: Vec<_> =
@@ -88,13 +86,12 @@ impl LocalBorder {
         (&mut self.blocks[border_index / BLOCK], border_index % BLOCK)
     }
 
-    /// The column of a block in which an entry of one of its rows stands.
     pub(super) fn column_in(border_row: usize, border_column: usize) -> usize {
         debug_assert_eq!(border_row / BLOCK, border_column / BLOCK, "blocks are not coupled");
         border_column % BLOCK
     }
 
-    /// The entry at a row and a column of the band, or of the border where these are errors.
+    /// Entry at a row and a column, `Ok` of the band, `Err` of the border.
     pub(super) fn get(&self, row: Result<usize, usize>, column: Result<usize, usize>) -> f64 {
         let block = |at: usize| (&self.blocks[at / BLOCK], at % BLOCK);
         match (row, column) {
@@ -106,7 +103,7 @@ impl LocalBorder {
         }
     }
 
-    /// Eliminates the blocks, and then band and what they leave.
+    /// Eliminates the blocks, then the band with their Schur complements.
     pub(super) fn factorise(&mut self, band: &BandedMatrix) -> Result<LocalLu<'_>, LinearError> {
         let size = band.size() + self.width();
         for (index, block) in self.blocks.iter_mut().enumerate() {
@@ -128,7 +125,7 @@ impl LocalBorder {
         Ok(LocalLu { blocks, arrangement, factors, right, own, all })
     }
 
-    /// Copies the band, in the order of the arrangement.
+    /// Copies the band in the order of the arrangement.
     fn copy(&mut self, band: &BandedMatrix) {
         let Arrangement { position, runs_to, .. } = &self.arrangement;
         for (row, &place) in position.iter().enumerate().filter(|(_, place)| **place != NOWHERE) {
@@ -146,7 +143,6 @@ impl LocalBorder {
     }
 }
 
-/// The place of what elimination of a block has left, by its number there: delayed unknowns first.
 fn place_of(block: &Block, delayed: usize, position: &[usize], left: usize) -> usize {
     left.checked_sub(block.delayed())
         .map_or_else(|| delayed + left, |touched| position[block.touched[touched]])
@@ -163,7 +159,7 @@ fn add_what_is_left(block: &Block, delayed: usize, position: &[usize], matrix: &
             }
         }
     }
-    // Where fewer are delayed than may be, nothing is asked.
+    // Unused places of delayed unknowns get an identity row.
     if delayed != NOWHERE {
         for place in delayed + count..delayed + super::block::MOST_DELAYED {
             matrix.add(place, place, 1.0);
@@ -172,7 +168,7 @@ fn add_what_is_left(block: &Block, delayed: usize, position: &[usize], matrix: &
 }
 
 impl LocalLu<'_> {
-    /// Replaces the right-hand side `x`, those of the border last, by the solution.
+    /// Replaces the right-hand side `x`, with the border last, by the solution.
     pub(super) fn solve(&mut self, x: &mut [f64]) {
         let Arrangement { position, delayed, .. } = self.arrangement;
         let (x, z) = x.split_at_mut(position.len());
@@ -228,7 +224,7 @@ mod tests {
     use nalgebra::{DMatrix, DVector};
     use proptest::prelude::*;
 
-    /// What a block touches: the first of some unknowns that follow each other, how many, and one far away.
+    /// Touched unknowns of a block: the first of some consecutive ones, their number, and one far away.
     type Touch = (usize, usize, Option<usize>);
 
     const OWN: usize = 2;
@@ -247,7 +243,7 @@ mod tests {
         (BlockLayout { own, groups: groups.into(), block_entries: 10 }, next)
     }
 
-    /// Entries like those of a band with contacts: forces do not depend on each other.
+    /// Entries like those of a band with contacts, whose forces do not depend on each other.
     fn fill(
         matrix: &mut BorderedMatrix,
         layout: &BlockLayout,
@@ -309,7 +305,7 @@ mod tests {
         let (size, own) = (300, [false; 30]);
         let (layout, all) = layout(size, 2, &own);
         let mut matrix = BorderedMatrix::with_blocks(all, 2, layout.clone());
-        // As if two beams of 150 unknowns crossed each other at every place.
+        // As for two beams of 150 unknowns that cross each other at every place.
         let touches: Vec<Touch> =
             (0..30).map(|block| (5 * block, 3, Some(150 + 5 * block))).collect();
         let mut value = 0.3_f64;

@@ -26,7 +26,6 @@ pub(super) struct ProfileLu<'a> {
 }
 
 impl ProfileMatrix {
-    /// Creates an empty matrix with capacity for a size and a half-bandwidth.
     pub(super) fn with_capacity(size: usize, half_bandwidth: usize) -> Self {
         let ends = Vec::with_capacity(size + PANEL);
         Self { storage: Storage::zeros(size, half_bandwidth), ends }

@@ -42,7 +42,6 @@ impl SymmetricSparse {
         matrix
     }
 
-    /// Adds up entries of the same place.
     fn close_up(&mut self) {
         let Self { starts, columns, values } = self;
         let (mut kept, mut first) = (0, 0);

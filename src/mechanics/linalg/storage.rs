@@ -14,7 +14,6 @@ pub(super) struct Storage {
     pub(super) reach: usize,
     /// Row `i` holds the columns `i - b - (PANEL - 1) ..= i + 2 b`. Factors hold multipliers left of the diagonal and the inverse pivot on it.
     pub(super) rows: Vec<f64>,
-    /// Original row of the pivot of each column.
     pub(super) pivots: Vec<usize>,
     /// Last column with an entry in each row of the upper factor.
     pub(super) last_columns: Vec<usize>,
@@ -36,7 +35,6 @@ pub(super) struct ActiveRows<'a> {
     pub(super) multipliers: &'a mut [[f64; PANEL]],
 }
 
-/// Eliminated rows.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Factors<'a> {
     pub(super) size: usize,
@@ -78,7 +76,6 @@ impl Storage {
         self.reach + PANEL - 1
     }
 
-    /// Number of stored entries per row.
     #[inline(always)]
     pub(super) fn stride(&self) -> usize {
         3 * self.reach + PANEL
@@ -109,7 +106,6 @@ impl Storage {
 }
 
 impl Factors<'_> {
-    /// Returns true if the pivot of one of these columns came from another row.
     #[inline(always)]
     pub(super) fn is_exchanged(&self, mut columns: Range<usize>) -> bool {
         columns.any(|column| self.pivots[column] != column)

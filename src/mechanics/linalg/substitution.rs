@@ -68,7 +68,6 @@ impl WithSimd for Backward<'_> {
     }
 }
 
-/// Substitution for a profile matrix.
 pub(super) struct ProfileSubstitution<'a> {
     pub(super) factors: Factors<'a>,
     pub(super) ends: &'a [usize],
@@ -122,7 +121,6 @@ fn substitute_backward(factors: &Factors<'_>, reach: usize, x: &mut [f64]) {
     }
 }
 
-/// The same for compile-time half-bandwidths.
 #[inline(always)]
 fn substitute_forward_fixed<const REACH: usize, const STRIDE: usize>(
     factors: &Factors<'_>,
@@ -164,7 +162,6 @@ fn substitute_backward_fixed<const REACH: usize, const STRIDE: usize>(
     }
 }
 
-/// Forward substitution with a panel of columns.
 #[inline(always)]
 fn substitute_panel(
     factors: &Factors<'_>,
@@ -210,7 +207,6 @@ fn substitute_panel(
     }
 }
 
-/// Backward substitution of one row.
 #[inline(always)]
 fn substitute_row(factors: &Factors<'_>, reach: usize, x: &mut [f64], row: usize) {
     let (stride, centre) = (3 * reach + PANEL, reach + PANEL - 1);

@@ -61,7 +61,6 @@ impl SymmetricFactors {
     }
 }
 
-/// Storage of multipliers and inverse pivots.
 type Kept<'a> = (&'a mut [f64], &'a mut [f64]);
 
 /// Eliminates the symmetric matrix `A + σ M` column by column, and stores columns and pivots if requested.
@@ -236,7 +235,6 @@ mod tests {
     use nalgebra::{DMatrix, DVector};
     use proptest::prelude::*;
 
-    /// Sum of squares of these numbers, and the same as a dense matrix.
     fn squares(
         size: usize,
         width: usize,

@@ -10,13 +10,11 @@ use super::{BandedLu, BandedMatrix, LinearError};
 /// Number of scaling passes.
 const SCALINGS: usize = 4;
 
-/// Matrix entry: row, column, value.
 type MatrixEntry = (usize, usize, f64);
 
 /// Square sparse matrix with its own elimination order, followed by dense rows and columns.
 #[derive(Debug, Clone)]
 pub(super) struct Together {
-    /// Number of sparse rows.
     size: usize,
     band: BandedMatrix,
     /// Place of each sparse row in the band.
@@ -26,11 +24,9 @@ pub(super) struct Together {
     columns: Vec<Vec<f64>>,
     /// Entries of the dense rows, numbered from the first of these.
     rows: Vec<MatrixEntry>,
-    /// Schur complement of the dense rows and columns.
     complement: BandedMatrix,
 }
 
-/// Scaling factors of rows and columns.
 #[derive(Debug, Clone, Default)]
 struct Equilibration {
     rows: Vec<f64>,
@@ -46,7 +42,6 @@ pub(super) struct TogetherLu<'a> {
     complement: BandedLu<'a>,
 }
 
-/// Factors of the sparse rows.
 #[derive(Debug)]
 struct Ordered<'a> {
     band: BandedLu<'a>,
@@ -102,7 +97,6 @@ impl Together {
         Ok(TogetherLu { others, columns, rows, complement })
     }
 
-    /// Orders the sparse rows into a narrow band.
     fn order(&mut self, entries: &[MatrixEntry]) {
         let scales = Equilibration::of(self.size, entries);
         let pairs = entries.iter().filter(|(row, column, _)| row != column);
@@ -118,7 +112,6 @@ impl Together {
 }
 
 impl TogetherLu<'_> {
-    /// Replaces a right-hand side by the solution.
     pub(super) fn solve(&self, x: &mut [f64]) {
         let (x, z) = x.split_at_mut(x.len() - self.columns.len());
         self.others.solve(x);
@@ -146,7 +139,6 @@ impl Ordered<'_> {
 }
 
 impl Equilibration {
-    /// Scaling factors that make the largest entries of rows and columns about one.
     fn of(size: usize, entries: &[MatrixEntry]) -> Self {
         let (mut rows, mut columns) = (vec![1.0; size], vec![1.0; size]);
         for _ in 0..SCALINGS {

@@ -20,16 +20,13 @@ const FEWEST_ROWS: usize = 6000;
 pub(super) struct TwoEnded {
     cut: BandCut,
     threads: usize,
-    /// Multipliers of the elimination from the last row on.
     multipliers: Vec<[f64; PANEL]>,
-    /// Remainder in the middle.
     middle: BandedMatrix,
     right: Vec<f64>,
     /// Unknowns in and behind the middle in reverse order.
     turned: Vec<f64>,
 }
 
-/// Partition of a band.
 #[derive(Debug, Clone, Copy)]
 struct BandCut {
     size: usize,
@@ -59,17 +56,14 @@ impl BandCut {
         Self { size, reach, upper, lower: (both - upper) / PANEL * PANEL }
     }
 
-    /// Number of unknowns that are eliminated last.
     fn middle(&self) -> usize {
         self.size - self.upper - self.lower
     }
 
-    /// Number of rows involved in the elimination from the first one on.
     fn upper_rows(&self) -> usize {
         self.upper + self.reach
     }
 
-    /// Number of reversed rows: all others except one between.
     fn lower_rows(&self) -> usize {
         self.size - self.upper_rows() - 1
     }
@@ -95,7 +89,6 @@ impl TwoEnded {
         }
     }
 
-    /// Sets the number of threads, with unchanged results.
     pub(super) fn use_threads(&mut self, threads: usize) {
         self.threads = threads;
     }

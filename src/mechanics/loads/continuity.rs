@@ -26,7 +26,6 @@ const LEFT_OF_A_JUMP: f64 = 0.5;
 /// Ratio of a difference to the sum of all others in a step above which it is examined.
 const OUTSTANDING: f64 = 1.05;
 
-/// Jump of a function.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Jump {
     pub(super) time: f64,
@@ -37,7 +36,6 @@ pub(super) struct Jump {
 }
 
 impl Jump {
-    /// Returns the error of the jump.
     pub(super) fn refused(self) -> LoadError {
         let Self { time, before, after, is_whole } = self;
         let [time, before, after] = [time, before, after].map(rounded);
@@ -48,7 +46,6 @@ impl Jump {
     }
 }
 
-/// Rounds a number to seven digits.
 fn rounded(number: f64) -> f64 {
     format!("{number:.6e}").parse().unwrap_or(number)
 }
@@ -116,7 +113,6 @@ fn halve(schedule: &Schedule, ends: &mut [(f64, f64); 2]) -> Result<(), LoadErro
     Ok(())
 }
 
-/// Other schedules declare their jumps, and the values of controllers are constant in a step.
 fn may_jump(schedule: &Schedule) -> bool {
     schedule.functions() > 0 && !schedule.is_sampled()
 }

@@ -22,17 +22,14 @@ const ROUNDINGS: f64 = 64.0;
 pub(super) struct Adaptive {
     pub(super) controller: StepController,
     pub(super) doubling: StepDoubling,
-    /// Estimate of the sampling error of controllers.
     pub(super) resampling: Option<Resampling>,
     pub(super) tolerance: f64,
 }
 
-/// Planned next step.
 pub(super) struct StepPlan {
     pub(super) interval: Interval,
     /// True if the step was shortened to end at an event such as a jump of a load.
     pub(super) is_cut: bool,
-    /// True if the step is the shortest one allowed.
     pub(super) is_least: bool,
 }
 

@@ -10,7 +10,6 @@ pub(super) struct StepClock {
     pub(super) grid: TimeGrid,
     /// Size of the next step, for variable steps.
     pub(super) pace: Option<StepSizeState>,
-    /// Partially covered step of the grid.
     pub(super) under_way: Option<StepRetry>,
     /// End time of the present run; infinite for single steps [time].
     pub(super) goal: f64,

@@ -64,7 +64,6 @@ const STORED: &str = "stored";
 /// Column of the energy dissipated by dampers, damped materials and drag.
 const DISSIPATED: &str = "dissipated";
 
-/// Columns that a scene adds to the standard ones.
 pub(super) fn extra_columns(scene: &Scene) -> Vec<ExtraColumn> {
     let of_slider = |slider: &Slider| {
         let name = slider.name.clone();
@@ -129,7 +128,6 @@ pub(super) fn extra_columns(scene: &Scene) -> Vec<ExtraColumn> {
         .collect()
 }
 
-/// Column name of a component of a drive.
 fn told_of(kind: DriveKind, component: Component) -> &'static str {
     match kind {
         DriveKind::Move => component.name(),
@@ -137,7 +135,6 @@ fn told_of(kind: DriveKind, component: Component) -> &'static str {
     }
 }
 
-/// Values of the additional columns in the present state, except sensors.
 pub(super) fn extra_values(model: &System) -> impl Iterator<Item = f64> {
     let of_sliders = (0..model.slider_names().count()).flat_map(|slider| {
         let force = model.contact_force(slider);

@@ -49,7 +49,6 @@ pub(super) struct StepSizeState {
     pub(super) tries: usize,
 }
 
-/// Tried step with its error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct TriedStep {
     /// Duration [time].
@@ -59,7 +58,6 @@ pub(super) struct TriedStep {
 }
 
 impl StepController {
-    /// Initial controller state.
     pub(super) fn start(&self) -> StepSizeState {
         StepSizeState { wish: self.first, error: None, tries: 0 }
     }
@@ -73,12 +71,10 @@ impl StepController {
             && pace.tries < usize::MAX / 2
     }
 
-    /// Restarts the controller after an event, with the initial step size if it is smaller.
     pub(super) fn restart(&self, pace: &mut StepSizeState) {
         *pace = StepSizeState { wish: pace.wish.min(self.first), ..self.start() };
     }
 
-    /// Updates the state after an accepted step of the requested size.
     pub(super) fn accept(&self, pace: &mut StepSizeState, trial: TriedStep) {
         let error = trial.error.max(LEAST_ERROR);
         let growth = match pace.error {

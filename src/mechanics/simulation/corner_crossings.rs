@@ -16,22 +16,18 @@ pub(super) struct CornerCrossings {
 }
 
 impl CornerCrossings {
-    /// Records the start of a step.
     pub(super) fn look_at_start(&mut self, model: &System) {
         model.write_branches(&mut self.start);
     }
 
-    /// Records the end of the whole step.
     pub(super) fn look_at_whole(&mut self, model: &System) {
         model.write_branches(&mut self.whole);
     }
 
-    /// Records the middle of the half steps.
     pub(super) fn look_at_middle(&mut self, model: &System) {
         model.write_branches(&mut self.middle);
     }
 
-    /// Records the end of both half steps.
     pub(super) fn look_at_halves(&mut self, model: &System) {
         model.write_branches(&mut self.halves);
     }

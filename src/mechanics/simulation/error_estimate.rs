@@ -24,7 +24,6 @@ pub(super) struct StepDoubling {
     allowed: f64,
 }
 
-/// Two accepted half steps with their error.
 pub(super) struct DoubledStep {
     /// Total work of the half steps and the whole step.
     pub(super) report: NewtonReport,
@@ -50,7 +49,6 @@ impl DoubledStep {
 /// Step with a failed part. The mechanism is back at the start of that part.
 pub(super) struct FailedStep {
     pub(super) source: StepError,
-    /// Newton iterations before the failed part.
     pub(super) before: usize,
 }
 
@@ -111,7 +109,6 @@ impl StepDoubling {
     }
 }
 
-/// Takes a step after others with the given work.
 fn take(
     integrator: &mut dyn Integrator,
     model: &mut System,

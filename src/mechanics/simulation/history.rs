@@ -115,12 +115,10 @@ impl History {
         self.extra.truncate(rows * self.extra_columns.len());
     }
 
-    /// Number of additional columns.
     pub(super) fn extra_width(&self) -> usize {
         self.extra_columns.len()
     }
 
-    /// Sets one of the additional columns in the last row.
     pub(super) fn fill_in(&mut self, column: usize, value: f64) {
         if let Some(first) = self.extra.len().checked_sub(self.extra_columns.len()) {
             self.extra[first + column] = value;

@@ -83,7 +83,6 @@ impl Outline {
         Self { line, marks: Vec::new(), corners: Vec::new() }
     }
 
-    /// A polygon is located by the centre and the farthest point.
     fn polygon(index: usize, body: &RigidBodyDefinition) -> Self {
         let at = |point: &usize| body.points[point - 1].1;
         let farther = |a: &usize, b: &usize| at(a).norm().total_cmp(&at(b).norm());
@@ -102,7 +101,6 @@ impl Outline {
         &self.corners
     }
 
-    /// Points of the line or polygon in a configuration.
     fn points(&self, at: impl Fn(&BodyPoint) -> Vec2) -> Vec<Vec2> {
         let line: Vec<Vec2> = self.line.iter().map(at).collect();
         let ([centre, point], false) = (line.as_slice(), self.corners.is_empty()) else {
@@ -113,12 +111,10 @@ impl Outline {
         self.corners.iter().map(corner).collect()
     }
 
-    /// Returns true for beams, which have knots.
     fn is_of_beam(&self) -> bool {
         !self.marks.is_empty()
     }
 
-    /// Parameters of the line: the breaks of the mesh, and uniform points between them.
     pub(super) fn parameters(mesh: &Mesh) -> Vec<f64> {
         let pieces = pieces(mesh.basis().degree());
         let within = |pair: &[f64]| {

@@ -33,7 +33,6 @@ pub struct WorkCounts {
     pub wall: Duration,
 }
 
-/// Statistics of the last step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct StepTaken {
     /// Length of the last step; zero before the first [time].
@@ -43,7 +42,6 @@ pub(super) struct StepTaken {
 }
 
 impl StepTaken {
-    /// Statistics from a row of the history.
     pub(super) fn of(row: &Sample) -> Self {
         Self { dt: row.dt, newton_iterations: row.newton_iterations, retries: row.retries }
     }
@@ -60,7 +58,6 @@ pub(super) struct RunProgress {
 }
 
 impl RunProgress {
-    /// Counts a successful step after some failed tries.
     pub(super) fn count_step(&mut self, interval: Interval, report: NewtonReport, retries: usize) {
         let NewtonReport { iterations, corrections, .. } = report;
         let counts = &mut self.counts;
@@ -73,31 +70,26 @@ impl RunProgress {
             StepTaken { dt: interval.duration(), newton_iterations: iterations, retries };
     }
 
-    /// Counts a step of a dry run.
     pub(super) fn count_pretended(&mut self, dt: f64) {
         self.counts.steps += 1;
         self.last_step = StepTaken { dt, ..StepTaken::default() };
     }
 
-    /// Counts a tried step in the search for an arrival.
     pub(super) fn count_try(&mut self, iterations: usize) {
         self.counts.arrival_tries += 1;
         self.counts.factorisations += iterations;
     }
 
-    /// Counts a failed step.
     pub(super) fn count_failure(&mut self, factorisations: usize) {
         self.counts.retries += 1;
         self.counts.factorisations += factorisations;
     }
 
-    /// Counts a step rejected by the tolerance.
     pub(super) fn count_rejection(&mut self, iterations: usize) {
         self.counts.rejected += 1;
         self.counts.factorisations += iterations;
     }
 
-    /// Arrival that ended the run, if any.
     pub(super) fn stopped(&self) -> Option<&Arrival> {
         self.arrivals.last().filter(|last| last.kind == ArrivalKind::Stopped)
     }

@@ -51,14 +51,12 @@ impl RunRecord {
         Ok(())
     }
 
-    /// Reserves memory for further steps.
     pub(super) fn reserve(&mut self, steps: usize) {
         let rows = self.recording.rows_of(steps);
         self.history.reserve(rows);
         self.trajectory.reserve(rows);
     }
 
-    /// Adds a permanent row for the present state.
     pub(super) fn keep_row(&mut self, model: &mut System, last_step: StepTaken) {
         self.add_row(model, last_step);
         self.rows_kept = self.history.samples().len();
@@ -81,7 +79,6 @@ impl RunRecord {
         self.trajectory.push(model.time(), coordinates(model));
     }
 
-    /// Truncates the record to the first rows.
     pub(super) fn go_back(&mut self, rows: usize) {
         self.rows_kept = rows;
         self.history.truncate(rows);
@@ -104,7 +101,6 @@ fn coordinates(model: &System) -> impl Iterator<Item = f64> + '_ {
     model.control_points().flatten().flat_map(|point| [point.x, point.y])
 }
 
-/// Lower bounds of the scales of drifts.
 fn scales(scene: &Scene, model: &System) -> DriftScales {
     let longest = scene.longest_beam().unwrap_or(0.0);
     let distances = model.control_points().flatten().map(|point| point.norm());

@@ -44,7 +44,6 @@ impl Recording {
         }
     }
 
-    /// Largest number of rows added by so many steps.
     pub(super) fn rows_of(self, steps: usize) -> usize {
         match self {
             Self::Every(count) => steps / count.get() + 2,

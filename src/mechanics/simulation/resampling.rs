@@ -52,7 +52,6 @@ impl Resampling {
         })
     }
 
-    /// Buffer for the state in the middle of the step.
     pub(super) fn middle_mut(&mut self) -> &mut SystemState {
         &mut self.middle
     }

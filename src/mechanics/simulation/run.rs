@@ -66,7 +66,6 @@ pub struct Simulation {
     settings: SimulationSettings,
     model: System,
     stepper: Stepper,
-    /// Step selection, for variable steps.
     adaptive: Option<Box<Adaptive>>,
     clock: StepClock,
     progress: RunProgress,
@@ -286,7 +285,6 @@ impl Simulation {
         Ok(())
     }
 
-    /// Number of rows of the dry run.
     fn pretend_alone_to(
         &mut self,
         end: f64,

@@ -120,7 +120,6 @@ impl Sensitivities {
         Ok(leader)
     }
 
-    /// Applies jumps of prescribed rates to the perturbed runs.
     pub(super) fn follow_jumps_of_drives(&mut self, way: Interval) {
         for twins in &mut self.parameters {
             for model in twins.models() {
@@ -134,12 +133,10 @@ impl Sensitivities {
         self.each(|twin| twin.count_step(interval, report, 0));
     }
 
-    /// Adds permanent rows for the perturbed runs.
     pub(super) fn keep_row(&mut self) {
         self.each(Simulation::keep_row);
     }
 
-    /// Adds temporary rows for the perturbed runs.
     pub(super) fn show_present(&mut self) {
         self.each(Simulation::show_present);
     }
@@ -175,7 +172,6 @@ impl fmt::Debug for Sensitivities {
 }
 
 impl Sensitivities {
-    /// Names of the parameters with their perturbations.
     pub(super) fn parameters(&self) -> impl Iterator<Item = (&str, f64)> {
         self.parameters.iter().map(|twins| (twins.name.as_str(), twins.distance))
     }

@@ -19,12 +19,9 @@ pub(super) struct Snapshot {
     pub(super) rows: usize,
     pub(super) last_step: StepTaken,
     pub(super) arrivals: usize,
-    /// Releases so far.
     pub(super) let_go: Rc<[ReleaseEvent]>,
     pub(super) counts: WorkCounts,
-    /// Number of passed grid points.
     pub(super) passed: u64,
-    /// Partially covered step of the grid.
     pub(super) under_way: Option<StepRetry>,
     /// Size of the next step, for variable steps.
     pub(super) pace: Option<StepSizeState>,
@@ -49,7 +46,6 @@ pub(super) struct Snapshots {
     first: Option<Snapshot>,
     /// In the order of time, one per step.
     recent: VecDeque<Snapshot>,
-    /// Largest number of recent snapshots.
     most: usize,
 }
 

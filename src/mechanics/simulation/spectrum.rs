@@ -66,7 +66,6 @@ pub enum SpectrumError {
     },
 }
 
-/// Rounds a number to six digits.
 fn six_digits(number: f64) -> f64 {
     format!("{number:.5e}").parse().unwrap_or(number)
 }
@@ -110,7 +109,6 @@ impl TimeSeries {
         Ok(peaks)
     }
 
-    /// Uniform time between rows.
     fn spacing(&self) -> Result<f64, SpectrumError> {
         let mut durations: Vec<f64> = self.times.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let middle = durations.len() / 2;

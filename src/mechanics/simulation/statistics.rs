@@ -55,7 +55,6 @@ impl TimeSeries {
         Some(Summary { min, min_at, max, max_at, mean, rms, integral })
     }
 
-    /// Durations with the values at their ends.
     fn pieces(&self) -> impl Iterator<Item = (f64, f64, f64)> + '_ {
         let pairs = self.times.windows(2).zip(self.values.windows(2));
         pairs.map(|(times, values)| (times[1] - times[0], values[0], values[1]))

@@ -12,10 +12,8 @@ const PARTS: u64 = 1 << MOST_HALVINGS;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct StepRetry {
     pub(super) whole: Interval,
-    /// Number of covered finest parts.
     covered: u64,
     halvings: u32,
-    /// Failed tries since the last success.
     pub(super) retries: usize,
 }
 
@@ -29,7 +27,6 @@ impl StepRetry {
         self.whole.end
     }
 
-    /// Components for storage: start and end of the whole, covered parts, halvings and retries.
     pub(super) fn to_parts(self) -> ((f64, f64), u64, u32, usize) {
         ((self.whole.start, self.whole.end), self.covered, self.halvings, self.retries)
     }
@@ -72,12 +69,10 @@ impl StepRetry {
         (!self.is_done()).then_some(self)
     }
 
-    /// Part of the step to be tried next.
     pub(super) fn next(&self) -> Interval {
         Interval::between(self.time(self.covered), self.time(self.covered + self.width()))
     }
 
-    /// Marks the tried part covered.
     pub(super) fn succeed(&mut self) {
         let width = self.width();
         self.covered += width;

@@ -16,15 +16,12 @@ const MOST_POINTS: u64 = 1 << 60;
 #[derive(Debug, Clone, Default)]
 pub struct TimeGrid {
     start: f64,
-    /// Infinite if there are only cuts.
     dt: f64,
     /// Tolerance of equal times, unless rounding is larger.
     slack: f64,
     /// In increasing order.
     cuts: Vec<f64>,
-    /// Clocks of digital controllers.
     beats: Vec<SampleClock>,
-    /// Number of passed grid points.
     passed: u64,
 }
 
@@ -122,7 +119,6 @@ impl TimeGrid {
         self.passed = self.passed_by(now);
     }
 
-    /// Number of grid points passed at a time, at least the recorded number.
     fn passed_by(&self, now: f64) -> u64 {
         // Start of the search: close to the result, and never beyond it.
         let near = (((now - self.start) / self.dt) as u64).saturating_sub(2).min(MOST_POINTS);

@@ -9,7 +9,6 @@ pub struct Trajectory {
     stride: usize,
     times: Vec<f64>,
     numbers: Vec<f64>,
-    /// Number of offered configurations per stored one.
     every: usize,
     offered: usize,
 }
@@ -60,12 +59,10 @@ impl Trajectory {
         self.numbers.truncate(kept * self.stride);
     }
 
-    /// Number of values per configuration.
     pub(super) fn stride(&self) -> usize {
         self.stride
     }
 
-    /// Number of offered configurations per stored one.
     pub(super) fn every(&self) -> usize {
         self.every
     }

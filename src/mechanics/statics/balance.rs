@@ -87,7 +87,6 @@ pub(super) struct AlongPath<'a> {
 }
 
 impl AlongPath<'_> {
-    /// Signed distance of the movement from the plane.
     fn beyond_plane(&self, movements: &[f64]) -> f64 {
         let way: f64 = self.normal.iter().zip(movements).map(|(t, u)| t * u).sum();
         way - self.distance

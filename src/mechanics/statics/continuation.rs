@@ -27,16 +27,13 @@ const NEARBY: f64 = 1e-3;
 /// Number of iterations per step that the step control aims at.
 const WANTED_ITERATIONS: f64 = 4.0;
 
-/// Restraint of a scene as drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum InitialSupport {
-    /// Supports and stiffness, as far as known.
     Itself,
     /// The given number of movements is restrained by the loads only.
     Loads(usize),
 }
 
-/// Continuation of equilibria from the unloaded scene.
 pub(super) struct Continuation<'s> {
     pub(super) scene: &'s Scene,
     length: f64,
@@ -46,15 +43,12 @@ pub(super) struct Continuation<'s> {
     pub(super) model: System,
     pub(super) path: EquilibriumPath,
     newton: Newton,
-    /// Movements, followed by contact unknowns.
     pub(super) unknowns: Vec<f64>,
     residual: Vec<f64>,
     heading: PathDirection,
 }
 
-/// Direction of a path.
 struct PathDirection {
-    /// Last movement.
     movements: Vec<f64>,
     /// Number of directions with negative stiffness.
     falls: usize,
@@ -91,7 +85,6 @@ impl<'s> Continuation<'s> {
         }
     }
 
-    /// Applies the loads in equal steps.
     pub(super) fn load_up(
         &mut self,
         hold: InitialSupport,
@@ -106,7 +99,6 @@ impl<'s> Continuation<'s> {
         Ok(())
     }
 
-    /// Solves for the first load factor.
     fn begin(
         &mut self,
         factor: f64,
@@ -123,7 +115,6 @@ impl<'s> Continuation<'s> {
         }
     }
 
-    /// Follows the path until the load factor is reached or the number of points is exhausted.
     pub(super) fn follow(
         &mut self,
         arc: ArcLength,
@@ -258,7 +249,6 @@ impl<'s> Continuation<'s> {
         found
     }
 
-    /// Root mean square movement, relative to the longest beam.
     pub(super) fn moved(&self) -> f64 {
         norm(&self.metric, &self.unknowns)
     }
@@ -313,7 +303,6 @@ impl<'s> Continuation<'s> {
         self.path.push(point(&mut self.model, factor, distance, iterations));
     }
 
-    /// Removes the last point of the path.
     fn take_back(&mut self) {
         self.path.pop();
         self.go_back();

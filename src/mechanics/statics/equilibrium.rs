@@ -193,7 +193,6 @@ fn at_rest(scene: &Scene) -> Result<System, SystemError> {
     System::assemble(&still)
 }
 
-/// Prescribed rates and controllers need time.
 fn check_needs_no_time(scene: &Scene) -> Result<(), StaticsError> {
     let is_rate = |drive: &&Drive| {
         drive.motions().any(|(_, motion)| matches!(motion, PrescribedMotion::Rate(_)))

@@ -68,7 +68,6 @@ pub(super) struct LoadTurningPoint {
     pub(super) load_factor: f64,
 }
 
-/// Vertex of the parabola through three load factors at the given distances, if they turn.
 pub(super) fn vertex(
     [first, second, third]: [f64; 3],
     [before, after]: [f64; 2],
@@ -84,7 +83,6 @@ pub(super) fn vertex(
 mod tests {
     use super::*;
 
-    /// Path with a given load factor over its length.
     fn path(places: &[f64], load_factor: impl Fn(f64) -> f64) -> EquilibriumPath {
         let before = std::iter::once(&0.0).chain(places);
         let point = |(at, before): (&f64, &f64)| PathPoint {

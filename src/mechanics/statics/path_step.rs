@@ -8,11 +8,9 @@ use crate::integrators::{Constraints, Mechanism};
 use crate::newton::Newton;
 use crate::system::{Scene, System};
 
-/// Arc-length step with its work space.
 pub(super) struct PathStep {
     newton: Newton,
     normal: Vec<f64>,
-    /// Movements and contact unknowns, followed by the load factor.
     unknowns: Vec<f64>,
     residual: Vec<f64>,
     forces: Vec<f64>,

@@ -1,4 +1,4 @@
-//! The model: bodies, elements, rigid links and sliders, their present motion, and what can be done with them.
+//! Model of a scene: bodies, elements, rigid links and sliders with their present motion.
 
 mod acceleration;
 mod energies;
@@ -39,7 +39,7 @@ use super::sliders::{MasterLimit, SliderContact, Sliders};
 use super::state::{MotionState, Resolution, StepMeasures, Unknowns};
 use crate::loads::LoadError;
 
-/// The mechanism of a scene: assembled, with its state of motion, and ready to be advanced by an integrator.
+/// Mechanism of a scene, assembled with its state of motion, to be advanced by an integrator.
 pub struct System {
     bodies: Bodies,
     elements: Elements,
@@ -50,12 +50,10 @@ pub struct System {
     motion: MotionState,
     exchanged: ExchangeLedger,
     step: StepMeasures,
-    /// A state to go back to, for methods whose steps have parts.
     kept: SystemState,
 }
 
 impl System {
-    /// A model made of its groups, in the state at its start.
     pub(super) fn new(
         bodies: Bodies,
         elements: Elements,
@@ -80,13 +78,12 @@ impl System {
         }
     }
 
-    /// Begins the motion: what supports gave to make velocities fit is not counted, and the first step is guessed from the rates
-    /// as they are now.
+    /// Starts the motion. Exchanges during the adjustment of velocities are discarded, and the first step is predicted from the present rates.
     pub(super) fn begin(&mut self) {
         self.exchanged.total = WorkAndImpulse::default();
         let inertia = self.diagonal_of_inertia();
         self.motion.begin(inertia);
-        // Alone, what all of the model does is what the body does.
+        // A single body has the resolution of the model.
         let bodies = &self.bodies;
         let damped = self.elements.resistances().filter_map(InternalForce::damped_beam);
         let apart = damped.filter(|_| bodies.len() > 1);
@@ -95,7 +92,6 @@ impl System {
         self.motion.watch(apart.map(|body| (body, movements(body))));
     }
 
-    /// Gives what is moved by functions of time the rates that these have just after a time, in a model that has not taken a step.
     pub(super) fn set_given_in_motion(&mut self, time: f64) -> Result<(), (String, LoadError)> {
         self.supports.prescribed_mut().begin_at(time)?;
         let first = self.unknowns.count();
@@ -132,62 +128,62 @@ impl System {
         &self.sliders[slider]
     }
 
-    /// The time of the model's present state [time].
+    /// Present time [time].
     pub fn time(&self) -> f64 {
         self.motion.time
     }
 
-    /// How far the steps so far resolve the motion of the model.
+    /// Resolution of the motion by the steps so far.
     pub fn resolution(&self) -> &Resolution {
         self.motion.resolution()
     }
 
-    /// How far the steps so far resolve the motion of each beam of a damped material, by its number; none where there is no other body.
+    /// Resolution of the motion of each beam with material damping, by index; empty if there are no other bodies.
     pub fn resolution_by_beam(&self) -> impl Iterator<Item = (usize, &Resolution)> {
         self.motion.watched().iter().map(|one| (one.body, one.resolution()))
     }
 
-    /// Whether points of rigid bodies are joined by forces that are unknowns.
+    /// Returns true if points of rigid bodies have link forces as unknowns.
     pub fn has_rigid_links(&self) -> bool {
         self.links.count() > 0
     }
 
-    /// The mass of all bodies and point masses [mass].
+    /// Total mass of bodies and point masses [mass].
     pub fn total_mass(&self) -> f64 {
         self.bodies.mass() + self.elements.mass()
     }
 
-    /// Lets up to `threads` threads work on a large body, or on many, from here on, with the same results; gives how many will at most.
+    /// Sets the number of threads for a large body or many bodies, with unchanged results. Returns the largest number in use.
     pub fn divide(&mut self, threads: usize) -> usize {
         self.bodies.divide(threads)
     }
 
-    /// Moves the clock of the model to a time without moving anything else.
+    /// Sets the time without moving anything.
     pub fn pass_time_to(&mut self, time: f64) {
         self.motion.time = time;
     }
 
-    /// Gives all loads the values that they have just after a time, and prescribed motions their places at rest.
+    /// Evaluates loads just after a time, and prescribed positions at rest.
     ///
     /// # Errors
-    /// When one has no finite value then: its name, and why.
+    /// Name of the element without a finite value, and the reason.
     pub fn hold_loads_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
         self.supports.prescribed_mut().hold_at(time)?;
         self.elements.hold_at(time)
     }
 
-    /// Makes steps end where a slider reaches a limit of its master, or lets them go where they lead again.
+    /// Makes the next step end where a slider reaches a limit; `None` for a regular step.
     pub fn aim_at(&mut self, limit: Option<MasterLimit>) {
         self.sliders.aim_at(limit);
     }
 
-    /// Lets a slider, by its index, leave its master.
+    /// Releases a slider from its master.
     pub fn release(&mut self, slider: usize) {
         self.sliders[slider].release();
         self.motion.accelerations.forget();
     }
 
-    /// Lets a slider rest against the stop at a limit, until the stop would have to pull.
+    /// Holds a slider at the stop at a limit, until the stop force would become tensile.
     pub fn hold(&mut self, limit: MasterLimit) {
         let slider = &mut self.sliders[limit.slider];
         slider.hold(limit.end);
@@ -195,7 +191,7 @@ impl System {
         self.motion.accelerations.forget();
     }
 
-    /// Whether the present velocities lead a slider beyond a limit at which it is.
+    /// Returns true if the present velocities move a slider at a limit beyond it.
     pub fn leads_beyond(&self, limit: MasterLimit) -> bool {
         let rate = self.sliders[limit.slider].rate(&self.bodies, &self.motion.rates);
         rate * limit.end.outward() > 0.0

@@ -25,7 +25,6 @@ pub(super) fn pool() -> Option<&'static ThreadPool> {
     POOL.get_or_init(start).as_ref()
 }
 
-/// Notifies polling threads of new parts.
 pub(super) fn announce_parts() {
     HANDED_OUT.fetch_add(1, Ordering::Release);
 }

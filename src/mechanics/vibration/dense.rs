@@ -125,7 +125,6 @@ fn inertia_root(pencil: &Pencil) -> DMatrix<f64> {
     root
 }
 
-/// Rotates pairs of columns until all are orthogonal. Returns the squares of their norms.
 pub(super) fn rotate(
     columns: &mut DMatrix<f64>,
     goes_on: &mut dyn FnMut() -> bool,

@@ -31,7 +31,6 @@ struct StrainRows {
     twists: usize,
 }
 
-/// Four mode shapes with their section forces.
 #[derive(Debug, Clone)]
 pub(super) struct Shapes {
     pub(super) movements: Vec<FourVectors>,
@@ -44,7 +43,6 @@ pub(super) struct Shapes {
 }
 
 impl Shapes {
-    /// Scales each of the four shapes.
     pub(super) fn scale(&mut self, factors: &FourVectors) {
         let Self { movements, forces, missing, resisting } = self;
         for row in movements.iter_mut().chain(forces).chain(missing).chain(resisting) {
@@ -53,7 +51,6 @@ impl Shapes {
     }
 }
 
-/// Twice the energies of four shapes.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Energies {
     /// Twice the energy of each shape, `Σ n²/k + xᵀ K_g x`.
@@ -74,7 +71,6 @@ impl Elastic {
         self.doubts.extend(&span.doubts);
     }
 
-    /// Number of strains of all spans.
     pub(super) fn strains(&self) -> usize {
         self.stiffness.len()
     }
@@ -110,7 +106,6 @@ impl Elastic {
         Arch::new().dispatch(Rounding { elastic: self, movements })
     }
 
-    /// Passes each span with its unknowns, rows, and the places of its strains and pairs.
     #[inline(always)]
     fn each_span(&self, mut take: impl FnMut(ElasticSpan<'_>)) {
         let (mut unknown, mut entry, mut strain, mut twist) = (0, 0, 0, 0);
@@ -132,12 +127,10 @@ impl Elastic {
     }
 }
 
-/// Data of a span.
 struct ElasticSpan<'a> {
     unknowns: &'a [u32],
     rows: &'a [f64],
     pairs: &'a [f64],
-    /// Its first strain, and its first pair.
     strain: usize,
     twist: usize,
 }

@@ -1,6 +1,5 @@
 //! Errors of modal analysis.
 
-/// Describes the allowed number of modes.
 fn range(available: usize) -> String {
     match available {
         0 => ": all of it is held or driven".to_owned(),

@@ -38,7 +38,6 @@ pub(super) struct Pairs {
     pub(super) strips: Vec<Vec<FourVectors>>,
 }
 
-/// State of a Lanczos search.
 pub(super) struct Lanczos<'a> {
     pencil: &'a Pencil,
     factors: &'a SymmetricFactors,
@@ -50,7 +49,6 @@ pub(super) struct Lanczos<'a> {
     next_momenta: Vec<FourVectors>,
     coupling: Square4,
     momenta: Vec<FourVectors>,
-    /// State of the random number generator.
     seed: u64,
 }
 
@@ -178,7 +176,6 @@ impl<'a> Lanczos<'a> {
         largest
     }
 
-    /// Replaces lost vectors by random ones.
     fn replace(&mut self, block: &mut [FourVectors], lost: &[usize]) {
         let mut fresh = self.scattered();
         let keep_lost = |strip: &mut [FourVectors]| {
@@ -235,7 +232,6 @@ impl<'a> Lanczos<'a> {
         (order.iter().map(|at| eigenvalues[*at]).collect(), eigenvectors.select_columns(&order))
     }
 
-    /// Number of leading converged pairs.
     fn settled(&self, values: &[f64], vectors: &DMatrix<f64>) -> usize {
         let first = vectors.nrows() - STRIP_WIDTH;
         let rest = |column: usize| {
@@ -248,7 +244,6 @@ impl<'a> Lanczos<'a> {
         values.iter().enumerate().take_while(|pair| is_settled(*pair)).count()
     }
 
-    /// Linear combinations of the basis, padded with zeros.
     fn combined(&self, vectors: &DMatrix<f64>, count: usize) -> Vec<Vec<FourVectors>> {
         let strip = |first: usize| {
             let mut strip = self.pencil.zeros();
@@ -270,7 +265,6 @@ impl<'a> Lanczos<'a> {
         Pairs { values: values[..count].to_vec(), strips: self.combined(vectors, count) }
     }
 
-    /// Restarts with the best combinations of the basis.
     fn restart(&mut self, values: &[f64], vectors: &DMatrix<f64>, keep: usize) {
         let keep = keep.next_multiple_of(STRIP_WIDTH).min(values.len());
         self.basis = self.combined(vectors, keep);
@@ -299,7 +293,6 @@ fn orthonormalise(block: &mut [FourVectors], momenta: &mut [FourVectors]) -> Squ
     triangle
 }
 
-/// Returns true if the vectors are orthonormal, apart from zero vectors.
 fn is_orthonormal(gram: &Square4) -> bool {
     let expected = |i: usize, j: usize| f64::from(u8::from(i == j && gram[i][i] > 0.0));
     (0..STRIP_WIDTH)

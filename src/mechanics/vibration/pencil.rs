@@ -13,7 +13,6 @@ pub(super) struct Pencil {
     stiffness: PreciseBand,
     pub(super) inertia: SymmetricSparse,
     pub(super) elastic: Elastic,
-    /// Numbering of unknowns in stiffness and inertia.
     pub(super) order: OrderAtRest,
     /// Approximate square of the slowest bending frequency [1/time²].
     pub(super) scale: f64,
@@ -22,7 +21,6 @@ pub(super) struct Pencil {
 }
 
 impl Pencil {
-    /// Creates the eigenvalue problem of the present configuration.
     pub(super) fn of(model: &System) -> Result<Self, VibrationError> {
         let order = model.order_at_rest();
         let size = order.count();
@@ -59,12 +57,10 @@ impl Pencil {
         size * reach * 8 * size_of::<f64>() + Elastic::memory(2 * size, reach)
     }
 
-    /// Number of unknowns.
     pub(super) fn size(&self) -> usize {
         self.stiffness.size()
     }
 
-    /// Length of vectors: unknowns, and the padding for substitution.
     pub(super) fn length(&self) -> usize {
         self.size() + self.stiffness.half_bandwidth().max(1)
     }

@@ -23,7 +23,6 @@ const ROUNDING: f64 = 1e-13;
 
 pub(super) type ComplexNumber = Complex<f64>;
 
-/// Absolute value of a complex number.
 pub(super) fn size(at: ComplexNumber) -> f64 {
     hypot(at.re, at.im)
 }
@@ -55,7 +54,6 @@ impl Quadratic {
         self.dampers.row(mode).norm_squared()
     }
 
-    /// Returns true for a mode that is neither restrained nor damped: both eigenvalues are zero.
     pub(super) fn is_loose(&self, mode: usize) -> bool {
         self.squares[mode] == 0.0 && self.damping(mode) == 0.0
     }
@@ -127,7 +125,6 @@ impl Quadratic {
     }
 }
 
-/// Number of leading eigenvalues, reduced by one if it would split a pair.
 fn whole_pairs(numbers: &[ComplexNumber], first: usize) -> usize {
     let numbers = numbers[..first].iter();
     let above = numbers.clone().filter(|at| at.im > 0.0).count();

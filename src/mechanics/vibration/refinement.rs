@@ -18,7 +18,6 @@ const FALLING: f64 = 0.3;
 /// Ratio of `μ` above which pairs are far apart.
 const WIDE: f64 = 1e7;
 
-/// Verified pair of frequency and shape.
 pub(super) struct RefinedPair {
     pub(super) square: f64,
     /// Bound of the relative error of `ω² + σ`, apart from the rounding of the pair itself [-].
@@ -242,7 +241,6 @@ fn subtract_resisting(r: &mut [FourVectors], squares: &FourVectors, shapes: &Sha
     }
 }
 
-/// Zero lanes contain no pair.
 fn squares_of(energies: &FourVectors, kinetic: &FourVectors) -> FourVectors {
     std::array::from_fn(
         |lane| if kinetic[lane] > 0.0 { energies[lane] / kinetic[lane] } else { 0.0 },

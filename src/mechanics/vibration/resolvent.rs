@@ -43,7 +43,6 @@ const BESIDE: f64 = 1e-8;
 /// Damping `s²` above which the force is an unknown of its own. As a matrix entry it would reduce the accuracy of weakly damped modes.
 const STRONG: f64 = 1e4;
 
-/// Damped vibration about a shift.
 pub(super) struct Resolvent {
     /// Shift `σ` [1/time].
     pub(super) shift: f64,

@@ -38,12 +38,9 @@ const LARGEST_SHIFT: f64 = 1e4;
 /// and smallest ratio if there are zero squares.
 const SMALLEST_SHIFT: f64 = 1e-6;
 
-/// Search strategy.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum ModeSearch {
-    /// All modes at once.
     All,
-    /// Lowest modes only.
     Lowest,
 }
 
@@ -54,12 +51,10 @@ impl ModeSearch {
     }
 }
 
-/// Returns true if a scene is small enough to compute all modes at once.
 pub(super) fn is_small(unknowns: usize) -> bool {
     unknowns <= SMALL
 }
 
-/// Approximate number of values stored by a search.
 pub(super) fn numbers(unknowns: usize, count: usize) -> usize {
     match ModeSearch::of(unknowns, count) {
         ModeSearch::All => DENSE_COPIES * unknowns * unknowns,
@@ -68,7 +63,6 @@ pub(super) fn numbers(unknowns: usize, count: usize) -> usize {
     }
 }
 
-/// Lowest modes of an eigenvalue problem.
 pub(super) fn lowest(
     pencil: &Pencil,
     count: usize,
@@ -89,7 +83,6 @@ pub(super) fn lowest(
     accept(found)
 }
 
-/// Smallest tried shift that makes the stiffness positive definite, with the factors.
 fn definite(pencil: &Pencil, mut shift: f64) -> Result<(f64, SymmetricFactors), VibrationError> {
     for _ in 0..=MOST_SHIFTS {
         if let Some(factors) = pencil.factors(shift) {
@@ -100,7 +93,6 @@ fn definite(pencil: &Pencil, mut shift: f64) -> Result<(f64, SymmetricFactors), 
     Err(VibrationError::Indefinite)
 }
 
-/// Lowest modes with their residuals.
 fn with_shift(
     pencil: &Pencil,
     shift: f64,
@@ -127,7 +119,6 @@ fn with_shift(
     Ok(modes)
 }
 
-/// Pairs whose completeness is verified by a count.
 fn counted_pairs(
     pencil: &Pencil,
     shift: f64,
@@ -159,7 +150,6 @@ fn mode_of(pair: RefinedPair, shift: f64) -> Mode {
     Mode { square, rounding, residual, shape }
 }
 
-/// Shift of better accuracy, if there is one.
 fn better_shift(modes: &[Mode], shift: f64) -> Option<f64> {
     let lowest = modes.iter().map(|mode| mode.square).find(|square| *square != 0.0)?;
     let is_large = shift > LARGEST_SHIFT * lowest.abs();
@@ -172,7 +162,6 @@ fn better_shift(modes: &[Mode], shift: f64) -> Option<f64> {
     }
 }
 
-/// Accepts modes with small residuals.
 fn accept(modes: Vec<Mode>) -> Result<Vec<Mode>, VibrationError> {
     let bad = |mode: &Mode| !(mode.residual <= LARGEST_RESIDUAL && mode.square.is_finite());
     match modes.iter().position(bad) {

@@ -19,7 +19,6 @@ impl Interpolation for () {
     }
 }
 
-/// Weighted sum of sections.
 #[derive(Debug, Default)]
 pub(in crate::beams) struct Interpolated(Section);
 

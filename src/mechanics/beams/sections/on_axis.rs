@@ -44,7 +44,6 @@ impl<'a> SectionsOnAxis<'a> {
         self.rule.iter_on(span.start, xi).map(|(at, weight)| weight * speed(at)).sum()
     }
 
-    /// Section at a parameter in a span of this index.
     pub(in crate::beams) fn at(&self, index: usize, span: &Span, xi: f64) -> Section {
         match self.variation {
             SectionVariation::Uniform(section) => *section,

@@ -46,7 +46,6 @@ pub(in crate::beams) trait Sections: Clone + Debug + Send + Sync {
     fn masses(uniform: &Section, lengths: Vec<f64>, weighed: Vec<f64>) -> Vec<f64>;
 }
 
-/// One section for all points.
 #[derive(Debug, Clone)]
 pub(in crate::beams) struct Uniform;
 
@@ -93,7 +92,6 @@ impl Sections for Uniform {
     }
 }
 
-/// One section per point.
 #[derive(Debug, Clone)]
 pub(in crate::beams) struct PerPoint {
     at_force: Vec<Section>,

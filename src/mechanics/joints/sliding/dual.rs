@@ -27,14 +27,12 @@ pub(super) struct Dual<const SLOPES: usize> {
     slopes: [f64; SLOPES],
 }
 
-/// Vector of two dual numbers.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct DualVector<const SLOPES: usize> {
     pub x: Dual<SLOPES>,
     pub y: Dual<SLOPES>,
 }
 
-/// Variables of the equations of a contact.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ContactDuals<const SLOPES: usize> {
     /// Offset of the slave from the smooth axis at the end of the step, `x_s1 - Σ B_i(ξ1) x_i1` [length].
@@ -80,7 +78,6 @@ impl<const SLOPES: usize> Dual<SLOPES> {
         jet
     }
 
-    /// Adds to a derivative, if there are derivatives.
     fn add_slope(&mut self, at: usize, slope: f64) {
         if let Some(own) = self.slopes.get_mut(at) {
             *own += slope;
@@ -94,7 +91,6 @@ impl<const SLOPES: usize> Dual<SLOPES> {
 }
 
 impl Dual<ALL_SLOPES> {
-    /// Equation that sets the number to zero.
     pub fn vanishes(self, unit: Unit) -> Equation {
         let pair = |at: usize| Vec2::new(self.slopes[at], self.slopes[at + 1]);
         Equation {

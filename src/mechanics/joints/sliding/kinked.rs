@@ -39,7 +39,6 @@ impl SlidingLaw for Kinked {
     }
 }
 
-/// Residuals of the law.
 fn imbalances<const SLOPES: usize>(
     contact: &Contact<'_>,
     kink: &Kink,
@@ -51,7 +50,6 @@ fn imbalances<const SLOPES: usize>(
     step.on_way.imbalances((contact, kink), &jets, step.jump, balance)
 }
 
-/// Kink in an iterate of a step.
 struct KinkInStep<const SLOPES: usize> {
     on_way: KinkOnPath<SLOPES>,
     /// Speed `v1` of the kink along the master at the end of the step [length/time].

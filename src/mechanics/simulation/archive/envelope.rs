@@ -43,7 +43,6 @@ impl<'a> ArchiveReader<'a> {
     }
 }
 
-/// Wraps content in an envelope.
 pub fn wrap(content: &[u8]) -> Vec<u8> {
     let program = &PROGRAM.as_bytes()[..PROGRAM.len().min(usize::from(u8::MAX))];
     let mut file = MARK.to_vec();

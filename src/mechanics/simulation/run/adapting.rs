@@ -146,7 +146,6 @@ impl Simulation {
         Ok(if plan.is_least { doubled.judged_by_places() } else { doubled })
     }
 
-    /// Takes the second half of a paused step, if there is one.
     fn end_step_half_way(
         &mut self,
         adaptive: &mut Adaptive,

@@ -159,7 +159,6 @@ impl Simulation {
         self.snapshots.push(snapshot);
     }
 
-    /// Snapshot of the present, in a recycled state.
     pub(super) fn snapshot(&self, mut state: SystemState) -> Snapshot {
         self.model.write_state(&mut state);
         Snapshot {

@@ -107,7 +107,6 @@ impl Simulation {
 }
 
 impl Content<'_> {
-    /// Checks values that no constructor checks.
     fn check(&self) -> Result<(), ArchiveError> {
         let Tolerance { force, strain, constraint, polish, iterations } = self.settings.tolerance;
         let are_tolerances = [force, strain, constraint, polish].iter().all(|x| *x >= 0.0);

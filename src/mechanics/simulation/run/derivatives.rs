@@ -105,7 +105,6 @@ impl Simulation {
         }
     }
 
-    /// Ends the derivatives after the run was changed other than by steps.
     pub(super) fn leave_derivatives(&mut self, way: &'static str) {
         if let Some(sensitivities) = &mut self.stepper.sensitivities {
             sensitivities.lose(DerivativeError::Way { way });

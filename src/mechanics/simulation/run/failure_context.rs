@@ -29,7 +29,6 @@ impl Simulation {
         extreme.chain(others).map(|told| format!("; {told}")).collect()
     }
 
-    /// A body without inertia that is loaded off its centre rotates instantaneously to its equilibrium angle.
     fn bodies_without_inertia(&self) -> impl Iterator<Item = String> {
         let inertia = |body: usize| -> f64 {
             let masses = self.scene.elements.iter().filter_map(|element| match element {
@@ -51,7 +50,6 @@ impl Simulation {
         )
     }
 
-    /// Methods with backward substeps, in which dissipative elements add energy.
     fn driven_backwards(&self) -> impl Iterator<Item = String> {
         let goes_back = self.settings.method == Method::FourthOrder;
         let damping = if goes_back { self.model.most_damping() } else { None };

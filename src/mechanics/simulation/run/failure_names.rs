@@ -9,7 +9,6 @@ use crate::joints::CONTACT_UNKNOWNS;
 const MOVEMENTS: [&str; 3] = ["x", "y", "the angle"];
 
 impl Simulation {
-    /// Adds the name of the failed unknown to an error, if known.
     pub(super) fn with_name(&self, mut error: StepError) -> StepError {
         if let StepError::Newton { culprit, .. } = &mut error {
             let name = culprit.take().and_then(|culprit| match *culprit {

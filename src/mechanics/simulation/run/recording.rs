@@ -34,7 +34,6 @@ impl Simulation {
         }
     }
 
-    /// Records the present state if due, and stores a snapshot if enabled.
     pub(super) fn keep_present(&mut self) {
         if self.is_worth_a_row() {
             self.keep_row();

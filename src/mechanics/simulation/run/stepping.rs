@@ -8,7 +8,6 @@ use crate::simulation::step_retry::StepRetry;
 use crate::simulation::{Monitor, SimulationError};
 use crate::system::MasterLimit;
 
-/// Completion of an interval.
 #[derive(PartialEq, Eq)]
 pub(super) enum IntervalProgress {
     All,
@@ -16,7 +15,6 @@ pub(super) enum IntervalProgress {
 }
 
 impl Simulation {
-    /// Advances to the end of a step, with cuts at arrivals of sliders.
     pub(super) fn cover_with_arrivals(
         &mut self,
         mut halving: StepRetry,
@@ -43,7 +41,6 @@ impl Simulation {
         SimulationError::Rattles { arrival, most: MOST_ARRIVALS }
     }
 
-    /// Covers an interval by one step, or on failure by halves that grow again after success.
     pub(super) fn cover(
         &mut self,
         mut halving: StepRetry,
@@ -98,7 +95,6 @@ impl Simulation {
         Ok(IntervalProgress::All)
     }
 
-    /// Takes a step. On failure, repeats it with fixed kinks under contact forces.
     fn step_or_keep_kinks(&mut self, interval: Interval) -> Result<NewtonReport, StepError> {
         // Resets the law only here, because queries of the last step depend on it.
         self.model.let_kinks_follow();
@@ -138,13 +134,11 @@ impl Simulation {
         }
     }
 
-    /// Calls the monitor.
     pub(super) fn ask(&self, monitor: &mut dyn Monitor) -> Result<(), SimulationError> {
         let time = self.time();
         if monitor.goes_on(time) { Ok(()) } else { Err(SimulationError::Interrupted { time }) }
     }
 
-    /// Error of a step that failed in every size.
     fn no_step(&self, dt: f64, divisions: u64, source: StepError) -> SimulationError {
         let (time, plight) = (self.time(), self.plight());
         if let StepError::Overshoot { overshoot, .. } = &source {

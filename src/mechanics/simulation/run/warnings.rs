@@ -109,7 +109,6 @@ impl Simulation {
         notes
     }
 
-    /// Returns true if unresolved vibration is a large part of a motion.
     fn is_unresolved(&self, resolution: &Resolution) -> bool {
         let share = resolution.unresolved_share();
         let turn = resolution.angular_frequency() * self.dt();
@@ -244,7 +243,6 @@ impl Simulation {
         })
     }
 
-    /// Resolution measures of the steps so far, and their explanation.
     pub(super) fn explain_resolution(&self) -> Vec<SystemFeature> {
         let resolution = self.model.resolution();
         let mut how = format!(

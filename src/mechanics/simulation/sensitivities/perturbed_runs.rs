@@ -8,16 +8,12 @@ use crate::system::{Scene, System, SystemState};
 pub struct PerturbedRuns {
     pub(super) name: String,
     pub(super) distance: f64,
-    /// Runs at the parameter plus and minus the perturbation.
     runs: [Simulation; 2],
-    /// Derivative of the numeric state.
     derivative: Vec<f64>,
-    /// Buffers for the states of both.
     states: [SystemState; 2],
 }
 
 impl PerturbedRuns {
-    /// Starts the perturbed runs of a run at its start.
     pub(super) fn start(
         run: &Simulation,
         variation: Variation,

@@ -21,7 +21,6 @@ const STRAIN_ROUNDINGS: f64 = 100.0;
 /// Bodies of a scene on their meshes, from which the model is built.
 pub struct Assembly<'a> {
     pub scene: &'a Scene,
-    /// Meshes of the beams, with breaks at joints.
     pub meshes: Vec<Mesh>,
     /// Bodies of the scene: beams, then particles, then rigid bodies.
     pub bodies: Vec<Box<dyn BodyDynamics>>,
@@ -55,7 +54,6 @@ impl System {
         Ok(model)
     }
 
-    /// Model as drawn, with unchecked start velocities.
     fn as_drawn(scene: &Scene) -> Result<Self, SystemError> {
         if scene.beams.is_empty() && scene.particles.is_empty() && scene.rigid_bodies.is_empty() {
             return Err(SystemError::Empty { scene: scene.name.clone() });
@@ -174,7 +172,6 @@ impl<'a> Assembly<'a> {
         Ok(points)
     }
 
-    /// Nodes at a station and at the stations joined to it.
     fn nodes_at(&self, station: &Station) -> Result<Vec<BodyPoint>, SystemError> {
         let mut stations = vec![*station];
         let mut next = 0;
@@ -203,7 +200,6 @@ impl<'a> Assembly<'a> {
             .collect()
     }
 
-    /// Rigid links of the points of rigid bodies, and inclined rollers.
     fn links(&self, numbering: &Numbering) -> Links {
         let first = self.scene.first_rigid_body();
         let link = |&LinkPlace { body, point, force }: &LinkPlace| {
@@ -276,7 +272,6 @@ impl AssemblyContext for Assembly<'_> {
     }
 }
 
-/// Places connected by joints that are not released.
 pub fn joined(
     scene: &Scene,
     released: &[Releasable],

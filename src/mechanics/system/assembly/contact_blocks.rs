@@ -12,7 +12,6 @@ const MANY: usize = 4;
 const MOST_POINTS: usize = 4;
 
 impl Numbering {
-    /// Contacts of sliders as blocks, if there are many.
     pub fn contact_blocks(&self, sliders: &[SliderContact]) -> Option<BlockLayout> {
         if sliders.len() < MANY {
             return None;
@@ -51,7 +50,6 @@ impl Numbering {
         })
     }
 
-    /// Unknowns of an unconstrained slave that is not a beam.
     fn unknowns_of_free_slave(&self, slider: &SliderContact) -> Vec<usize> {
         let body = slider.connection.slave.0;
         let points = &self.degrees_of_freedom[body];

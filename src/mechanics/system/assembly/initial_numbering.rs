@@ -61,7 +61,6 @@ impl InitialNumbering {
         }
     }
 
-    /// Groups of unknowns that are coupled by spans, rigid links, rollers or elements.
     pub fn coupled(
         &self,
         scene: &Scene,

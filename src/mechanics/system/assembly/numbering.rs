@@ -22,12 +22,10 @@ pub struct LinkPlace {
 #[derive(Debug, Clone)]
 pub struct Numbering {
     pub degrees_of_freedom: Vec<Vec<[usize; 3]>>,
-    /// Rigid links with their two force unknowns.
     pub links: Vec<LinkPlace>,
     /// Force unknown, body and control point of each inclined roller; `None` after a release.
     pub rollers: Vec<Option<(usize, (usize, usize))>>,
     pub unknowns: usize,
-    /// Groups of coupled unknowns.
     pub groups: Vec<Vec<usize>>,
     /// Number of prescribed degrees of freedom, the first of the supported ones.
     prescribed: usize,

@@ -13,7 +13,6 @@ const NOTHING_LEFT: f64 = 1e-13;
 const NO_RESPONSE: f64 = 1e-26;
 
 impl System {
-    /// Rejects sliders whose contact forces are not determined at the start.
     pub(super) fn check_determined(&self, scene: &Scene) -> Result<(), SystemError> {
         let Ok(response) = self.response_across() else {
             return Err(self.sliders().overdetermined());

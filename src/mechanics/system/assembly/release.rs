@@ -47,7 +47,6 @@ impl System {
         Ok(())
     }
 
-    /// Numbering of all movements after the given releases.
     fn numbers(&self, scene: &Scene, released: &[Releasable]) -> Result<DofNumbers, SystemError> {
         let border = self.constraint_shape().width;
         let meshes = self.meshes();

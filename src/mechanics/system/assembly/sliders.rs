@@ -75,7 +75,6 @@ impl Assembly<'_> {
         found[beam].get_or_insert_with(basis).clone()
     }
 
-    /// Beams of a track for its sliders.
     fn route(
         &self,
         legs: &[TrackBeam],
@@ -127,7 +126,6 @@ impl Assembly<'_> {
         Ok(found[master].clone().flatten().map(axis))
     }
 
-    /// Parameter of the mesh of the master at which a slider starts.
     pub fn slider_parameter(&self, slider: &Slider) -> Result<f64, SystemError> {
         let beam = &self.scene.beams[slider.master];
         Station::on_beam(slider.master, slider.arc_length)

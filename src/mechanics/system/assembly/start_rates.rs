@@ -115,7 +115,6 @@ impl Assembly<'_> {
         Ok(rates)
     }
 
-    /// Rejects velocities across inclined rollers.
     fn check_rollers(&self, numbering: &Numbering, rates: &[f64]) -> Result<(), SystemError> {
         let inclined =
             self.scene.joints.iter().filter_map(|joint| Some((joint, joint.kind.inclined()?)));
@@ -137,7 +136,6 @@ impl Assembly<'_> {
         Ok(())
     }
 
-    /// Sets the rates of the rigid motion of a body of some length.
     fn share_rigid_motion(
         &self,
         index: usize,
@@ -248,7 +246,6 @@ impl Assembly<'_> {
         }
     }
 
-    /// Sets the rates of the node at a station independently of its beam.
     fn set_velocity(
         &self,
         velocity: &StationVelocity,
@@ -299,7 +296,6 @@ impl Assembly<'_> {
     }
 }
 
-/// Centre of mass of a beam as drawn.
 fn centre(beam: &dyn BodyDynamics) -> Vec2 {
     let lengths = beam.lumped_lengths();
     let moment: Vec2 =

@@ -13,7 +13,6 @@ pub struct TiedComponents {
     pub ties: Ties,
     /// First component of each body, followed by the total.
     offsets: Vec<usize>,
-    /// Body and linked point of each rigid link.
     pub links: Vec<(usize, usize)>,
     /// Body and control point of each inclined roller, in the order of the joints; `None` after a release.
     pub rollers: Vec<Option<(usize, usize)>>,
@@ -69,7 +68,6 @@ impl TiedComponents {
         Ok(classes)
     }
 
-    /// Particles do not rotate.
     fn tie_particles(&mut self, scene: &Scene) {
         for body in scene.beams.len()..scene.first_rigid_body() {
             self.ties.tie(GROUND, self.component((body, 0), Component::Rotation));
@@ -93,7 +91,6 @@ impl TiedComponents {
         }
     }
 
-    /// Number of all components including the ground.
     pub fn count(&self) -> usize {
         self.offsets[self.offsets.len() - 1]
     }

@@ -16,11 +16,9 @@ pub struct Bodies {
     meshes: Vec<Mesh>,
     /// Tracked sections: starts and ends of all beams, then stations of the scene, then rigid bodies.
     pub(super) trackers: Vec<Tracker>,
-    /// Pairs of joined places.
     joined: Vec<(BodyPoint, BodyPoint)>,
     /// Mass of the beams [mass].
     mass: f64,
-    /// Largest number of threads.
     pub(super) threads: usize,
     /// Partition for two threads, for large numbers of bodies.
     pub(super) halves: Option<BodyHalves>,
@@ -51,7 +49,6 @@ impl Bodies {
         Self { all, meshes, trackers, joined, mass, threads: 1, halves: None }
     }
 
-    /// Renumbers the movements of all bodies and replaces the joined places.
     pub fn renumber(
         &mut self,
         numbers: Vec<Vec<[usize; 3]>>,
@@ -65,7 +62,6 @@ impl Bodies {
         self.joined = joined;
     }
 
-    /// Meshes of the beams, with breaks at joints.
     pub fn meshes(&self) -> &[Mesh] {
         &self.meshes
     }
@@ -75,7 +71,6 @@ impl Bodies {
         self.mass
     }
 
-    /// Number of tracked sections.
     pub fn followed_sections(&self) -> usize {
         self.trackers.len()
     }
@@ -126,7 +121,6 @@ impl Bodies {
         self.iter().map(|body| body.by_control_point(values).collect()).collect()
     }
 
-    /// Gives every movement of every control point its own number, ignoring joints. Returns the previous numbers.
     pub fn number_apart(&mut self) -> Vec<DegreesOfFreedom> {
         let mut next = 0;
         let own = self.iter().map(|body| {
@@ -140,7 +134,6 @@ impl Bodies {
         self.number_as(own)
     }
 
-    /// Replaces the numbers of all movements. Returns the previous ones.
     pub fn number_as(&mut self, numbers: Vec<DegreesOfFreedom>) -> Vec<DegreesOfFreedom> {
         let bodies = self.all.iter_mut().zip(numbers);
         bodies.map(|(body, own)| std::mem::replace(&mut body.degrees_of_freedom, own)).collect()
@@ -180,7 +173,6 @@ impl Bodies {
     }
 }
 
-/// Body and control point of a place that coincides with a control point.
 fn node_of(place: &BodyPoint) -> Option<(usize, usize)> {
     let point = place.nearest_control_point();
     let is_node = place.weights().all(|(at, weight)| at == point || weight.abs() < NO_WEIGHT);

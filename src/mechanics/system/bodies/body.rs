@@ -16,7 +16,6 @@ use crate::threads::at_once;
 pub struct Body {
     pub dynamics: Box<dyn BodyDynamics>,
     pub degrees_of_freedom: DegreesOfFreedom,
-    /// First unknown of each span whose unknowns are consecutive.
     consecutive: Vec<Option<usize>>,
     /// For each control point, true if all spans that contain it have consecutive unknowns.
     in_order: Vec<bool>,
@@ -24,9 +23,7 @@ pub struct Body {
     /// First control point and first row of each concurrent part except the first.
     parts: Vec<(usize, usize)>,
     moved: Vec<Movement>,
-    /// Accumulated nodal forces, not yet handed on.
     forces: Vec<Movement>,
-    /// Summary of these forces.
     met: ForceSummary,
 }
 
@@ -52,7 +49,6 @@ impl Body {
         body
     }
 
-    /// Renumbers the movements of the control points.
     pub fn renumber(&mut self, degrees_of_freedom: Vec<[usize; 3]>, unknowns: usize) {
         let order = self.dynamics.order();
         let are_consecutive = |points: Range<usize>| {
@@ -95,7 +91,6 @@ impl Body {
         self.parts.len() + 1
     }
 
-    /// Returns true if the body has several concurrent parts.
     pub fn is_divided(&self) -> bool {
         !self.parts.is_empty()
     }
@@ -109,12 +104,10 @@ impl Body {
         rows.filter(|row| *row < self.unknowns)
     }
 
-    /// First unknown of the body.
     pub fn first_row(&self) -> Option<usize> {
         self.rows().min()
     }
 
-    /// Last unknown of the body.
     pub fn last_row(&self) -> Option<usize> {
         self.rows().max()
     }
@@ -142,7 +135,6 @@ impl Body {
         sum
     }
 
-    /// Components x and y at a control point, from values of the unknowns.
     pub fn vector_at(&self, point: usize, values: &[f64]) -> Vec2 {
         let [x, y, _] = self.degrees_of_freedom[point];
         let value = |at: usize| values.get(at).copied().unwrap_or(0.0);
@@ -154,12 +146,10 @@ impl Body {
         (self.dynamics.control_points()[point], self.dynamics.remainders()[point])
     }
 
-    /// Movements that were gathered last.
     pub fn moved(&self) -> &[Movement] {
         &self.moved
     }
 
-    /// Accepts the movements that were gathered last.
     pub fn advance(&mut self, rotations: RotationIncrement) {
         self.dynamics.advance(&self.moved, rotations);
     }
@@ -170,12 +160,10 @@ impl Body {
         std::mem::take(&mut self.met)
     }
 
-    /// Clears the accumulated forces.
     pub fn forget_forces(&mut self) {
         self.forces.fill(Movement::default());
     }
 
-    /// Accumulates the internal forces.
     pub fn meet_forces(&mut self, at: Collocation, increments: &[f64], weight: f64) {
         self.gather(increments);
         self.met = self.dynamics.add_forces(at, &self.moved, weight, &mut self.forces);
@@ -212,7 +200,6 @@ impl Body {
         }
     }
 
-    /// Accumulates the forces that would remove the strain mismatch.
     pub fn meet_mismatch(&mut self, weight: f64) {
         self.dynamics.add_mismatch_forces(weight, &mut self.forces);
     }

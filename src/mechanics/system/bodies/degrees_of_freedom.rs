@@ -8,11 +8,9 @@ use crate::beams::Movement;
 #[derive(Debug, Clone, Default)]
 pub struct DegreesOfFreedom {
     numbers: Vec<[usize; 3]>,
-    /// The same, in contiguous runs for block copies.
     runs: Vec<DofRun>,
 }
 
-/// Movements with consecutive degrees of freedom.
 #[derive(Debug, Clone)]
 struct DofRun {
     movements: Range<usize>,
@@ -53,7 +51,6 @@ impl DegreesOfFreedom {
         }
     }
 
-    /// Degrees of freedom below a bound, such as the number of unknowns.
     pub fn below(&self, unknowns: usize) -> Vec<usize> {
         self.numbers.as_flattened().iter().copied().filter(|number| *number < unknowns).collect()
     }

@@ -12,10 +12,8 @@ const SMALLEST_HALF: usize = 1500;
 /// Largest fraction of control points in bodies astride, whose work is done twice.
 const LARGEST_ASTRIDE: f64 = 0.1;
 
-/// Partition of the bodies into two halves.
 #[derive(Debug, Clone)]
 pub(super) struct BodyHalves {
-    /// First body of the second half.
     pub(super) body: usize,
     /// First row of the tangent without a body of the first half.
     pub(super) row: usize,
@@ -24,7 +22,6 @@ pub(super) struct BodyHalves {
 }
 
 impl BodyHalves {
-    /// Returns the partition if a second thread is worthwhile.
     pub(super) fn worthwhile(bodies: &[Body], threads: usize) -> Option<Self> {
         let points = |bodies: &[Body]| bodies.iter().map(Body::points).sum::<usize>();
         let all = points(bodies);

@@ -4,7 +4,6 @@ use std::iter::once;
 
 use crate::linalg::BandRows;
 
-/// Splits the rows of a tangent at the starts of parts.
 pub(super) fn rows_of_parts<'a>(
     parts: &[(usize, usize)],
     rows: BandRows<'a>,
@@ -23,13 +22,11 @@ pub(super) fn rows_of_parts<'a>(
 pub(super) struct Places<'a> {
     pub(super) degrees_of_freedom: &'a [[usize; 3]],
     pub(super) consecutive: &'a [Option<usize>],
-    /// Number of control points per span.
     pub(super) order: usize,
     pub(super) unknowns: usize,
 }
 
 impl Places<'_> {
-    /// Adds the block of a span, restricted to the available rows.
     pub(super) fn add_block(&self, rows: &mut BandRows<'_>, first: usize, block: &[f64]) {
         let width = 3 * self.order;
         let at_hand = rows.rows();

@@ -19,7 +19,6 @@ impl Bodies {
         self.threads
     }
 
-    /// Applies an independent operation to each body.
     fn each(&mut self, work: impl Fn(&mut Body) + Sync) {
         match &self.halves {
             None => self.all.iter_mut().for_each(work),
@@ -30,7 +29,6 @@ impl Bodies {
         }
     }
 
-    /// Starts a step with the section forces of the last one.
     pub fn begin_step(&mut self) {
         self.each(|body| body.dynamics.begin_step());
     }
@@ -112,13 +110,11 @@ impl Bodies {
         }
     }
 
-    /// Adds the forces that would remove the strain mismatch of all bodies.
     pub fn add_mismatch_forces(&mut self, weight: f64, out: &mut [f64]) {
         self.each(|body| body.meet_mismatch(weight));
         self.hand_on(out);
     }
 
-    /// Updates the section forces after a correction of the unknowns.
     pub fn correct_section_forces(&mut self, correction: &[f64]) {
         self.each(|body| body.correct_section_forces(correction));
     }
@@ -129,7 +125,6 @@ impl Bodies {
         self.hand_on(out);
     }
 
-    /// Accepts the movements that were gathered last.
     pub fn advance(&mut self, rotations: RotationIncrement) {
         for tracker in &mut self.trackers {
             tracker.advance(self.all[tracker.place.body].moved(), rotations);

@@ -60,7 +60,6 @@ impl Elements {
         self.resistances.iter_mut().filter(|resistance| resistance.stretched().is_some())
     }
 
-    /// Releases the spring with this index.
     pub fn let_go(&mut self, spring: usize) {
         self.springs_mut().nth(spring).into_iter().for_each(|spring| spring.let_go());
     }
@@ -100,12 +99,10 @@ impl Elements {
         })
     }
 
-    /// Returns true if the value of an element may jump at a time.
     pub fn may_jump_at(&self, time: f64) -> bool {
         self.forces.iter().any(|force| force.may_jump_at(time))
     }
 
-    /// Number of sections whose angle is tracked for follower forces.
     pub fn followed_sections(&self) -> usize {
         self.forces.iter().map(|force| force.followed_sections()).sum()
     }
@@ -156,17 +153,14 @@ impl Elements {
         self.forces.iter().for_each(|force| force.add_tangent(at, unknowns, tangent));
     }
 
-    /// Prepares a movement of zero duration.
     pub fn begin_movement(&mut self) {
         self.resistances.iter_mut().for_each(|resistance| resistance.begin_movement());
     }
 
-    /// Discards rate histories after a jump of the rates.
     pub fn forget_rates(&mut self) {
         self.resistances.iter_mut().for_each(|resistance| resistance.forget_rates());
     }
 
-    /// Adds all internal forces of an iterate. Returns their summary.
     pub fn add_resistance(
         &mut self,
         at: TrialState<'_>,
@@ -210,7 +204,6 @@ impl Elements {
         });
     }
 
-    /// Updates internal forces after a correction of the increments.
     pub fn correct(&mut self, bodies: &[Body], correction: &[f64]) {
         self.resistances.iter_mut().for_each(|resistance| resistance.correct(bodies, correction));
     }
@@ -227,7 +220,6 @@ impl Elements {
             .fold(0.0, |sum, dissipated| sum + dissipated)
     }
 
-    /// Adds internal forces at the given rates of all control points, including spring forces.
     pub fn add_resisting(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]) {
         self.resistances().for_each(|resistance| resistance.add_forces_now(bodies, rates, out));
     }

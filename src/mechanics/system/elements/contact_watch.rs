@@ -33,7 +33,6 @@ pub struct ContactWatch {
     duration: f64,
     /// Force below which a bounce is attributed to rounding [force, force·length].
     noise: f64,
-    /// Hardest unresolved bounce so far.
     unresolved: Option<ShortBounce>,
 }
 
@@ -73,7 +72,6 @@ impl ContactWatch {
         self.entry = 0.0;
     }
 
-    /// Unresolved bounce with the largest force.
     pub fn short_bounce(&self) -> Option<ShortBounce> {
         self.unresolved
     }

@@ -6,9 +6,7 @@
 /// stretched by a micrometre in an impact would know its stretch, and thereby its stored energy, to ten digits only.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Coordinate {
-    /// Rounded sum.
     pub value: f64,
-    /// Correction to be added to the sum.
     pub rest: f64,
 }
 
@@ -19,7 +17,6 @@ impl From<f64> for Coordinate {
 }
 
 impl Coordinate {
-    /// Returns the coordinate after a change.
     pub fn after(self, change: f64) -> Self {
         let value = self.value + change;
         let part = value - self.value;
@@ -32,7 +29,6 @@ impl Coordinate {
         (self.value - number) + self.rest
     }
 
-    /// Difference from another coordinate.
     pub fn beyond_other(self, other: Self) -> f64 {
         (self.value - other.value) + (self.rest - other.rest)
     }

@@ -35,19 +35,9 @@ impl From<f64> for DampingLaw {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum NegativeDamping {
     /// At a rate inside the law [length/time, rad/time], with a force [force, force·length].
-    At {
-        /// Rate at which energy is added.
-        rate: f64,
-        /// Force at this rate.
-        force: f64,
-    },
+    At { rate: f64, force: f64 },
     /// Beyond an end of the law, where its linear extrapolation changes sign.
-    Beyond {
-        /// Rate at the end of the law.
-        end: f64,
-        /// Rate from which energy is added.
-        from: f64,
-    },
+    Beyond { end: f64, from: f64 },
 }
 
 impl fmt::Display for NegativeDamping {

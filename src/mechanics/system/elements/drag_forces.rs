@@ -20,7 +20,6 @@ use crate::integrators::Interval;
 use crate::linalg::BandedMatrix;
 use crate::system::bodies::Body;
 
-/// Drag on points of bodies.
 pub struct DragForces {
     name: String,
     surroundings: Medium,

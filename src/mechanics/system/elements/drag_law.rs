@@ -40,15 +40,8 @@ impl SpeedLaw {
 /// Drag law of a point or a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum DragLaw {
-    /// Isotropic.
     Point(SpeedLaw),
-    /// Different across and along a line.
-    Line {
-        /// Force across the line.
-        normal: SpeedLaw,
-        /// Force along the line.
-        tangent: SpeedLaw,
-    },
+    Line { normal: SpeedLaw, tangent: SpeedLaw },
 }
 
 /// Force of the body on the medium in components across the line (`n = J t`) and along it, with derivatives.
@@ -56,7 +49,6 @@ pub enum DragLaw {
 pub struct DragResponse {
     /// `(G·n, G·t)` [force, or force/length].
     pub force: Vec2,
-    /// Derivative of each component with respect to the velocity.
     pub by_velocity: [Vec2; 2],
     /// Derivatives of the components with respect to the angle of the line.
     pub by_turn: Vec2,
@@ -103,7 +95,6 @@ impl DragLaw {
         }
     }
 
-    /// Scale of the force components for velocities of a given magnitude.
     pub fn scale(&self, speed: f64) -> Vec2 {
         let of = |law: &SpeedLaw| law.slope(speed) * speed;
         match self {
@@ -120,7 +111,6 @@ impl DragLaw {
         }
     }
 
-    /// Description of the law for messages.
     pub fn describe(&self) -> String {
         let law = |law: &SpeedLaw| match (law.linear, law.quadratic) {
             (linear, 0.0) => format!("{linear} v"),

@@ -8,14 +8,12 @@ use crate::beams::{BodyPoint, RateCollocation};
 use crate::geometry::{Vec2, larger, perpendicular};
 use crate::system::bodies::Body;
 
-/// Medium around points, and its drag law.
 pub struct Medium {
     pub law: DragLaw,
     /// Velocity of the medium [length/time].
     pub wind: Vec2,
 }
 
-/// Point of a body with drag.
 #[derive(Debug, Clone)]
 pub struct DragPoint {
     pub body: usize,
@@ -32,9 +30,7 @@ pub struct DragPoint {
     speed: f64,
     /// Force components across and along the line in the iterate [force, or force/length].
     force: Vec2,
-    /// Force components of the last step.
     last_force: Vec2,
-    /// Target force minus force.
     mismatch: Vec2,
     /// Force in space that was applied last, times the quadrature weight [force].
     given: Vec2,
@@ -42,10 +38,8 @@ pub struct DragPoint {
     rates: Option<RateCollocation>,
 }
 
-/// Drag point in an iterate.
 #[derive(Debug, Clone, Copy)]
 struct DragTrial {
-    /// Unit tangent of the line.
     tangent: Vec2,
     resisted: DragResponse,
     /// Derivative of the line angle with respect to the gradient `g` [1/length].
@@ -103,7 +97,6 @@ impl DragPoint {
         }
     }
 
-    /// Creates a point with isotropic drag.
     pub fn at(place: &BodyPoint) -> Self {
         let shape = place.shape().to_vec();
         let slope = vec![0.0; shape.len()];
@@ -162,7 +155,6 @@ impl DragPoint {
         self.speed = self.size(|at| body.vector_at(at, rates));
     }
 
-    /// Prepares a movement of zero duration.
     pub fn rest(&mut self) {
         (self.force, self.mismatch, self.given) = (Vec2::zeros(), Vec2::zeros(), Vec2::zeros());
         self.linearised = DragTrial::nothing();
@@ -204,7 +196,6 @@ impl DragPoint {
         larger(relative(self.mismatch.x, scale.x), relative(self.mismatch.y, scale.y))
     }
 
-    /// Linearises the target force in an iterate, and returns it.
     pub fn linearise(
         &mut self,
         around: &Medium,

@@ -49,7 +49,6 @@ impl Element {
         }
     }
 
-    /// Interface of the description.
     pub(in crate::system) fn description(&self) -> &dyn ElementDef {
         match self {
             Self::PointMass(mass) => mass,
@@ -93,11 +92,8 @@ pub trait ElementDef {
 
 /// Built form of an element in a model.
 pub enum BuiltElement {
-    /// Part of the inertia.
     Mass(NodalMass),
-    /// External force.
     Force(Box<dyn ExternalForce>),
-    /// Internal force: resists movements of bodies.
     Resistance(Box<dyn InternalForce>),
 }
 

@@ -48,12 +48,10 @@ impl ElongationEnd {
     }
 }
 
-/// Measured quantity.
 #[derive(Debug, Clone)]
 enum Measure {
     /// Length of the path with the differences `d₀` between consecutive terminals [length].
     Way(Vec<Vec2>),
-    /// Angle between two sections.
     Angle,
     /// One component of the vector between two terminals, x (0) or y (1).
     Component(usize),
@@ -72,9 +70,7 @@ pub struct Elongation {
     drawn: f64,
     /// Growth since then, up to the start of the step [length, rad].
     grown: Coordinate,
-    /// Movements in the iterate, one number per coordinate.
     moved: Vec<f64>,
-    /// Movements of a correction.
     corrected: Vec<f64>,
     /// Change `Δq` in the step [length, rad].
     pub change: f64,
@@ -183,7 +179,6 @@ impl Elongation {
         matches!(self.measure, Measure::Component(..))
     }
 
-    /// Components of the movement of a place that contribute.
     pub fn components(&self) -> Range<usize> {
         match self.measure {
             Measure::Way(_) | Measure::Component(..) => 0..2,
@@ -191,7 +186,6 @@ impl Elongation {
         }
     }
 
-    /// Moving terminals: their places and the indices of their coordinates.
     pub fn moving(&self) -> impl Iterator<Item = (&BodyPoint, Range<usize>)> {
         let count = self.components().len();
         self.terminals.iter().enumerate().filter_map(move |(at, terminal)| match terminal {

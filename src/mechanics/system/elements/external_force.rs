@@ -23,7 +23,6 @@ pub fn collocation(stage: Stage) -> Collocation {
 pub struct TrialState<'a> {
     /// All bodies of the model at the start of the step.
     pub bodies: &'a [Body],
-    /// Stage at which forces are taken.
     pub stage: Stage,
     /// Movements of the unknowns since the start of the step [length, rad].
     pub increments: &'a [f64],

@@ -11,7 +11,6 @@ use crate::system::bodies::{Body, Tracker};
 #[derive(Debug, Clone)]
 pub struct Follower {
     tracker: Tracker,
-    /// Components in the section frame.
     force: Vec2,
     /// Contributions of the start of the step and of the iterate.
     carried: Vec2,

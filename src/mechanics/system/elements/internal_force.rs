@@ -7,7 +7,6 @@ use crate::integrators::Interval;
 use crate::linalg::BandedMatrix;
 use crate::system::bodies::Body;
 
-/// Elongation, force and stiffness of a spring.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpringTrialState {
     /// Length [length] or angle [rad] at the start of the step.

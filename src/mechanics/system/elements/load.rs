@@ -122,7 +122,6 @@ struct AppliedLoad {
     /// Weighted schedule factors of the start of the step, and of the iterate.
     carried: f64,
     current: f64,
-    /// Account of a named load.
     account: Option<LoadAccount>,
     /// Magnitude at a schedule factor of 1.
     size: f64,
@@ -167,7 +166,6 @@ impl AppliedLoad {
         }
     }
 
-    /// Describes the calls of script functions per step.
     fn calls(&self, methods: &[Method]) -> String {
         let functions = self.schedule.functions();
         // A controller is sampled once per step by the caller.

@@ -8,7 +8,6 @@ use crate::system::bodies::Body;
 /// Nodal forces and moments, scaled by a factor.
 #[derive(Debug, Clone, Default)]
 pub struct LoadVector {
-    /// Body, control point, force and moment.
     entries: Vec<(usize, usize, Movement)>,
     largest: (f64, f64),
 }

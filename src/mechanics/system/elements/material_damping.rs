@@ -62,7 +62,6 @@ struct DampedMaterial {
     beam: usize,
     relaxation: Relaxation,
     dashpots: Dashpots,
-    /// Movements of the control points in the iterate.
     moved: Vec<Movement>,
     pace: RateHistory,
     rotations: RotationIncrement,

@@ -4,17 +4,13 @@ use crate::geometry::larger;
 
 #[derive(Debug, Clone, Copy, Default)]
 pub struct MixedForce {
-    /// Force in the iterate.
     pub force: f64,
-    /// Force of the last step.
     pub last: f64,
-    /// Target force minus force.
     pub mismatch: f64,
     /// Derivative of the target with respect to `Δq`, from the last linearisation.
     pub stiffness: f64,
     /// Derivative of the target at the last comparison.
     asked: f64,
-    /// Iteration history of the step.
     search: IterationState,
 }
 
@@ -54,7 +50,6 @@ impl MixedForce {
         }
     }
 
-    /// Starts a step from the force of the last one.
     pub fn begin_step(&mut self) {
         self.force = self.last;
         self.search = IterationState::default();

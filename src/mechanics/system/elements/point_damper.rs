@@ -30,7 +30,6 @@ pub struct PointDamper {
     /// Vector `d₀` from the first to the second terminal [length].
     way: Vec2,
     law: DampingLaw,
-    /// Law before the release.
     released: Option<DampingLaw>,
     pace: RateHistory,
     /// `Δd/Δt` in the previous step [length/time].
@@ -44,7 +43,6 @@ pub struct PointDamper {
     dissipated: f64,
 }
 
-/// Damper in an iterate.
 #[derive(Debug, Clone, Copy)]
 struct DamperTrial {
     /// Direction `e`.
@@ -105,7 +103,6 @@ impl PointDamper {
         self.difference(|terminal| terminal.combine(value))
     }
 
-    /// Largest magnitude that cancels in the difference.
     fn size(&self, bodies: &[Body], values: &[f64]) -> f64 {
         let value = |body: usize, point: usize| bodies[body].vector_at(point, values);
         self.terminals.iter().map(|terminal| terminal.combine(value).norm()).sum()
@@ -154,7 +151,6 @@ impl PointDamper {
     }
 }
 
-/// Direction of the connecting vector, or of the relative movement if the vector is zero.
 fn direction(way: Vec2, moved: Vec2) -> Vec2 {
     let along = if way == Vec2::zeros() { moved } else { way };
     let length = along.norm();

@@ -29,16 +29,13 @@ pub struct PrescribedMovement {
     pub motion: PrescribedMotion,
 }
 
-/// Drive and its accumulated work.
 struct Driven {
     name: String,
-    /// Prescribed components x, y and angle, including released ones.
     prescribed: [bool; 3],
     /// Work since the start [energy].
     work: f64,
 }
 
-/// State of a prescribed movement.
 #[derive(Debug, Clone, Copy, Default)]
 struct PresentMotion {
     /// At the end of the last step [length/time², 1/time²].
@@ -85,14 +82,11 @@ pub struct PrescribedMovements {
     movements: Vec<PrescribedMovement>,
     present: Vec<PresentMotion>,
     drives: Vec<Driven>,
-    /// First prescribed degree of freedom.
     first: usize,
-    /// Number of leading constraint entries in the prescribed kinematics.
     constraints: usize,
     prescribed: PrescribedKinematics,
     /// Largest rotation of the step [rad].
     turn: f64,
-    /// Buffer for rates of all movements.
     room: Vec<f64>,
 }
 
@@ -165,17 +159,14 @@ impl PrescribedMovements {
         self.movements.iter().map(|movement| &movement.support)
     }
 
-    /// Prescribed kinematics of the current step.
     pub fn in_step(&self) -> &PrescribedKinematics {
         &self.prescribed
     }
 
-    /// Returns true if a prescribed movement has a nonzero rate at the start.
     pub fn begins_with_a_rate(&self) -> bool {
         self.prescribed.rates.iter().skip(self.constraints).any(|rate| *rate != 0.0)
     }
 
-    /// Resets the work of the drives.
     pub fn forget_work(&mut self) {
         self.drives.iter_mut().for_each(|drive| drive.work = 0.0);
     }
@@ -260,7 +251,6 @@ impl PrescribedMovements {
         Ok(found)
     }
 
-    /// Fills the rate buffer from a function of the index.
     pub fn fill(&mut self, rate: impl FnMut(usize) -> f64) -> &[f64] {
         self.room.clear();
         let width = if self.movements.is_empty() { 0 } else { self.first + self.movements.len() };

@@ -225,7 +225,6 @@ fn falling_behind(points: &[(f64, f64)]) -> Option<usize> {
 }
 
 impl Spring {
-    /// Rejects points of a damping law that do not form a polygon.
     fn check_damping(&self, points: &[(f64, f64)]) -> Result<(), SystemError> {
         let name = "damping";
         let refused =

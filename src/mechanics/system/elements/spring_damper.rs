@@ -25,7 +25,6 @@ use crate::system::bodies::Body;
 /// iteration; those of a law with corners do not.
 const SHARP: f64 = 2e-4;
 
-/// Spring, damper, or both in parallel.
 #[derive(Debug, Clone)]
 pub struct SpringDamper {
     name: String,
@@ -46,7 +45,6 @@ pub struct SpringDamper {
     words: Option<String>,
     /// `d(q̇)`.
     damping: DampingLaw,
-    /// Law and damping before a release.
     released: Option<(Option<SpringLaw>, DampingLaw)>,
     spring: MixedForce,
     damper: MixedForce,
@@ -114,7 +112,6 @@ impl SpringDamper {
         }
     }
 
-    /// Dampers are weighted once per step, springs by the weight of the stage.
     fn weighted(&self, at: TrialState<'_>, spring: f64, damper: f64) -> f64 {
         match at.stage {
             Stage::Start => at.weight * spring,

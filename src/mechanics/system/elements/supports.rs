@@ -14,7 +14,6 @@ pub struct Support {
 }
 
 impl Support {
-    /// Returns a reaction as force and moment.
     pub fn reaction(&self, reaction: f64) -> (Vec2, f64) {
         match self.component {
             Component::X => (Vec2::new(reaction, 0.0), 0.0),
@@ -43,7 +42,6 @@ impl Supports {
         self.prescribed.supports().chain(&self.held)
     }
 
-    /// Fixed supports.
     pub fn held(&self) -> impl Iterator<Item = &Support> {
         self.held.iter()
     }
@@ -56,7 +54,6 @@ impl Supports {
         &mut self.prescribed
     }
 
-    /// Supports with their reactions, the last entries of a residual.
     fn with_reactions<'a>(
         &'a self,
         residual: &'a [f64],

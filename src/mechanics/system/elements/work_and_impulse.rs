@@ -14,13 +14,11 @@ pub struct WorkAndImpulse {
 }
 
 impl WorkAndImpulse {
-    /// Exchange of a single force or moment.
     pub fn of(work: f64, impulse: Vec2, angular_impulse: f64) -> Self {
         let (gross_impulse, gross_angular_impulse) = (impulse.norm(), angular_impulse.abs());
         Self { work, impulse, angular_impulse, gross_impulse, gross_angular_impulse }
     }
 
-    /// Negated gross impulses, for the part of a step that runs back in time.
     pub fn taken_back(self) -> Self {
         Self {
             gross_impulse: -self.gross_impulse,

@@ -363,7 +363,6 @@ impl SystemError {
     }
 }
 
-/// Rejects numbers that are not finite.
 pub fn finite(object: &str, name: &'static str, values: &[f64]) -> Result<(), SystemError> {
     match values.iter().find(|value| !value.is_finite()) {
         Some(&value) => {

@@ -27,7 +27,6 @@ const INVISIBLE_OR_COPIES: [RangeInclusive<u32>; 14] = [
     0xE0000..=0x10_FFFF,
 ];
 
-/// Alphabets with letters that look alike.
 #[derive(Clone, Copy, PartialEq)]
 enum Alphabet {
     Latin,
@@ -69,7 +68,6 @@ fn mixes_alphabets(word: &str) -> bool {
     alphabets.any(|other| Some(other) != first)
 }
 
-/// Alphabet of a letter that resembles letters of other alphabets. Greek symbols do not.
 fn alphabet(letter: char) -> Option<Alphabet> {
     const SYMBOLS: &str = "αβγδεζηθλμξπρστφχψωΓΔΘΛΞΠΣΦΨΩ";
     match u32::from(letter) {

@@ -29,7 +29,6 @@ impl Links {
         self.rollers.iter_mut().zip(rollers).for_each(|(roller, own)| roller.unknown = own);
     }
 
-    /// Swaps the force unknowns of all links and rollers.
     pub fn exchange_unknowns(&mut self, rigid: &mut [[usize; 2]], rollers: &mut [Option<usize>]) {
         let links = self.rigid.iter_mut().zip(rigid);
         links.for_each(|(link, own)| std::mem::swap(&mut link.unknowns, own));
@@ -37,7 +36,6 @@ impl Links {
         all.for_each(|(roller, own)| std::mem::swap(&mut roller.unknown, own));
     }
 
-    /// All inclined rollers, including released ones.
     pub fn all_rollers(&self) -> &[InclinedRoller] {
         &self.rollers
     }
@@ -51,12 +49,10 @@ impl Links {
         self.rigid.iter()
     }
 
-    /// Attached inclined rollers with their force unknowns.
     pub fn rollers(&self) -> impl Iterator<Item = (usize, &InclinedRoller)> {
         self.rollers.iter().filter_map(|roller| Some((roller.unknown?, roller)))
     }
 
-    /// Number of force unknowns.
     pub fn forces(&self) -> usize {
         2 * self.rigid.len() + self.rollers().count()
     }
@@ -77,12 +73,10 @@ impl Links {
         self.acting = ForceUnknowns::Step(duration);
     }
 
-    /// Prepares a movement between two equilibria.
     pub fn begin_movement(&mut self) {
         self.acting = ForceUnknowns::AtRest;
     }
 
-    /// Adds the forces and constraint violations of an iterate. Returns the largest force.
     pub fn add(
         &mut self,
         bodies: &Bodies,
@@ -116,13 +110,11 @@ impl Links {
         }
     }
 
-    /// Adds the coupling of forces and movements at the start of a step.
     pub fn add_coupling(&self, bodies: &Bodies, unknowns: usize, matrix: &mut BandedMatrix) {
         self.rigid.iter().for_each(|link| link.add_coupling(bodies, unknowns, matrix));
         self.rollers.iter().for_each(|roller| roller.add_coupling(bodies, unknowns, matrix));
     }
 
-    /// Sets the right-hand sides of the acceleration constraints: centripetal terms and prescribed accelerations. Rollers have none.
     pub fn set_acceleration_bias(
         &self,
         bodies: &Bodies,
@@ -138,7 +130,6 @@ impl Links {
         self.rollers().for_each(|(unknown, _)| out[unknown] = 0.0);
     }
 
-    /// Sets multiples of the velocity violations of links and rollers on their rows.
     pub fn set_velocity_violation(
         &self,
         bodies: &Bodies,
@@ -164,13 +155,11 @@ impl Links {
         self.rollers().for_each(|(at, roller)| roller.transmit(bodies, unknowns[at], out));
     }
 
-    /// Clears the force unknowns.
     pub fn clear(&self, unknowns: &mut [f64]) {
         self.rigid.iter().flat_map(|link| link.unknowns).for_each(|at| unknowns[at] = 0.0);
         self.rollers().for_each(|(at, _)| unknowns[at] = 0.0);
     }
 
-    /// Writes the forces to the rates, from which the next step is predicted.
     pub fn write_forces(&self, rates: &mut [f64]) {
         for link in &self.rigid {
             let force = link.force();

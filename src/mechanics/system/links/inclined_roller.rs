@@ -46,7 +46,6 @@ impl InclinedRoller {
         Self { joint, node, unknown, across, on_line, size, moved: 0.0, force: 0.0 }
     }
 
-    /// Degrees of freedom x and y of the point.
     pub fn degrees(&self, bodies: &Bodies) -> [usize; 2] {
         let (body, point) = self.node;
         let [x, y, _] = bodies[body].degrees_of_freedom[point];
@@ -74,7 +73,6 @@ impl InclinedRoller {
         Vec2::new(x, y)
     }
 
-    /// Adds the force of an iterate to a residual, and the constraint violation to its row.
     pub fn add(
         &mut self,
         bodies: &Bodies,
@@ -102,7 +100,6 @@ impl InclinedRoller {
         self.couple(bodies, acting.share(), movements, tangent);
     }
 
-    /// Adds the coupling of impulse and rates to a mass matrix.
     pub fn add_coupling(&self, bodies: &Bodies, movements: usize, matrix: &mut BandedMatrix) {
         self.couple(bodies, 1.0, movements, matrix);
     }

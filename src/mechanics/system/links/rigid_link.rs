@@ -48,7 +48,6 @@ impl ForceUnknowns {
 /// Treatment of the arms of rigid links by a method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ArmRule {
-    /// Kind of rotation increments of the step.
     pub rotations: RotationIncrement,
     /// Fraction `τ` of the step at which the arm of the force is taken [-].
     pub share: f64,
@@ -61,7 +60,6 @@ pub struct RigidLink {
     pub body: usize,
     /// Control point that is linked to the first one, the centre of mass.
     pub point: usize,
-    /// Force unknowns.
     pub unknowns: [usize; 2],
     /// Place of the point in the body frame [length].
     arm: Vec2,
@@ -111,7 +109,6 @@ impl RigidLink {
         std::mem::swap(&mut self.force, other);
     }
 
-    /// Degrees of freedom of the centre and of the point, including the rotation of the body.
     fn degrees(&self, bodies: &Bodies) -> ([usize; 3], [usize; 3]) {
         let of_body = &bodies[self.body].degrees_of_freedom;
         (of_body[0], of_body[self.point])
@@ -142,7 +139,6 @@ impl RigidLink {
         }
     }
 
-    /// Adds the force of an iterate to a residual, and the constraint violation to its rows.
     pub fn add(
         &mut self,
         bodies: &Bodies,

@@ -1,4 +1,4 @@
-//! Accelerations, for methods whose state they are a part of.
+//! Accelerations, for methods that have them in their state.
 
 use super::System;
 use crate::integrators::Accelerated;
@@ -9,7 +9,7 @@ impl Accelerated for System {
     }
 
     fn accelerations(&self) -> Option<&[f64]> {
-        // Those from before a jump are not those after it.
+        // Accelerations before a jump do not hold after it.
         self.motion.accelerations.known().filter(|_| !self.step.jumps)
     }
 

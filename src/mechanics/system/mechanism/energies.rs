@@ -1,36 +1,36 @@
-//! The energy of a single body.
+//! Energy of a single body.
 
 use super::System;
 
-/// The energy of a body with what stands on it, by kind [energy].
+/// Energy of a body with its point masses, by kind [energy].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct BodyEnergy {
-    /// The energy of the motion of the body, and of point masses on it.
+    /// Kinetic energy, including point masses.
     pub kinetic: f64,
-    /// The energy of stretching, `½ ∫ EA Γ1² dX`.
+    /// Axial strain energy, `½ ∫ EA Γ1² dX`.
     pub axial: f64,
-    /// The energy of shear, `½ ∫ GA Γ2² dX`, with that of kinks under sliders.
+    /// Shear strain energy, `½ ∫ GA Γ2² dX`, including kinks under sliders.
     pub shear: f64,
-    /// The energy of bending, `½ ∫ EI κ² dX`.
+    /// Bending strain energy, `½ ∫ EI κ² dX`.
     pub bending: f64,
-    /// The potential energy in gravity, zero at the origin.
+    /// Potential energy in gravity, zero at the origin.
     pub potential: f64,
 }
 
 impl BodyEnergy {
-    /// The energy of stretching, shear and bending together.
+    /// Total strain energy.
     pub fn strain(&self) -> f64 {
         self.axial + self.shear + self.bending
     }
 
-    /// All together.
+    /// Total energy.
     pub fn total(&self) -> f64 {
         self.kinetic + self.strain() + self.potential
     }
 }
 
 impl System {
-    /// The energy of a body: beams come first, then particles, then rigid bodies.
+    /// Energy of a body. Indices count beams first, then particles, then rigid bodies.
     pub fn energy_of(&mut self, body: usize) -> BodyEnergy {
         let rates = &self.motion.rates;
         let own = self.bodies[body].momenta(rates).twice_kinetic;

@@ -1,11 +1,11 @@
-//! Where a step fails: what is farthest from its balance. Asked after a failure only.
+//! Location of a failed step: the largest residual. Evaluated after a failure only.
 
 use super::System;
 use crate::integrators::FailureSource;
 use crate::newton::ResidualPart;
 use crate::system::state::UnknownKind;
 
-/// The number of the largest, or of the first that is not a number; none where all are zero.
+/// Index of the largest value, or of the first NaN; `None` if all are zero.
 fn worst(values: impl Iterator<Item = f64>) -> Option<usize> {
     let size = |value: f64| if value.is_nan() { f64::INFINITY } else { value.abs() };
     let largest =
@@ -14,7 +14,7 @@ fn worst(values: impl Iterator<Item = f64>) -> Option<usize> {
 }
 
 impl System {
-    /// What is worst where a residual was left, of that part of its imbalance which is: where strains do not match, that is where forces do not.
+    /// Location of the largest residual of a part; for strain mismatches, the element with the largest one.
     pub(super) fn worst_of(&self, part: ResidualPart, residual: &[f64]) -> Option<FailureSource> {
         match part {
             ResidualPart::Strain => self.worst_strain().or_else(|| self.worst_balance(residual)),
@@ -23,7 +23,7 @@ impl System {
         }
     }
 
-    /// What resists with a force that fits its configuration less than any section force does.
+    /// Internal force with a larger mismatch than all section forces.
     fn worst_strain(&self) -> Option<FailureSource> {
         let (name, missing) = self.elements.farthest()?;
         let is_worst = missing.is_nan() || missing >= self.step.summary.strain_mismatch;

@@ -1,13 +1,13 @@
-//! The impulses of joints and supports in the last step, where somebody asks for their mean.
+//! Impulses of joints and supports in the last step, accumulated if their mean is requested.
 //!
-//! The balance of a step is made up once more as it was solved, but with numbers of their own for the movements of every control point, so that
-//! joints tie none of them: what is left at each is what joints and supports gave to it. Blows add theirs.
+//! The solved balance of a step is evaluated again with separate numbers for the movements of every control point, so that joints tie none of them.
+//! The residual at each control point is the force of joints and supports. Impulses of impacts are added.
 //!
 //! ```text
 //! M (v1 - v0)/Δt + Σ share · F(stage) + G = r        p1 - p0 = Δt Σ (r + loads)
 //! ```
 //!
-//! Methods that balance accelerations of their own, and not the change of the velocities, have no such mean.
+//! Methods that balance accelerations instead of momenta have no such mean.
 
 use super::rigidity::add_passed_on;
 use super::{Reactions, System};
@@ -18,37 +18,34 @@ use crate::system::elements::WorkAndImpulse;
 use crate::system::links::InclinedRoller;
 use crate::system::sliders::InStep;
 
-/// What a model has exchanged with its surroundings, and what joints and supports gave to each control point.
+/// Exchange of a model with its surroundings, and impulses of joints and supports on each control point.
 #[derive(Default)]
 pub struct ExchangeLedger {
-    /// What a model has exchanged since its start.
     pub total: WorkAndImpulse,
-    /// The impulses of joints and supports; none where nobody asks for the mean of a step.
+    /// Impulses of joints and supports; `None` unless requested.
     pub impulses: Option<Box<Impulses>>,
 }
 
-/// Impulses on all control points, and room to find them without allocating.
+/// Impulses on all control points, with preallocated buffers.
 pub struct Impulses {
-    /// Numbers for the movements of every control point that no other one has; the old ones while these are in use.
+    /// Separate degrees of freedom of every control point; the regular ones while these are in use.
     numbers: Vec<DegreesOfFreedom>,
-    /// The numbers of the forces of rigid links, behind those of all movements; the old ones while these are in use.
+    /// Force unknowns of rigid links, numbered after all movements; the regular ones while these are in use.
     links: Vec<[usize; 2]>,
-    /// None for each inclined roller, as it acts by itself; their unknowns while the numbers are in use.
+    /// `None` for each inclined roller, which is treated separately; the regular unknowns while the numbers are in use.
     rollers: Vec<Option<usize>>,
-    /// Values by these numbers: of rates, and of increments.
     values: Vec<f64>,
-    /// What is left of the balance; at the end there is room for the equations of contacts.
+    /// Residual of the balance, with additional space for contact equations.
     left: Vec<f64>,
-    /// The impulses since the end of the last step, by control points, and behind them of the multipliers of inclined rollers [force·time, force·length·time].
+    /// Impulses since the end of the last step by control point, followed by the multipliers of inclined rollers [force·time, force·length·time].
     present: Vec<f64>,
-    /// The impulses of the last step, likewise.
     last: Vec<f64>,
-    /// How long the last step was [time].
+    /// Duration of the last step [time].
     duration: f64,
 }
 
 impl Impulses {
-    /// Adds what is left of the balance, times a factor, and the impulses of inclined rollers, which are unknowns of the model.
+    /// Adds the residual times a factor, and the impulses of inclined rollers, which are unknowns of the model.
     fn sum_up(&mut self, factor: f64, rollers: &[InclinedRoller], unknowns: &[f64]) {
         let movements = self.present.len() - rollers.len();
         let (present, across) = self.present.split_at_mut(movements);
@@ -58,13 +55,11 @@ impl Impulses {
         }
     }
 
-    /// Appends the impulses.
     fn save(&self, numbers: &mut Vec<f64>) {
         numbers.extend(self.last.iter().chain(&self.present));
         numbers.push(self.duration);
     }
 
-    /// Takes the impulses back, in the order in which they were appended.
     fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         self.last.iter_mut().chain(&mut self.present).for_each(|impulse| *impulse = next());
         self.duration = next();
@@ -72,13 +67,11 @@ impl Impulses {
 }
 
 impl ExchangeLedger {
-    /// Appends what was exchanged.
     pub fn save(&self, numbers: &mut Vec<f64>) {
         self.total.save(numbers);
         self.impulses.iter().for_each(|impulses| impulses.save(numbers));
     }
 
-    /// Takes back what was exchanged, in the order in which it was appended.
     pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         self.total.restore(next);
         self.impulses.iter_mut().for_each(|impulses| impulses.restore(next));
@@ -86,7 +79,7 @@ impl ExchangeLedger {
 }
 
 impl System {
-    /// Sums up from here on what joints and supports give to each control point in a step.
+    /// Enables the accumulation of impulses of joints and supports.
     pub fn sum_up_impulses(&mut self) {
         if self.exchanged.impulses.is_some() {
             return;
@@ -108,7 +101,7 @@ impl System {
         }));
     }
 
-    /// Ends a step of such a duration [time]: what is given from here on belongs to the next one.
+    /// Ends a step of a duration [time]. Later impulses belong to the next one.
     pub fn end_step(&mut self, duration: f64) {
         let Some(impulses) = &mut self.exchanged.impulses else { return };
         let Impulses { present, last, .. } = &mut **impulses;
@@ -117,8 +110,8 @@ impl System {
         impulses.duration = duration;
     }
 
-    /// What joints and supports gave in the mean of the last step, its blows included; nothing before the first step. None where it is not
-    /// [summed up](Self::sum_up_impulses).
+    /// Mean forces of joints and supports in the last step, including impacts; zero before the first step. `None` if not
+    /// [enabled](Self::sum_up_impulses).
     pub fn given_in_step(&self) -> Option<Reactions> {
         let Impulses { last, duration, .. } = &**self.exchanged.impulses.as_ref()?;
         let share = if *duration == 0.0 { 0.0 } else { 1.0 / duration };
@@ -127,7 +120,6 @@ impl System {
         Some(self.given(left, across))
     }
 
-    /// Adds the impulses of a part of a step that is about to be accepted.
     pub(super) fn add_impulses_of_step(&mut self, solution: &Solution<'_>) {
         let Some(mut impulses) = self.exchanged.impulses.take() else { return };
         let Solution { increments, constraints, rates, balanced, .. } = *solution;
@@ -158,8 +150,7 @@ impl System {
         self.exchanged.impulses = Some(impulses);
     }
 
-    /// Adds the impulses of a blow: it changes the rates and acts by impulses of rigid links, which stand among the changes, by those of section
-    /// forces, and on the slaves of sliders.
+    /// Adds the impulses of an impact: changes of the rates (including impulses of rigid links), section forces, and forces on slaves.
     pub(super) fn add_impulses_of_blow(
         &mut self,
         change: &[f64],
@@ -181,7 +172,7 @@ impl System {
         self.exchanged.impulses = Some(impulses);
     }
 
-    /// Puts values of the unknowns, of which there are so many, where the numbers of their own of control points and rigid links stand.
+    /// Copies `count` values of the unknowns to the separate numbering of control points and rigid links.
     fn apart(&self, impulses: &mut Impulses, value: impl Fn(usize) -> f64, count: usize) {
         let Impulses { numbers, links, values, .. } = impulses;
         let of = |at: usize| if at < count { value(at) } else { 0.0 };
@@ -194,7 +185,6 @@ impl System {
         }
     }
 
-    /// Exchanges the numbers of the model for those of control points by themselves, or back.
     fn exchange_numbers(&mut self, impulses: &mut Impulses) {
         self.bodies.exchange_numbers(&mut impulses.numbers);
         self.links.exchange_unknowns(&mut impulses.links, &mut impulses.rollers);

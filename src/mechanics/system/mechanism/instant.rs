@@ -1,13 +1,12 @@
-//! The present moment by the equations of motion: accelerations, and what supports, joints and contacts give.
+//! Instantaneous equations of motion: accelerations, and forces of supports, joints and contacts.
 //!
 //! ```text
 //! M a + F(x) - f(t) - Gᵀ λ = r        G a = 2 ξ̇ u·Σ B_i' v_i + ξ̇² u·Σ B_i'' x_i        r = 0 but where something is held
 //! ```
 //!
-//! Where the axis gives way under a slider, `λ` is known, as is the kink.
-//! Configuration and rates at the end of a step are of second order with every method, and so is what follows from them. It is a matter of the
-//! present state alone: the same after going back, in a copy and from a file. Where steps do not resolve a vibration, it rings with it, while the
-//! mean of two neighbouring steps does not.
+//! If the axis is compliant under a slider, `λ` is known from the kink. Configuration and rates at the end of a step are of second order for every
+//! method, and so are these results. They depend on the present state only, and are the same after a rewind, in a copy and from a file. Unresolved
+//! vibrations appear in them, but not in the mean of two neighbouring steps.
 
 use super::{Reactions, System};
 use crate::beams::BodyPoint;
@@ -18,38 +17,38 @@ use crate::system::elements::{TrialState, collocation};
 use crate::system::links::InclinedRoller;
 use crate::system::{SliderState, SystemError};
 
-/// What acts at the present moment.
+/// Instantaneous accelerations and forces.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Instant {
-    /// Of the unknown movements [length/time², 1/time²]; forces of rigid links where their unknowns stand.
+    /// Accelerations of the unknown movements [length/time², 1/time²], with forces of rigid links at their unknowns.
     accelerations: Vec<f64>,
     given: Reactions,
-    /// Of each slave on its master [force].
+    /// Contact force of each slave on its master [force].
     contacts: Vec<Vec2>,
 }
 
 impl Instant {
-    /// The accelerations of the unknown movements, forces of rigid links and rollers where their unknowns stand [length/time², 1/time²; force].
+    /// Accelerations of the unknown movements, with forces of rigid links and rollers at their unknowns [length/time², 1/time²; force].
     pub fn accelerations(&self) -> &[f64] {
         &self.accelerations
     }
 
-    /// What joints and supports give.
+    /// Forces of joints and supports.
     pub fn given(&self) -> &Reactions {
         &self.given
     }
 
-    /// The force of a slider on its master [force].
+    /// Force of a slider on its master [force].
     pub fn contact(&self, slider: usize) -> Vec2 {
         self.contacts[slider]
     }
 }
 
 impl System {
-    /// Accelerations and forces at the present moment, with loads as they are just after it. What follows is not changed by that.
+    /// Computes the present accelerations and forces, with loads just after the present time. The later motion is not affected.
     ///
     /// # Errors
-    /// When a load has no value, or contact forces are not determined.
+    /// Fails if a load has no value, or contact forces are not determined.
     pub fn instant(&mut self) -> Result<Instant, SystemError> {
         let time = self.motion.time;
         let refused = |reason: String| SystemError::NoInstant { time, reason };
@@ -104,10 +103,11 @@ impl System {
         Ok(Instant { given: self.given(&apart, &across), accelerations, contacts })
     }
 
-    /// Looks at the model while its rigid links have the forces of the present moment, and not those of the last step, which are none before the first one.
+    /// Evaluates a function of the model with the present forces of rigid links in place of those of the last step, which are zero before the first
+    /// one.
     ///
     /// # Errors
-    /// Those of [`instant`](Self::instant), of a model with rigid links.
+    /// Errors of [`instant`](Self::instant), for models with rigid links.
     pub fn with_present_link_forces<T>(
         &mut self,
         look: impl FnOnce(&Self) -> T,
@@ -125,7 +125,7 @@ impl System {
         Ok(seen)
     }
 
-    /// Accelerations that answer to `M a + residual = Gᵀ λ`, and the forces on the masters.
+    /// Solves `M a + residual = Gᵀ λ` for the accelerations and the forces on the masters.
     fn answer(&self, residual: &[f64]) -> Result<(Vec<f64>, Vec<Vec2>), LinearError> {
         let mut accelerations: Vec<f64> =
             residual[..self.unknowns()].iter().map(|force| -force).collect();
@@ -171,7 +171,7 @@ impl System {
         Ok((accelerations, contacts))
     }
 
-    /// The acceleration of a place [length/time²].
+    /// Acceleration of a place [length/time²].
     pub fn acceleration(&self, now: &Instant, place: &BodyPoint) -> Vec2 {
         let [x, y, _] = self.bodies[place.body].at(place, &now.accelerations);
         Vec2::new(x, y)

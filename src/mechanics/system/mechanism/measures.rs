@@ -5,55 +5,55 @@ use serde::{Deserialize, Serialize};
 use super::System;
 use crate::geometry::{Vec2, larger};
 
-/// The energy of a model, in parts [energy].
+/// Energy of a model by kind [energy].
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Energy {
-    /// The kinetic energy `½ ∫ ρA |ẋ|² + ρI θ̇² dX`, with that of point masses and of kinks that move with sliders [energy].
+    /// Kinetic energy `½ ∫ ρA |ẋ|² + ρI θ̇² dX`, including point masses and moving kinks under sliders [energy].
     pub kinetic: f64,
-    /// The strain energy `½ ∫ Γ·CΓ + EI κ² dX`, with that of kinks under sliders and of stops on which sliders lean [energy].
+    /// Strain energy `½ ∫ Γ·CΓ + EI κ² dX`, including kinks under sliders and stops that hold sliders [energy].
     pub strain: f64,
-    /// The potential energy of gravity, zero at the origin [energy].
+    /// Potential energy of gravity, zero at the origin [energy].
     pub potential: f64,
-    /// `Σ U`, in springs and tendons.
+    /// Energy `Σ U` of springs and tendons.
     pub stored: f64,
 }
 
 impl Energy {
-    /// The sum of kinetic, strain and potential energy [energy].
+    /// Sum of kinetic, strain, potential and stored energy [energy].
     pub fn total(&self) -> f64 {
         self.kinetic + self.strain + self.potential + self.stored
     }
 }
 
-/// What is measured of a model at the end of a step.
+/// Measures of a model at the end of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Measures {
-    /// The time at which the model is measured [time].
+    /// Time of the measures [time].
     pub time: f64,
-    /// The energy `E` of the model, in parts [energy].
+    /// Energy `E` by kind [energy].
     pub energy: Energy,
-    /// The work `W` of the loads so far [energy].
+    /// Work `W` of the loads so far [energy].
     pub work: f64,
-    /// `D`: what dampers have dissipated so far, and what was lost in blows [energy].
+    /// Energy `D` dissipated by dampers and lost in impacts so far [energy].
     pub dissipated: f64,
-    /// The linear momentum `p` of the model [mass·length/time].
+    /// Linear momentum `p` [mass·length/time].
     pub momentum: Vec2,
-    /// The impulse `∫ F dt` of loads, gravity and supports so far [force·time].
+    /// Impulse `∫ F dt` of loads, gravity and supports so far [force·time].
     pub impulse: Vec2,
-    /// The angular momentum `L` of the model about the origin [mass·length²/time].
+    /// Angular momentum `L` about the origin [mass·length²/time].
     pub angular_momentum: f64,
-    /// The angular impulse `∫ M dt` of loads, gravity and supports so far, about the origin [force·length·time].
+    /// Angular impulse `∫ M dt` of loads, gravity and supports about the origin so far [force·length·time].
     pub angular_impulse: f64,
-    /// The sum `∫ |F| dt` of the magnitudes of impulses so far, every load and support by itself [force·time].
+    /// Sum `∫ |F| dt` of the magnitudes of impulses so far, for each load and support separately [force·time].
     pub gross_impulse: f64,
-    /// The sum `∫ |M| dt` of the magnitudes of angular impulses so far, every load and support by itself [force·length·time].
+    /// Sum `∫ |M| dt` of the magnitudes of angular impulses so far, for each load and support separately [force·length·time].
     pub gross_angular_impulse: f64,
-    /// The largest distance between the partners of a joint of the model [length].
+    /// Largest distance between the partners of a joint [length].
     pub gap: f64,
 }
 
 impl System {
-    /// Measures energy and momenta of the model, and work and impulse so far.
+    /// Evaluates energy, momenta, work and impulse.
     pub fn measure(&mut self) -> Measures {
         let rates = &self.motion.rates;
         let mut momenta = self.bodies.momenta(rates);

@@ -1,30 +1,30 @@
-//! Where unknowns stand in the matrices of small movements.
+//! Order of unknowns in the matrices of small movements.
 
 use super::System;
 use crate::linalg::reverse_cuthill_mckee;
 
-/// The order of the unknowns of small movements in their matrices: that of steps, unless something slides. Then the places of sliders on their masters are
-/// unknowns too, behind the movements, and all stand so that the band is narrow.
+/// Order of the unknowns of small movements: that of steps, unless there are sliders. Then the positions of sliders on their masters are additional
+/// unknowns, and all are reordered for a narrow band.
 #[derive(Debug, Clone)]
 pub struct OrderAtRest {
     count: usize,
     half_bandwidth: usize,
-    /// Where each unknown stands, if not in its place.
+    /// Place of each unknown, unless the order is that of steps.
     position: Option<Vec<usize>>,
 }
 
 impl OrderAtRest {
-    /// The number of unknowns of small movements.
+    /// Number of unknowns of small movements.
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// How far from the diagonal matrices have entries in this order.
+    /// Half-bandwidth of matrices in this order.
     pub fn half_bandwidth(&self) -> usize {
         self.half_bandwidth
     }
 
-    /// Where an unknown stands; what is supported stands behind all.
+    /// Place of an unknown; supported ones follow all others.
     pub fn place(&self, unknown: usize) -> usize {
         let position = |position: &Vec<usize>| position.get(unknown).copied();
         match &self.position {
@@ -33,12 +33,12 @@ impl OrderAtRest {
         }
     }
 
-    /// Whether unknowns stand in their places.
+    /// Returns true if the order is that of steps.
     pub fn is_given(&self) -> bool {
         self.position.is_none()
     }
 
-    /// Values of so many unknowns in their own order, from values in this one.
+    /// Converts values from this order to that of steps, restricted to `unknowns` entries.
     pub fn in_own_order(&self, values: Vec<f64>, unknowns: usize) -> Vec<f64> {
         match &self.position {
             None => values,
@@ -48,7 +48,7 @@ impl OrderAtRest {
 }
 
 impl System {
-    /// The order of the unknowns of small movements about the present configuration.
+    /// Order of the unknowns of small movements about the present configuration.
     pub fn order_at_rest(&self) -> OrderAtRest {
         let movements = self.unknowns.count();
         if self.sliders.is_empty() {

@@ -1,7 +1,7 @@
-//! The model without inertia: what balances at rest, and how it resists small movements.
+//! Statics of the model: balance at rest, and stiffness against small movements.
 //!
-//! Movements are counted from the present configuration; rotations are increments of the angle itself, for which the stiffness
-//! is the Hessian of the potential energy.
+//! Movements are relative to the present configuration. Rotations are increments of the angle itself, for which the stiffness is the Hessian of the
+//! potential energy.
 
 use super::System;
 use crate::beams::{BodyPoint, RotationIncrement};
@@ -11,33 +11,33 @@ use crate::linalg::BorderedMatrix;
 use crate::system::links::ArmRule;
 use crate::system::sliders::{AtRest, MasterEnd};
 
-/// The largest of the forces that meet in a model at rest.
+/// Largest forces of a model at rest.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct StaticForces {
-    /// The largest force: in a section, or of a load [force].
+    /// Largest force, of a section or a load [force].
     pub force: f64,
-    /// The largest moment: in a section, or of a load [force·length].
+    /// Largest moment, of a section or a load [force·length].
     pub moment: f64,
-    /// The largest mismatch between the strain of a section force and that of the configuration [-].
+    /// Largest mismatch between the strains of section force and configuration [-].
     pub strain_mismatch: f64,
 }
 
 impl System {
-    /// Begins a movement between two places at rest: its section forces start from those of the last one.
+    /// Starts a movement between two equilibria with the section forces of the last one.
     pub fn begin_movement(&mut self) {
         self.bodies.begin_step();
         self.elements.begin_movement();
         self.links.begin_movement();
     }
 
-    /// Guesses the unknowns of a movement between two places at rest, contacts behind movements: nothing moves.
+    /// Predicts zero movement between two equilibria; contact unknowns follow movements.
     pub fn stay(&self, unknowns: &mut [f64]) {
         unknowns.fill(0.0);
         self.sliders.stay(&mut unknowns[self.unknowns.count()..]);
     }
 
-    /// Adds the internal forces of the model minus `load_factor` times the loads, with the section forces as they are, and behind them the equations of
-    /// contacts; the unknowns are movements, and contacts behind them.
+    /// Adds the internal forces at the current section forces minus `load_factor` times the loads, followed by the contact equations. The unknowns
+    /// are movements followed by contact unknowns.
     pub fn add_static_forces(
         &mut self,
         unknowns: &[f64],
@@ -57,7 +57,7 @@ impl System {
         }
     }
 
-    /// Adds the condensed internal forces of the model minus `load_factor` times the loads, and their derivative by the movements.
+    /// Adds the condensed internal forces minus `load_factor` times the loads, and their derivatives with respect to the movements.
     pub fn add_linearised_static_forces(
         &mut self,
         unknowns: &[f64],
@@ -75,17 +75,17 @@ impl System {
         sliders.add_linearised::<AtRest>(bodies, count, movements, contacts, out, border);
     }
 
-    /// The largest violation of an equation of a rigid link or a contact by a residual, forces being compared with one, lengths with what moves [-].
+    /// Largest violation of a rigid link or contact equation, relative to a force scale or to the moving lengths [-].
     pub fn violation_at_rest(&self, residual: &[f64], force: f64) -> f64 {
         let equations = &residual[self.unknowns.count()..];
         let relative = |off: f64| if off == 0.0 { 0.0 } else { off / force };
         larger(self.sliders.violation(equations, relative), self.links.violation(residual))
     }
 
-    /// Lets sliders lean on stops that a movement would pass, and leave stops that would have to pull; whether any did.
+    /// Holds sliders that a movement takes beyond stops, and frees those with tensile stop forces. Returns true if any changed.
     ///
     /// # Errors
-    /// When a slider would leave its master: its index, and the end.
+    /// Slider and end of its master, if a slider would leave its master.
     pub fn settle_on_stops(
         &mut self,
         unknowns: &[f64],
@@ -96,8 +96,7 @@ impl System {
         self.sliders.settle_on_stops(&self.bodies, movements, contacts)
     }
 
-    /// Subtracts `load_factor` times the loads and the weight of the model; gives the largest force and moment of a whole load on a
-    /// control point.
+    /// Subtracts `load_factor` times loads and weight. Returns the largest force and moment on a control point.
     pub fn subtract_static_loads(
         &mut self,
         movements: &[f64],
@@ -107,8 +106,8 @@ impl System {
         self.subtract_loads(Stage::End, movements, load_factor, out)
     }
 
-    /// Moves the model by movements [length, rad], behind which stand the unknowns of contacts, to where prescribed motions are under a part of the
-    /// load, and leaves it at rest there.
+    /// Moves the model by movements [length, rad], followed by contact unknowns, to the prescribed positions under a fraction of the load, and leaves
+    /// it at rest.
     pub fn move_by(&mut self, unknowns: &[f64], load_factor: f64) {
         let (movements, contacts) = unknowns.split_at(self.unknowns.count());
         let movements = self.supports.prescribed().at_rest(movements, load_factor);
@@ -122,15 +121,14 @@ impl System {
         self.motion.rates.fill(0.0);
     }
 
-    /// Whether prescribed motions have to be put on with the loads.
+    /// Returns true if prescribed positions have to be applied with the loads.
     pub fn is_moved_at_rest(&self) -> bool {
         self.supports.prescribed().moves_at_rest()
     }
 
-    /// The forces of the supports on the scene at a place, from forces at rest: force [force] and moment [force·length]; none where
-    /// nothing is held.
+    /// Support force at a place at rest: force [force] and moment [force·length]; `None` without a support there.
     ///
-    /// Where several bodies are tied to the place, the supports hold all of them.
+    /// If several bodies are joined there, the supports hold all of them.
     pub fn support_force(&self, place: &BodyPoint, forces: &[f64]) -> Option<(Vec2, f64)> {
         self.held_by(place, forces, |roller| self.links.all_rollers()[roller].force())
     }

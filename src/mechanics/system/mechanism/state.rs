@@ -1,4 +1,4 @@
-//! The state of a model: saved, and taken back bit for bit.
+//! Saving and restoring the state of a model bit for bit.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,19 +8,17 @@ use crate::system::SystemError;
 use crate::system::sliders::SliderState;
 use crate::system::state::Trend;
 
-/// The state of a [`System`], to be taken back by the same one: everything that its motion from there on depends on, and the sums of work
-/// and impulse so far.
+/// State of a [`System`], to be restored in the same one: everything that determines its later motion, and the accumulated work and impulse.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct SystemState {
     numbers: Vec<f64>,
     trend: Trend,
     knows_accelerations: bool,
-    /// What each slider does.
     sliders: Vec<SliderState>,
 }
 
 impl SystemState {
-    /// An empty state, with room for as much as this one.
+    /// Returns an empty state with the same capacity.
     pub fn blank(&self) -> Self {
         Self {
             numbers: Vec::with_capacity(self.numbers.len()),
@@ -29,12 +27,12 @@ impl SystemState {
         }
     }
 
-    /// Whether the state has as many numbers and sliders as another one.
+    /// Returns true if both states have the same numbers of values and sliders.
     pub fn is_shaped_like(&self, other: &Self) -> bool {
         self.numbers.len() == other.numbers.len() && self.sliders.len() == other.sliders.len()
     }
 
-    /// Becomes the state that differs from another one by `amount` times a change of its numbers.
+    /// Sets the state to another one plus `amount` times a change of its values.
     pub fn displace(&mut self, from: &Self, change: &[f64], amount: f64) {
         let Self { numbers, trend, knows_accelerations, sliders } = self;
         numbers.clear();
@@ -44,7 +42,7 @@ impl SystemState {
         sliders.extend_from_slice(&from.sliders);
     }
 
-    /// Writes by how much the numbers of the state change from those of another one over a distance, for each unit of it.
+    /// Writes the change of the values from those of another state, divided by a distance.
     pub fn change_from(&self, other: &Self, distance: f64, change: &mut Vec<f64>) {
         let per_unit = |(own, other): (&f64, &f64)| match own == other || own.is_nan() {
             true => 0.0,
@@ -54,7 +52,7 @@ impl SystemState {
         change.extend(self.numbers.iter().zip(&other.numbers).map(per_unit));
     }
 
-    /// The memory that the state takes besides itself [bytes].
+    /// Heap memory of the state [bytes].
     pub fn bytes(&self) -> usize {
         self.numbers.capacity() * size_of::<f64>()
             + self.sliders.capacity() * size_of::<SliderState>()
@@ -62,7 +60,7 @@ impl SystemState {
 }
 
 impl System {
-    /// The state of the model: everything that its motion from here on depends on, and the sums of work and impulse so far.
+    /// Returns the state of the model.
     pub fn state(&self) -> SystemState {
         let mut state = SystemState::default();
         self.write_state(&mut state);
@@ -70,7 +68,7 @@ impl System {
         state
     }
 
-    /// Writes the [`state`](Self::state) into one that may hold another; where that is one of this model, nothing is allocated.
+    /// Writes the [`state`](Self::state) to a buffer. Nothing is allocated if it holds a state of this model.
     pub fn write_state(&self, state: &mut SystemState) {
         let SystemState { numbers, trend, knows_accelerations, sliders } = state;
         numbers.clear();
@@ -88,10 +86,10 @@ impl System {
         sliders.extend(self.sliders.states());
     }
 
-    /// Takes back a [`state`](Self::state) of this model, bit for bit.
+    /// Restores a [`state`](Self::state) of this model bit for bit.
     ///
     /// # Panics
-    /// When the state is that of another model.
+    /// Panics if the state is that of another model.
     pub fn restore(&mut self, state: &SystemState) {
         let mut numbers = state.numbers.iter().copied();
         let next = &mut || numbers.next().expect("the state is one of this model");
@@ -106,10 +104,10 @@ impl System {
         assert!(numbers.next().is_none(), "the state is one of this model");
     }
 
-    /// Takes a state from a file, as [`restore`](Self::restore) does for one that is known to be of this model.
+    /// Restores a state from a file with checks.
     ///
     /// # Errors
-    /// When it cannot be a state of this model.
+    /// Fails if it cannot be a state of this model.
     pub fn restore_checked(&mut self, state: &SystemState) -> Result<(), SystemError> {
         let refused = |reason: &'static str| SystemError::State { reason };
         let numbers = &state.numbers;
@@ -120,7 +118,7 @@ impl System {
         if !numbers.iter().all(|number| number.is_finite()) {
             return Err(refused("a number of it is not finite"));
         }
-        // The numbers of the sliders stand last.
+        // The numbers of the sliders are last.
         let of_sliders = &numbers[numbers.len() - self.sliders.saved()..];
         if !self.sliders.fit(of_sliders) {
             return Err(refused("a slider is beside its beam"));

@@ -1,4 +1,4 @@
-//! The model as integrators see it: a mechanism.
+//! Implementation of the integrator interface for the model.
 
 use super::System;
 use crate::beams::{Collocation, ForceSummary};
@@ -13,8 +13,7 @@ use crate::system::elements::{TrialState, WorkAndImpulse, collocation};
 use crate::system::links::ArmRule;
 use crate::system::sliders::InStep;
 
-/// Where a method that balances the forces of a stage, with such a share of them after the start of the step, takes the arms of rigid links: at the time
-/// of that balance, as otherwise it would be of first order.
+/// Arms of rigid links for a method with a stage and a weight, taken at the time of its balance. Otherwise the method would be of first order.
 fn arms(stage: Stage, weight: f64) -> ArmRule {
     let Collocation { rotations, configuration, .. } = collocation(stage);
     let share = if stage == Stage::End { weight } else { configuration };
@@ -22,7 +21,6 @@ fn arms(stage: Stage, weight: f64) -> ArmRule {
 }
 
 impl System {
-    /// Adds what bodies, springs and dampers resist with; the largest that was met.
     pub(super) fn add_internal_forces(
         &mut self,
         stage: Stage,
@@ -40,7 +38,6 @@ impl System {
         summary
     }
 
-    /// Subtracts the forces of all elements from a force vector; gives the largest force and the largest moment of one on a control point.
     pub(super) fn subtract_loads(
         &mut self,
         stage: Stage,
@@ -52,7 +49,7 @@ impl System {
         self.elements.subtract_from(at, out)
     }
 
-    /// Adds what bodies, springs and dampers resist with, condensed, and minus `share` times what the elements give, with the derivatives.
+    /// Adds the condensed internal forces minus `share` times the external forces, with derivatives.
     pub(super) fn add_linearised(
         &mut self,
         stage: Stage,
@@ -87,7 +84,7 @@ impl System {
         if duration < 0.0 { sum.taken_back() } else { sum }
     }
 
-    /// Finds what inertia the prescribed movements met in a step: `M Δv` and `M v̄` there.
+    /// Evaluates `M Δv` and `M v̄` of the prescribed movements in a step.
     fn meet_given(&mut self, rates: &[f64]) {
         let Self { bodies, elements, supports, motion, step, .. } = self;
         let movements = supports.prescribed_mut();
@@ -103,7 +100,6 @@ impl System {
         movements.take_momentum(bodies, momentum);
     }
 
-    /// What the drives gave in a step that ends with such rates.
     fn exchange_of_drives(&mut self, rates: &[f64], residual: &[f64]) -> WorkAndImpulse {
         let duration = self.step.interval.duration();
         let in_step = (duration, self.step.rotations);

@@ -347,7 +347,6 @@ fn explain_particles(scene: &Scene) -> SystemFeature {
     }
 }
 
-/// Masses other than those of particles and rigid bodies.
 fn explain_masses(scene: &Scene) -> SystemFeature {
     match scene.masses().count().saturating_sub(scene.particles.len() + scene.rigid_bodies.len()) {
         0 => SystemFeature::left_out("point masses", "the mass matrix is that of the bodies"),

@@ -8,7 +8,6 @@ use crate::geometry::Vec2;
 use crate::joints::{Component, Joint, JointKind, Partner, Releasable};
 use crate::system::{Reactions, Scene, System, SystemError};
 
-/// Node of a body, or the ground.
 type Node = Option<(usize, usize)>;
 
 /// Nodes on one side of a joint, and the sign of the force.
@@ -21,7 +20,6 @@ struct JointSide {
 /// Joint whose nodes were located for repeated queries.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Transmission {
-    /// Sides by component, for components that the joint connects.
     sides: [Option<JointSide>; 3],
     /// Index of the inclined roller, if the joint is one.
     roller: Option<usize>,

@@ -12,9 +12,7 @@ use crate::system::{
 #[derive(Debug, Clone, Default)]
 pub struct SensorReader {
     readings: Vec<SensorReading>,
-    /// True if a sensor needs accelerations or forces.
     needs_instant: bool,
-    /// True if a sensor needs averages over a step.
     needs_mean: bool,
     values: Vec<f64>,
 }

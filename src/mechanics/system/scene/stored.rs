@@ -36,7 +36,6 @@ pub struct StoredScene {
     velocities: Vec<StationVelocity>,
     elements: Vec<Element>,
     gravity: Vec2,
-    /// Names of the sensors.
     sensors: Vec<String>,
 }
 

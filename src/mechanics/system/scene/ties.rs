@@ -40,7 +40,6 @@ impl Ties {
     }
 }
 
-/// Checks that the joints of a scene are closed and connect no place twice.
 pub fn check_ties(scene: &Scene) -> Result<(), SystemError> {
     let mut places: Vec<Station> = Vec::new();
     let mut index = |station: &Station| {

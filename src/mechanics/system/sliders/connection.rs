@@ -1,29 +1,27 @@
-//! Where slave and master of a slider stand among the unknowns, and how its contact gets there.
+//! Unknowns of slave, master and contact of a slider, and the assembly of its contact.
 
 use crate::geometry::Vec2;
 use crate::joints::{CONTACT_UNKNOWNS, Contact, Equation};
 use crate::linalg::Border;
 use crate::system::bodies::Body;
 
-/// What a slider connects, by the places of its unknowns in the vectors of the model.
+/// Connection of a slider by the places of its unknowns in the vectors of the model.
 #[derive(Debug, Clone, Copy)]
 pub struct Connection {
-    /// The index of the body that is slid on.
+    /// Index of the master.
     pub master: usize,
-    /// The index of the body that slides, and that of its control point.
+    /// Index of the slave body, and of its control point.
     pub slave: (usize, usize),
-    /// The index of the slider among those of the model.
+    /// Index of the slider in the model.
     pub index: usize,
 }
 
 impl Connection {
-    /// The places of the unknowns of the contact, and of its equations, among those of all constraints.
     pub fn places(&self) -> std::ops::Range<usize> {
         let first = CONTACT_UNKNOWNS * self.index;
         first..first + CONTACT_UNKNOWNS
     }
 
-    /// Adds a force on the slave, and forces on control points of the master from a first one on.
     pub fn add_forces(
         &self,
         bodies: &[Body],
@@ -42,8 +40,7 @@ impl Connection {
         of_master.iter().zip(on_master).for_each(|(at, force)| add(*at, force));
     }
 
-    /// Adds the contact forces on slave and master to a residual, those on control points of the master as given, and behind the movements the values
-    /// of the contact's equations.
+    /// Adds the contact forces on slave and master to a residual, followed by the values of the contact equations.
     pub fn add_values(
         &self,
         bodies: &[Body],
@@ -59,8 +56,7 @@ impl Connection {
         rows.iter_mut().zip(values).for_each(|(row, value)| *row += value);
     }
 
-    /// Adds the derivatives of what [`add_values`](Self::add_values) adds, with those of the forces on control points of the master; supported movements
-    /// have none.
+    /// Adds the derivatives of [`add_values`](Self::add_values), including those of the forces on the master, restricted to unknown movements.
     pub fn add_derivatives(
         &self,
         bodies: &[Body],

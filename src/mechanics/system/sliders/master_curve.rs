@@ -1,23 +1,23 @@
-//! The beam that a slider slides on, its ends, and what a slider does there.
+//! Master of a slider: a beam with its ends, and the states of a slider.
 
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Curve, corresponding};
 
-/// How far a slider may end beside the end of its master and still be there, relative to the master's parameters [-].
+/// Tolerance for a slider at the end of its master, relative to the parameter range [-].
 pub const LANDED: f64 = 4e-15;
 
-/// An end of the master of a slider.
+/// End of the master of a slider.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum MasterEnd {
-    /// The end where the parameter of the master starts.
+    /// Start of the parameter range.
     Start,
-    /// The end where the parameter of the master ends.
+    /// End of the parameter range.
     End,
 }
 
 impl MasterEnd {
-    /// The name of the end for messages and scripts, such as `start`.
+    /// Name for messages and scripts, such as `start`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Start => "start",
@@ -25,7 +25,6 @@ impl MasterEnd {
         }
     }
 
-    /// The other end of a beam.
     pub(in crate::system) fn opposite(self) -> Self {
         match self {
             Self::Start => Self::End,
@@ -33,7 +32,7 @@ impl MasterEnd {
         }
     }
 
-    /// The sign of `dξ/dt` with which a slider reaches the end [-].
+    /// Sign of `dξ/dt` towards this end [-].
     pub(in crate::system) fn outward(self) -> f64 {
         match self {
             Self::Start => -1.0,
@@ -42,19 +41,19 @@ impl MasterEnd {
     }
 }
 
-/// What a slider does at present.
+/// State of a slider.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum SliderState {
-    /// The slider slides along its master.
+    /// Sliding along its master.
     Sliding,
-    /// The slider rests against the stop at an end of its master.
+    /// Held at the stop at an end of its master.
     Held(MasterEnd),
-    /// The slider has left its master.
+    /// Released from its master.
     Released,
 }
 
 impl SliderState {
-    /// The state of the slider in a word, for reports.
+    /// Name for reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Sliding => "sliding",
@@ -64,57 +63,55 @@ impl SliderState {
     }
 }
 
-/// The end of a master at which a slider may arrive.
+/// End of the master of a slider, where it may arrive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct MasterLimit {
-    /// The index of the slider.
+    /// Index of the slider.
     pub slider: usize,
-    /// The end of the slider's master.
+    /// End of its master.
     pub end: MasterEnd,
 }
 
 impl MasterLimit {
-    /// The ends of the master of a slider, in the order of their numbers.
     pub(in crate::system) fn both(slider: usize) -> [Self; 2] {
         [MasterEnd::Start, MasterEnd::End].map(|end| Self { slider, end })
     }
 
-    /// The number of this limit among those of all sliders.
+    /// Index among the limits of all sliders.
     pub fn number(self) -> usize {
         2 * self.slider + self.end as usize
     }
 
-    /// The limit of a slider by its number among those of all sliders.
+    /// Limit with an index among those of all sliders.
     pub fn of(number: usize) -> Self {
         Self::both(number / 2)[number % 2]
     }
 }
 
-/// The master of a slider: a beam as drawn, with the parameters of its mesh.
+/// Master of a slider: a beam as drawn, with the parameters of its mesh.
 #[derive(Debug, Clone)]
 pub struct MasterCurve {
     axis: Curve,
-    /// The first and the last parameter of the mesh.
     domain: (f64, f64),
 }
 
 impl MasterCurve {
-    /// The rail along a beam, given by its axis as drawn and the first and the last parameter of its mesh.
+    /// Creates a master from the axis of a beam as drawn and the parameter range of its mesh.
     pub fn new(axis: Curve, domain: (f64, f64)) -> Self {
         Self { axis, domain }
     }
 
-    /// The first and the last parameter of the mesh of the master [-].
+    /// First and last parameter of the mesh [-].
     pub fn domain(&self) -> (f64, f64) {
         self.domain
     }
 
-    /// The length of the master as drawn [length].
+    /// Length as drawn [length].
     pub fn length(&self) -> f64 {
         self.axis.length()
     }
 
-    /// The parameter of an end of the master [-].
+    /// Parameter of an end [-].
     pub fn end(&self, end: MasterEnd) -> f64 {
         match end {
             MasterEnd::Start => self.domain.0,
@@ -122,13 +119,13 @@ impl MasterCurve {
         }
     }
 
-    /// How far a parameter is from an end of the master, as a part of all parameters [-].
+    /// Distance of a parameter from an end, relative to the parameter range [-].
     pub fn distance(&self, parameter: f64, end: MasterEnd) -> f64 {
         let (first, last) = self.domain;
         (self.end(end) - parameter).abs() / (last - first)
     }
 
-    /// How far a parameter lies beyond an end of the master, as a part of all parameters [-]; negative before it.
+    /// Distance of a parameter beyond an end, relative to the parameter range [-]; negative before it.
     pub fn beyond(&self, parameter: f64, end: MasterEnd) -> f64 {
         let (first, last) = self.domain;
         let distance = match end {
@@ -138,20 +135,20 @@ impl MasterCurve {
         distance / (last - first)
     }
 
-    /// Whether a parameter is one of the master's mesh, or beside an end by rounding.
+    /// Returns true if a parameter is in the range of the mesh, within rounding.
     pub fn has(&self, parameter: f64) -> bool {
         let (first, last) = self.domain;
         let slack = LANDED * (last - first);
         (first - slack..=last + slack).contains(&parameter)
     }
 
-    /// The part of the master's length as drawn that lies before a parameter [-].
+    /// Fraction of the length as drawn before a parameter [-].
     pub fn part_before(&self, parameter: f64) -> f64 {
         let along = self.axis.length_to(self.drawn(parameter));
         along.map_or(f64::NAN, |along| along / self.axis.length())
     }
 
-    /// The length of the master as drawn that belongs to a unit of the parameter there [length].
+    /// Length as drawn per unit of the parameter [length].
     pub fn stretch(&self, parameter: f64) -> f64 {
         let (start, end) = self.axis.domain();
         let (first, last) = self.domain;
@@ -159,7 +156,6 @@ impl MasterCurve {
         drawn.map_or(f64::NAN, |drawn| drawn.norm()) * (end - start) / (last - first)
     }
 
-    /// The parameter of the axis as drawn.
     fn drawn(&self, parameter: f64) -> f64 {
         corresponding(parameter, self.domain, self.axis.domain())
     }

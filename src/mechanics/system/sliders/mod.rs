@@ -1,5 +1,4 @@
-//! Points that slide along beams: where they are, what they add to the equations of a step, and what their beams are like where
-//! they end.
+//! Sliding points: their positions, contact equations, and masters.
 
 mod all;
 mod axial_impact;

@@ -1,4 +1,4 @@
-//! Sliders of the model: where they are, and what they add to the equations of a step.
+//! Sliders of a model: positions, and contributions to the equations of a step.
 
 use super::{Connection, ImpactBar, KinkedAxis, MasterCurve, MasterEnd, SliderState, TrackPath};
 use crate::geometry::{Basis, ContactPath, Vec2, larger};
@@ -20,84 +20,80 @@ mod stops;
 
 pub use passing::{AtRest, InStep, Passing};
 
-/// A slider of a model with its contact: where it is, and what acts there.
 #[derive(Debug, Clone)]
 pub struct SliderContact {
     pub name: String,
     pub connection: Connection,
     pub rule: SlidingRule,
     pub ends: EndAction,
-    /// How much of its speed the slider keeps where it bounces [-].
+    /// Coefficient of restitution [-].
     pub restitution: f64,
     pub state: SliderState,
-    /// What the stop has stored on which the slider leans [energy].
+    /// Energy stored in the stop that holds the slider [energy].
     pub stored: f64,
-    /// What was lost in blows against stops so far [energy].
+    /// Energy lost in impacts at stops so far [energy].
     pub lost: f64,
-    /// What the slider gave its master in the last impact [mass·length/time].
+    /// Impulse on the master in the last impact [mass·length/time].
     pub impulse: Vec2,
-    /// When the slider left a stop last; [`NEVER`] before it did [time].
+    /// Time at which the slider last left a stop; [`NEVER`] if it has not [time].
     pub left_at: f64,
-    /// Whether the stop may pull in the step to come: the slider has left it just now, and every step leads back.
+    /// True if the stop force may be tensile in the next step: the slider has just left the stop, and every step leads back.
     pub stop_may_pull: bool,
-    /// Whether the stop would have had to pull in the last step that was tried.
+    /// True if the stop force was tensile in the last tried step.
     pub is_pulled: bool,
-    /// The parameter `ξ` of the master at which the slider is [-].
+    /// Parameter `ξ` of the master at the slider [-].
     pub parameter: f64,
-    /// The unknowns of the contact that the last step has found: force, couple and way.
+    /// Contact unknowns of the last step: force, couple and path.
     pub unknowns: ContactUnknowns,
-    /// The most spans of its master that the slider passed in a step [-].
+    /// Largest number of spans of its master passed in a step [-].
     pub most_spans: f64,
-    /// How many times as long as a blow a step was, at the bounce of the slider where that is most [-].
+    /// Largest ratio of step length to impact duration at a bounce [-].
     pub blows_in_a_step: f64,
-    /// The master as drawn.
     rail: MasterCurve,
-    /// The way from beam to beam, for a slider on a track.
+    /// Path along the track, for a slider on one.
     route: Option<Box<TrackPath>>,
-    /// Master and slave as blows run through them; the slave may be no beam.
+    /// Master and slave as bars with impact waves; `None` if the slave is not a beam.
     bars: (ImpactBar, Option<ImpactBar>),
-    /// The axis of the master as the contact force kinks it, where the rule knows of that.
+    /// Kinked axis of the master, for rules with a kink.
     kinked_axis: Option<KinkedAxis>,
-    /// The kink of that axis at the end of the step.
     kink_at_end: KinkState,
-    /// The length of the master for a parameter of one [length].
+    /// Length of the master per unit of parameter [length].
     length: f64,
-    /// Where it is at the start of the step.
+    /// Path of length zero at the start of the step.
     here: ContactPath,
-    /// Its way in the iterate of the step.
     passage: ContactPath,
-    /// Control points of the master in the window of the passage, counted from the slave.
+    /// Control points of the master in the window of the path, relative to the slave.
     before: Vec<Vec2>,
     moved: Vec<Vec2>,
     units: [Unit; CONTACT_UNKNOWNS],
-    /// The length of the master and the way of the slave in the iterate: what rounding of places is relative to [length].
+    /// Length of the master plus path of the slave in the iterate, the scale of rounding [length].
     size: f64,
-    /// How long the chord of the way is in the mean configuration of the iterate, relative to the master for that way.
+    /// Chord of the path in the mean configuration of the iterate, relative to the path.
     chord: f64,
-    /// How much the stop pushes in the iterate, where the slider leans on it, times the tangent [force·length].
+    /// Compressive stop force in the iterate times the tangent, for a held slider [force·length].
     push: f64,
-    /// How much a seam on which the slider leans pushes it away from the beam on the other side, likewise.
+    /// The same for the other side of a seam that holds the slider.
     push_beyond: f64,
-    /// Whether it is that other beam along which the slider is drawn off.
+    /// True if the slider is pulled onto the other beam.
     pub leaves_beyond: bool,
-    /// The contact force in the iterate [force].
+    /// Contact force in the iterate [force].
     pressing: f64,
 }
 
-/// The time at which a slider that has left no stop yet left one: later than any, and finite, as it is saved [time].
+/// Time of a stop departure that has not happened: later than any, but finite, because it is saved [time].
 pub(super) const NEVER: f64 = f64::MAX;
 
-/// A stop that pulls by less than this part of its contact force does not pull.
+/// Tensile stop force, relative to the contact force, below which it counts as zero.
 const PULL: f64 = 1e-9;
 
-/// Whether a stop would have to pull under a contact force [force], by what it pushes times the tangent [force·length] of a master of such a length for a
-/// parameter of one [length].
+/// Returns true if a stop force is tensile beyond the tolerance, from the push times the tangent [force·length], the contact force [force], and the
+/// length of the master per unit of parameter [length].
 pub(super) fn would_pull(push: f64, force: f64, length: f64) -> bool {
     push < -PULL * force * length
 }
 
 impl SliderContact {
-    /// A slider at a parameter of the mesh of its master.
+    /// Creates a slider at a parameter of the mesh of its master.
     pub fn new(
         slider: &Slider,
         connection: Connection,
@@ -148,18 +144,17 @@ impl SliderContact {
         new
     }
 
-    /// The most entries that the equations of the contact have.
     pub fn row_entries(&self) -> usize {
         CONTACT_UNKNOWNS * 2 * (1 + self.most_of_masters(Basis::functions))
     }
 
-    /// The most entries that they have in a step in which the slider passes no more than two spans of its master.
+    /// The same for steps in which the slider passes at most two spans of its master.
     pub fn usual_entries(&self) -> usize {
         let usual = |basis: &Basis| (basis.degree() + 3).min(basis.functions());
         CONTACT_UNKNOWNS * 2 * (1 + self.most_of_masters(usual))
     }
 
-    /// Puts the slider at a parameter of its master.
+    /// Moves the slider to a parameter of its master.
     fn stand_at(&mut self, parameter: f64) {
         self.parameter = parameter;
         self.here.go(parameter, parameter);
@@ -179,53 +174,50 @@ impl SliderContact {
         self.state == SliderState::Sliding
     }
 
-    /// Lets the slider leave its master.
     pub fn release(&mut self) {
         self.state = SliderState::Released;
         self.lost += std::mem::take(&mut self.stored);
         self.unknowns = ContactUnknowns::zeros();
-        // At an end of the master there is no kink, and no energy in it.
+        // At an end of the master the kink has no energy.
         self.kinked_axis.iter_mut().for_each(KinkedAxis::straighten);
     }
 
-    /// The contact force on the master: where the axis is kinked by it, at present, else the mean of the last step [force].
+    /// Contact force on the master: instantaneous with a kink that follows it, otherwise the mean of the last step [force].
     pub fn contact_force(&self) -> Vec2 {
         let axis = self.kinked_axis.as_ref().filter(|_| !self.is_frozen());
         axis.map_or(self.unknowns.force, KinkedAxis::force)
     }
 
-    /// Whether the kink of the master stays as it is while the slider slides, whatever the contact force.
     pub fn is_frozen(&self) -> bool {
         self.is_sliding() && self.kinked_axis.as_ref().is_some_and(KinkedAxis::is_frozen)
     }
 
-    /// The speed along the master up to which its kink follows the contact force, where there is one [length/time].
+    /// Speed along the master up to which its kink follows the contact force, if there is one [length/time].
     pub fn fastest_on_kink(&self) -> Option<f64> {
         self.kinked_axis.as_ref().map(KinkedAxis::fastest)
     }
 
-    /// Keeps the kink of the master as it is in steps to come; gives whether that is another law for the next step.
+    /// Fixes the kink of the master for the following steps. Returns true if this changes the law of the next step.
     pub fn keep_kink(&mut self) -> bool {
         let sliding = self.is_sliding();
         self.kinked_axis.as_mut().is_some_and(|axis| axis.keep() && sliding)
     }
 
-    /// Lets the kink of the master follow the contact force again.
     pub fn let_kink_follow(&mut self) {
         self.kinked_axis.iter_mut().for_each(KinkedAxis::follow);
     }
 
-    /// Whether the contact force follows from how far the axis of the master is kinked, so that the contact transmits no impulse.
+    /// Returns true if the contact force follows from the kink of the master, so that the contact transmits no impulse.
     pub fn gives_way(&self) -> bool {
         self.kinked_axis.as_ref().is_some_and(KinkedAxis::gives)
     }
 
-    /// The energy of the kink under the contact force, and of the stop on which the slider leans [energy].
+    /// Energy of the kink, and of the stop that holds the slider [energy].
     pub fn strain_energy(&self) -> f64 {
         self.kinked_axis.as_ref().map_or(0.0, KinkedAxis::energy) + self.stored
     }
 
-    /// The energy with which the kink under the contact force moves along the master [energy].
+    /// Kinetic energy of the moving kink [energy].
     pub fn kinetic_energy(&self) -> f64 {
         self.kinked_axis.as_ref().map_or(0.0, KinkedAxis::kinetic_energy)
     }
@@ -236,7 +228,6 @@ impl SliderContact {
         ContactUnknowns::of(own)
     }
 
-    /// Begins a step.
     pub fn begin_step(&mut self, bodies: &[Body], rates: &[f64], interval: Interval) {
         if self.kinked_axis.is_some() {
             let rate = self.rate(bodies, rates);
@@ -244,7 +235,6 @@ impl SliderContact {
         }
     }
 
-    /// Guesses the unknowns of the contact for a step: the slider slides on as it does, and its force stays.
     pub fn predict(
         &self,
         bodies: &[Body],
@@ -260,14 +250,12 @@ impl SliderContact {
         unknowns[self.connection.places()].copy_from_slice(&guess.to_array());
     }
 
-    /// The contact in the iterate of a step.
     fn take(&mut self, bodies: &[Body], increments: &[f64], unknowns: &[f64]) -> Contact<'_> {
         let unknowns = self.read(unknowns);
         self.passage.go(self.parameter, self.parameter + unknowns.way);
         self.contact(bodies, increments, unknowns)
     }
 
-    /// The contact in an iterate of the way of the passage.
     fn contact(
         &mut self,
         bodies: &[Body],
@@ -292,7 +280,7 @@ impl SliderContact {
         Contact { passage, master: (before, moved), slave_moved, unknowns, kink, length: *length }
     }
 
-    /// Adds the forces on slave and master to a residual, and behind so many unknown movements the equations of the contact; gives the contact force [force].
+    /// Adds the forces on slave and master to a residual, followed by the contact equations. Returns the contact force [force].
     pub fn add<P: Passing>(
         &mut self,
         bodies: &[Body],
@@ -309,7 +297,7 @@ impl SliderContact {
         let (pressing, chord) = (contact.unknowns.force, P::chord(&contact));
         let force = pressing.norm();
         let push = match state {
-            // What pulls without end lets go at once.
+            // An infinitely tensile stop releases the slider at once.
             SliderState::Held(_) if leans_on_nothing => f64::NEG_INFINITY,
             SliderState::Held(end) => contact.push(end.outward()),
             SliderState::Sliding | SliderState::Released => 0.0,
@@ -321,7 +309,7 @@ impl SliderContact {
         force
     }
 
-    /// Adds forces and equations of the contact to a residual, and their derivatives by movements and contact unknowns to the tangent.
+    /// Adds forces and equations of the contact to a residual, and their derivatives with respect to movements and contact unknowns to the tangent.
     pub fn add_linearised<P: Passing>(
         &mut self,
         bodies: &[Body],
@@ -339,7 +327,7 @@ impl SliderContact {
         connection.add_derivatives(bodies, &contact, slopes, &equations, movements, border);
     }
 
-    /// The largest violations of the contact's equations: of lengths relative to the lengths met [-], and of forces [force].
+    /// Largest violations of the contact equations: lengths relative to the lengths involved [-], and forces [force].
     pub fn violation(&self, equations: &[f64]) -> (f64, f64) {
         let values = equations[self.connection.places()].iter().zip(self.units);
         values.fold((0.0, 0.0), |(length, force), (value, unit)| match unit {
@@ -348,17 +336,17 @@ impl SliderContact {
         })
     }
 
-    /// The length of the chord of the slider's way in the mean configuration, relative to the length of the master for that way [-].
+    /// Chord of the path in the mean configuration, relative to the length of the master along it [-].
     pub fn chord(&self) -> f64 {
         if self.is_sliding() { self.chord } else { 1.0 }
     }
 
-    /// How far beyond an end of the master the unknowns of the contact lead, relative to the master's parameters [-].
+    /// Distance beyond an end of the master for given contact unknowns, relative to the parameter range [-].
     pub fn beyond(&self, unknowns: &[f64], end: MasterEnd) -> f64 {
         self.rail.beyond(self.parameter + self.read(unknowns).way, end)
     }
 
-    /// Looks at the contact at the end of a step that is accepted; the bodies are at its start still.
+    /// Evaluates the contact at the end of an accepted step, before the bodies are moved.
     pub fn close(&mut self, bodies: &[Body], increments: &[f64], unknowns: &[f64]) {
         if self.kinked_axis.is_none() {
             return;
@@ -367,7 +355,7 @@ impl SliderContact {
         self.kink_at_end = law.kink_at_end(&self.take(bodies, increments, unknowns));
     }
 
-    /// Lets the slider accept a step; the bodies are at its end already.
+    /// Accepts a step, after the bodies have been moved.
     pub fn advance(&mut self, unknowns: &[f64], ending: IntervalEnd) {
         self.unknowns = self.read(unknowns);
         let before = self.parameter;

@@ -13,7 +13,6 @@ impl Accelerations {
         *self = Self { values: vec![0.0; unknowns], are_known: false };
     }
 
-    /// Resizes the accelerations, if they are kept, and marks them unknown.
     pub fn resize(&mut self, unknowns: usize) {
         if !self.values.is_empty() {
             self.keep(unknowns);
@@ -31,13 +30,11 @@ impl Accelerations {
         }
     }
 
-    /// Marks the accelerations unknown after a jump.
     pub fn forget(&mut self) {
         self.values.fill(0.0);
         self.are_known = false;
     }
 
-    /// Returns true if accelerations are kept and known.
     pub fn are_known(&self) -> bool {
         self.are_known
     }

@@ -22,10 +22,8 @@ const CLEARLY_LESS: f64 = 0.8;
 /// Mean motion of the last step, with the selected prediction.
 #[derive(Debug, Clone)]
 pub struct Forecast {
-    /// Increments divided by the duration.
     mean_rates: Vec<f64>,
     trend: Trend,
-    /// Diagonal of the inertia matrix.
     inertia: Vec<f64>,
 }
 

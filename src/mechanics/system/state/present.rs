@@ -94,7 +94,6 @@ impl MotionState {
         self.forecast.trend()
     }
 
-    /// Appends time, rates and statistics. Accelerations are saved separately.
     pub fn save(&self, numbers: &mut Vec<f64>) {
         numbers.push(self.time);
         numbers.extend(&self.rates);

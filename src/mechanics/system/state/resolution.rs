@@ -15,7 +15,6 @@ pub struct GuessErrors {
 }
 
 impl GuessErrors {
-    /// Adds the errors of one movement: its inertia, its mean rate and both predictions.
     pub fn add(&mut self, inertia: f64, found: f64, [at_start, mean]: [f64; 2]) {
         self.by_start += inertia * square(found - at_start);
         self.by_mean += inertia * square(found - mean);

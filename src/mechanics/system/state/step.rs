@@ -33,13 +33,11 @@ impl StepMeasures {
         }
     }
 
-    /// Starts a step with zero force scales.
     pub fn begin(&mut self, interval: Interval, jumps: bool) {
         let scratch = std::mem::take(&mut self.scratch);
         *self = Self { interval, jumps, scratch, ..Self::new(0) };
     }
 
-    /// Returns the cleared force buffer.
     pub fn no_forces(&mut self) -> &mut [f64] {
         self.scratch.fill(0.0);
         &mut self.scratch

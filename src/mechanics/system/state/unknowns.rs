@@ -17,7 +17,6 @@ pub enum UnknownKind {
 pub struct Unknowns {
     kinds: Vec<UnknownKind>,
     half_bandwidth: usize,
-    /// Released joints and drives, whose movements are independent unknowns.
     released: Vec<Releasable>,
 }
 
@@ -30,7 +29,6 @@ impl Unknowns {
         self.kinds.len()
     }
 
-    /// Half-bandwidth of the matrices of a step.
     pub fn half_bandwidth(&self) -> usize {
         self.half_bandwidth
     }
@@ -40,12 +38,10 @@ impl Unknowns {
         self.released.contains(&hold)
     }
 
-    /// Kind of each unknown.
     pub fn kinds(&self) -> &[UnknownKind] {
         &self.kinds
     }
 
-    /// Largest magnitudes of positions and of rotations.
     pub fn largest(&self, values: &[f64]) -> (f64, f64) {
         // Bit patterns of magnitudes have the same order, with NaN as the largest.
         let magnitude = |value: &f64| value.abs().to_bits();

@@ -9,7 +9,6 @@ use crate::beams::RotationIncrement;
 pub struct MonitoredBody {
     /// Index of the body.
     pub body: usize,
-    /// Unknown degrees of freedom of the body.
     degrees: Vec<usize>,
     resolution: Resolution,
 }

@@ -7,7 +7,6 @@ use crate::geometry::Vec2;
 /// Rotation increments that differ by less are treated as equal, to second order [rad].
 const SAME_TURN: f64 = 1e-5;
 
-/// Segment of a path in an iterate.
 pub(super) struct ElongationTerm {
     pub(super) change: f64,
     pub(super) secant: Vec2,

@@ -82,7 +82,6 @@ impl SpringDamper {
         ForceTarget { force: met.force + met.stiffness * (change - at), stiffness: met.stiffness }
     }
 
-    /// Target force of the damper for the whole step.
     pub(super) fn damping(&self, at: TrialState<'_>) -> ForceTarget {
         let Some(late) = self.lateness(at) else { return ForceTarget::default() };
         match &self.damping {
@@ -101,7 +100,6 @@ impl SpringDamper {
         }
     }
 
-    /// Target force of the damper for a linearisation.
     pub(super) fn aimed_damping(&mut self, at: TrialState<'_>) -> ForceTarget {
         match (&self.damping, self.lateness(at)) {
             (law @ DampingLaw::Curve(_), Some(late)) => {

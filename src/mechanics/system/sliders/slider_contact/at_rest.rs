@@ -1,4 +1,4 @@
-//! A slider at rest: its contact between two equilibria, what it leans on, and how it resists small movements.
+//! Slider at rest: contact between two equilibria, stops, and stiffness.
 
 use super::passing::{AtRest, Passing};
 use super::{SliderContact, would_pull};
@@ -38,13 +38,13 @@ impl Passing for AtRest {
 }
 
 impl SliderContact {
-    /// Guesses the unknowns of the contact for a movement between two places at rest: nothing changes.
+    /// Predicts an unchanged contact for a movement between two equilibria.
     pub fn stay(&self, unknowns: &mut [f64]) {
         let guess = ContactUnknowns { force: self.contact_force(), ..ContactUnknowns::zeros() };
         unknowns[self.connection.places()].copy_from_slice(&guess.to_array());
     }
 
-    /// The contact at the end of an iterate of a movement.
+    /// Contact at the end of an iterate of a movement.
     fn take_at_rest(
         &mut self,
         bodies: &[Body],
@@ -57,7 +57,6 @@ impl SliderContact {
         self.contact(bodies, movements, unknowns)
     }
 
-    /// The way to where the slider leans on an end, or none.
     fn way_to_stop(&self) -> Option<f64> {
         match self.state {
             SliderState::Held(end) => Some(self.rail.end(end) - self.parameter),
@@ -65,7 +64,7 @@ impl SliderContact {
         }
     }
 
-    /// The equations of a contact at rest, for a slider that does so and has such a way to the end on which it leans, if any.
+    /// Contact equations at rest for the state of a slider and its path to the stop, if it is held.
     fn equations_at_rest(
         state: SliderState,
         way: Option<f64>,
@@ -78,14 +77,13 @@ impl SliderContact {
         }
     }
 
-    /// The end of the master beyond which a movement with these unknowns would lead the slider.
     pub fn passes(&self, unknowns: &[f64]) -> Option<MasterEnd> {
         let ends = [MasterEnd::Start, MasterEnd::End].into_iter();
         let mut beyond = ends.filter(|end| self.beyond(unknowns, *end) > LANDED);
         if self.is_sliding() { beyond.next() } else { None }
     }
 
-    /// Whether the stop on which the slider leans would have to pull in an iterate, by more than rounding.
+    /// Returns true if the stop force is tensile in an iterate, beyond rounding.
     pub fn is_pulled(&mut self, bodies: &[Body], movements: &[f64], unknowns: &[f64]) -> bool {
         let SliderState::Held(end) = self.state else { return false };
         let contact = self.take_at_rest(bodies, movements, unknowns);
@@ -95,7 +93,7 @@ impl SliderContact {
         self.leaves_beyond || would_pull(push, force.norm(), self.length)
     }
 
-    /// Leaves the slider where a movement between two places at rest has led it; the bodies are there already.
+    /// Accepts the position after a movement between two equilibria. The bodies have been moved already.
     pub fn rest(&mut self, unknowns: &[f64]) {
         let found = self.read(unknowns);
         let place = self.way_to_stop().map_or(found.way, |way| way);
@@ -104,7 +102,6 @@ impl SliderContact {
         self.kinked_axis.iter_mut().for_each(|axis| axis.rest_under(found.force));
     }
 
-    /// Whether the slider keeps slave and master from moving apart without giving way, and how many movements that takes from them.
     pub fn movements_held(&self) -> usize {
         match self.state {
             SliderState::Released => 0,
@@ -113,7 +110,7 @@ impl SliderContact {
         }
     }
 
-    /// The unknowns that the contact couples at rest: those of the slave, of the master around it, and `own`, that of its place on the master.
+    /// Unknowns that the contact couples at rest: those of the slave, of the nearby master, and the position unknown `own`.
     pub fn coupled_at_rest(&self, bodies: &[Body], own: usize) -> Vec<usize> {
         let (body, point) = self.connection.slave;
         let [x, y, _] = bodies[body].degrees_of_freedom[point];
@@ -123,8 +120,7 @@ impl SliderContact {
         [x, y].into_iter().chain(of_master).chain([own]).collect()
     }
 
-    /// Gives how the contact resists small movements, were it as stiff as that where its axis gives no way [force/length]; the place of the slider
-    /// on its master moves with the unknown `own`.
+    /// Passes the stiffness of the contact at rest, with a penalty stiffness for a rigid axis [force/length]; `own` is the position unknown.
     ///
     /// ```text
     /// r = x_s - Σ B_i x_i      s = δx_s - Σ B_i δx_i - (x' + g' λ/GA) δξ      k = GA/g
@@ -137,7 +133,7 @@ impl SliderContact {
         rigid: f64,
         take: &mut dyn FnMut(&[usize], &SpanStiffness),
     ) {
-        // Nothing asks for a place that does not move.
+        // A fixed position is not needed.
         let still = SpanStiffness {
             strains: vec![1.0],
             stiffness: vec![rigid],

@@ -1,4 +1,4 @@
-//! Where a slider is on its master, and how it moves along.
+//! Kinematics of a slider on its master.
 
 use super::SliderContact;
 use crate::geometry::{Vec2, perpendicular};
@@ -6,40 +6,40 @@ use crate::system::bodies::Body;
 use crate::system::sliders::{Connection, KinkedAxis, MasterEnd, SliderState};
 
 impl SliderContact {
-    /// The control points of the master with their functions where the slider is.
+    /// Control points of the master with their basis functions at the slider.
     fn weights(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         (self.here.first()..).zip(self.here.end().iter().copied())
     }
 
-    /// The derivative of the place on the master by the parameter, `Σ B_i'(ξ) x_i` [length].
+    /// Derivative of the place on the master with respect to the parameter, `Σ B_i'(ξ) x_i` [length].
     pub(super) fn tangent(&self, bodies: &[Body]) -> Vec2 {
         slope_of(self.here.slope(), self.window(bodies))
     }
 
-    /// The second derivative of the place on the master by the parameter, `Σ B_i''(ξ) x_i` [length].
+    /// Second derivative of the place on the master with respect to the parameter, `Σ B_i''(ξ) x_i` [length].
     pub(super) fn bend(&self, bodies: &[Body]) -> Vec2 {
-        // A way of length zero changes its divided differences by half the second derivatives.
+        // For a path of length zero, the derivative of divided differences is half the second derivative.
         slope_of(self.here.change(), self.window(bodies)) * 2.0
     }
 
-    /// The control points of the master from the first one on that has a function where the slider is.
+    /// Control points of the master from the first nonzero basis function at the slider.
     fn window<'a>(&self, bodies: &'a [Body]) -> &'a [Vec2] {
         &bodies[self.connection.master].dynamics.control_points()[self.here.first()..]
     }
 
-    /// The direction of the master where the slider is [-].
+    /// Unit tangent of the master at the slider [-].
     pub fn along(&self, bodies: &[Body]) -> Vec2 {
         self.tangent(bodies).normalize()
     }
 
-    /// The direction in which the slider moves along its master where it strikes an end: along the axis as it is kinked there [-].
+    /// Unit direction of the slider along its master at an end, including the kink [-].
     pub fn along_contact(&self, bodies: &[Body]) -> Vec2 {
         let kink = self.kinked_axis.as_ref().filter(|_| self.is_sliding());
         let slope = kink.map_or(Vec2::zeros(), |axis| axis.slopes().0);
         (self.tangent(bodies) + slope).normalize()
     }
 
-    /// The directions in which the slider moves at an end of its kinked axis, and would move without the kink [-]; none where it has none.
+    /// Directions of the motion of a slider at an end of its kinked axis, with and without the kink [-]; `None` without a kink.
     pub fn off_kink(&self, bodies: &[Body], rates: &[f64], end: MasterEnd) -> Option<[Vec2; 2]> {
         let axis = self.kinked_axis.as_ref().filter(|axis| self.is_sliding() && !axis.gives())?;
         let velocity = self.relative_velocity(bodies, rates);
@@ -48,23 +48,23 @@ impl SliderContact {
         (!is_straight).then(|| [velocity.normalize(), axis])
     }
 
-    /// Takes the kink of the master away, at an end, where it has no energy.
+    /// Removes the kink of the master at an end, where it has no energy.
     pub fn straighten(&mut self) {
         self.kinked_axis.iter_mut().for_each(KinkedAxis::straighten);
     }
 
-    /// The direction across the master where the slider is [-].
+    /// Unit normal of the master at the slider [-].
     pub fn across(&self, bodies: &[Body]) -> Vec2 {
         perpendicular(self.along(bodies))
     }
 
-    /// Adds `Gᵀ P` for an impulse `P`, or a force, of the contact to `out`: on the slave, and the opposite one on the master.
+    /// Adds `Gᵀ P` for an impulse `P`, or a force, of the contact to `out`: on the slave, and its opposite on the master.
     pub fn transmit(&self, bodies: &[Body], impulse: Vec2, out: &mut [f64]) {
         let on_master = self.here.end().iter().map(|weight| impulse * -*weight);
         self.connection.add_forces(bodies, impulse, self.here.first(), on_master, out);
     }
 
-    /// The vector from the slave to its place on the master [length].
+    /// Vector from the slave to its place on the master [length].
     pub fn gap(&self, bodies: &[Body]) -> Vec2 {
         if self.state == SliderState::Released {
             return Vec2::zeros();
@@ -77,20 +77,20 @@ impl SliderContact {
         to_axis + self.kinked_axis.as_ref().map_or(Vec2::zeros(), KinkedAxis::offset)
     }
 
-    /// The velocity of the slave relative to its place on the master [length/time].
+    /// Velocity of the slave relative to its place on the master [length/time].
     pub fn relative_velocity(&self, bodies: &[Body], rates: &[f64]) -> Vec2 {
         let Connection { master, slave: (body, point), .. } = self.connection;
         let on_master = |(index, weight)| bodies[master].vector_at(index, rates) * weight;
         bodies[body].vector_at(point, rates) - self.weights().map(on_master).sum::<Vec2>()
     }
 
-    /// The velocity of the slave [length/time].
+    /// Velocity of the slave [length/time].
     pub fn slave_velocity(&self, bodies: &[Body], rates: &[f64]) -> Vec2 {
         let (body, point) = self.connection.slave;
         bodies[body].vector_at(point, rates)
     }
 
-    /// How its place on the master accelerates because the slave moves on: `2 ξ̇ Σ B_i' v_i + ξ̇² Σ B_i'' x_i` [length/time²].
+    /// Acceleration of the place on the master due to sliding: `2 ξ̇ Σ B_i' v_i + ξ̇² Σ B_i'' x_i` [length/time²].
     pub fn carried(&self, bodies: &[Body], rates: &[f64]) -> Vec2 {
         let rate = self.rate(bodies, rates);
         let master = &bodies[self.connection.master];
@@ -101,7 +101,7 @@ impl SliderContact {
         turning * (2.0 * rate) + values.combine(2, points) * (rate * rate)
     }
 
-    /// The rate `dξ/dt` of the slider's parameter with the present velocities [1/time].
+    /// Rate `dξ/dt` of the parameter at the present velocities [1/time].
     pub fn rate(&self, bodies: &[Body], rates: &[f64]) -> f64 {
         match (self.state, &self.kinked_axis) {
             (SliderState::Sliding, Some(axis)) => self.rate_on(axis, bodies, rates),
@@ -113,8 +113,8 @@ impl SliderContact {
         }
     }
 
-    /// The rate `dξ/dt` on a kinked axis, which gives way while the slider moves on: the derivative by time of `r·x' + ½ |r|² g'/g = 0`, with the offset
-    /// `r = g p/GA` of the slave from the smooth axis, solved for it.
+    /// Rate `dξ/dt` on a kinked axis: the solution of the time derivative of `r·x' + ½ |r|² g'/g = 0`, with the offset `r = g p/GA` of the slave from
+    /// the smooth axis.
     fn rate_on(&self, axis: &KinkedAxis, bodies: &[Body], rates: &[f64]) -> f64 {
         let (offset, (slope, bend)) = (axis.offset(), axis.slopes());
         let (points, master) = (self.window(bodies), &bodies[self.connection.master]);
@@ -132,6 +132,6 @@ impl SliderContact {
 
 /// `Σ B_i' x_i`
 fn slope_of(slopes: &[f64], points: &[Vec2]) -> Vec2 {
-    // Slopes sum to zero: an origin amid the points changes nothing but the rounding.
+    // Slopes sum to zero, so a nearby origin only reduces rounding.
     slopes.iter().zip(points).map(|(slope, point)| (point - points[0]) * *slope).sum()
 }

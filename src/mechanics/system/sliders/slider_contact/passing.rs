@@ -1,13 +1,13 @@
-//! What an iterate of a contact is part of: a step in time, or a movement between two places at rest.
+//! Kinds of contact iterates: in a time step, or between two equilibria.
 
 use super::SliderContact;
 use crate::geometry::Vec2;
 use crate::joints::{CONTACT_UNKNOWNS, Contact, Equation, Unit};
 use crate::system::bodies::Body;
 
-/// What an iterate of a contact is part of: [`InStep`] or [`AtRest`].
+/// Kind of a contact iterate: [`InStep`] or [`AtRest`].
 pub trait Passing {
-    /// The contact of a slider in an iterate, from the increments of all movements and the unknowns of all contacts, with its equations.
+    /// Contact of a slider in an iterate with its equations, from the increments of all movements and the unknowns of all contacts.
     fn iterate<'s>(
         slider: &'s mut SliderContact,
         bodies: &[Body],
@@ -15,7 +15,7 @@ pub trait Passing {
         unknowns: &[f64],
     ) -> (Contact<'s>, [Equation; CONTACT_UNKNOWNS]);
 
-    /// The contact with the values of its equations alone, and their units.
+    /// Contact with the values and units of its equations only.
     fn iterate_values<'s>(
         slider: &'s mut SliderContact,
         bodies: &[Body],
@@ -26,20 +26,18 @@ pub trait Passing {
         (contact, equations.map(|equation| (equation.value, equation.unit)))
     }
 
-    /// The contact forces on the control points of the master in the window of the way [force], in order.
+    /// Contact forces on the control points of the master in the window of the path [force].
     fn forces<'c>(contact: &'c Contact<'_>) -> impl Iterator<Item = Vec2> + 'c;
 
-    /// The derivatives of these forces, in order: by `λ` and by `η` a factor each, by `Δξ` a force.
+    /// Derivatives of these forces: factors with respect to `λ` and `η`, and a force with respect to `Δξ`.
     fn slopes<'c>(contact: &'c Contact<'_>) -> impl Iterator<Item = (f64, f64, Vec2)> + 'c;
 
-    /// How long the chord of the way is, over the way itself along the axis as drawn [-].
+    /// Chord of the path relative to the path along the axis as drawn [-].
     fn chord(contact: &Contact<'_>) -> f64;
 }
 
-/// A step in time.
 pub struct InStep;
 
-/// A movement between two places at rest.
 pub struct AtRest;
 
 impl Passing for InStep {

@@ -1,4 +1,4 @@
-//! Where a slider is along its master or its track, and how fast it goes along.
+//! Position and speed of a slider along its master or track.
 
 use super::SliderContact;
 use crate::joints::TrackDirection;
@@ -7,30 +7,29 @@ use crate::system::sliders::master_curve::LANDED;
 use crate::system::sliders::{MasterEnd, SliderState, TrackPath};
 
 impl SliderContact {
-    /// How far the slider is from an end of its master, as a part of the parameters of the master [-].
+    /// Distance of the slider from an end of its master, relative to the parameter range [-].
     pub fn distance_to(&self, end: MasterEnd) -> f64 {
         self.rail.distance(self.parameter, end)
     }
 
-    /// Whether the slider is at an end of its master.
     pub fn is_at(&self, end: MasterEnd) -> bool {
         self.distance_to(end) <= LANDED
     }
 
-    /// The place of the slider along its master or its track as drawn: 0 at the start, 1 at the end; round a closed track it counts on, or back [-].
+    /// Position along the master or track as drawn, from 0 at the start to 1 at the end; unwrapped on closed tracks [-].
     pub fn position(&self) -> f64 {
         let part = self.part_of_master();
         self.route.as_ref().map_or(part, |route| route.arc_length(part) / route.length())
     }
 
-    /// How far the slider is from the start of its master or its track, as drawn, turns of a closed track included [length].
+    /// Distance from the start of the master or track as drawn; unwrapped on closed tracks [length].
     pub fn arc_length(&self) -> f64 {
         let part = self.part_of_master();
         self.route.as_ref().map_or(part * self.rail.length(), |route| route.arc_length(part))
     }
 
     fn part_of_master(&self) -> f64 {
-        // Arrivals are a few digits short of the end, or beyond it.
+        // Arrivals differ from the end by a few units in the last place.
         if self.is_at(MasterEnd::Start) {
             return 0.0;
         }
@@ -40,13 +39,13 @@ impl SliderContact {
         self.rail.part_before(self.parameter)
     }
 
-    /// How much of its master or its track, as drawn, the slider passes in a unit of time, positive towards the end [length/time].
+    /// Speed along the master or track as drawn, positive towards the end [length/time].
     pub fn speed(&self, bodies: &[Body], rates: &[f64]) -> f64 {
         let along = self.rail.stretch(self.parameter) * self.rate(bodies, rates);
         self.heading().map_or(along, |heading| along * heading.sign())
     }
 
-    /// On what the slider leans, if it does: the `start` or the `end` of its master or its track, or a `seam` of that.
+    /// Contact that holds the slider: the `start` or `end` of its master or track, or a `seam`.
     pub fn leans_on(&self, bodies: &[Body]) -> Option<&'static str> {
         let SliderState::Held(end) = self.state else { return None };
         if self.seam(bodies, end).is_some() {
@@ -59,7 +58,7 @@ impl SliderContact {
         Some(on_track.name())
     }
 
-    /// How the track leads along the master, for a slider on one.
+    /// Direction of the track along the master, for a slider on one.
     fn heading(&self) -> Option<TrackDirection> {
         self.route.as_deref().map(TrackPath::present).map(|leg| leg.heading)
     }

@@ -1,20 +1,19 @@
-//! The state of a slider in numbers.
+//! Numeric state of a slider.
 
 use super::SliderContact;
 use crate::joints::{CONTACT_UNKNOWNS, ContactUnknowns};
 use crate::system::sliders::{KinkedAxis, SliderState};
 
-/// How many of these are of the route of a slider on a track.
+/// Number of values of the path of a slider on a track.
 const ROUTE: usize = 3;
 
 impl SliderContact {
-    /// How many numbers a slider saves, the parameter first; those of its route, on a track, come last.
     pub fn saved(&self) -> usize {
         let of_route = if self.is_on_track() { ROUTE } else { 0 };
         10 + CONTACT_UNKNOWNS + of_route
     }
 
-    /// Whether numbers may be those of this slider.
+    /// Returns true if stored numbers fit this slider.
     pub fn may_be(&self, numbers: &[f64]) -> bool {
         let (parameter, rail) = (numbers[0], &self.rail);
         match (&self.route, numbers.last_chunk::<ROUTE>()) {
@@ -25,7 +24,6 @@ impl SliderContact {
         }
     }
 
-    /// Appends the numbers of the slider; its state is no number.
     pub fn save(&self, numbers: &mut Vec<f64>) {
         numbers.extend([self.parameter, self.most_spans, self.blows_in_a_step]);
         numbers.extend(self.unknowns.to_array());
@@ -40,7 +38,6 @@ impl SliderContact {
         numbers.extend(self.route.iter().flat_map(|route| route.numbers()));
     }
 
-    /// Takes state and numbers of the slider back, in the order in which these were appended.
     pub fn restore(&mut self, state: SliderState, next: &mut dyn FnMut() -> f64) {
         self.state = state;
         let parameter = next();

@@ -1,4 +1,4 @@
-//! A slider on a track and the seams between its beams: passing them, and leaning on them.
+//! Sliders at the seams of their tracks: passing them, and being held at them.
 
 use super::{SliderContact, would_pull};
 use crate::geometry::{Basis, Vec2};
@@ -7,7 +7,6 @@ use crate::system::bodies::Body;
 use crate::system::sliders::{MasterEnd, Seam, SliderState, TrackPath};
 
 impl SliderContact {
-    /// Lets the slider pass from beam to beam along a route, on one of whose beams it is.
     pub fn follow(&mut self, route: TrackPath) {
         self.route = Some(Box::new(route));
         let functions = self.most_of_masters(Basis::functions);
@@ -15,34 +14,32 @@ impl SliderContact {
         self.moved.reserve(functions);
     }
 
-    /// Whether the slider is on a track.
     pub fn is_on_track(&self) -> bool {
         self.route.is_some()
     }
 
-    /// The largest of a number that belongs to the mesh of a master, among all masters that the slider may have.
     pub(super) fn most_of_masters(&self, of: impl Fn(&Basis) -> usize) -> usize {
         let own = of(self.passage.basis());
         self.route.as_ref().map_or(own, |route| route.bases().map(of).fold(own, usize::max))
     }
 
-    /// Where the track goes on beyond an end of the present master, if the slider is on one that does.
+    /// Seam beyond an end of the present master, for a slider on a track that continues there.
     pub fn seam(&self, bodies: &[Body], end: MasterEnd) -> Option<Seam> {
         self.route.as_ref()?.seam(bodies, end)
     }
 
-    /// Whether the slider passed a seam at a time, or left one on which it leant: one that is led back at once does not get away.
+    /// Returns true if the slider passed or left a seam at a time. If it is led back at once, it cannot leave.
     pub fn came_to_seam_at(&self, time: f64) -> bool {
         self.left_at == time || self.route.as_ref().is_some_and(|route| route.passed_at == time)
     }
 
-    /// Whether the slider leans where there was a seam, on what is now an end of the track that holds nobody.
+    /// Returns true if the slider is held at a former seam that is now an open end of the track.
     pub(super) fn leans_on_nothing(&self, bodies: &[Body]) -> bool {
         let SliderState::Held(end) = self.state else { return false };
         !self.ends.has_stop() && self.route.as_ref().is_some_and(|route| route.is_torn(bodies, end))
     }
 
-    /// The directions in which the slider leaves the one side of a seam beyond an end of its master, and comes to the other [-].
+    /// Directions in which the slider leaves one side of a seam and enters the other [-].
     pub fn corner(&self, bodies: &[Body], end: MasterEnd, seam: Seam) -> Option<[Vec2; 2]> {
         let leg = self.route.as_ref()?.leg(seam.leg);
         let inward = -seam.end.outward();
@@ -50,17 +47,16 @@ impl SliderContact {
         Some([self.along(bodies) * end.outward(), beyond])
     }
 
-    /// Notes when the slider passes a seam.
     pub fn note_passing(&mut self, time: f64) {
         self.route.iter_mut().for_each(|route| route.passed_at = time);
     }
 
-    /// The beam on the other side of a seam, by its index.
+    /// Index of the beam on the other side of a seam.
     pub fn beam_beyond(&self, seam: Seam) -> Option<usize> {
         self.route.as_ref().map(|route| route.leg(seam.leg).beam)
     }
 
-    /// Puts the slider on the other side of a seam at which it is.
+    /// Moves the slider to the other side of a seam at which it is.
     pub fn pass(&mut self, seam: Seam) {
         let Some(route) = &mut self.route else { return };
         route.pass(seam);
@@ -72,7 +68,6 @@ impl SliderContact {
         }
     }
 
-    /// Takes the beam of the track for a master that the route says.
     pub(super) fn take_master(&mut self) {
         let Some(leg) = self.route.as_deref().map(TrackPath::present) else { return };
         if leg.beam == self.connection.master {
@@ -83,27 +78,27 @@ impl SliderContact {
         (self.passage, self.here) = (leg.passage.clone(), leg.passage.clone());
     }
 
-    /// How much a seam on which the slider leans keeps it from the beam on the other side with such a force on its master, times the tangent there, after
-    /// movements by such increments [force·length]; zero where it leans on none.
+    /// Force with which a seam keeps the slider from the beam on the other side, times the tangent there, after given increments [force·length]; zero
+    /// unless the slider is held at a seam.
     pub(super) fn push_beyond_seam(&self, bodies: &[Body], increments: &[f64], force: Vec2) -> f64 {
         let SliderState::Held(end) = self.state else { return 0.0 };
         let Some(route) = &self.route else { return 0.0 };
         route.seam(bodies, end).map_or(0.0, |seam| {
             let leg = route.leg(seam.leg);
             let tangent = leg.end_tangent(bodies, increments, seam.end);
-            // As lengths for a parameter of one on the own side are, to be compared with these.
+            // Scaled to the length per unit of parameter of the own side, for comparison.
             let scale = self.length / leg.length_of_parameter();
             force.dot(&tangent) * seam.end.outward() * scale
         })
     }
 
-    /// Whether a seam would have to pull the slider off the beam on the other side, and more than off its own, by what it pushes on both sides, times
-    /// tangents [force·length], under a force of such a size [force].
+    /// Returns true if the seam force is tensile on the other side, and more than on its own side, from the pushes on both sides times tangents
+    /// [force·length] and the contact force [force].
     pub(super) fn is_drawn_beyond(&self, [push, push_beyond]: [f64; 2], force: f64) -> bool {
         push_beyond < push && would_pull(push_beyond, force, self.length)
     }
 
-    /// Puts a slider that leans on a seam on its other side, if it is drawn off there.
+    /// Moves a slider that is held at a seam to the other side if it is pulled there.
     pub fn change_sides(&mut self, bodies: &[Body]) {
         let SliderState::Held(end) = self.state else { return };
         if !std::mem::take(&mut self.leaves_beyond) {
