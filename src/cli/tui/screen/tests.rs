@@ -115,7 +115,7 @@ fn an_error_points_to_its_line() {
         "line 19: still to do: the second moment of area",
         "   19 │ let second_moment = todo(\"the second",
         "      │                     ^^^^",
-        "help: write it in the place of todo",
+        "help: replace all of todo(…)",
     ] {
         assert!(all.contains(part), "{part}:\n{all}");
     }
