@@ -164,6 +164,7 @@ pub fn of_slider(scene: &Scene, index: usize) -> Details {
             format!("bounces with {} of its speed", number(slider.restitution))
         }
         EndAction::Bounce => "bounces".to_owned(),
+        EndAction::Contact => "stays in elastic contact".to_owned(),
         EndAction::Release => "is released".to_owned(),
     };
     let velocities = match slider.velocities {
