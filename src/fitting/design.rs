@@ -10,6 +10,8 @@ use super::SearchRange;
 const FIRST_STEP: f64 = 0.1;
 /// A constraint that is missed by less than this part of its size is met.
 const MET: f64 = 1e-6;
+/// A parameter without a bound has run off when it is so many of its sizes away from zero.
+const FARTHEST: f64 = 1e15;
 /// What a run that failed counts as, beside the worst so far.
 pub(super) const PENALTY: f64 = 10.0;
 
@@ -44,8 +46,10 @@ pub struct Designed {
     pub rating: Rating,
     /// Whether it meets all constraints.
     pub is_feasible: bool,
-    /// Whether the search came to its end before the most runs were made.
+    /// Whether the search came to its end before the most runs were made, and no parameter ran off.
     pub is_settled: bool,
+    /// The parameter without a bound that ran off, for the function gets less and less there.
+    pub runaway: Option<usize>,
     /// How often the function was called.
     pub runs: usize,
     /// How often it was called for its derivatives too, which are among all calls.
@@ -163,10 +167,11 @@ impl Design {
         }
         let is_settled = ended.is_ok() && runs < self.most_runs;
         Ok(best.map(|(parameters, rating)| Designed {
+            runaway: self.runaway(&parameters),
+            is_settled: is_settled && self.runaway(&parameters).is_none(),
             parameters,
             is_feasible: rating.is_feasible(),
             rating,
-            is_settled,
             runs,
             gradient_runs: 0,
             without: None,
@@ -177,10 +182,19 @@ impl Design {
     pub(super) fn scaled(&self) -> Scaled {
         let of = |range: &SearchRange| {
             let size = range.width();
-            (range.first() / size, (range.low / size, range.high / size))
+            let low = (range.low / size).max(-FARTHEST);
+            (range.first() / size, (low, (range.high / size).min(FARTHEST)))
         };
         let (start, bounds) = self.ranges.iter().map(of).unzip();
         Scaled { start, bounds }
+    }
+
+    /// The first parameter that is beyond all its sizes, on a side where it has no bound.
+    pub(super) fn runaway(&self, parameters: &[f64]) -> Option<usize> {
+        self.ranges.iter().zip(parameters).position(|(range, x)| {
+            let bound = if *x < 0.0 { range.low } else { range.high };
+            bound.is_infinite() && x.abs() >= 0.1 * FARTHEST * range.width()
+        })
     }
 
     /// Parameters that are given in parts of their sizes, within their bounds.
@@ -245,5 +259,16 @@ mod tests {
             Some(Rating { objective: x[0], constraints: vec![x[0] - 2.0] })
         });
         assert!(!found.is_feasible && (found.parameters[0] - 1.0).abs() < 1e-6, "{found:?}");
+    }
+
+    #[test]
+    fn what_has_no_least_is_told() {
+        for slope in [1.0, -1.0] {
+            let infinite = (2.0, f64::NEG_INFINITY, f64::INFINITY);
+            let found = solved(&[infinite], 0, |x| {
+                Some(Rating { objective: slope * x[0], constraints: vec![] })
+            });
+            assert_eq!((found.runaway, found.is_settled), (Some(0), false), "{found:?}");
+        }
     }
 }

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::number::format_number;
+use super::printable::printable_line;
 use super::width::{columns, padded};
 
 /// An entry of a table that is shown as text.
@@ -146,7 +147,7 @@ fn width_of(text: &str) -> usize {
 
 /// A cell stays on its line whatever it holds.
 fn one_line(text: &str) -> String {
-    text.replace(char::is_control, " ")
+    printable_line(text)
 }
 
 #[cfg(test)]

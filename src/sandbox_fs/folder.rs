@@ -1,19 +1,15 @@
 //! An open folder.
 
-use std::ffi::{OsStr, OsString};
+use std::ffi::OsStr;
 use std::fs;
-use std::io::{self, ErrorKind, Write};
-use std::path::{Component, Path, PathBuf};
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::io::{self, ErrorKind};
+use std::path::{Component, Path};
 
 use cap_fs_ext::{DirExt, FollowSymlinks, OpenOptionsFollowExt, OpenOptionsSyncExt};
 use cap_std::ambient_authority;
 use cap_std::fs::{Dir, OpenOptions};
 
 use super::reading;
-
-/// So many names are tried for a file that is not complete yet.
-const TRIES: usize = 100;
 
 /// A folder that is open: whoever renames it or puts a link in its place changes nothing for those who have it.
 #[derive(Debug)]
@@ -77,7 +73,7 @@ impl Folder {
         })
     }
 
-    fn enter_or_make(&self, name: &OsStr) -> io::Result<Self> {
+    pub(super) fn enter_or_make(&self, name: &OsStr) -> io::Result<Self> {
         match self.enter(name) {
             Err(error) if error.kind() == ErrorKind::NotFound => {
                 match self.0.create_dir(name) {
@@ -91,7 +87,7 @@ impl Folder {
     }
 
     /// The folder of a file below this one, and the file's own name.
-    fn parent_of<'n>(
+    pub(super) fn parent_of<'n>(
         &self,
         name: &'n Path,
         enter: fn(&Self, &OsStr) -> io::Result<Self>,
@@ -154,7 +150,7 @@ impl Folder {
         folder.create_here(name)
     }
 
-    fn create_here(&self, name: &OsStr) -> io::Result<fs::File> {
+    pub(super) fn create_here(&self, name: &OsStr) -> io::Result<fs::File> {
         let mut options = OpenOptions::new();
         options.write(true).create_new(true).follow(FollowSymlinks::No);
         self.0.open_with(name, &options).map(|file| file.into_std())
@@ -171,82 +167,6 @@ impl Folder {
         let file = folder.0.open_with(name, &options)?;
         reading::expect_ordinary(file.metadata()?.is_file())?;
         Ok(file.into_std())
-    }
-
-    /// Writes a file below this folder: whole, and lasting through a loss of power, or not at all. What has its name is replaced,
-    /// not followed, if it is a file or a link; folders on the way are made.
-    ///
-    /// # Errors
-    /// When it cannot be written, or a folder, a pipe or a device has its name; nothing has changed then.
-    pub fn write_whole(&self, name: &Path, bytes: &[u8]) -> io::Result<()> {
-        self.write_whole_by(name, |file| file.write_all(bytes))
-    }
-
-    /// Writes a file as [`write_whole`](Self::write_whole) does, piece by piece: whatever `write` puts into it.
-    ///
-    /// # Errors
-    /// As there; also those of `write`.
-    pub fn write_whole_by(
-        &self,
-        name: &Path,
-        write: impl FnOnce(&mut fs::File) -> io::Result<()>,
-    ) -> io::Result<()> {
-        let (folder, name) = self.parent_of(name, Self::enter_or_make)?;
-        if let Ok(about) = folder.0.symlink_metadata(name)
-            && !about.is_symlink()
-        {
-            reading::expect_ordinary(about.is_file())?;
-        }
-        let (mut file, partial) = folder.create_partial(name)?;
-        let written = write(&mut file).and_then(|()| file.sync_all());
-        drop(file);
-        let written = written.and_then(|()| folder.0.rename(&partial, &folder.0, name));
-        if written.is_err() {
-            // Its own failure is no news: there may be nothing to remove.
-            let _ = folder.0.remove_file(&partial);
-        }
-        written.and_then(|()| folder.sync())
-    }
-
-    /// A new hidden file beside `name`.
-    fn create_partial(&self, name: &OsStr) -> io::Result<(fs::File, OsString)> {
-        static COUNTER: AtomicU64 = AtomicU64::new(0);
-        let mut tries = TRIES;
-        loop {
-            tries -= 1;
-            let count = COUNTER.fetch_add(1, Ordering::Relaxed);
-            let mut partial = OsString::from(".");
-            partial.push(name);
-            partial.push(format!(".{}-{count}.part", std::process::id()));
-            match self.create_here(&partial) {
-                Ok(file) => return Ok((file, partial)),
-                Err(error) if error.kind() == ErrorKind::AlreadyExists && tries > 0 => (),
-                Err(error) => return Err(error),
-            }
-        }
-    }
-
-    /// Gives a file below this folder a new name, which nothing else may have.
-    ///
-    /// # Errors
-    /// When it cannot be renamed.
-    pub fn keep_as(&self, name: &Path, free: impl Fn(usize) -> PathBuf) -> io::Result<PathBuf> {
-        let (folder, own) = self.parent_of(name, Self::enter)?;
-        for number in 1..TRIES * TRIES {
-            let new = free(number);
-            let Some(kept) = new.file_name() else { break };
-            // Made first, so that nobody's file is replaced.
-            match folder.create_here(kept) {
-                Ok(_) => {
-                    folder.0.rename(own, &folder.0, kept)?;
-                    folder.sync()?;
-                    return Ok(new);
-                }
-                Err(error) if error.kind() == ErrorKind::AlreadyExists => (),
-                Err(error) => return Err(error),
-            }
-        }
-        Err(io::Error::new(ErrorKind::AlreadyExists, "there is no free name to keep it by"))
     }
 
     /// Renames one file of this very folder to another name of it, which is replaced.
@@ -267,7 +187,7 @@ impl Folder {
     }
 
     /// Makes names last through a loss of power. A system that cannot do that for folders has done what it can.
-    fn sync(&self) -> io::Result<()> {
+    pub(super) fn sync(&self) -> io::Result<()> {
         #[cfg(unix)]
         {
             let open = self.0.open(".")?.into_std();
@@ -284,8 +204,10 @@ impl Folder {
 #[cfg(unix)]
 mod tests {
     use super::*;
+    use crate::sandbox_fs::whole::TRIES;
     use std::os::unix::fs::symlink;
-    use std::sync::atomic::AtomicBool;
+    use std::path::PathBuf;
+    use std::sync::atomic::{AtomicBool, Ordering};
 
     /// A folder `own` with a file beside it that nobody may reach.
     fn home() -> (tempfile::TempDir, PathBuf, PathBuf) {

@@ -1,5 +1,6 @@
 //! What a terminal can show, and how much room there is.
 
+use crate::output::printable::printable_line;
 use crate::output::width::cut;
 
 /// The characters that pictures in a terminal are made of.
@@ -52,7 +53,7 @@ impl Glyphs {
 
     /// The text in the characters that may be used, on one line: `10⁻¹²` becomes `1e-12` in ASCII.
     pub fn typeset(self, text: &str) -> String {
-        let line = text.replace(char::is_control, " ");
+        let line = printable_line(text);
         match self {
             Self::Braille => line,
             Self::Ascii => in_ascii(&line),

@@ -91,7 +91,7 @@ pub const TOPICS: &[Topic] = &[
         words: &["string", "text", "interpolation", "`", "\"", "character"],
         summary: "Texts, and values within texts.",
         doc: "A text stands in double quotes, with `\\n` for a new line and `\\\"` for a quote. Between backquotes a text may have several lines, and `${ … }` holds any expression, which is printed in its place. `'a'` is a character. Numbers print \
-              with as many digits as they need; fixed and sci choose the digits.",
+              with as many digits as they need, a negative zero as 0; fixed and sci choose the digits. Control characters and marks that would lead a terminal astray print as \u{fffd}.",
         example: "let x = 1/3;\nprint(`a third is ${fixed(x, 3)}, twice that ${2 * x}`);\ncheck(`${1 + 1} beams` == \"2 beams\");\n\
                   check(\"spa\" + \"ghetti\" == \"spaghetti\");",
         see: &["fixed", "sci", "tabulate", "texts"],

@@ -8,12 +8,17 @@ pub trait Reporter {
     /// What the reporter says about itself in the report, asked when the run ends, however it ends.
     fn report(&self) -> serde_json::Value;
 
-    /// A name and the content of a file that keeps what would be lost when the script does not come to its end.
-    fn remains(&self) -> Option<(String, String)>;
+    /// A name and the content of a file that keeps what would be lost when the script does not come to its end: about so many numbers of it.
+    fn remains(&self, numbers: usize) -> Option<(String, String)>;
 }
 
 /// Of so many simulations what would be lost is written: a script that made thousands should end soon after it was asked to.
 const MOST_REMAINS: usize = 20;
+
+/// Of all simulations together about so many numbers are written, which takes part of a second.
+const MOST_NUMBERS: usize = 1_000_000;
+/// The length of a number in a file, with what separates it from the next one [bytes].
+const LONGEST_NUMBER: u64 = 26;
 
 /// All reporters of a run, which can tell of it.
 #[derive(Default)]
@@ -25,12 +30,14 @@ impl Reports {
         self.0.borrow_mut().push(reporter);
     }
 
-    /// Names, each another one, and contents of the files that keep what would be lost of the first simulations of a run; and a note where there
-    /// are more.
-    pub fn remains(&self) -> (Vec<(String, String)>, Option<String>) {
+    /// Names, each another one, and contents of the files that keep what would be lost of the first simulations of a run, in about so many bytes; and a
+    /// note where there are more.
+    pub fn remains(&self, bytes: u64) -> (Vec<(String, String)>, Option<String>) {
         let reporters = self.0.borrow();
+        let numbers = usize::try_from(bytes / LONGEST_NUMBER).unwrap_or(MOST_NUMBERS);
+        let numbers = numbers.min(MOST_NUMBERS) / reporters.len().clamp(1, MOST_REMAINS);
         let mut names = HashSet::new();
-        let mut remains = reporters.iter().filter_map(|reporter| reporter.remains());
+        let mut remains = reporters.iter().filter_map(|reporter| reporter.remains(numbers));
         let named = |(number, (name, content)): (usize, (String, String))| {
             let taken = names.contains(&name);
             let name = if taken { format!("{}-{name}", number + 1) } else { name };

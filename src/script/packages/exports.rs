@@ -57,7 +57,7 @@ pub const TABLE: BindingTable = BindingTable {
             .summary("Writes a table as CSV that other programs take as it stands: names of columns in the first line, no comments.")
             .doc(
                 "Of a simulation or a history, all columns; of an array of maps, a row for each map and a column for each key, in alphabetical order, \
-                 empty where a map has it not. Every digit is kept. write_history puts the simulation above and units beside the names.",
+                 empty where a map has it not. Every digit is kept. A text that a spreadsheet would take for a formula, as it begins with = + - @, gets an apostrophe before it. write_history puts the simulation above and units beside the names.",
             )
             .example(
                 "sim.run_to(1);\nwrite_csv(sim, \"spin.csv\");\nwrite_csv(sim.history.after(0.5), \"late.csv\", #{ units: true });\n\

@@ -114,12 +114,6 @@ pub enum SystemError {
         /// What is wrong with it.
         why: String,
     },
-    /// A name that cannot be that of a column.
-    #[error("'{}' cannot be the name of a column: give it one without comma, quotation mark and line break", name.escape_debug())]
-    SensorName {
-        /// The name.
-        name: String,
-    },
     /// A quantity that is recorded already.
     #[error("'{name}' is a column of the history already; give this one another name")]
     DuplicateSensor {

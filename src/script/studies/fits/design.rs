@@ -70,6 +70,8 @@ pub struct BestDesign {
     pub results: Vec<(String, f64)>,
     /// Whether the search came to its end before the most runs were made.
     pub is_settled: bool,
+    /// The parameter without a bound that ran off, for the objective gets less and less there.
+    pub runaway: Option<usize>,
     /// How often the function was called.
     pub runs: usize,
     /// How it was searched, in words.
@@ -280,6 +282,7 @@ impl DesignRequest<'_> {
             parameters: self.ranges.names.into_iter().zip(found.parameters).collect(),
             results: results.into_iter().zip(numbers).collect(),
             is_settled: found.is_settled,
+            runaway: found.runaway,
             runs: found.runs,
             derivatives: match (self.derivatives, found.without, found.gradient_runs) {
                 (Derivatives::Unknown, ..) => "none".into(),
@@ -310,6 +313,7 @@ impl DesignRequest<'_> {
             parameters,
             results: results.unwrap_or_default(),
             is_settled: true,
+            runaway: None,
             runs: 0,
             derivatives: "none".into(),
         })
@@ -319,7 +323,11 @@ impl DesignRequest<'_> {
 impl BestDesign {
     /// The design as a table for people.
     pub fn text(&self) -> String {
-        let outcome = if self.is_settled { "settled" } else { "the most runs were made" };
+        let outcome = match self.runaway.map(|at| &self.parameters[at].0) {
+            Some(name) => format!("no least value: '{name}' has no bound and ran off,"),
+            None if self.is_settled => "settled".to_owned(),
+            None => "the most runs were made".to_owned(),
+        };
         let mut table = TextTable::new(&["", "value"]);
         for (name, value) in self.parameters.iter().chain(&self.results) {
             table.row([Cell::from(name.as_str()), Cell::Number(significant(*value, DIGITS))]);
