@@ -26,7 +26,9 @@ pub enum ParsedCsvError {
         known: String,
     },
     /// A cell is not a number.
-    #[error("line {line}, column '{column}', holds '{text}', which is not a finite number")]
+    #[error(
+        "line {line}, column '{column}', holds '{text}', which is not a finite number below 1e150"
+    )]
     Number {
         /// Name of the column.
         column: String,
@@ -48,6 +50,9 @@ pub enum ParsedCsvError {
         text: String,
     },
 }
+
+/// The largest number of a cell: its square is finite.
+const LARGEST: f64 = 1e150;
 
 /// A table of texts with named columns.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -142,10 +147,10 @@ impl ParsedCsv {
     /// Number in a cell.
     ///
     /// # Errors
-    /// If there is no such column, or the cell is not a finite number.
+    /// When there is no such column, or something else than a finite number whose square is finite.
     pub fn number(&self, row: usize, column: &str) -> Result<f64, ParsedCsvError> {
         let text = self.text(row, column)?;
-        let number = text.parse().ok().filter(|number: &f64| number.is_finite());
+        let number = text.parse().ok().filter(|number: &f64| number.abs() <= LARGEST);
         number.ok_or_else(|| ParsedCsvError::Number {
             column: column.to_owned(),
             line: self.rows[row].0,
@@ -177,13 +182,16 @@ mod tests {
 
     #[test]
     fn what_is_wrong_with_a_table_is_said_with_its_place() {
-        let sheet = ParsedCsv::parse("# how it was made\nt, x0\n0,1.5\n1,two\n2,NaN\n").unwrap();
-        assert_eq!((sheet.len(), sheet.number(0, "x0")), (3, Ok(1.5)));
-        for (row, told) in
-            [(1, "line 4, column 'x0', holds 'two'"), (2, "line 5, column 'x0', holds 'NaN'")]
-        {
+        let sheet =
+            ParsedCsv::parse("# how it was made\nt, x0\n0,1.5\n1,two\n2,NaN\n3,-1e300\n").unwrap();
+        assert_eq!((sheet.len(), sheet.number(0, "x0")), (4, Ok(1.5)));
+        for (row, told) in [
+            (1, "line 4, column 'x0', holds 'two'"),
+            (2, "line 5, column 'x0', holds 'NaN'"),
+            (3, "line 6, column 'x0', holds '-1e300'"),
+        ] {
             let error = sheet.number(row, "x0").unwrap_err().to_string();
-            assert_eq!(error, format!("{told}, which is not a finite number"));
+            assert_eq!(error, format!("{told}, which is not a finite number below 1e150"));
         }
         let told = sheet.number(0, "y0").unwrap_err().to_string();
         assert_eq!(told, "it has no column 'y0'; its columns are t, x0");

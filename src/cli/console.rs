@@ -3,17 +3,25 @@
 use std::io::{self, ErrorKind, Write, stderr, stdout};
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use crate::output::{printable, printable_in_colours};
+
 /// True if some output could not be written.
 static LOST: AtomicBool = AtomicBool::new(false);
 
 /// Prints a line of output and flushes; a closed pipe is no error.
 pub(super) fn say(text: &str) {
     let mut out = stdout();
-    notice(out.write_all(format!("{text}\n").as_bytes()).and_then(|()| out.flush()));
+    let line = format!("{}\n", printable_in_colours(text));
+    notice(out.write_all(line.as_bytes()).and_then(|()| out.flush()));
 }
 
 pub(super) fn tell(text: &str) {
-    notice(stderr().write_all(text.as_bytes()));
+    tell_drawn(&printable(text));
+}
+
+/// The same of a text that may have colours of this program.
+pub(super) fn tell_drawn(text: &str) {
+    notice(stderr().write_all(printable_in_colours(text).as_bytes()));
 }
 
 fn notice(written: io::Result<()>) {

@@ -18,7 +18,7 @@ use crate::exercises::fingerprint::fingerprint;
 use crate::exercises::grading::{Graded, GradingTask, Mark, StudentReport};
 use crate::exercises::marks::{self, KnownMarks};
 use crate::exercises::submissions::Submission;
-use crate::output::{Cell, TextTable, columns, padded};
+use crate::output::{Cell, TextTable, columns, padded, printable_line};
 use crate::sandbox_fs::Scratch;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -170,10 +170,10 @@ impl GradeSheet {
         if self.form == GradeFormat::Table {
             let off = graded.message.lines().next().unwrap_or_default();
             self.line(
-                &shown(&submission.student),
+                &printable_line(&submission.student),
                 &graded.exercise.id(),
                 graded.mark.word(),
-                &shown(off),
+                &printable_line(off),
             );
         }
         let is_new = self.reports.last().is_none_or(|last| last.graded.len() == EXERCISES.len());
@@ -205,15 +205,11 @@ impl GradeSheet {
                 for report in &self.reports {
                     let counts =
                         [report.passed(), EXERCISES.len()].map(|count| Cell::from(count as f64));
-                    let student = Cell::from(shown(&report.student).as_str());
+                    let student = Cell::from(report.student.as_str());
                     sums.row([student].into_iter().chain(counts));
                 }
                 say(&format!("\n{}", sums.to_string().trim_end()));
             }
         }
     }
-}
-
-fn shown(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() { '\u{b7}' } else { c }).collect()
 }

@@ -22,6 +22,7 @@ use crate::exercises::exercise::Exercise;
 use crate::exercises::judging::{AttemptVerdict, judge};
 use crate::exercises::watch::{INTERVAL, Watcher};
 use crate::exercises::workbook::{Advice, Workbook};
+use crate::output::printable_line;
 use crate::panics;
 use crate::script::diagnose::{Colours, Diagnostic};
 use crate::script::state::settings::{RunMode, RunSettings};
@@ -317,7 +318,11 @@ fn watch_in_lines(workbook: &Workbook, limits: &LimitOptions, flag: &Arc<AtomicB
 
 pub(super) fn shown(path: &Path) -> String {
     let path: PathBuf = path.strip_prefix(".").unwrap_or(path).into();
-    if path.as_os_str().is_empty() { "this folder".into() } else { path.display().to_string() }
+    if path.as_os_str().is_empty() {
+        "this folder".into()
+    } else {
+        printable_line(&path.display().to_string())
+    }
 }
 
 fn colours() -> Colours {

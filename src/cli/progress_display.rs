@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::output::printable_line;
 use crate::script::messages::numbers::format_number;
 use crate::script::messages::progress::{NoProgress, Progress};
 
@@ -64,7 +65,7 @@ impl Progress for ProgressDisplay {
         self.end();
         self.from.set(from);
         self.to.set(to);
-        name.clone_into(&mut self.name.borrow_mut());
+        *self.name.borrow_mut() = printable_line(name);
         self.begun.set(Some(Instant::now()));
     }
 

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::Exit;
 use super::args::{CheckOptions, RunOptions, StudyOptions};
-use super::console::tell;
+use super::console::{tell, tell_drawn};
 use super::interrupt::{self, InterruptLoss};
 use super::progress_display::{self, ProgressPreference};
 use crate::output::write_whole;
@@ -188,7 +188,7 @@ fn exit_for_part(outcome: &RunOutcome, options: &StudyOptions) -> Exit {
 pub(super) fn refuse(diagnostic: &Diagnostic) -> Exit {
     let wants_colours =
         stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
-    tell(&diagnostic.render(if wants_colours { Colours::Ansi } else { Colours::None }));
+    tell_drawn(&diagnostic.render(if wants_colours { Colours::Ansi } else { Colours::None }));
     Exit::Wrong
 }
 

@@ -172,10 +172,13 @@ impl Design {
             None => Some("no step along the derivatives makes it better".to_owned()),
         };
         let found = best.map(|(parameters, rating)| Designed {
+            runaway: self.runaway(&parameters),
+            is_settled: came_to_an_end
+                && runs < self.most_runs
+                && self.runaway(&parameters).is_none(),
             parameters,
             is_feasible: rating.is_feasible(),
             rating,
-            is_settled: came_to_an_end && runs < self.most_runs,
             runs,
             gradient_runs,
             without: without.clone(),
@@ -336,6 +339,21 @@ mod tests {
         let Ok(none) =
             design.solve_with(&mut |_| Ok::<_, Infallible>(Err("no".into())), &mut |_| Ok(None));
         assert!(none.is_none());
+    }
+
+    #[test]
+    fn what_has_no_least_is_told() {
+        let design = design(&[(2.0, f64::NEG_INFINITY, f64::INFINITY)], 0);
+        let slope = |x: &[f64]| SlopedRating {
+            rating: Rating { objective: -x[0], constraints: vec![] },
+            objective: vec![-1.0],
+            constraints: vec![],
+        };
+        let Ok(found) = design.solve_with(&mut |x| Ok::<_, Infallible>(Ok(slope(x))), &mut |x| {
+            Ok(Some(slope(x).rating))
+        });
+        let found = found.unwrap();
+        assert_eq!((found.runaway, found.is_settled), (Some(0), false), "{found:?}");
     }
 
     #[test]

@@ -10,6 +10,8 @@ use super::SearchRange;
 const FIRST_STEP: f64 = 0.1;
 /// Tolerance of constraints, relative to their size.
 const MET: f64 = 1e-6;
+/// A parameter without a bound has run off when it is so many of its sizes away from zero.
+const FARTHEST: f64 = 1e15;
 /// Penalty of a failed run, added to the worst objective.
 pub(super) const PENALTY: f64 = 10.0;
 
@@ -44,8 +46,10 @@ pub struct Designed {
     pub rating: Rating,
     /// True if all constraints are met.
     pub is_feasible: bool,
-    /// True if the search converged within the number of runs.
+    /// Whether the search came to its end before the most runs were made, and no parameter ran off.
     pub is_settled: bool,
+    /// The parameter without a bound that ran off, for the function gets less and less there.
+    pub runaway: Option<usize>,
     /// Number of calls.
     pub runs: usize,
     /// Number of calls with derivatives, included in `runs`.
@@ -161,10 +165,11 @@ impl Design {
         }
         let is_settled = ended.is_ok() && runs < self.most_runs;
         Ok(best.map(|(parameters, rating)| Designed {
+            runaway: self.runaway(&parameters),
+            is_settled: is_settled && self.runaway(&parameters).is_none(),
             parameters,
             is_feasible: rating.is_feasible(),
             rating,
-            is_settled,
             runs,
             gradient_runs: 0,
             without: None,
@@ -174,10 +179,19 @@ impl Design {
     pub(super) fn scaled(&self) -> Scaled {
         let of = |range: &SearchRange| {
             let size = range.width();
-            (range.first() / size, (range.low / size, range.high / size))
+            let low = (range.low / size).max(-FARTHEST);
+            (range.first() / size, (low, (range.high / size).min(FARTHEST)))
         };
         let (start, bounds) = self.ranges.iter().map(of).unzip();
         Scaled { start, bounds }
+    }
+
+    /// The first parameter that is beyond all its sizes, on a side where it has no bound.
+    pub(super) fn runaway(&self, parameters: &[f64]) -> Option<usize> {
+        self.ranges.iter().zip(parameters).position(|(range, x)| {
+            let bound = if *x < 0.0 { range.low } else { range.high };
+            bound.is_infinite() && x.abs() >= 0.1 * FARTHEST * range.width()
+        })
     }
 
     pub(super) fn unscaled(&self, scaled: &[f64]) -> Vec<f64> {
@@ -241,5 +255,16 @@ mod tests {
             Some(Rating { objective: x[0], constraints: vec![x[0] - 2.0] })
         });
         assert!(!found.is_feasible && (found.parameters[0] - 1.0).abs() < 1e-6, "{found:?}");
+    }
+
+    #[test]
+    fn what_has_no_least_is_told() {
+        for slope in [1.0, -1.0] {
+            let infinite = (2.0, f64::NEG_INFINITY, f64::INFINITY);
+            let found = solved(&[infinite], 0, |x| {
+                Some(Rating { objective: slope * x[0], constraints: vec![] })
+            });
+            assert_eq!((found.runaway, found.is_settled), (Some(0), false), "{found:?}");
+        }
     }
 }

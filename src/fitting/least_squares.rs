@@ -139,12 +139,13 @@ impl LeastSquaresState {
             row if row - rows == column => root,
             _ => 0.0,
         });
-        let right = DVector::from_fn(rows + count, |row, _| match row {
+        let mut right = DVector::from_fn(rows + count, |row, _| match row {
             row if row < rows => -residuals[row],
             _ => 0.0,
         });
         let factors = matrix.qr();
-        let solution = factors.r().solve_upper_triangular(&factors.q().tr_mul(&right));
+        factors.q_tr_mul(&mut right);
+        let solution = factors.r().solve_upper_triangular(&right.rows(0, count));
         let solution = solution.unwrap_or_else(|| DVector::zeros(count));
         DVector::from_fn(count, |at, _| solution[at] / self.sizes[columns[at]])
     }
@@ -208,6 +209,9 @@ impl LeastSquares {
             Ok(residuals) => DVector::from_vec(residuals),
             Err(reason) => return Ok(Err(reason)),
         };
+        if !residuals.norm_squared().is_finite() {
+            return Ok(Err("the sum of the squares of its residuals is not finite".into()));
+        }
         let sizes = vec![f64::MIN_POSITIVE; x.len()];
         let empty = DMatrix::zeros(residuals.len(), x.len());
         let mut state =
@@ -223,6 +227,9 @@ impl LeastSquares {
                 }
             };
             match found {
+                Ok(found) if !found.norm_squared().is_finite() => {
+                    return Ok(Err("the squares of its derivatives are not finite".into()));
+                }
                 Ok(found) => state.measure(found),
                 Err(reason) => return Ok(Err(reason)),
             }

@@ -20,6 +20,10 @@ pub enum RootError<E> {
     SameSign(f64, f64),
     /// The function is not finite; argument and value.
     NotFinite(f64, f64),
+    /// The sign changes at a place, where the values are larger than at both ends, as at a pole: the value there.
+    Pole(f64, f64),
+    /// The search was not at its end after the most calls: the best place, and the value there.
+    Unfinished(f64, f64),
     /// The function failed.
     Function(E),
 }
@@ -45,9 +49,10 @@ pub fn root<E>(
     };
     let (mut a, mut b) = (from, to);
     let (mut fa, mut fb) = (value(a)?, value(b)?);
-    if fa * fb > 0.0 {
+    if fa != 0.0 && fb != 0.0 && fa.signum() == fb.signum() {
         return Err(RootError::SameSign(fa, fb));
     }
+    let largest = fa.abs().max(fb.abs());
     let (mut c, mut fc) = (a, fa);
     let (mut last, mut step) = (b - a, b - a);
     for _ in 0..MOST_CALLS {
@@ -62,9 +67,12 @@ pub fn root<E>(
             (fa, fb, fc) = (fb, fc, fb);
         }
         let near = 2.0 * f64::EPSILON * b.abs() + 0.5 * tolerance;
-        let half = 0.5 * (c - b);
+        let half = 0.5 * c - 0.5 * b;
         if half.abs() <= near || fb == 0.0 {
-            break;
+            return match fb.abs() > largest {
+                true => Err(RootError::Pole(b, fb)),
+                false => Ok(Root { at: b, value: fb, calls }),
+            };
         }
         let bisected = (half, half);
         (last, step) = match last.abs() >= near && fa.abs() > fb.abs() {
@@ -87,7 +95,7 @@ pub fn root<E>(
         b += if step.abs() > near { step } else { near.copysign(half) };
         fb = value(b)?;
     }
-    Ok(Root { at: b, value: fb, calls })
+    Err(RootError::Unfinished(b, fb))
 }
 
 #[cfg(test)]
@@ -111,6 +119,10 @@ mod tests {
         let step = root((0.0, 1.0), 1e-9, |x| good(if x < 0.3 { -1.0 } else { 1.0 })).unwrap();
         assert!((step.at - 0.3).abs() < 1e-9, "{step:?}");
         assert_eq!(root((0.0, 1.0), 1e-9, good).unwrap().at, 0.0);
+        let far = root((-1e308, 1e308), 1e-9, good).unwrap();
+        assert!(far.at.abs() < 1e-9, "{far:?}");
+        let small = root((0.0, 1.0), 1e-9, |x| good(1e-200 * (x - 0.4))).unwrap();
+        assert!((small.at - 0.4).abs() < 1e-9, "{small:?}");
     }
 
     #[test]
@@ -118,6 +130,11 @@ mod tests {
         let found = root((0.0, 1.0), 1e-9, |x| good(x + 1.0));
         assert_eq!(found, Err(RootError::SameSign(1.0, 2.0)));
         assert!(matches!(root((0.0, 1.0), 1e-9, |x| good(1.0 / x)), Err(RootError::NotFinite(..))));
+        let pole = root((0.0, 1.0), 1e-9, |x| good(1.0 / (x - 0.3)));
+        let is_there = |at: f64| (at - 0.3).abs() < 1e-9;
+        assert!(matches!(pole, Err(RootError::Pole(at, _)) if is_there(at)), "{pole:?}");
+        let rough = root((-1e308, 1e308), 1e-9, |x| good(if x < 3.0 { -1.0 } else { 1.0 }));
+        assert!(matches!(rough, Err(RootError::Unfinished(..))), "{rough:?}");
         let failing = root((0.0, 1.0), 1e-9, |_| Err::<f64, _>("lost"));
         assert_eq!(failing, Err(RootError::Function("lost")));
     }

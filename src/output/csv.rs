@@ -1,5 +1,6 @@
 //! CSV tables of numbers: columns of equal length below `#` comment lines.
 
+use std::borrow::Cow;
 use std::path::Path;
 
 use super::{OutputError, files::write_whole};
@@ -31,17 +32,34 @@ impl CsvTable {
         self
     }
 
+    /// The table with every so manieth row and the last one, if it has more than about so many numbers; a comment tells of it.
+    #[must_use]
+    pub fn thinned(mut self, numbers: usize) -> Self {
+        let rows = self.columns.iter().map(|(_, values)| values.len()).max().unwrap_or(0);
+        let most = (numbers / self.columns.len().max(1)).max(1);
+        let every = rows.div_ceil(most);
+        if every > 1 {
+            for (_, values) in &mut self.columns {
+                let is_last = |at: usize| at + 1 == values.len();
+                let kept = (0..values.len()).filter(|at| at.is_multiple_of(every) || is_last(*at));
+                *values = kept.map(|at| values[at]).collect();
+            }
+            self.comments.push(format!("rows: every {every}th of {rows}, and the last one"));
+        }
+        self
+    }
+
     /// Text of the CSV file. Columns of different lengths are an error.
     pub fn to_text(&self) -> Result<String, OutputError> {
         let rows = self.common_length()?;
         let mut bytes = Vec::new();
         for line in self.comments.iter().flat_map(|comment| comment.lines()) {
-            bytes.extend(format!("# {}", line).trim_end().bytes());
-            bytes.push(b'\n');
+            bytes.extend(comment_line(line).bytes());
         }
         if !self.columns.is_empty() {
             let mut writer = ::csv::Writer::from_writer(&mut bytes);
-            writer.write_record(self.columns.iter().map(|(name, _)| name))?;
+            writer
+                .write_record(self.columns.iter().map(|(name, _)| csv_cell(name).into_owned()))?;
             for row in 0..rows {
                 writer.write_record(self.columns.iter().map(|(_, values)| exact(values[row])))?;
             }
@@ -68,6 +86,32 @@ impl CsvTable {
             }),
         }
     }
+}
+
+/// The text of a cell, with an apostrophe before it where a spreadsheet would take it for a formula. Numbers stay as they are.
+pub fn csv_cell(text: &str) -> Cow<'_, str> {
+    let is_formula = text.starts_with(['=', '+', '-', '@', '\t', '\r']);
+    match is_formula && text.parse::<f64>().is_err() {
+        true => Cow::Owned(format!("'{text}")),
+        false => Cow::Borrowed(text),
+    }
+}
+
+/// A line above a table. A spreadsheet cuts it into cells as it does the rows.
+pub(super) fn comment_line(text: &str) -> String {
+    const CUTS: [char; 3] = [',', ';', '\t'];
+    let mut line = "#".to_owned();
+    for (at, piece) in text.split_inclusive(CUTS).enumerate() {
+        let cell = piece.strip_suffix(CUTS).unwrap_or(piece);
+        match at {
+            0 => line.extend([" ", cell]),
+            _ => line.push_str(&csv_cell(cell)),
+        }
+        line.push_str(&piece[cell.len()..]);
+    }
+    line.truncate(line.trim_end().len());
+    line.push('\n');
+    line
 }
 
 pub(super) fn exact(x: f64) -> String {
@@ -98,6 +142,34 @@ mod tests {
             message,
             "column 'energy' has 1 values but column 't' has 2; give every column one value per row"
         );
+    }
+
+    #[test]
+    fn no_text_is_a_formula_and_numbers_stay_numbers() {
+        for text in ["=1+1", "+1+1", "-1+1", "@SUM(A1)", "\t=1", "\r=1"] {
+            assert_eq!(csv_cell(text), format!("'{text}"));
+        }
+        for text in ["", "a=1", "-1.5e3", "+2", "-inf", "1", " =1"] {
+            assert_eq!(csv_cell(text), text);
+        }
+        let table = CsvTable::new().comment("of a,=1;-2;@b").column("=x", vec![-1.0]);
+        let expected = "# of a,'=1;-2;'@b\n'=x\n-1.0000000000000000e0\n";
+        assert_eq!(table.to_text().unwrap(), expected);
+    }
+
+    #[test]
+    fn a_table_that_is_too_long_keeps_its_first_and_its_last_row() {
+        let table = || {
+            let values: Vec<f64> = (0..1000).map(f64::from).collect();
+            CsvTable::new().column("t", values.clone()).column("x", values)
+        };
+        assert_eq!(table().thinned(2000), table());
+        let thin = table().thinned(200);
+        assert_eq!(thin.comments, ["rows: every 10th of 1000, and the last one"]);
+        let (first, last) = (&thin.columns[0].1, &thin.columns[1].1);
+        assert_eq!((first.len(), first[0], last[1], last[100]), (101, 0.0, 10.0, 999.0));
+        assert_eq!(table().thinned(0).columns[0].1, [0.0, 999.0]);
+        assert_eq!(CsvTable::new().thinned(0), CsvTable::new());
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Tables of numbers, booleans and texts for other programs: a header line and no comment lines.
 
 use super::OutputError;
-use super::csv::exact;
+use super::csv::{csv_cell, exact};
 
 /// Columns of equal length; a value may be missing.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -59,7 +59,7 @@ impl DataValues {
             Self::Numbers(values) => values[row].map(exact),
             Self::Whole(values) => values[row].map(|value| value.to_string()),
             Self::Truths(values) => values[row].map(|value| value.to_string()),
-            Self::Texts(values) => values[row].clone(),
+            Self::Texts(values) => values[row].as_deref().map(|text| csv_cell(text).into_owned()),
         };
         written.unwrap_or_default()
     }
@@ -73,7 +73,8 @@ impl DataTable {
     pub fn to_csv(&self, heading: TableHeading) -> Result<String, OutputError> {
         let rows = self.rows()?;
         let mut writer = ::csv::Writer::from_writer(Vec::new());
-        writer.write_record(self.columns.iter().map(|column| &column.name))?;
+        writer
+            .write_record(self.columns.iter().map(|column| csv_cell(&column.name).into_owned()))?;
         if heading == TableHeading::NamesAndUnits {
             writer.write_record(self.columns.iter().map(|column| &column.dimension))?;
         }
@@ -126,6 +127,19 @@ mod tests {
         assert_eq!(table().to_csv(TableHeading::Names).unwrap(), format!("{names}{rows}"));
         let with_units = table().to_csv(TableHeading::NamesAndUnits).unwrap();
         assert_eq!(with_units, format!("{names}time,-,,\n{rows}"));
+    }
+
+    #[test]
+    fn texts_and_names_are_no_formulas() {
+        let column =
+            |name: &str, values| DataColumn { name: name.into(), dimension: String::new(), values };
+        let table = DataTable {
+            columns: vec![
+                column("=1+1", DataValues::Texts(vec![Some("@a".into()), Some("-x".into())])),
+                column("n", DataValues::Whole(vec![Some(-1), Some(2)])),
+            ],
+        };
+        assert_eq!(table.to_csv(TableHeading::Names).unwrap(), "'=1+1,n\n'@a,-1\n'-x,2\n");
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::number::format_number;
+use super::printable::printable_line;
 use super::width::{columns, padded};
 
 /// A cell of a text table.
@@ -143,7 +144,7 @@ fn width_of(text: &str) -> usize {
 }
 
 fn one_line(text: &str) -> String {
-    text.replace(char::is_control, " ")
+    printable_line(text)
 }
 
 #[cfg(test)]

@@ -219,7 +219,7 @@ impl Shell {
 
     /// Prints a reply.
     pub fn print(&self, text: &str) {
-        self.session.context().print(text);
+        self.session.context().print_drawn(text);
         self.session.context().flush();
     }
 
@@ -252,7 +252,7 @@ impl Shell {
             ReplyTarget::Pipe => usize::MAX,
         };
         let told = diagnostic.render_within(self.colours(), width);
-        self.session.context().tell(told.trim_end());
+        self.session.context().tell_drawn(told.trim_end());
         CommandOutcome::Failed
     }
 

@@ -1,18 +1,15 @@
 //! An open folder, accessed through its descriptor.
 
-use std::ffi::{OsStr, OsString};
+use std::ffi::OsStr;
 use std::fs;
-use std::io::{self, ErrorKind, Write};
-use std::path::{Component, Path, PathBuf};
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::io::{self, ErrorKind};
+use std::path::{Component, Path};
 
 use cap_fs_ext::{DirExt, FollowSymlinks, OpenOptionsFollowExt, OpenOptionsSyncExt};
 use cap_std::ambient_authority;
 use cap_std::fs::{Dir, OpenOptions};
 
 use super::reading;
-
-const TRIES: usize = 100;
 
 /// An open folder. Renaming it or replacing it by a link does not affect holders of this value.
 #[derive(Debug)]
@@ -76,7 +73,7 @@ impl Folder {
         })
     }
 
-    fn enter_or_make(&self, name: &OsStr) -> io::Result<Self> {
+    pub(super) fn enter_or_make(&self, name: &OsStr) -> io::Result<Self> {
         match self.enter(name) {
             Err(error) if error.kind() == ErrorKind::NotFound => {
                 match self.0.create_dir(name) {
@@ -89,7 +86,7 @@ impl Folder {
         }
     }
 
-    fn parent_of<'n>(
+    pub(super) fn parent_of<'n>(
         &self,
         name: &'n Path,
         enter: fn(&Self, &OsStr) -> io::Result<Self>,
@@ -152,7 +149,7 @@ impl Folder {
         folder.create_here(name)
     }
 
-    fn create_here(&self, name: &OsStr) -> io::Result<fs::File> {
+    pub(super) fn create_here(&self, name: &OsStr) -> io::Result<fs::File> {
         let mut options = OpenOptions::new();
         options.write(true).create_new(true).follow(FollowSymlinks::No);
         self.0.open_with(name, &options).map(|file| file.into_std())
@@ -169,80 +166,6 @@ impl Folder {
         let file = folder.0.open_with(name, &options)?;
         reading::expect_ordinary(file.metadata()?.is_file())?;
         Ok(file.into_std())
-    }
-
-    /// Writes a file below this folder atomically and durably. An existing file or link is replaced, not followed; missing parent folders
-    /// are created.
-    ///
-    /// # Errors
-    /// If writing fails, or the name is that of a folder, a pipe or a device; nothing has changed then.
-    pub fn write_whole(&self, name: &Path, bytes: &[u8]) -> io::Result<()> {
-        self.write_whole_by(name, |file| file.write_all(bytes))
-    }
-
-    /// Writes a file like [`write_whole`](Self::write_whole), with content written by `write`.
-    ///
-    /// # Errors
-    /// See there; also errors of `write`.
-    pub fn write_whole_by(
-        &self,
-        name: &Path,
-        write: impl FnOnce(&mut fs::File) -> io::Result<()>,
-    ) -> io::Result<()> {
-        let (folder, name) = self.parent_of(name, Self::enter_or_make)?;
-        if let Ok(about) = folder.0.symlink_metadata(name)
-            && !about.is_symlink()
-        {
-            reading::expect_ordinary(about.is_file())?;
-        }
-        let (mut file, partial) = folder.create_partial(name)?;
-        let written = write(&mut file).and_then(|()| file.sync_all());
-        drop(file);
-        let written = written.and_then(|()| folder.0.rename(&partial, &folder.0, name));
-        if written.is_err() {
-            let _ = folder.0.remove_file(&partial);
-        }
-        written.and_then(|()| folder.sync())
-    }
-
-    fn create_partial(&self, name: &OsStr) -> io::Result<(fs::File, OsString)> {
-        static COUNTER: AtomicU64 = AtomicU64::new(0);
-        let mut tries = TRIES;
-        loop {
-            tries -= 1;
-            let count = COUNTER.fetch_add(1, Ordering::Relaxed);
-            let mut partial = OsString::from(".");
-            partial.push(name);
-            partial.push(format!(".{}-{count}.part", std::process::id()));
-            match self.create_here(&partial) {
-                Ok(file) => return Ok((file, partial)),
-                Err(error) if error.kind() == ErrorKind::AlreadyExists && tries > 0 => (),
-                Err(error) => return Err(error),
-            }
-        }
-    }
-
-    /// Renames a file below this folder to the first unused name of `free`.
-    ///
-    /// # Errors
-    /// If renaming fails.
-    pub fn keep_as(&self, name: &Path, free: impl Fn(usize) -> PathBuf) -> io::Result<PathBuf> {
-        let (folder, own) = self.parent_of(name, Self::enter)?;
-        for number in 1..TRIES * TRIES {
-            let new = free(number);
-            let Some(kept) = new.file_name() else { break };
-            // Reserves the name first, so that no file is replaced.
-            match folder.create_here(kept) {
-                Ok(_) => {
-                    folder.0.rename(own, &folder.0, kept)?;
-                    folder.sync()?;
-                    return Ok(new);
-                }
-                Err(error) if error.kind() == ErrorKind::AlreadyExists => (),
-                Err(error) => return Err(error),
-            }
-        }
-        Err(io::Error::new(ErrorKind::AlreadyExists, "there is no free name to keep it by"))
     }
 
     /// Renames a file in this folder, replacing the target.
@@ -263,7 +186,7 @@ impl Folder {
     }
 
     /// Makes renamed files durable. Systems that cannot sync folders are accepted.
-    fn sync(&self) -> io::Result<()> {
+    pub(super) fn sync(&self) -> io::Result<()> {
         #[cfg(unix)]
         {
             let open = self.0.open(".")?.into_std();
@@ -280,8 +203,10 @@ impl Folder {
 #[cfg(unix)]
 mod tests {
     use super::*;
+    use crate::sandbox_fs::whole::TRIES;
     use std::os::unix::fs::symlink;
-    use std::sync::atomic::AtomicBool;
+    use std::path::PathBuf;
+    use std::sync::atomic::{AtomicBool, Ordering};
 
     fn home() -> (tempfile::TempDir, PathBuf, PathBuf) {
         let home = tempfile::tempdir().unwrap();

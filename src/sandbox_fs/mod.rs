@@ -7,6 +7,7 @@ mod entries;
 mod folder;
 mod reading;
 mod scratch;
+mod whole;
 mod written_files;
 
 pub use entries::FolderEntry;

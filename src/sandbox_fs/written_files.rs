@@ -78,10 +78,13 @@ impl<W: Write> Write for ChecksumWriter<W> {
     }
 }
 
-/// Checksums and lengths of the files that this program wrote into a folder, by name.
+/// Checksums and lengths of the files that this program has written into a folder, by name: of each the last two, for a new content is noted before
+/// it takes the place of the old one.
 #[derive(Debug, Default)]
 pub struct WrittenFiles {
-    files: BTreeMap<String, FileChecksum>,
+    files: BTreeMap<String, [Option<FileChecksum>; 2]>,
+    /// Whether the last line of the file was cut off.
+    is_torn: bool,
 }
 
 impl WrittenFiles {
@@ -90,32 +93,57 @@ impl WrittenFiles {
         // Without a readable record all files count as foreign and are kept.
         let text = folder.read(Path::new(FILE), LARGEST).unwrap_or_default();
         let text = String::from_utf8_lossy(&text);
-        Self { files: text.lines().filter_map(entry).collect() }
+        let is_torn = !text.is_empty() && !text.ends_with('\n');
+        let mut record = Self { files: BTreeMap::new(), is_torn };
+        for (name, imprint) in text.lines().filter_map(entry) {
+            record.know(name, imprint);
+        }
+        record
     }
 
-    /// Returns true if this name does not exist in the folder, or is unchanged since this program wrote it.
-    pub fn may_replace(&self, folder: &Folder, name: &str) -> bool {
+    /// Whether there is nothing of this name in the folder, or a file just as this program has written it. Another run may have noted it meanwhile.
+    pub fn may_replace(&mut self, folder: &Folder, name: &str) -> bool {
         let path = Path::new(name);
         if !folder.has(path) {
             return true;
         }
-        let Some(known) = self.files.get(name) else { return false };
-        folder.open_file(path).and_then(FileChecksum::of).is_ok_and(|found| found == *known)
+        let found = folder.open_file(path).and_then(FileChecksum::of).ok();
+        if found.is_some() && !self.knows(name, found) {
+            *self = Self::of(folder);
+        }
+        found.is_some() && self.knows(name, found)
     }
 
-    /// Records a file written to the folder, and appends it to the record at once.
+    fn knows(&self, name: &str, imprint: Option<FileChecksum>) -> bool {
+        self.files.get(name).is_some_and(|known| known.contains(&imprint))
+    }
+
+    fn know(&mut self, name: String, imprint: FileChecksum) {
+        let known = self.files.entry(name).or_default();
+        if known[1] != Some(imprint) {
+            *known = [known[1], Some(imprint)];
+        }
+    }
+
+    /// Notes, and writes down at once, that this program is about to give a file of the folder this name.
     ///
     /// # Errors
     /// If the record cannot be written.
     pub fn note(&mut self, folder: &Folder, name: &str, written: FileChecksum) -> io::Result<()> {
-        if name.contains(['\n', '\r']) || self.files.insert(name.into(), written) == Some(written) {
+        let is_last = self.files.get(name).is_some_and(|known| known[1] == Some(written));
+        if name.contains(['\n', '\r']) || is_last {
             return Ok(());
         }
-        let line = format!("{:08x} {} {name}\n", written.checksum, written.length);
-        folder.append(Path::new(FILE))?.write_all(line.as_bytes())
+        let end = if self.is_torn { "\n" } else { "" };
+        let line = format!("{end}{:08x} {} {name}\n", written.checksum, written.length);
+        folder.append(Path::new(FILE))?.write_all(line.as_bytes())?;
+        self.is_torn = false;
+        self.know(name.into(), written);
+        Ok(())
     }
 }
 
+/// `checksum length name`; the last two lines of a name hold.
 fn entry(line: &str) -> Option<(String, FileChecksum)> {
     let (checksum, rest) = line.split_once(' ')?;
     let (length, name) = rest.split_once(' ')?;
@@ -143,5 +171,35 @@ mod tests {
         assert!(WrittenFiles::of(&folder).may_replace(&folder, "a b"), "the last line holds");
         write(b"2wo");
         assert!(!WrittenFiles::of(&folder).may_replace(&folder, "a b"));
+    }
+
+    #[test]
+    fn who_is_killed_between_the_note_and_the_file_knows_both_contents() {
+        let home = tempfile::tempdir().unwrap();
+        let folder = Folder::open(home.path()).unwrap();
+        let mut record = WrittenFiles::of(&folder);
+        for content in [&b"one"[..], b"two"] {
+            record.note(&folder, "a", FileChecksum::of_bytes(content)).unwrap();
+            for on_disk in [&b"one"[..], content] {
+                folder.write_whole(Path::new("a"), on_disk).unwrap();
+                assert!(WrittenFiles::of(&folder).may_replace(&folder, "a"));
+            }
+        }
+        // A line that was cut off ends with the next one.
+        folder.append(Path::new(FILE)).unwrap().write_all(b"0123").unwrap();
+        let mut record = WrittenFiles::of(&folder);
+        record.note(&folder, "a", FileChecksum::of_bytes(b"three")).unwrap();
+        folder.write_whole(Path::new("a"), b"three").unwrap();
+        assert!(WrittenFiles::of(&folder).may_replace(&folder, "a"));
+    }
+
+    #[test]
+    fn what_another_run_has_written_meanwhile_is_known() {
+        let home = tempfile::tempdir().unwrap();
+        let folder = Folder::open(home.path()).unwrap();
+        let [mut first, mut second] = [WrittenFiles::of(&folder), WrittenFiles::of(&folder)];
+        first.note(&folder, "a", FileChecksum::of_bytes(b"one")).unwrap();
+        folder.write_whole(Path::new("a"), b"one").unwrap();
+        assert!(second.may_replace(&folder, "a"));
     }
 }

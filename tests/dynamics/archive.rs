@@ -6,11 +6,12 @@ use std::rc::Rc;
 use crate::common::steered_scenes::is_steered;
 use crate::common::{Random, body_scenes, meshes, run, scenes, settings, sliding_scenes};
 use withy::beams::Mesh;
+use withy::geometry::Vec2;
 use withy::integrators::{INTEGRATORS, Method};
-use withy::joints::SlidingRule;
+use withy::joints::{JointKind, Partner, SlidingRule};
 use withy::loads::{LoadKind, Operation, Schedule};
 use withy::simulation::{ArchiveError, Monitor, NoMonitor, Recording, Simulation};
-use withy::system::Scene;
+use withy::system::{Element, Scene, StartMotion};
 
 /// The bytes of a file, that of the time spent apart.
 fn content(simulation: &Simulation) -> Vec<u8> {
@@ -193,4 +194,60 @@ fn a_run_that_was_loaded_has_its_own_way_back() {
     loaded.back(1).unwrap();
     assert_eq!(loaded.time(), 0.5);
     assert!(loaded.back(1).is_err());
+}
+
+#[test]
+fn names_that_nobody_could_read_are_refused_in_files_and_names_that_follow_are_made_anew() {
+    const WRONG: &str = "\u{1b}]0;title\u{7}";
+    let stored = |scene, name: &str| {
+        let simulation = Simulation::start(scene, settings(Method::EnergyMomentum, 0.1)).unwrap();
+        Simulation::from_bytes(&simulation.to_bytes(name).unwrap())
+    };
+    let mesh = Mesh::bspline(2, 3, 2).unwrap();
+    let scene = || {
+        let mut scene = scenes::sprung(&mesh);
+        let rest = StartMotion { velocity: Vec2::zeros(), spin: 0.0, about: None };
+        scene.beams.iter_mut().for_each(|beam| beam.motion = rest);
+        let station = scenes::end_of(&mut scene, 0);
+        scene.join(JointKind::Hinge, station, Partner::Ground).unwrap();
+        scene.add_load(LoadKind::Moment { station, moment: 0.1 }, Schedule::Constant(1.0));
+        scene
+    };
+    assert!(stored(scene(), "good").is_ok());
+    assert!(stored(scene(), WRONG).is_err());
+    type Forge = fn(&mut Scene);
+    let forgeries: [Forge; 4] = [
+        |scene| scene.name = WRONG.into(),
+        |scene| scene.beams[0].name = WRONG.into(),
+        |scene| {
+            scene.elements.iter_mut().for_each(|element| {
+                if let Element::Spring(spring) = element {
+                    spring.name = WRONG.into();
+                }
+            });
+        },
+        |scene| {
+            scene.elements.iter_mut().for_each(|element| {
+                if let Element::Load(load) = element {
+                    load.title = Some(WRONG.into());
+                }
+            });
+        },
+    ];
+    for (at, forge) in forgeries.into_iter().enumerate() {
+        let mut scene = scene();
+        forge(&mut scene);
+        assert!(stored(scene, "good").is_err(), "{at}");
+    }
+    let mut forged = scene();
+    let right = (forged.joints[0].name.clone(), forged.loads().next().unwrap().name.clone());
+    forged.joints[0].name = WRONG.into();
+    for element in &mut forged.elements {
+        if let Element::Load(load) = element {
+            load.name = WRONG.into();
+        }
+    }
+    let (_, loaded) = stored(forged, "good").unwrap();
+    let scene = loaded.scene();
+    assert_eq!((scene.joints[0].name.clone(), scene.loads().next().unwrap().name.clone()), right);
 }

@@ -285,9 +285,11 @@ fn a_quantity_that_there_is_not_is_refused_with_what_there_is() {
         assert!(matches!(error, SystemError::NoSensor { .. }), "{error}");
         assert!(error.to_string().contains(told), "{error}");
     }
-    for name in ["", " ", "a,b", "two\nlines"] {
-        assert!(matches!(scene.record(name), Err(SystemError::SensorName { .. })), "{name}");
-        assert!(matches!(scene.record_outside(name), Err(SystemError::SensorName { .. })));
+    let unread = ["=1+1", "\u{1b}[2J", "a\0b", "\u{202e}b", "a\u{200b}b", "e\u{301}", "end "];
+    for name in ["", " ", "a,b", "two\nlines"].into_iter().chain(unread) {
+        assert!(scene.record(name).is_err(), "{name:?}");
+        let outside = scene.record_outside(name);
+        assert!(matches!(outside, Err(SystemError::Unnamed { .. })), "{name:?}");
     }
     scene.record("beam1.end.x").unwrap();
     assert!(matches!(scene.record("beam1.end.x"), Err(SystemError::DuplicateSensor { .. })));

@@ -306,7 +306,7 @@ impl Reporter for Work {
         serde_json::json!({ "name": "work" })
     }
 
-    fn remains(&self) -> Option<(String, String)> {
+    fn remains(&self, _numbers: usize) -> Option<(String, String)> {
         None
     }
 }

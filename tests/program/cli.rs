@@ -294,3 +294,20 @@ fn a_closed_pipe_is_a_quiet_end() {
     let output = running.wait_with_output().expect("withy ends");
     assert_eq!((code(&output), said(&output).as_str()), (0, ""));
 }
+
+#[test]
+fn nothing_that_a_terminal_obeys_is_printed_or_told() {
+    let (_folder, file) = script(
+        "print(\"\\u001b]0;title\\u0007\"); check(false, \"\\u001b[2J\"); // \u{1b}]0;title\u{7}\u{202e}
+         let a = \"\u{1b}[2J\u{202e}\"; throw \"\\r\\u202e\\u200b\" + a;",
+    );
+    let output = withy().arg("run").arg(&file).output().expect("withy starts");
+    assert_eq!(code(&output), 2, "{}", said(&output));
+    for text in [&output.stdout, &output.stderr] {
+        let text = String::from_utf8_lossy(text);
+        let is_harmful = |letter: char| letter.is_control() && !matches!(letter, '\n' | '\t');
+        assert!(!text.contains(is_harmful), "{text:?}");
+        assert!(!text.contains(['\u{202e}', '\u{200b}']), "{text:?}");
+        assert!(text.contains('\u{fffd}'), "{text:?}");
+    }
+}

@@ -88,6 +88,50 @@ fn steps_are_counted_over_all_simulations() {
 }
 
 #[test]
+fn what_is_kept_of_a_stopped_run_is_held_by_the_limit_of_what_is_written() {
+    let script = format!("{SCENE}let sim = scene.start(#{{ dt: 1e-3 }}); sim.run_to(100);");
+    let home = Home::with(&[("main.rhai", &script)]);
+    let output = home.run(&["--max-steps", "4000", "--max-written", "1"]);
+    expect(&output, &["need more than 4000 steps"]);
+    let kept = fs::read_to_string(home.0.path().join("out/a-stopped.csv")).unwrap();
+    assert!(kept.len() < 1_050_000 && kept.contains("# rows: every"), "{}", kept.len());
+    let last: f64 =
+        kept.lines().last().and_then(|row| row.split(',').next()).unwrap().parse().unwrap();
+    assert!((last - 4.0).abs() < 1e-9, "{last}");
+    // What was printed leaves less.
+    let script = format!(
+        "{SCENE}let sim = scene.start(#{{ dt: 1e-3 }}); sim.run_to(1); loop {{ print(\"{}\"); }}",
+        "x".repeat(999)
+    );
+    let home = Home::with(&[("main.rhai", &script)]);
+    expect(&home.run(&["--max-written", "1"]), &["1 MB"]);
+    let kept = fs::read_to_string(home.0.path().join("out/a-stopped.csv")).unwrap();
+    assert!(kept.len() < 60_000, "{}", kept.len());
+}
+
+/// Clusters limit the address space of a process.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_script_and_its_workers_fit_a_limited_address_space() {
+    let script = "let found = study_sweep(#{ name: \"doubled\", parameters: #{ a: [1, 2, 3, 4] }, run: |p| #{ b: 2 * p.a } });
+                  print(found.table);";
+    let home = Home::with(&[("main.rhai", script)]);
+    for megabytes in [600, 1000, 2000, 4000] {
+        let line = format!("ulimit -v {}; exec \"$0\" run main.rhai", megabytes * 1024);
+        let mut shell = std::process::Command::new("sh");
+        shell.args(["-c", &line, env!("CARGO_BIN_EXE_withy")]).current_dir(home.0.path());
+        let output = shell.output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{megabytes} MB: {}", said(&output));
+    }
+}
+
+#[test]
+fn failed_checks_are_counted_as_what_is_written() {
+    let script = format!("loop {{ check(false, \"{}\"); }}", "x".repeat(100));
+    expect(&run(&script, &["--max-written", "1"]), &["1 MB", "--max-written MB"]);
+}
+
+#[test]
 fn recursion_of_every_kind_is_an_error_and_not_a_crash() {
     let through = [
         "fn f(n) { 1 + f(n + 1) } f(0);",

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use textwrap::{Options, WordSplitter};
 
-use crate::output::{Colours, columns_of};
+use crate::output::{Colours, columns_of, printable_line};
 
 /// ANSI codes of a piece of a line.
 pub type LineStyle = Cow<'static, str>;
@@ -185,8 +185,7 @@ pub fn coloured(text: &str) -> Vec<ScreenLine> {
 }
 
 fn clean(text: &str) -> String {
-    let text = text.replace('\t', "    ");
-    text.chars().map(|c| if c.is_control() { '\u{b7}' } else { c }).collect()
+    printable_line(&text.replace('\t', "    "))
 }
 
 #[cfg(test)]
@@ -221,7 +220,7 @@ mod tests {
         assert_eq!(lines[0].text(), "let a");
         assert_eq!(lines[0].drawn(Colours::Ansi), "\x1b[35mlet\x1b[0m a");
         assert_eq!(lines[0].drawn(Colours::None), "let a");
-        assert_eq!(lines[1].text(), "2J// \u{b7}b");
+        assert_eq!(lines[1].text(), "2J// \u{fffd}b");
     }
 
     #[test]

@@ -17,7 +17,7 @@ pub use elements::{
     Spring, SpringKind, SpringLaw,
 };
 pub use errors::{
-    Approach, SliderError, SliderParts, SystemError, TrackError, Turning,
+    Approach, SliderError, SliderParts, SystemError, TrackError, Turning, check_name,
     refusal as refusal_of_name,
 };
 pub use mechanism::{

@@ -1,5 +1,6 @@
 //! Capabilities and size of a terminal.
 
+use crate::output::printable::printable_line;
 use crate::output::width::cut;
 
 /// Character set of pictures in a terminal.
@@ -51,7 +52,7 @@ impl Glyphs {
 
     /// Converts a text to one line of the allowed characters: `10⁻¹²` becomes `1e-12` in ASCII.
     pub fn typeset(self, text: &str) -> String {
-        let line = text.replace(char::is_control, " ");
+        let line = printable_line(text);
         match self {
             Self::Braille => line,
             Self::Ascii => in_ascii(&line),

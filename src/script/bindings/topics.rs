@@ -104,7 +104,8 @@ pub const TOPICS: &[Topic] = &[
         doc: "A text is written in double quotes, with `\\n` for a new line and `\\\"` for a \
             quote. Between backquotes a text may have several lines, and `${ … }` contains an \
             expression whose value is inserted. `'a'` is a character. Numbers print with as \
-            many digits as needed; fixed and sci set the number of digits.",
+            many digits as needed, negative zero as 0; fixed and sci set the number of digits. \
+            Control characters and invisible marks print as \u{fffd}.",
         example: "let x = 1/3;\nprint(`a third is ${fixed(x, 3)}, twice that ${2 * x}`);\ncheck(`${1 + 1} beams` == \"2 beams\");\n\
                   check(\"spa\" + \"ghetti\" == \"spaghetti\");",
         see: &["fixed", "sci", "tabulate", "texts"],

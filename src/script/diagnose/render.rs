@@ -9,7 +9,7 @@ use codespan_reporting::term::{self, Config};
 
 use super::{Blame, CallFrame, Callee, Diagnostic, Location};
 pub use crate::output::Colours;
-use crate::output::columns;
+use crate::output::{columns, printable};
 
 impl Diagnostic {
     /// Text of the diagnostic, ending with a newline.
@@ -23,14 +23,19 @@ impl Diagnostic {
             Blame::User => Drawing::error(),
             Blame::Us => Drawing::bug(),
         };
-        let drawing = drawing.with_message(&self.message).with_notes(self.notes(width));
+        let drawing = drawing.with_message(printable(&self.message)).with_notes(self.notes(width));
         let no_file = || SimpleFile::new(String::new(), String::new());
         let (file, drawing) = match &self.location {
             Some(at) if at.line_length() <= LONGEST_DRAWN => {
-                let file = SimpleFile::new(at.program.name.clone(), at.program.text.to_string());
-                (file, drawing.with_label(Label::new(LabelStyle::Primary, (), at.bytes())))
+                let name = printable(&at.program.name).into_owned();
+                let text = printable(&at.program.text).into_owned();
+                let place = at.bytes_in(&text);
+                let label = Label::new(LabelStyle::Primary, (), place);
+                (SimpleFile::new(name, text), drawing.with_label(label))
             }
-            Some(at) => (no_file(), drawing.with_notes(vec![at.in_words()])),
+            Some(at) => {
+                (no_file(), drawing.with_notes(vec![printable(&at.in_words()).into_owned()]))
+            }
             None => (no_file(), drawing),
         };
         let mut buffer = match colours {
@@ -40,7 +45,7 @@ impl Diagnostic {
         match term::emit_to_write_style(&mut buffer, &Config::default(), &file, &drawing) {
             Ok(()) => format!("{}\n", String::from_utf8_lossy(buffer.as_slice()).trim_end()),
             // The location lies outside the text, which is an internal error; the message is still shown.
-            Err(_) => format!("error: {}\n", self.message),
+            Err(_) => format!("error: {}\n", printable(&self.message)),
         }
     }
 
@@ -50,7 +55,8 @@ impl Diagnostic {
             let lines: Vec<String> = hint.lines().flat_map(|line| wrapped(line, room)).collect();
             format!("help: {}", lines.join("\n      "))
         });
-        hint.chain(shown_steps(&self.trace)).collect()
+        let notes = hint.chain(shown_steps(&self.trace));
+        notes.map(|note| printable(&note).into_owned()).collect()
     }
 }
 
@@ -132,6 +138,14 @@ impl Location {
         format!("at {}:{}:{}, in a long line: {there} …", self.program.name, self.line, self.column)
     }
 
+    /// The place as a range of bytes of a text with the characters of the script, each of them as long as it likes.
+    fn bytes_in(&self, text: &str) -> Range<usize> {
+        let bytes = self.bytes();
+        let characters = |end: usize| self.program.text[..end].chars().count();
+        let offset = |at: usize| text.char_indices().nth(at).map_or(text.len(), |(byte, _)| byte);
+        offset(characters(bytes.start))..offset(characters(bytes.end))
+    }
+
     fn bytes(&self) -> Range<usize> {
         let start = self.program.offset(self.line, self.column);
         start..self.program.offset(self.line, self.column + self.length).max(start)
@@ -154,6 +168,26 @@ mod tests {
         let shown = told.render(Colours::None);
         assert!(shown.contains("at long.rhai:2:60010, in a long line: wrong];"), "{shown}");
         assert!(shown.len() < 500, "{shown}");
+    }
+
+    #[test]
+    fn nothing_that_a_terminal_obeys_is_drawn_and_the_caret_stays_at_its_place() {
+        let line = "let a = \"\u{1b}]0;title\u{7}\u{202e}\" + wrong; // \u{9b}2J";
+        let program = Program::named("a\u{1b}[2J.rhai", line);
+        let column = line.chars().take_while(|letter| *letter != 'w').count() + 1;
+        let at = Location { program: Arc::new(program), line: 1, column, length: 5 };
+        let message = "no \r\u{1b}[31mname";
+        let told = Diagnostic { location: Some(at), ..Diagnostic::general(message) };
+        let shown = told.with_hint("\u{200b}hint\u{7f}").render(Colours::None);
+        let is_harmful = |letter: char| letter.is_control() && letter != '\n';
+        assert!(
+            !shown.contains(is_harmful) && !shown.contains(['\u{202e}', '\u{200b}']),
+            "{shown:?}"
+        );
+        let lines: Vec<&str> = shown.lines().collect();
+        let at = |line: &str, sign: char| line.chars().position(|letter| letter == sign);
+        let quoted = lines.iter().position(|line| line.contains("wrong")).unwrap();
+        assert_eq!(at(lines[quoted + 1], '^'), at(lines[quoted], 'w'), "{shown}");
     }
 
     #[test]

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use rhai::{Dynamic, Engine};
 
+use super::sizes;
 use crate::script::bindings::catalog::Catalog;
 
 /// Makes the constants of `catalog` available to scripts.
@@ -15,8 +16,14 @@ pub fn install(engine: &mut Engine, catalog: &Catalog) {
     let values: HashMap<&str, Dynamic> =
         all.map(|constant| (constant.name, constant.value.into())).collect();
     engine.on_var(move |name, place, context| {
-        // A non-zero index refers to a variable known to the parser.
-        let is_own = place > 0 || context.scope().contains(name);
-        Ok(if is_own { None } else { values.get(name).cloned() })
+        // A place is that of a variable which the parser has seen, counted from the last one.
+        let own = match place.checked_sub(1) {
+            Some(place) => context.scope().iter_raw().nth(place).map(|(_, _, value)| value),
+            None => context.scope().get(name),
+        };
+        match own {
+            Some(value) => sizes::check(value).map(|()| None),
+            None => Ok(values.get(name).cloned()),
+        }
     });
 }

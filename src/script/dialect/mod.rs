@@ -10,5 +10,6 @@ pub mod operators;
 pub mod reading;
 pub mod repetitions;
 pub mod replacing;
+pub mod sizes;
 pub mod sorting;
 pub mod switch_values;

@@ -8,6 +8,7 @@
 //! power, therefore `-x^2` is an error.
 
 use std::any::TypeId;
+use std::cmp::Ordering;
 
 use rhai::{Dynamic, Engine, EvalAltResult, INT, NativeCallContext, Position};
 
@@ -17,12 +18,13 @@ use crate::script::source::syntax::{DivisionOperand, LONGEST_CHAIN, OWN, REPLACE
 
 /// Registers the operators on numbers, under the language's names and if possible under the engine's.
 pub fn install(engine: &mut Engine) {
-    register_comparison(engine, "<", |x, y| x < y, |m, n| m < n);
-    register_comparison(engine, ">", |x, y| x > y, |m, n| m > n);
-    register_comparison(engine, "<=", |x, y| x <= y, |m, n| m <= n);
-    register_comparison(engine, ">=", |x, y| x >= y, |m, n| m >= n);
-    register_comparison(engine, "==", |x, y| x == y, |m, n| m == n);
-    register_comparison(engine, "!=", |x, y| x != y, |m, n| m != n);
+    use Ordering::{Equal, Greater, Less};
+    register_comparison(engine, "<", |order| order == Some(Less));
+    register_comparison(engine, ">", |order| order == Some(Greater));
+    register_comparison(engine, "<=", |order| matches!(order, Some(Less | Equal)));
+    register_comparison(engine, ">=", |order| matches!(order, Some(Greater | Equal)));
+    register_comparison(engine, "==", |order| order == Some(Equal));
+    register_comparison(engine, "!=", |order| order != Some(Equal));
     register_arithmetic(
         engine,
         &format!("{OWN}/"),
@@ -60,19 +62,30 @@ pub fn written(operator: &str) -> &str {
     }
 }
 
-fn register_comparison(
-    engine: &mut Engine,
-    symbol: &str,
-    numbers: fn(f64, f64) -> bool,
-    wholes: fn(INT, INT) -> bool,
-) {
+/// Registers a comparison of numbers by their order; those that are not numbers have none.
+fn register_comparison(engine: &mut Engine, symbol: &str, holds: fn(Option<Ordering>) -> bool) {
     // Registered under the engine's name too, because arrays use it to compare and search elements.
     for name in [symbol.to_owned(), format!("{OWN}{symbol}")] {
-        engine.register_fn(&name, numbers);
-        engine.register_fn(&name, wholes);
-        engine.register_fn(&name, move |x: f64, n: INT| numbers(x, n as f64));
-        engine.register_fn(&name, move |n: INT, x: f64| numbers(n as f64, x));
+        engine.register_fn(&name, move |x: f64, y: f64| holds(x.partial_cmp(&y)));
+        engine.register_fn(&name, move |m: INT, n: INT| holds(Some(m.cmp(&n))));
+        engine.register_fn(&name, move |x: f64, n: INT| holds(order(n, x).map(Ordering::reverse)));
+        engine.register_fn(&name, move |n: INT, x: f64| holds(order(n, x)));
     }
+}
+
+/// The order of a whole number and a number: exact, although not every whole number is one of double precision.
+fn order(whole: INT, x: f64) -> Option<Ordering> {
+    /// The least number of double precision that is larger than all whole ones.
+    const BEYOND: f64 = 9_223_372_036_854_775_808.0;
+    if x >= BEYOND {
+        return Some(Ordering::Less);
+    }
+    if x < -BEYOND {
+        return Some(Ordering::Greater);
+    }
+    // What is not a number compares with nothing.
+    let rest = (x - x.trunc()).partial_cmp(&0.0)?.reverse();
+    Some(whole.cmp(&(x.trunc() as INT)).then(rest))
 }
 
 fn register_arithmetic(

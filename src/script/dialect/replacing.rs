@@ -1,6 +1,8 @@
 //! `text.replace(found, other)`: like Rhai's, but the length is checked before memory is allocated.
 
-use rhai::{Engine, EvalAltResult, ImmutableString, NativeCallContext};
+use rhai::{Engine, EvalAltResult, ImmutableString};
+
+use super::sizes::expect_text;
 
 trait TextPiece {
     fn as_text(&self) -> String;
@@ -27,7 +29,6 @@ pub fn install(engine: &mut Engine) {
 }
 
 fn replace<F: TextPiece, O: TextPiece>(
-    call: NativeCallContext,
     text: &mut ImmutableString,
     found: F,
     other: O,
@@ -35,15 +36,8 @@ fn replace<F: TextPiece, O: TextPiece>(
     let (found, other) = (found.as_text(), other.as_text());
     let count = text.matches(&found).count();
     let length = text.len() - count * found.len();
-    let most = call.engine().max_string_size();
     let length = other.len().checked_mul(count).and_then(|more| length.checked_add(more));
-    if length.is_none_or(|length| length > most) {
-        return Err(EvalAltResult::ErrorDataTooLarge(
-            "Length of string".into(),
-            call.call_position(),
-        )
-        .into());
-    }
+    expect_text(length)?;
     if !text.is_empty() {
         *text = text.replace(&found, &other).into();
     }

@@ -10,8 +10,8 @@ use crate::script::bindings::members;
 use crate::script::bindings::register::register;
 use crate::script::bindings::sources::Sources;
 use crate::script::dialect::{
-    constants, derivatives, elements, foundation, json, operators, repetitions, replacing, sorting,
-    switch_values,
+    constants, derivatives, elements, foundation, json, operators, repetitions, replacing, sizes,
+    sorting, switch_values,
 };
 use crate::script::messages::numbers::format_number;
 use crate::script::source::syntax;
@@ -21,9 +21,6 @@ use crate::script::state::limits::DEEPEST;
 /// Maximum nesting of an expression at the top level, and inside a function, where it adds to the call depth.
 const EXPRESSION_DEPTH: usize = 256;
 const EXPRESSION_DEPTH_IN_FUNCTION: usize = 64;
-const LONGEST_TEXT: usize = 16 << 20;
-const LARGEST_ARRAY: usize = 10_000_000;
-const LARGEST_MAP: usize = 1_000_000;
 /// Number of operations between checks for interruption.
 const PULSE: u64 = 256;
 
@@ -43,6 +40,7 @@ pub fn build(catalog: &Catalog, context: &Context) -> Result<Engine, String> {
     sorting::install(&mut engine, context);
     repetitions::install(&mut engine, context);
     replacing::install(&mut engine);
+    sizes::install(&mut engine);
     switch_values::install(&mut engine);
     json::install(&mut engine);
     elements::install(&mut engine);
@@ -61,9 +59,6 @@ fn limit(engine: &mut Engine, context: &Context) {
     engine
         .set_max_call_levels(context.meter().limits().depth.min(DEEPEST))
         .set_max_expr_depths(EXPRESSION_DEPTH, EXPRESSION_DEPTH_IN_FUNCTION)
-        .set_max_string_size(LONGEST_TEXT)
-        .set_max_array_size(LARGEST_ARRAY)
-        .set_max_map_size(LARGEST_MAP)
         .set_fail_on_invalid_map_property(true);
 }
 

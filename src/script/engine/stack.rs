@@ -1,14 +1,14 @@
-//! A thread with a stack that a script within its limits cannot exhaust.
+//! Stacks that a script within its limits cannot exhaust, as far as the system has address space for them.
 
 use std::sync::Mutex;
 use std::thread;
 
 use crate::panics::caught;
 use crate::script::diagnose::Diagnostic;
-use crate::script::state::limits::{LEAST_STACK, Limits};
+use crate::script::state::limits::Limits;
 
-/// Runs `work` on a thread with a stack that a script within these limits cannot exhaust, or a smaller one if the address space is not
-/// available.
+/// Does `work` on a thread with a stack that a script within these limits cannot exhaust, or a smaller one where the address space of the process is
+/// limited.
 ///
 /// # Errors
 /// If no thread can be started, or the work panics.
@@ -16,7 +16,19 @@ pub fn on_large_stack<T: Send>(
     limits: &Limits,
     work: impl FnOnce() -> T + Send,
 ) -> Result<T, Diagnostic> {
-    let mut bytes = limits.stack();
+    on_stack(script_stack(limits, room()), limits, work)
+}
+
+/// Does `work` on a thread with a stack of so many bytes, or of fewer down to the least that calls within calls need.
+///
+/// # Errors
+/// When no thread can be started, or the work panics.
+pub fn on_stack<T: Send>(
+    mut bytes: usize,
+    limits: &Limits,
+    work: impl FnOnce() -> T + Send,
+) -> Result<T, Diagnostic> {
+    let least = limits.least_stack();
     let work = Mutex::new(Some(work));
     let take = || work.lock().ok().and_then(|mut work| work.take());
     thread::scope(|scope| {
@@ -24,7 +36,7 @@ pub fn on_large_stack<T: Send>(
             let thread = thread::Builder::new().name("script".into()).stack_size(bytes);
             match thread.spawn_scoped(scope, || take().map(caught)) {
                 Ok(running) => break running,
-                Err(_) if bytes > LEAST_STACK => bytes = (bytes / 2).max(LEAST_STACK),
+                Err(_) if bytes > least => bytes = (bytes / 2).max(least),
                 Err(error) => {
                     let told = format!("cannot start a thread for the script: {error}");
                     return Err(Diagnostic::general(told));
@@ -35,4 +47,72 @@ pub fn on_large_stack<T: Send>(
         let done = done.and_then(|done| done.ok_or("the work of a thread was done twice"));
         done.map_err(Diagnostic::bug)?.map_err(Diagnostic::bug)
     })
+}
+
+/// The number of workers beside the thread of a script, at most `most`, and the stack of each [bytes]; none where there is no address space for one.
+pub fn workers(limits: &Limits, most: usize) -> Option<(usize, usize)> {
+    worker_stacks(limits, most, room())
+}
+
+/// The address space that the process may still take [bytes]; none where it is not limited.
+fn room() -> Option<usize> {
+    #[cfg(unix)]
+    {
+        use nix::sys::resource::{RLIM_INFINITY, Resource, getrlimit};
+        let (limit, _) = getrlimit(Resource::RLIMIT_AS).ok()?;
+        let taken = memory_stats::memory_stats().map_or(0, |stats| stats.virtual_mem);
+        let limit = usize::try_from(limit).ok().filter(|_| limit != RLIM_INFINITY)?;
+        Some(limit.saturating_sub(taken))
+    }
+    #[cfg(not(unix))]
+    None
+}
+
+/// The stack of a script: a quarter of the address space, if that has not room for all that the limits allow.
+fn script_stack(limits: &Limits, room: Option<usize>) -> usize {
+    let whole = limits.stack();
+    match room.filter(|room| *room < whole.saturating_add(limits.address_space())) {
+        None => whole,
+        Some(room) => whole.min((room / 4).max(limits.least_stack())),
+    }
+}
+
+/// The workers of a script, and the stack of each: all together half of the address space, if that has not room for all that the limits allow.
+fn worker_stacks(limits: &Limits, most: usize, room: Option<usize>) -> Option<(usize, usize)> {
+    let (whole, least) = (limits.stack(), limits.least_stack());
+    let needed = whole.saturating_mul(most).saturating_add(limits.address_space());
+    match room.filter(|room| *room < needed) {
+        None => Some((most, whole)),
+        Some(room) => {
+            let count = (room / 2 / least).min(most);
+            (count > 0).then(|| (count, whole.min(room / 2 / count)))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stacks_leave_half_of_a_limited_address_space() {
+        let limits = Limits::default();
+        let whole = limits.stack();
+        assert_eq!(script_stack(&limits, None), whole);
+        assert_eq!(worker_stacks(&limits, 8, None), Some((8, whole)));
+        assert_eq!(script_stack(&limits, Some(1 << 40)), whole);
+        for room in [1 << 28, 1 << 29, 1 << 30, 1 << 31, 1 << 32, 1 << 33] {
+            let own = script_stack(&limits, Some(room));
+            assert!(own <= room / 2 && own >= limits.least_stack(), "{room}: {own}");
+            let left = room - own;
+            for most in [1, 2, 64] {
+                let Some((count, bytes)) = worker_stacks(&limits, most, Some(left)) else {
+                    assert!(left / 2 < limits.least_stack());
+                    continue;
+                };
+                assert!((1..=most).contains(&count) && bytes >= limits.least_stack());
+                assert!(count * bytes <= left / 2, "{room}: {count} of {bytes}");
+            }
+        }
+    }
 }

@@ -9,7 +9,7 @@ use rhai::{AST, CallFnOptions, Dynamic, Engine, FnPtr, Scope, Stmt};
 
 use super::parse::parse;
 use super::script_engine::ScriptEngine;
-use super::stack::on_large_stack;
+use super::stack::{on_stack, workers};
 use crate::panics::caught;
 use crate::script::bindings::catalog::Catalog;
 use crate::script::bindings::sources::Sources;
@@ -35,18 +35,22 @@ pub struct EngineConfig {
     limits: Limits,
     snapshots: usize,
     refusal: &'static str,
+    /// The number of workers, and the stack of each [bytes].
+    workers: (usize, usize),
 }
 
 impl EngineConfig {
-    /// Configuration of the engine of a run; `None` at the prompt, where there is no complete script. `refusal` is the message for
-    /// functions that try to write files.
+    /// The blueprint of the engine of a run; none where its script is not there as a whole, as at the prompt, or there is no address space for a worker. `refusal` says why a function may write no
+    /// files there.
     pub fn of(engine: &Engine, context: &Context, refusal: &'static str) -> Option<Self> {
         let catalog = Sources::of(engine).catalog()?;
         // Time and memory are supervised by the run itself for the whole process.
         let limits = Limits { time: None, memory: None, ..*context.meter().limits() };
         let program = context.program()?.clone();
         let snapshots = context.snapshots();
-        Some(Self { catalog: Catalog::clone(&catalog), program, limits, snapshots, refusal })
+        let workers = workers(&limits, cores())?;
+        let catalog = Catalog::clone(&catalog);
+        Some(Self { catalog, program, limits, snapshots, refusal, workers })
     }
 }
 
@@ -60,7 +64,7 @@ pub struct Worker {
 
 impl Worker {
     fn open(blueprint: &EngineConfig, interrupt: Arc<AtomicBool>) -> Result<Self, Diagnostic> {
-        let EngineConfig { catalog, program, limits, snapshots, refusal } = blueprint;
+        let EngineConfig { catalog, program, limits, snapshots, refusal, .. } = blueprint;
         let settings = RunSettings {
             folder: program.folder.clone(),
             limits: *limits,
@@ -204,7 +208,8 @@ pub fn with_crew<J: Send, R: Send, T>(
     drive: impl FnOnce(&WorkerPool<J, R>) -> T,
 ) -> Result<T, ScriptError> {
     let is_over = AtomicBool::new(false);
-    let posts: Vec<Post> = (0..cores()).map(|_| Post::default()).collect();
+    let (count, stack) = blueprint.workers;
+    let posts: Vec<Post> = (0..count).map(|_| Post::default()).collect();
     let (jobs, given) = mpsc::channel();
     let (done, results) = mpsc::channel();
     let given = Mutex::new(given);
@@ -235,7 +240,7 @@ pub fn with_crew<J: Send, R: Send, T>(
             let (done, labour, limits) = (done.clone(), &labour, blueprint.limits);
             let is_over = &is_over;
             scope.spawn(move || {
-                let ended = on_large_stack(&limits, || labour(post, done)).flatten();
+                let ended = on_stack(stack, &limits, || labour(post, done)).flatten();
                 // Errors of workers that are no longer needed are ignored.
                 if is_over.load(Ordering::Relaxed) { Ok(()) } else { ended }
             })

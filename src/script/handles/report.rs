@@ -74,10 +74,10 @@ impl Reporter for SimulationHandle {
         })
     }
 
-    fn remains(&self) -> Option<(String, String)> {
+    fn remains(&self, numbers: usize) -> Option<(String, String)> {
         let simulation = self.simulation();
         let table = (simulation.counts().steps > 0)
-            .then(|| history_table(self.name(), simulation.history()))?;
+            .then(|| history_table(self.name(), simulation.history()).thinned(numbers))?;
         let plain = |letter: char| if letter.is_alphanumeric() { letter } else { '-' };
         let name: String = self.name().chars().map(plain).collect();
         // Columns of a history have equal lengths, so the conversion succeeds.

@@ -8,12 +8,17 @@ pub trait Reporter {
     /// Returns the entry in the report, called when the run ends for any reason.
     fn report(&self) -> serde_json::Value;
 
-    /// Returns name and content of a file that rescues results if the script fails.
-    fn remains(&self) -> Option<(String, String)>;
+    /// A name and the content of a file that keeps what would be lost when the script does not come to its end: about so many numbers of it.
+    fn remains(&self, numbers: usize) -> Option<(String, String)>;
 }
 
 /// Maximum number of rescue files, so that a script with thousands of simulations ends soon after an interrupt.
 const MOST_REMAINS: usize = 20;
+
+/// Of all simulations together about so many numbers are written, which takes part of a second.
+const MOST_NUMBERS: usize = 1_000_000;
+/// The length of a number in a file, with what separates it from the next one [bytes].
+const LONGEST_NUMBER: u64 = 26;
 
 /// All reporters of a run.
 #[derive(Default)]
@@ -25,11 +30,14 @@ impl Reports {
         self.0.borrow_mut().push(reporter);
     }
 
-    /// Distinct names and contents of the rescue files of the first simulations of a run, and a note if there are more.
-    pub fn remains(&self) -> (Vec<(String, String)>, Option<String>) {
+    /// Names, each another one, and contents of the files that keep what would be lost of the first simulations of a run, in about so many bytes; and a
+    /// note where there are more.
+    pub fn remains(&self, bytes: u64) -> (Vec<(String, String)>, Option<String>) {
         let reporters = self.0.borrow();
+        let numbers = usize::try_from(bytes / LONGEST_NUMBER).unwrap_or(MOST_NUMBERS);
+        let numbers = numbers.min(MOST_NUMBERS) / reporters.len().clamp(1, MOST_REMAINS);
         let mut names = HashSet::new();
-        let mut remains = reporters.iter().filter_map(|reporter| reporter.remains());
+        let mut remains = reporters.iter().filter_map(|reporter| reporter.remains(numbers));
         let named = |(number, (name, content)): (usize, (String, String))| {
             let taken = names.contains(&name);
             let name = if taken { format!("{}-{name}", number + 1) } else { name };

@@ -106,6 +106,6 @@ fn record(call: &Call, holds: bool, detail: &str) {
         (true, true) => "the condition is false".to_owned(),
     };
     let message = brief(message);
-    call.context().tell(&format!("line {}: check failed: {message}", call.line()));
+    call.context().remark(&format!("line {}: check failed: {message}", call.line()));
     call.context().with_checks(|checks| checks.fail(FailedCheck { message, line: call.line() }));
 }

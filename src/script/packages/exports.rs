@@ -67,7 +67,8 @@ pub const TABLE: BindingTable = BindingTable {
             .doc(
                 "For a simulation or a history all columns are written; for an array of maps a \
                 row for each map and a column for each key, in alphabetical order, empty where \
-                the key is missing. All digits are kept. write_history adds a comment on the \
+                the key is missing. All digits are kept. A text that begins with = + - or @ gets an apostrophe, so that \
+                spreadsheets do not evaluate it. write_history adds a comment on the \
                 simulation and units in the column names.",
             )
             .example(

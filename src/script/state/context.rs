@@ -16,6 +16,7 @@ use super::files::OutputFolder;
 use super::journals::Journals;
 use super::limits::{INTERRUPT_HEARD, Meter};
 use super::settings::{RunMode, RunSettings, StudyPreferences};
+use crate::output::{printable, printable_in_colours};
 use crate::script::messages::checks::Checks;
 use crate::script::messages::error::ScriptError;
 use crate::script::messages::progress::Progress;
@@ -186,24 +187,35 @@ impl Context {
         self.0.pipe_closed.get()
     }
 
-    /// Prints a line of script output.
+    /// Prints a line for the script, as far as a terminal may see it.
     pub fn print(&self, text: &str) {
+        self.print_drawn(&printable(text));
+    }
+
+    /// Prints a line that may have colours of this program.
+    pub fn print_drawn(&self, text: &str) {
         if self.0.is_silent.get() || !self.meter().allows_to_write(text.len() as u64 + 1) {
             return;
         }
         self.0.progress.step_aside(&mut || {
+            let text = printable_in_colours(text);
             self.notice(writeln!(self.0.printed.borrow_mut(), "{text}"));
         });
     }
 
     /// Prints a message for the user that is not script output.
     pub fn tell(&self, text: &str) {
+        self.tell_drawn(&printable(text));
+    }
+
+    /// Tells the user something that may have colours of this program.
+    pub fn tell_drawn(&self, text: &str) {
         if self.0.is_silent.get() {
             return;
         }
         self.0.progress.step_aside(&mut || {
             // Errors are ignored; the exit code still reports the result.
-            let _ = writeln!(self.0.told.borrow_mut(), "{text}");
+            let _ = writeln!(self.0.told.borrow_mut(), "{}", printable_in_colours(text));
         });
     }
 
@@ -323,7 +335,7 @@ impl Context {
 
     /// Writes the rescue files of the simulations, after a script that failed.
     pub fn save_remains(&self) {
-        let (files, note) = self.0.reports.remains();
+        let (files, note) = self.0.reports.remains(self.meter().left_for_remains());
         for (name, content) in files {
             if let Err(ScriptError::Failure(failure)) =
                 self.write_remains(&name, content.as_bytes())

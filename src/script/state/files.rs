@@ -2,7 +2,7 @@
 //! followed, and only regular files are opened.
 
 use std::cell::{OnceCell, RefCell};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
@@ -22,6 +22,8 @@ pub struct OutputFolder {
     written: RefCell<Vec<PathBuf>>,
     /// Record of the files written by earlier runs, read before the first file is written.
     record: OnceCell<RefCell<WrittenFiles>>,
+    /// The folders from which what killed runs left was removed.
+    tidied: RefCell<HashSet<Option<PathBuf>>>,
     /// Files that a dry build would have written, for reading them again.
     pretended: RefCell<HashMap<PathBuf, Vec<u8>>>,
 }
@@ -43,6 +45,7 @@ impl OutputFolder {
             mode,
             written: RefCell::default(),
             record: OnceCell::new(),
+            tidied: RefCell::default(),
             pretended: RefCell::default(),
         }
     }
@@ -91,19 +94,34 @@ impl OutputFolder {
         let record = self.record.get_or_init(|| RefCell::new(WrittenFiles::of(&folder)));
         let mut record = record.borrow_mut();
         let path = Path::new(name);
-        let kept = match record.may_replace(&folder, name) {
-            true => None,
-            false => Some(folder.keep_as(path, |number| kept_name(path, number))?),
-        };
+        if self.tidied.borrow_mut().insert(path.parent().map(Path::to_owned)) {
+            folder.remove_abandoned(path);
+        }
         let mut written = None;
-        folder.write_whole_by(path, |file| {
+        let prepared = folder.prepare(path, |file| {
             let mut file = ChecksumWriter::new(BufWriter::new(file));
             write(&mut file)?;
             file.flush()?;
             written = Some(file.imprint());
             Ok(())
         })?;
+        // Whatever happens from here on, what stands there is known or kept.
+        let is_ours = record.may_replace(&folder, name);
         written.map_or(Ok(()), |written| record.note(&folder, name, written))?;
+        let kept = match is_ours {
+            true => None,
+            false => Some(folder.keep_as(path, |number| kept_name(path, number))?),
+        };
+        if let Err(error) = prepared.place() {
+            return Err(match &kept {
+                Some(kept) if folder.give_back(kept, path).is_err() => {
+                    let kept = self.folder.join(kept);
+                    let told = format!("{error}; what was there is kept as '{}'", kept.display());
+                    io::Error::new(error.kind(), told)
+                }
+                _ => error,
+            });
+        }
         Ok(kept.map(|kept| self.folder.join(kept)))
     }
 
@@ -336,6 +354,18 @@ mod tests {
             ["a.svg", "a.svg.kept", "a.svg.kept-2"].map(content),
             ["three", "theirs", "changed"]
         );
+    }
+
+    #[test]
+    fn a_file_of_somebody_else_keeps_its_name_where_nothing_can_be_written() {
+        let out = tempfile::tempdir().expect("a temporary folder");
+        let file = out.path().join("a.csv");
+        fs::write(&file, "theirs").expect("a file");
+        let output = OutputFolder::new(out.path().into(), PathBuf::from("."), RunMode::Run);
+        let full = |_: &mut dyn Write| Err(ErrorKind::StorageFull.into());
+        assert!(output.write_by("a.csv", full).is_err());
+        assert_eq!(fs::read_to_string(&file).expect("the file"), "theirs");
+        assert_eq!(fs::read_dir(out.path()).expect("the folder").count(), 1);
     }
 
     #[cfg(unix)]

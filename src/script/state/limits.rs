@@ -50,9 +50,22 @@ impl Limits {
     /// Nested closures are dropped recursively. A link of such a chain takes less stack than twice its memory, so the memory limit bounds
     /// the stack.
     pub fn stack(&self) -> usize {
+        LEAST_STACK + 2 * self.memory_or_default().min(LARGEST_FOR_VALUES)
+    }
+
+    /// Address space for the stack of as many calls within calls as are allowed [bytes].
+    pub fn least_stack(&self) -> usize {
+        LEAST_STACK / DEEPEST * self.depth.clamp(DEFAULT_DEPTH, DEEPEST)
+    }
+
+    /// Address space for the values of a script within these limits: what is let go is not given back at once [bytes].
+    pub fn address_space(&self) -> usize {
+        self.memory_or_default().saturating_mul(2)
+    }
+
+    fn memory_or_default(&self) -> usize {
         let memory = self.memory.unwrap_or(DEFAULT_MEGABYTES * MEGABYTE);
-        let memory = usize::try_from(memory).unwrap_or(LARGEST_FOR_VALUES);
-        LEAST_STACK + 2 * memory.min(LARGEST_FOR_VALUES)
+        usize::try_from(memory).unwrap_or(LARGEST_FOR_VALUES)
     }
 }
 
@@ -173,10 +186,23 @@ impl Meter {
 
     /// Counts output [bytes]; returns false if the limit is exceeded.
     pub fn allows_to_write(&self, bytes: u64) -> bool {
-        self.written.set(self.written.get().saturating_add(bytes));
-        let beyond = self.limits.written.filter(|limit| self.written.get() > *limit);
-        beyond.into_iter().for_each(|limit| self.stop(Stop::Written(limit)));
-        beyond.is_none()
+        let written = self.written.get().saturating_add(bytes);
+        match self.limits.written.filter(|limit| written > *limit) {
+            Some(limit) => {
+                self.stop(Stop::Written(limit));
+                false
+            }
+            None => {
+                self.written.set(written);
+                true
+            }
+        }
+    }
+
+    /// How much may be written of what would be lost of a run that was stopped: what is left, and a twentieth of the limit [bytes].
+    pub fn left_for_remains(&self) -> u64 {
+        let left = |limit: u64| (limit + limit / 20).saturating_sub(self.written.get());
+        self.limits.written.map_or(u64::MAX, left)
     }
 
     /// Counts a file and its bytes; returns false if a limit is exceeded.
@@ -271,6 +297,7 @@ mod tests {
         assert!(meter.allows_to_write(6) && meter.allows_a_file(4) && meter.passed().is_none());
         assert!(!meter.allows_to_write(1));
         assert_eq!(meter.passed(), Some(Stop::Written(10)));
+        assert_eq!(meter.left_for_remains(), 0);
         let _watchdog = meter.watch().unwrap();
         assert!(meter.allows_a_file(1) && meter.allows_a_file(1) && !meter.allows_a_file(1));
         assert_eq!(meter.passed(), Some(Stop::Files(2)));

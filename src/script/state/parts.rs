@@ -55,6 +55,9 @@ impl StudyPart {
     }
 }
 
+/// Most parts that are told to be missing, one by one.
+const MOST_TOLD: usize = 10;
+
 /// Files of all parts of a study in some folders, ordered by part.
 ///
 /// # Errors
@@ -96,15 +99,19 @@ pub fn find_parts(
         );
         return Err(ScriptError::new(told).hint("give only one of their folders"));
     }
-    let is_there = |number: &u32| found.iter().any(|(part, _)| part.number == *number);
-    let missing: Vec<String> =
-        (1..=of).filter(|number| !is_there(number)).map(|number| number.to_string()).collect();
-    match missing.as_slice() {
-        [] => Ok(found),
+    match of as usize - found.len() {
+        0 => Ok(found),
         missing => {
+            let is_there =
+                |number: u32| found.binary_search_by_key(&number, |(part, _)| part.number).is_ok();
+            let first = (1..=of).filter(|number| !is_there(*number)).take(MOST_TOLD);
+            let mut first: Vec<String> = first.map(|number| number.to_string()).collect();
+            if missing > MOST_TOLD {
+                first.push(format!("and {} more", missing - MOST_TOLD));
+            }
             let told = format!(
                 "of the {of} parts of the study '{study}' these are missing: {}",
-                missing.join(", ")
+                first.join(", ")
             );
             Err(ScriptError::new(told)
                 .hint("create them with the same command and --part, or add their folders"))
@@ -166,6 +173,9 @@ mod tests {
         assert_eq!(told(&["a", "b"]), "1 2 3");
         lay("c", 3, 3);
         assert!(told(&["a", "b", "c"]).contains("part 3 of 3 of the study 'crane' exists twice"));
+        lay("e", 1, 1_000_000_000);
+        let few = "these are missing: 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, and 999999989 more";
+        assert!(told(&["e"]).ends_with(few), "{}", told(&["e"]));
         lay("d", 1, 2);
         assert!(
             told(&["a", "b", "d"]).contains("is one of 3 parts, but others are of 2"),

@@ -12,11 +12,13 @@ use crate::script::messages::stop::Stop;
 
 const INTERVAL: Duration = Duration::from_millis(10);
 
-/// Time for a run to react to an exceeded limit, as a fraction of the time limit. The limit then holds within twice its value. The result
-/// is clamped to these bounds.
+/// How long a run has to hear of a limit that it has passed, of its own time on the processor: a part of the time allowed, so that the limit holds
+/// within twice its figure where the machine has nothing else to do, and within these bounds.
 const PATIENCE: f64 = 0.7;
 const LEAST_PATIENCE: Duration = Duration::from_millis(700);
 const MOST_PATIENCE: Duration = Duration::from_secs(5);
+/// So many times as long it has by the clock.
+const SHARE_OF_PROCESSOR: u32 = 10;
 
 /// Guard of a thread that supervises time and memory of a run; dropping it ends the thread.
 pub struct Watchdog {
@@ -44,14 +46,14 @@ impl Watchdog {
                     None => match first_passed(&limits, begun) {
                         Some((stop, word)) => {
                             alarm.store(word, Ordering::Relaxed);
-                            *passed.insert((stop, Instant::now()))
+                            *passed.insert((stop, Clocks::now()))
                         }
                         None => continue,
                     },
                 };
                 let Some(resort) = &resort else { return };
                 let grows = limits.memory.is_some_and(|limit| occupied() > limit + limit / 2);
-                if grows || since.elapsed() > patience(&limits) {
+                if grows || since.are_over(patience(&limits)) {
                     return resort(stop);
                 }
             }
@@ -59,6 +61,43 @@ impl Watchdog {
         let thread = thread::Builder::new().name("watchdog".into()).spawn(watch)?;
         Ok(Self { leash: Some(leash), thread: Some(thread) })
     }
+}
+
+/// A moment by the clock, and by the time that the process has had on the processor.
+#[derive(Clone, Copy)]
+struct Clocks {
+    wall: Instant,
+    processor: Option<Duration>,
+}
+
+impl Clocks {
+    fn now() -> Self {
+        Self { wall: Instant::now(), processor: processor_time() }
+    }
+
+    /// Whether so much time of the processor has passed since, or far more by the clock.
+    fn are_over(self, patience: Duration) -> bool {
+        let wall = self.wall.elapsed();
+        let had = || match (self.processor, processor_time()) {
+            (Some(before), Some(now)) => now.saturating_sub(before) > patience,
+            _ => true,
+        };
+        wall > patience * SHARE_OF_PROCESSOR || wall > patience && had()
+    }
+}
+
+/// The time that all threads of the process have had on the processor, where the system tells it.
+fn processor_time() -> Option<Duration> {
+    #[cfg(unix)]
+    {
+        use nix::sys::resource::{UsageWho, getrusage};
+        let used = getrusage(UsageWho::RUSAGE_SELF).ok()?;
+        let micros = [used.user_time(), used.system_time()]
+            .map(|time| time.tv_sec().unsigned_abs() * 1_000_000 + time.tv_usec().unsigned_abs());
+        Some(Duration::from_micros(micros.iter().sum()))
+    }
+    #[cfg(not(unix))]
+    None
 }
 
 fn first_passed(limits: &Limits, begun: Instant) -> Option<(Stop, u8)> {

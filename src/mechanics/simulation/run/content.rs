@@ -12,7 +12,7 @@ use crate::simulation::controller::StepSizeState;
 use crate::simulation::progress::StepTaken;
 use crate::simulation::step_retry::StepRetry;
 use crate::simulation::{Arrival, Recording, ReleaseEvent, Sample, SimulationSettings, WorkCounts};
-use crate::system::{Scene, SystemState};
+use crate::system::{Scene, SystemState, check_name};
 
 /// Bound of plausible counters and grid points.
 const MOST_COUNTED: usize = 1 << 52;
@@ -108,6 +108,7 @@ impl Simulation {
 
 impl Content<'_> {
     fn check(&self) -> Result<(), ArchiveError> {
+        check_name("simulation", &self.name).map_err(|error| refused(&error.to_string()))?;
         let Tolerance { force, strain, constraint, polish, iterations } = self.settings.tolerance;
         let are_tolerances = [force, strain, constraint, polish].iter().all(|x| *x >= 0.0);
         if !are_tolerances || iterations > MOST_ITERATIONS {

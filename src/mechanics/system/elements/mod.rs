@@ -41,7 +41,7 @@ pub use damping_law::DampingLaw;
 pub use drag::{Drag, Dragged};
 pub use drag_law::SpeedLaw;
 pub use drive::{Drive, DriveKind};
-pub use element::{AssemblyContext, Element, SceneChecks};
+pub use element::{AssemblyContext, Element, ElementDef, SceneChecks};
 pub use external_force::{ExternalForce, LoadAccount, TrialState, collocation};
 pub use internal_force::{InternalForce, SpringTrialState};
 pub use material_damping::MaterialDamping;

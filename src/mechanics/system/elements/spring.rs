@@ -93,12 +93,13 @@ impl ElementDef for Spring {
             }
         }
         self.expect_movement(setting)?;
-        if let DampingLaw::Linear(constant) = self.damping
-            && !(constant.is_finite() && constant >= 0.0)
-        {
-            return refused("damping", constant, "zero or a positive finite number");
+        match self.damping {
+            DampingLaw::Linear(constant) if !(constant.is_finite() && constant >= 0.0) => {
+                return refused("damping", constant, "zero or a positive finite number");
+            }
+            DampingLaw::Linear(_) => (),
+            DampingLaw::Curve(_) => self.check_damping(self.damping.corners())?,
         }
-        self.check_damping(self.damping.corners())?;
         if let Some(feeding) = self.damping.feeds() {
             let (damper, feeding) = (self.object(), feeding.to_string());
             return Err(SystemError::FeedingDamper { damper, feeding });
@@ -230,8 +231,8 @@ impl Spring {
         let refused =
             |value, allowed| SystemError::Value { object: self.object(), name, value, allowed };
         self.check_finite(name, points)?;
-        if points.len() == 1 {
-            return Err(refused(1.0, "at least two points"));
+        if points.len() < 2 {
+            return Err(refused(points.len() as f64, "at least two points"));
         }
         match falling_behind(points) {
             Some(index) => Err(refused(points[index].0, "rates that rise from point to point")),

@@ -114,12 +114,6 @@ pub enum SystemError {
         /// Reason.
         why: String,
     },
-    /// Name that is not usable for a column.
-    #[error("'{}' cannot be the name of a column: give it one without comma, quotation mark and line break", name.escape_debug())]
-    SensorName {
-        /// Rejected name.
-        name: String,
-    },
     /// Quantity that is recorded already.
     #[error("'{name}' is a column of the history already; give this one another name")]
     DuplicateSensor {

@@ -7,7 +7,7 @@ mod slider_error;
 mod track_error;
 
 pub use error::{SystemError, Turning, finite};
-pub use names::refusal;
+pub use names::{check_name, refusal};
 pub use numbers::{MOST, in_words, plural, rounded, written};
 pub use slider_error::{Approach, SliderError, SliderParts};
 pub use track_error::TrackError;

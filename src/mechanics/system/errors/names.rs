@@ -2,6 +2,10 @@
 
 use std::ops::RangeInclusive;
 
+use unicode_normalization::is_nfc;
+
+use super::SystemError;
+
 /// Largest number of characters of a name.
 const LONGEST: usize = 100;
 
@@ -47,6 +51,9 @@ pub fn refusal(name: &str) -> Option<&'static str> {
     if name.trim().is_empty() {
         return Some("it is empty");
     }
+    if name.trim() != name {
+        return Some("it begins or ends with a blank");
+    }
     if name.chars().count() > LONGEST {
         return Some("it has more than 100 characters");
     }
@@ -56,10 +63,26 @@ pub fn refusal(name: &str) -> Option<&'static str> {
     if name.chars().any(is_hidden) {
         return Some("it has characters that cannot be seen or told from others");
     }
+    if !is_nfc(name) {
+        return Some(
+            "a letter of it is written in parts that look like one character; write that character",
+        );
+    }
     let mut words = name.split(|letter: char| !letter.is_alphabetic());
     words
         .any(mixes_alphabets)
         .then_some("a word of it has letters of two alphabets that look alike")
+}
+
+/// Checks the name of something of a scene, or of what is made of one.
+///
+/// # Errors
+/// When nobody could read or type the name.
+pub fn check_name(kind: &'static str, name: &str) -> Result<(), SystemError> {
+    match refusal(name) {
+        Some(why) => Err(SystemError::Unnamed { kind, name: name.to_owned(), why }),
+        None => Ok(()),
+    }
 }
 
 fn mixes_alphabets(word: &str) -> bool {
@@ -87,8 +110,19 @@ mod tests {
 
     #[test]
     fn names_of_people_are_welcome() {
-        for name in ["mast", "beam 1", "Träger", "балка", "梁", "Δx", "EI_ξ", "a-b", "joint (left)"]
-        {
+        for name in [
+            "mast",
+            "beam 1",
+            "Träger",
+            "балка",
+            "梁",
+            "Δx",
+            "EI_ξ",
+            "a-b",
+            "joint (left)",
+            "caf\u{e9}",
+            "q\u{307}",
+        ] {
             assert_eq!(refusal(name), None, "{name}");
         }
     }
@@ -107,6 +141,10 @@ mod tests {
             "m\u{430}st",
             "ｂｅａｍ",
             "a\u{A0}b",
+            "mast ",
+            " mast",
+            "cafe\u{301}",
+            "\u{2126}",
             &long,
         ] {
             assert!(refusal(name).is_some(), "{name:?}");

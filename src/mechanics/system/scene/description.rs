@@ -13,7 +13,7 @@ use crate::joints::{Joint, JointKind, Partner, Release, Slider, Track};
 use crate::loads::{Load, Schedule};
 use crate::system::SystemError;
 use crate::system::elements::{Drive, Element, MaterialDamping, PointMass, SceneChecks, Spring};
-use crate::system::errors::{refusal, rounded};
+use crate::system::errors::{check_name, rounded};
 
 /// Beams, particles, rigid bodies, joints, masses and loads to be simulated.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -190,9 +190,7 @@ impl Scene {
         new: &'static str,
         name: &str,
     ) -> Result<(), SystemError> {
-        if let Some(why) = refusal(name) {
-            return Err(SystemError::Unnamed { kind: new, name: name.to_owned(), why });
-        }
+        check_name(new, name)?;
         match self.names().find(|(_, other)| *other == name) {
             Some((kind, _)) => Err(SystemError::DuplicateName { kind, new, name: name.to_owned() }),
             None => Ok(()),
@@ -231,7 +229,7 @@ impl Scene {
         station: Station,
         partner: Partner,
     ) -> Result<(), SystemError> {
-        let name = format!("{} at {}", kind.describe(&partner), self.describe(&station));
+        let name = self.name_of_new_joint(kind, &station, &partner);
         self.joints.push(Joint { name, kind, station, partner });
         check_ties(self).map_err(|error| {
             self.joints.pop();
@@ -242,6 +240,15 @@ impl Scene {
                 error => error,
             }
         })
+    }
+
+    pub(super) fn name_of_new_joint(
+        &self,
+        kind: JointKind,
+        station: &Station,
+        partner: &Partner,
+    ) -> String {
+        format!("{} at {}", kind.describe(partner), self.describe(station))
     }
 
     /// Adds a point mass at a station.

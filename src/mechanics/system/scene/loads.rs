@@ -38,7 +38,7 @@ impl Scene {
         }
     }
 
-    fn name_of_load(&self, kind: &LoadKind) -> String {
+    pub(super) fn name_of_load(&self, kind: &LoadKind) -> String {
         match kind {
             LoadKind::Force { station, .. } => format!("force at {}", self.describe(station)),
             LoadKind::Moment { station, .. } => format!("moment at {}", self.describe(station)),

@@ -5,7 +5,7 @@ use crate::beams::Station;
 use crate::geometry::Vec2;
 use crate::system::SystemError;
 use crate::system::elements::PointMass;
-use crate::system::errors::{finite, refusal};
+use crate::system::errors::{check_name, finite};
 
 /// Reserved name of the centre of mass in the scripting language.
 const CENTRE: &str = "centre";
@@ -55,9 +55,7 @@ impl Scene {
         finite(&object, "about", body.motion.about.as_ref().map_or(&[], |at| at.as_slice()))?;
         for (at, (name, place)) in body.points.iter().enumerate() {
             finite(&object, "point", place.as_slice())?;
-            if let Some(why) = refusal(name) {
-                return Err(SystemError::Unnamed { kind: "point", name: name.clone(), why });
-            }
+            check_name("point", name)?;
             if name == CENTRE && *place != Vec2::zeros() {
                 let (kind, why) = ("point", "the centre of mass of a body is called so");
                 return Err(SystemError::Unnamed { kind, name: name.clone(), why });

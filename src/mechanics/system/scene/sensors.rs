@@ -8,6 +8,10 @@ use super::Scene;
 use crate::beams::{BodyIndex, Station};
 use crate::joints::{Joint, JointKind, Partner};
 use crate::system::SystemError;
+use crate::system::errors::check_name;
+
+/// What a sensor is called in messages about its name.
+const COLUMN: &str = "column";
 
 /// Recorded quantity.
 #[derive(Debug, Clone, PartialEq)]
@@ -197,16 +201,18 @@ impl Scene {
     /// Adds a column that the caller fills after every row.
     ///
     /// # Errors
-    /// Fails if the column exists.
+    /// When there is a column of that name, or nobody could read or type it.
     pub fn record_outside(&mut self, name: &str) -> Result<(), SystemError> {
+        check_name(COLUMN, name)?;
         self.check_column(name)?;
         self.sensors.push(Sensor { name: name.to_owned(), probe: Probe::Outside });
         Ok(())
     }
 
     fn check_column(&self, name: &str) -> Result<(), SystemError> {
-        if name.trim().is_empty() || name.contains([',', '"', '\n', '\r']) {
-            return Err(SystemError::SensorName { name: name.to_owned() });
+        if name.contains([',', '"']) {
+            let why = "it has a comma or a quotation mark";
+            return Err(SystemError::Unnamed { kind: COLUMN, name: name.to_owned(), why });
         }
         match self.sensors.iter().any(|sensor| sensor.name == name) {
             true => Err(SystemError::DuplicateSensor { name: name.to_owned() }),
@@ -351,7 +357,7 @@ impl Scene {
                     (length, rest)
                 } else if let Some(inside) = rest.strip_prefix('[') {
                     let place = inside.split_once("].").and_then(|(number, rest)| {
-                        let number: f64 = number.trim().parse().ok()?;
+                        let number: f64 = number.trim_matches(' ').parse().ok()?;
                         (0.0..=length).contains(&number).then_some((number, rest))
                     });
                     place.ok_or_else(|| {

@@ -7,9 +7,10 @@ use super::{BeamDefinition, ParticleDefinition, RigidBodyDefinition, Scene, Stat
 use crate::beams::Station;
 use crate::geometry::Vec2;
 use crate::joints::{Joint, Partner, Release, Slider, Track};
+use crate::loads::Load;
 use crate::system::SystemError;
-use crate::system::elements::{Drive, Element, SceneChecks};
-use crate::system::errors::finite;
+use crate::system::elements::{Drive, Element, ElementDef, SceneChecks};
+use crate::system::errors::{check_name, finite};
 
 /// Largest number of sliders in a stored scene. The matrix of a step grows with its square.
 const MOST_SLIDERS: usize = 2000;
@@ -43,6 +44,7 @@ impl TryFrom<StoredScene> for Scene {
     type Error = SystemError;
 
     fn try_from(stored: StoredScene) -> Result<Self, SystemError> {
+        check_name("scene", &stored.name)?;
         let mut scene = Self::new(stored.name);
         for beam in stored.beams {
             let motion = beam.motion;
@@ -68,16 +70,18 @@ impl TryFrom<StoredScene> for Scene {
             scene.check_station("a station", station)?;
         }
         scene.stations = stored.stations;
-        for joint in &stored.joints {
-            scene.check_station("a joint", &joint.station)?;
-            if let Partner::Station(other) = &joint.partner {
+        for joint in stored.joints {
+            let Joint { kind, station, partner, .. } = joint;
+            scene.check_station("a joint", &station)?;
+            if let Partner::Station(other) = &partner {
                 scene.check_station("a joint", other)?;
             }
+            let name = scene.name_of_new_joint(kind, &station, &partner);
+            scene.joints.push(Joint { name, kind, station, partner });
         }
-        scene.joints = stored.joints;
         check_ties(&scene)?;
         for element in stored.elements {
-            scene.add_element(element)?;
+            scene.add_stored_element(element)?;
         }
         scene.check_count(
             stored.sliders.len(),
@@ -123,6 +127,24 @@ impl TryFrom<StoredScene> for Scene {
 }
 
 impl Scene {
+    /// Adds an element from a file. A name that follows from what it belongs to is made anew.
+    fn add_stored_element(&mut self, element: Element) -> Result<(), SystemError> {
+        match element {
+            Element::PointMass(mass) => self.add_mass(mass),
+            Element::Spring(spring) => self.add_spring(spring),
+            Element::Damping(damping) => self.add_damping(damping.beam, damping.relaxation),
+            Element::Drag(drag) => self.add_drag(drag),
+            Element::Load(load) => {
+                if let Some(title) = &load.title {
+                    self.check_name("load", title)?;
+                }
+                load.check(self)?;
+                let name = self.name_of_load(&load.kind);
+                self.add_element(Element::Load(Load { name, ..load }))
+            }
+        }
+    }
+
     fn check_count(
         &self,
         count: usize,

@@ -176,6 +176,11 @@ impl ParameterSet {
         parameters.iter().map(|of| (of.name.clone(), of.distance)).collect()
     }
 
+    /// The distance of the variants of a parameter, by its number.
+    pub fn distance(&self, parameter: usize) -> Option<f64> {
+        self.parameters.borrow().get(parameter).map(|of| of.distance)
+    }
+
     /// Index of a parameter by its name, from 0.
     pub fn number_of(&self, name: &str) -> Option<usize> {
         self.parameters.borrow().iter().position(|of| of.name == name)

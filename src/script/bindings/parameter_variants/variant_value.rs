@@ -66,7 +66,7 @@ impl VariantValue {
         if let Some(reason) = &self.lost {
             return Err(ScriptError::new(reason.to_string()));
         }
-        let distance = self.family.parameters().get(parameter).map_or(f64::NAN, |(_, by)| *by);
+        let distance = self.family.distance(parameter).unwrap_or(f64::NAN);
         let [plus, minus] = [self.at(1 + 2 * parameter), self.at(2 + 2 * parameter)];
         let per_unit = 0.5 / distance;
         if let (Some(plus), Some(minus)) = (as_number(&plus), as_number(&minus)) {

@@ -99,8 +99,14 @@ impl Context {
         written.path
     }
 
-    /// Rescue files are small and are written even beyond the limits.
+    /// Writes what would be lost of a run that was stopped, if there is room for it.
     pub(super) fn write_remains(&self, name: &str, content: &[u8]) -> Result<PathBuf, ScriptError> {
+        let bytes = content.len() as u64;
+        if self.mode() == RunMode::Run && bytes > self.meter().left_for_remains() {
+            let told = format!("note: '{name}' is not written: the run may write no more");
+            return Err(ScriptError::new(told));
+        }
+        self.meter().allows_to_write(bytes);
         self.output().write(name, content).map(|written| self.tell_kept(written))
     }
 }

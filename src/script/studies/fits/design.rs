@@ -69,6 +69,8 @@ pub struct BestDesign {
     pub results: Vec<(String, f64)>,
     /// True if the search converged within the number of runs.
     pub is_settled: bool,
+    /// The parameter without a bound that ran off, for the objective gets less and less there.
+    pub runaway: Option<usize>,
     /// Number of calls of the function.
     pub runs: usize,
     /// Description of the derivatives used.
@@ -288,6 +290,7 @@ impl DesignRequest<'_> {
             parameters: self.ranges.names.into_iter().zip(found.parameters).collect(),
             results: results.into_iter().zip(numbers).collect(),
             is_settled: found.is_settled,
+            runaway: found.runaway,
             runs: found.runs,
             derivatives: match (self.derivatives, found.without, found.gradient_runs) {
                 (Derivatives::Unknown, ..) => "none".into(),
@@ -318,6 +321,7 @@ impl DesignRequest<'_> {
             parameters,
             results: results.unwrap_or_default(),
             is_settled: true,
+            runaway: None,
             runs: 0,
             derivatives: "none".into(),
         })
@@ -327,7 +331,11 @@ impl DesignRequest<'_> {
 impl BestDesign {
     /// Design as a text table.
     pub fn text(&self) -> String {
-        let outcome = if self.is_settled { "settled" } else { "the most runs were made" };
+        let outcome = match self.runaway.map(|at| &self.parameters[at].0) {
+            Some(name) => format!("no least value: '{name}' has no bound and ran off,"),
+            None if self.is_settled => "settled".to_owned(),
+            None => "the most runs were made".to_owned(),
+        };
         let mut table = TextTable::new(&["", "value"]);
         for (name, value) in self.parameters.iter().chain(&self.results) {
             table.row([Cell::from(name.as_str()), Cell::Number(significant(*value, DIGITS))]);

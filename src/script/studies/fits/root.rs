@@ -3,6 +3,7 @@
 use rhai::Dynamic;
 
 use crate::fitting::{RootError, root};
+use crate::output::significant;
 use crate::script::bindings::call::Call;
 use crate::script::bindings::parameter_variants::VariantValue;
 use crate::script::messages::error::{CallPart, ScriptError};
@@ -49,6 +50,24 @@ pub fn find_root(call: &mut Call) -> Result<Dynamic, ScriptError> {
             Err(wrong(
                 format!("the function is {value} at {x}"),
                 "it must be finite between the two arguments",
+            ))
+        }
+        Err(RootError::Pole(x, value)) => {
+            let [x, value] = [x, value].map(|number| significant(number, 6));
+            Err(wrong(
+                format!(
+                    "the function has a pole near {x}: its sign changes there, and it is {value}"
+                ),
+                "give two places without a pole between them",
+            ))
+        }
+        Err(RootError::Unfinished(x, value)) => {
+            let [x, value] = [x, value].map(|number| significant(number, 6));
+            Err(wrong(
+                format!(
+                    "no root is found in 200 calls; the best place is {x}, where the function is {value}"
+                ),
+                "give places nearer to each other, or a larger tolerance",
             ))
         }
     }

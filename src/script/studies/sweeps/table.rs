@@ -8,8 +8,8 @@ use rhai::{Dynamic, Map};
 use super::design::SweepPlan;
 use crate::analysis::{Sweep, SweepColumn, SweptValues};
 use crate::output::{
-    Cell, DataColumn, DataTable, DataValues, NpzArchive, NpzArray, TextTable, format_number,
-    significant,
+    Cell, DataColumn, DataTable, DataValues, NpzArchive, NpzArray, TextTable, csv_cell,
+    format_number, significant,
 };
 
 /// Name of the column with the reasons of failures.
@@ -151,13 +151,14 @@ impl SweepTable {
         let sweep = self.sweep();
         let columns: Vec<_> = sweep.names().filter_map(|name| sweep.column(name)).collect();
         let mut writer = csv::Writer::from_writer(file);
-        writer.write_record(sweep.names().chain([FAILURE]))?;
+        writer
+            .write_record(sweep.names().chain([FAILURE]).map(|name| csv_cell(name).into_owned()))?;
         for row in self.rows() {
             let failure = sweep.results.failure(row);
             for column in &columns {
-                writer.write_field(exact(*column, row))?;
+                writer.write_field(&*csv_cell(&exact(*column, row)))?;
             }
-            writer.write_field(failure.unwrap_or_default())?;
+            writer.write_field(&*csv_cell(failure.unwrap_or_default()))?;
             writer.write_record(None::<&[u8]>)?;
         }
         writer.flush()

@@ -1,0 +1,79 @@
+//! Text that is safe to write to a terminal, whoever wrote it.
+
+use std::borrow::Cow;
+
+/// The sign that stands where a character was that must not reach a terminal.
+const REPLACEMENT: char = '\u{fffd}';
+
+/// The text with a replacement sign for every character that a terminal obeys or hides: control characters such as the beginning of an escape
+/// sequence, marks of writing direction, and characters without width. Line breaks and tabs stay, and the number of characters.
+pub fn printable(text: &str) -> Cow<'_, str> {
+    let is_harmful = |(at, letter): (usize, char)| is_harmful(letter) && !is_line_break(text, at);
+    if !text.char_indices().any(is_harmful) {
+        return Cow::Borrowed(text);
+    }
+    let safe = |at: (usize, char)| if is_harmful(at) { REPLACEMENT } else { at.1 };
+    Cow::Owned(text.char_indices().map(safe).collect())
+}
+
+/// The same for a text with colours: sequences of the form `ESC[1;31m` stay.
+pub fn printable_in_colours(text: &str) -> Cow<'_, str> {
+    let mut pieces = text.split("\x1b[");
+    let Some(first) = pieces.next().filter(|first| first.len() < text.len()) else {
+        return printable(text);
+    };
+    let mut safe = printable(first).into_owned();
+    for piece in pieces {
+        let numbers = piece.find(|letter: char| !letter.is_ascii_digit() && letter != ';');
+        let is_colour = numbers.is_some_and(|end| piece[end..].starts_with('m'));
+        safe.push(if is_colour { '\x1b' } else { REPLACEMENT });
+        safe.push('[');
+        safe.push_str(&printable(piece));
+    }
+    Cow::Owned(safe)
+}
+
+/// The text on one line, safe for a terminal: line breaks and tabs become blanks.
+pub fn printable_line(text: &str) -> String {
+    printable(&text.replace(['\n', '\r', '\t'], " ")).into_owned()
+}
+
+fn is_harmful(letter: char) -> bool {
+    match letter {
+        '\n' | '\t' => false,
+        '\u{ad}' | '\u{61c}' | '\u{180e}' | '\u{feff}' => true,
+        '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' => true,
+        '\u{fff9}'..='\u{fffb}' | '\u{e0000}'..='\u{e007f}' => true,
+        letter => letter.is_control(),
+    }
+}
+
+/// Whether the character at a place is the first of a line break of two.
+fn is_line_break(text: &str, at: usize) -> bool {
+    text[at..].starts_with("\r\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_terminal_obeys_or_hides_is_replaced() {
+        assert_eq!(printable("a\x1b]0;title\x07b"), "a\u{fffd}]0;title\u{fffd}b");
+        assert_eq!(printable("good\rbad\u{9b}2J"), "good\u{fffd}bad\u{fffd}2J");
+        assert_eq!(printable("x\u{202e}y\u{200b}z"), "x\u{fffd}y\u{fffd}z");
+        assert_eq!(printable("a\x1b[31mb"), "a\u{fffd}[31mb");
+        for text in ["Träger\t梁\n", "two\r\nlines", ""] {
+            assert_eq!(printable(text), text);
+        }
+        assert_eq!(printable_line("a\nb\tc\x1b"), "a b c\u{fffd}");
+    }
+
+    #[test]
+    fn colours_stay_where_they_are_wanted() {
+        let text = "\x1b[1;31merror\x1b[0m: \x1b[2J\x1b]0;t\x07\x1b[";
+        let safe = "\x1b[1;31merror\x1b[0m: \u{fffd}[2J\u{fffd}]0;t\u{fffd}\u{fffd}[";
+        assert_eq!(printable_in_colours(text), safe);
+        assert_eq!(printable_in_colours("plain\r"), "plain\u{fffd}");
+    }
+}

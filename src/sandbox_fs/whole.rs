@@ -1,0 +1,222 @@
+//! Files that are on the disk as a whole or not at all, and those that are kept by another name.
+
+use std::ffi::{OsStr, OsString};
+use std::fs;
+use std::io::{self, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Duration;
+
+use super::folder::Folder;
+use super::reading;
+
+/// So many names are tried for a file that is not complete yet.
+pub(super) const TRIES: usize = 100;
+
+/// A file that is not complete and was not changed for so long is abandoned, if nobody holds its lock: it has none in its first moment.
+const ABANDONED: Duration = Duration::from_secs(60);
+
+/// A file that is complete and on the disk, under a hidden name. It is removed unless it is [placed](Self::place).
+#[derive(Debug)]
+pub struct Prepared {
+    folder: Folder,
+    partial: OsString,
+    name: OsString,
+}
+
+impl Prepared {
+    /// Gives the file its name, which lasts through a loss of power. What has the name is replaced.
+    ///
+    /// # Errors
+    /// When it cannot be renamed; nothing has changed then.
+    pub fn place(self) -> io::Result<()> {
+        self.folder.0.rename(&self.partial, &self.folder.0, &self.name)?;
+        self.folder.sync()
+    }
+}
+
+impl Drop for Prepared {
+    fn drop(&mut self) {
+        // Once it is placed there is nothing to remove.
+        let _ = self.folder.0.remove_file(&self.partial);
+    }
+}
+
+impl Folder {
+    /// Writes a file below this folder: whole, and lasting through a loss of power, or not at all. What has its name is replaced,
+    /// not followed, if it is a file or a link; folders on the way are made.
+    ///
+    /// # Errors
+    /// When it cannot be written, or a folder, a pipe or a device has its name; nothing has changed then.
+    pub fn write_whole(&self, name: &Path, bytes: &[u8]) -> io::Result<()> {
+        self.prepare(name, |file| file.write_all(bytes))?.place()
+    }
+
+    /// Writes a file piece by piece, whatever `write` puts into it, and gives it its name later: until then what has that name stays.
+    ///
+    /// # Errors
+    /// As of [`write_whole`](Self::write_whole); also those of `write`.
+    pub fn prepare(
+        &self,
+        name: &Path,
+        write: impl FnOnce(&mut fs::File) -> io::Result<()>,
+    ) -> io::Result<Prepared> {
+        let (folder, name) = self.parent_of(name, Self::enter_or_make)?;
+        if let Ok(about) = folder.0.symlink_metadata(name)
+            && !about.is_symlink()
+        {
+            reading::expect_ordinary(about.is_file())?;
+        }
+        let (mut file, partial) = folder.create_partial(name)?;
+        // From here on it is removed when something goes wrong.
+        let prepared = Prepared { folder, partial, name: name.to_owned() };
+        write(&mut file)?;
+        file.sync_all()?;
+        Ok(prepared)
+    }
+
+    /// A new hidden file beside `name`, with a lock as long as it is open.
+    fn create_partial(&self, name: &OsStr) -> io::Result<(fs::File, OsString)> {
+        static COUNTER: AtomicU64 = AtomicU64::new(0);
+        let mut tries = TRIES;
+        loop {
+            tries -= 1;
+            let count = COUNTER.fetch_add(1, Ordering::Relaxed);
+            let mut partial = OsString::from(".");
+            partial.push(name);
+            partial.push(format!(".{}-{count}.part", std::process::id()));
+            match self.create_here(&partial) {
+                Ok(file) => {
+                    // Where there are no locks, nothing counts as abandoned.
+                    let _ = file.try_lock();
+                    return Ok((file, partial));
+                }
+                Err(error) if error.kind() == ErrorKind::AlreadyExists && tries > 0 => (),
+                Err(error) => return Err(error),
+            }
+        }
+    }
+
+    /// Removes what was left of files beside `name` that were never complete, because the program that wrote them was killed.
+    pub fn remove_abandoned(&self, name: &Path) {
+        let Ok((folder, _)) = self.parent_of(name, Self::enter) else { return };
+        for entry in folder.entries().unwrap_or_default() {
+            let is_old = || {
+                let age = entry.changed.and_then(|changed| changed.elapsed().ok());
+                age.is_some_and(|age| age > ABANDONED)
+            };
+            let name = Path::new(&entry.name);
+            if is_partial(&entry.name) && is_old() && folder.is_let_go(name).unwrap_or(false) {
+                // Whoever else has removed it has done the same.
+                let _ = folder.remove(name);
+            }
+        }
+    }
+
+    /// Gives a file below this folder a new name, which nothing else may have.
+    ///
+    /// # Errors
+    /// When it cannot be renamed.
+    pub fn keep_as(&self, name: &Path, free: impl Fn(usize) -> PathBuf) -> io::Result<PathBuf> {
+        let (folder, own) = self.parent_of(name, Self::enter)?;
+        for number in 1..TRIES * TRIES {
+            let new = free(number);
+            let Some(kept) = new.file_name() else { break };
+            // Made first, so that nobody's file is replaced.
+            match folder.create_here(kept) {
+                Ok(_) => {
+                    folder.0.rename(own, &folder.0, kept)?;
+                    folder.sync()?;
+                    return Ok(new);
+                }
+                Err(error) if error.kind() == ErrorKind::AlreadyExists => (),
+                Err(error) => return Err(error),
+            }
+        }
+        Err(io::Error::new(ErrorKind::AlreadyExists, "there is no free name to keep it by"))
+    }
+
+    /// Gives a file that was kept by another name its own name back, unless something else has it by now.
+    ///
+    /// # Errors
+    /// When it cannot be renamed.
+    pub fn give_back(&self, kept: &Path, name: &Path) -> io::Result<()> {
+        let (folder, own) = self.parent_of(name, Self::enter)?;
+        let (_, kept) = self.parent_of(kept, Self::enter)?;
+        match folder.0.symlink_metadata(own) {
+            Ok(_) => Err(ErrorKind::AlreadyExists.into()),
+            Err(_) => folder.0.rename(kept, &folder.0, own),
+        }
+    }
+}
+
+/// Whether a name is that of a file that was not complete: `.NAME.PROCESS-COUNT.part`.
+fn is_partial(name: &OsStr) -> bool {
+    let middle = || name.to_str()?.strip_prefix('.')?.strip_suffix(".part")?.rsplit_once('.');
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    let numbers = middle().and_then(|(_, numbers)| numbers.split_once('-'));
+    numbers.is_some_and(|(process, count)| is_number(process) && is_number(count))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::SystemTime;
+
+    #[test]
+    fn a_file_that_is_not_placed_leaves_nothing_and_changes_nothing() {
+        let home = tempfile::tempdir().unwrap();
+        let folder = Folder::open(home.path()).unwrap();
+        folder.write_whole(Path::new("a"), b"old").unwrap();
+        drop(folder.prepare(Path::new("a"), |file| file.write_all(b"new")).unwrap());
+        let full = |_: &mut fs::File| Err(ErrorKind::StorageFull.into());
+        assert!(folder.prepare(Path::new("a"), full).is_err());
+        assert_eq!(folder.entries().unwrap().len(), 1);
+        assert_eq!(fs::read(home.path().join("a")).unwrap(), b"old");
+        folder.prepare(Path::new("a"), |file| file.write_all(b"new")).unwrap().place().unwrap();
+        assert_eq!(fs::read(home.path().join("a")).unwrap(), b"new");
+    }
+
+    #[test]
+    fn what_a_killed_program_left_is_removed_and_nothing_else() {
+        let home = tempfile::tempdir().unwrap();
+        let folder = Folder::open(home.path()).unwrap();
+        let long_ago = SystemTime::now() - 2 * ABANDONED;
+        let lay = |name: &str, changed| {
+            let file = fs::File::create(home.path().join(name)).unwrap();
+            file.set_modified(changed).unwrap();
+            file
+        };
+        let held = lay(".b.csv.17-1.part", long_ago);
+        held.lock().unwrap();
+        for name in [".a.csv.17-0.part", "a.csv", ".a.part", "sw.1-of-4.part", ".sw.1-of-4.part"] {
+            lay(name, long_ago);
+        }
+        lay(".c.csv.17-2.part", SystemTime::now());
+        folder.remove_abandoned(Path::new("a.csv"));
+        let left: Vec<_> = folder.entries().unwrap().into_iter().map(|entry| entry.name).collect();
+        let others = [
+            ".a.part",
+            ".b.csv.17-1.part",
+            ".c.csv.17-2.part",
+            ".sw.1-of-4.part",
+            "a.csv",
+            "sw.1-of-4.part",
+        ];
+        assert_eq!(left, others);
+    }
+
+    #[test]
+    fn a_kept_file_gets_its_name_back_unless_it_is_taken() {
+        let home = tempfile::tempdir().unwrap();
+        let folder = Folder::open(home.path()).unwrap();
+        folder.write_whole(Path::new("a"), b"theirs").unwrap();
+        let kept = folder.keep_as(Path::new("a"), |number| format!("a.{number}").into()).unwrap();
+        folder.give_back(&kept, Path::new("a")).unwrap();
+        assert_eq!(fs::read(home.path().join("a")).unwrap(), b"theirs");
+        let kept = folder.keep_as(Path::new("a"), |number| format!("a.{number}").into()).unwrap();
+        folder.write_whole(Path::new("a"), b"new").unwrap();
+        assert!(folder.give_back(&kept, Path::new("a")).is_err());
+        assert_eq!(fs::read(home.path().join("a")).unwrap(), b"new");
+    }
+}
