@@ -1,4 +1,4 @@
-//! Quadrature points for `Γ` in lanes: axial and shear strain, and the section force as an unknown of its own.
+//! Quadrature points for `Γ` in lanes: axial and shear strain, and the section force as an independent unknown.
 //!
 //! With `Δg = Σ N_a' Δx_a`, `Δω = Σ N_a Δω_a`, `1/q = dΔθ/dΔω` and `C = diag(EA, GA)`:
 //!

@@ -1,4 +1,4 @@
-//! Quadrature points for the curvature `κ` in lanes, with the moment as an unknown of its own.
+//! Quadrature points for the curvature `κ` in lanes, with the moment as an independent unknown.
 //!
 //! ```text
 //! κ1 = κ0 + Δω'/q     1/q = dΔθ/dΔω     M = EI ((1-σ) κ0 + σ κ1)     S_a = w N_a' M/q

@@ -1,6 +1,6 @@
 //! Drag at a point of a body in a step.
 //!
-//! The force is an unknown of its own, in components across and along the line. A force computed from velocities would carry `c` times their
+//! The force is an independent unknown, in components across and along the line. A force computed from velocities would carry `c` times their
 //! rounding, which under strong drag or wind exceeds the forces that it balances.
 
 use super::drag_law::{DragLaw, DragResponse, in_space};

@@ -1,4 +1,4 @@
-//! Force of an element as an unknown of its own.
+//! Force of an element as an independent unknown.
 
 use crate::geometry::larger;
 

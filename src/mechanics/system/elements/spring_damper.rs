@@ -1,4 +1,4 @@
-//! Springs and dampers in a step: forces along an elongation, as unknowns of their own.
+//! Springs and dampers in a step: forces along an elongation, as independent unknowns.
 //!
 //! ```text
 //! energy–momentum      F = ΔU/Δq + d(Δq/Δt)  along the secant: F Δq = ΔU + D, opposite at both ends
