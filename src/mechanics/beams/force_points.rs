@@ -82,7 +82,6 @@ impl<const N: usize> Default for ForceTangent<N> {
 }
 
 impl<const N: usize> ForcePoints<N> {
-    /// Combines points into lanes, with the first control points of their spans.
     pub(super) fn side_by_side(points: [&ForcePoint<N>; LANES], first: [usize; LANES]) -> Self {
         let (none, rotation) = (Pair::default(), Rotation::default());
         let undeformed = StrainKinematics {
@@ -355,7 +354,6 @@ impl<const N: usize> ForcePoints<N> {
         self.strain.put(part, strain_of(rotation, gradient));
     }
 
-    /// Movements of the control points of each lane.
     #[inline(always)]
     pub(super) fn windows<'a>(&self, movements: &'a [Movement]) -> Windows<'a, N> {
         self.axis.windows(movements)

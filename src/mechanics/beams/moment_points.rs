@@ -79,7 +79,6 @@ impl<const N: usize> Default for MomentTangent<N> {
 }
 
 impl<const N: usize> MomentPoints<N> {
-    /// Combines points into lanes, with the first control points of their spans.
     pub(super) fn side_by_side(points: [&MomentPoint<N>; LANES], first: [usize; LANES]) -> Self {
         let none = Lanes::default();
         let mut side_by_side = Self {
@@ -264,7 +263,6 @@ impl<const N: usize> MomentPoints<N> {
         self.curvature.put(part, self.curvature.get(part) + change);
     }
 
-    /// Movements of the control points of each lane.
     #[inline(always)]
     pub(super) fn windows<'a>(&self, movements: &'a [Movement]) -> Windows<'a, N> {
         self.axis.windows(movements)

@@ -62,7 +62,6 @@ pub struct SpringDamper {
 }
 
 impl SpringDamper {
-    /// Creates a spring with a law and its origin, a damper, or both along an elongation.
     pub fn new(
         name: String,
         elongation: Elongation,

@@ -61,7 +61,6 @@ pub struct KinkedAxis {
 }
 
 impl KinkedAxis {
-    /// Creates the axis of a master of a length as drawn without a contact force.
     pub fn new(kink: MasterKink, length: f64, section: &Section) -> Self {
         let compliance = 1.0 / section.shear_stiffness;
         Self {
@@ -132,8 +131,6 @@ impl KinkedAxis {
         self.stretch = passage.at_end(&self.arc)[1];
     }
 
-    /// Accepts jump, as a force [force], and speed [length/time] at the end of a step with a mean contact force `λ` [force], after
-    /// [arrive](Self::arrive). On a rigid axis the force is the mean of the step.
     pub fn advance(&mut self, mean: Vec2, KinkState { jump, speed }: KinkState) {
         self.jump = if self.gives() { jump } else { mean };
         self.speed = speed;
