@@ -131,6 +131,8 @@ impl KinkedAxis {
         self.stretch = passage.at_end(&self.arc)[1];
     }
 
+    /// Accepts jump, as a force [force], and speed [length/time] at the end of a step with a mean contact force `λ` [force], after
+    /// [arrive](Self::arrive). On a rigid axis the force is the mean of the step.
     pub fn advance(&mut self, mean: Vec2, KinkState { jump, speed }: KinkState) {
         self.jump = if self.gives() { jump } else { mean };
         self.speed = speed;
