@@ -32,7 +32,7 @@ pub struct TrackPath {
     leg: usize,
     /// Number of passages from the last beam of a closed track to the first, minus those back.
     turns: f64,
-    /// Time of the last passage of a seam; [`NEVER`](super::sliding::NEVER) before the first [time].
+    /// Time of the last passage of a seam; [`NEVER`](super::slider_contact::NEVER) before the first [time].
     pub passed_at: f64,
 }
 
