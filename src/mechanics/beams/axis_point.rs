@@ -34,7 +34,6 @@ pub(super) struct AxisPoints<const N: usize> {
 }
 
 impl<const N: usize> AxisPoints<N> {
-    /// Combines points into lanes, with the first control points of their spans.
     pub(super) fn side_by_side(points: [&AxisPoint<N>; LANES], first: [usize; LANES]) -> Self {
         let none = Lanes::default();
         let mut axis = Self { shape: [none; N], slope: [none; N], weight: none, first };
@@ -56,7 +55,6 @@ impl<const N: usize> AxisPoints<N> {
         }
     }
 
-    /// Movements of the control points of each lane.
     #[inline(always)]
     pub(super) fn windows<'a>(&self, movements: &'a [Movement]) -> Windows<'a, N> {
         let mut windows = [window(movements, self.first[0]); LANES];

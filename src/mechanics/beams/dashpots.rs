@@ -4,8 +4,7 @@
 //! N = C τ ΔΓ/Δt      ΔΓ = Λ̄ᵀ (Δx' - Δω J x̄')      M = EI τ Δκ/Δt      D = Σ w (N·ΔΓ + M Δκ) ≥ 0
 //! ```
 //!
-//! They are separate from the points for `Γ` and `κ`, so undamped beams have no overhead. Their forces are unknowns of their own, like section
-//! forces.
+//! They are separate from the points for `Γ` and `κ`, so undamped beams have no overhead. Their forces are independent unknowns, like section forces.
 
 use serde::{Deserialize, Serialize};
 
@@ -294,6 +293,7 @@ impl Dashpots {
         (force, moment)
     }
 
+    /// Appends the state at the start of a step to `state`.
     pub fn save(&self, state: &mut Vec<f64>) {
         self.watch.save(state);
         for span in &self.spans {
@@ -302,6 +302,7 @@ impl Dashpots {
         }
     }
 
+    /// Restores the state, in the order in which it was appended.
     pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         self.watch.restore(next);
         for span in &mut self.spans {

@@ -33,7 +33,6 @@ impl<const N: usize> ForcePoint<N> {
         last_force: Vec2::new(0.0, 0.0),
     };
 
-    /// Creates a quadrature point for axial and shear strain at a point of the undeformed axis with its unit tangent.
     pub(super) fn new((axis, tangent): (AxisPoint<N>, Vec2)) -> Self {
         Self {
             axis,

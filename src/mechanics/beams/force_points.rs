@@ -1,4 +1,4 @@
-//! Quadrature points for `Γ` in lanes: axial and shear strain, and the section force as an unknown of its own.
+//! Quadrature points for `Γ` in lanes: axial and shear strain, and the section force as an independent unknown.
 //!
 //! With `Δg = Σ N_a' Δx_a`, `Δω = Σ N_a Δω_a`, `1/q = dΔθ/dΔω` and `C = diag(EA, GA)`:
 //!
@@ -82,7 +82,6 @@ impl<const N: usize> Default for ForceTangent<N> {
 }
 
 impl<const N: usize> ForcePoints<N> {
-    /// Combines points into lanes, with the first control points of their spans.
     pub(super) fn side_by_side(points: [&ForcePoint<N>; LANES], first: [usize; LANES]) -> Self {
         let (none, rotation) = (Pair::default(), Rotation::default());
         let undeformed = StrainKinematics {
@@ -355,7 +354,6 @@ impl<const N: usize> ForcePoints<N> {
         self.strain.put(part, strain_of(rotation, gradient));
     }
 
-    /// Movements of the control points of each lane.
     #[inline(always)]
     pub(super) fn windows<'a>(&self, movements: &'a [Movement]) -> Windows<'a, N> {
         self.axis.windows(movements)

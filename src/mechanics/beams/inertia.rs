@@ -24,7 +24,6 @@ pub(super) struct InertiaMatrix<const N: usize, I> {
 }
 
 impl<const N: usize, I: MassIntegral> InertiaMatrix<N, I> {
-    /// Creates the inertia matrix of a beam from the integrals `∫ N_a N_{a+k} dX` for k = 0 … N-1.
     pub(super) fn new(gram: Vec<[I; N]>, section: Section) -> Self {
         let diagonal = |k: usize| gram.iter().flat_map(|row| row[k].weights()).collect();
         let shares = gram.iter().flat_map(|_| I::shares(&section)).collect();

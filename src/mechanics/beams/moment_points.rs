@@ -1,4 +1,4 @@
-//! Quadrature points for the curvature `κ` in lanes, with the moment as an unknown of its own.
+//! Quadrature points for the curvature `κ` in lanes, with the moment as an independent unknown.
 //!
 //! ```text
 //! κ1 = κ0 + Δω'/q     1/q = dΔθ/dΔω     M = EI ((1-σ) κ0 + σ κ1)     S_a = w N_a' M/q
@@ -79,7 +79,6 @@ impl<const N: usize> Default for MomentTangent<N> {
 }
 
 impl<const N: usize> MomentPoints<N> {
-    /// Combines points into lanes, with the first control points of their spans.
     pub(super) fn side_by_side(points: [&MomentPoint<N>; LANES], first: [usize; LANES]) -> Self {
         let none = Lanes::default();
         let mut side_by_side = Self {
@@ -264,7 +263,6 @@ impl<const N: usize> MomentPoints<N> {
         self.curvature.put(part, self.curvature.get(part) + change);
     }
 
-    /// Movements of the control points of each lane.
     #[inline(always)]
     pub(super) fn windows<'a>(&self, movements: &'a [Movement]) -> Windows<'a, N> {
         self.axis.windows(movements)

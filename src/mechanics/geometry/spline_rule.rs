@@ -215,7 +215,7 @@ fn derivative_weights(basis: &Basis, run: &[Span], points: &[Vec<f64>]) -> Optio
             number += 1;
         }
     }
-    // Every point must lie in the support of its own spline (Schoenberg & Whitney 1953).
+    // Every point must lie in the support of its spline (Schoenberg & Whitney 1953).
     let has_own = |(at, row): (usize, &CollocationRow<f64>)| {
         (row.first..row.first + row.entries.len()).contains(&at)
     };

@@ -268,7 +268,6 @@ impl StepSolver {
         mechanism.add_inertia(1.0, &self.rates, &mut self.carried);
     }
 
-    /// Accepts the increments of the step, with the rates `v1 = 2 u/Δt - v0` at its end.
     pub(super) fn correct(&mut self, mechanism: &mut dyn Mechanism, interval: Interval) {
         let twice_inverse = 2.0 / interval.duration();
         self.accept(mechanism, |_, v0, d| v0 + twice_inverse * d);

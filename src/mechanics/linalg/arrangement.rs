@@ -28,7 +28,6 @@ pub(super) struct Arrangement {
 }
 
 impl Arrangement {
-    /// Creates the order of the band, for blocks that touch nothing yet.
     pub(super) fn new(size: usize, layout: BlockLayout) -> Self {
         let blocks = layout.own.len();
         let mut new = Self {

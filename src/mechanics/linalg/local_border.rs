@@ -56,7 +56,6 @@ pub(super) struct LocalLu<'a> {
 }
 
 impl LocalBorder {
-    /// Creates an empty border beside a band of `size` unknowns.
     pub(super) fn zeros(size: usize, half_bandwidth: usize, layout: BlockLayout) -> Self {
         let entries = layout.block_entries;
         let blocks: Vec<_> =

@@ -50,7 +50,6 @@ struct Ordered<'a> {
 }
 
 impl Together {
-    /// Creates a matrix of `size` rows, of which the last `full` are dense.
     pub(super) fn new(size: usize, full: usize) -> Self {
         Self {
             size: size - full,

@@ -216,7 +216,6 @@ impl Newton {
     }
 }
 
-/// Corrects `u` and the internal unknowns for a condensed residual. Leaves the new residual and returns its norms.
 fn correct(
     equations: &mut impl Equations,
     factors: &mut BorderedLu<'_>,

@@ -43,7 +43,6 @@ fn order_of(method: Method, scene: &Scene) -> u32 {
 }
 
 impl Adaptive {
-    /// Creates the step control for a scene at its start.
     pub(super) fn new(
         control: &StepControl,
         method: Method,

@@ -53,7 +53,6 @@ pub(super) struct FailedStep {
 }
 
 impl StepDoubling {
-    /// Creates the estimate for order `p`, a length scale and an allowed error.
     pub(super) fn new(order: u32, length: f64, allowed: f64) -> Self {
         let allowed = (whole_power(2.0, order as i32) - 1.0) * allowed;
         Self { length, allowed, ..Self::default() }

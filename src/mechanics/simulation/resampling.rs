@@ -56,7 +56,6 @@ impl Resampling {
         &mut self.middle
     }
 
-    /// Returns true if a step is paused in its middle.
     pub(super) fn is_half_way(&self) -> bool {
         self.under_way.is_some()
     }

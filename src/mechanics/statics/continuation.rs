@@ -50,7 +50,6 @@ pub(super) struct Continuation<'s> {
 
 struct PathDirection {
     movements: Vec<f64>,
-    /// Number of directions with negative stiffness.
     falls: usize,
 }
 

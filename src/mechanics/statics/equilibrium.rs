@@ -233,7 +233,6 @@ fn prepare(scene: &Scene, loading: &Loading) -> Result<System, StaticsError> {
     }
 }
 
-/// Returns true if the model without loads is balanced as drawn, which strained springs may prevent.
 fn is_at_ease(model: &mut System) -> bool {
     if !model.is_strung() {
         return true;

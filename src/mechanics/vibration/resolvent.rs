@@ -40,7 +40,7 @@ const SPARE: f64 = 1e-12;
 /// Relative offset of inverse iteration from `λ`, where the matrix is not singular.
 const BESIDE: f64 = 1e-8;
 
-/// Damping `s²` above which the force is an unknown of its own. As a matrix entry it would reduce the accuracy of weakly damped modes.
+/// Damping `s²` above which the force is an independent unknown. As a matrix entry it would reduce the accuracy of weakly damped modes.
 const STRONG: f64 = 1e4;
 
 pub(super) struct Resolvent {

@@ -59,7 +59,7 @@ fn every_spline_has_a_rule_that_sees_all_its_derivatives() {
             let continuity = continuity.min(degree - 1);
             for spans in [2, 3, 4, 7, 16, 33] {
                 for sizes in sizes(spans) {
-                    // Linear splines are C⁰: each span is a run of its own.
+                    // Linear splines are C⁰: each span is a separate run.
                     let basis = basis(&sizes, degree, continuity);
                     let run = if degree == 1 { basis.spans()[..1].to_vec() } else { basis.spans() };
                     let what = format!("degree {degree}, C{continuity}, {sizes:?}");

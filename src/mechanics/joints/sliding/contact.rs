@@ -24,7 +24,7 @@ const NONE: ContactUnknowns =
     ContactUnknowns { force: Vec2::new(0.0, 0.0), couple: Vec2::new(0.0, 0.0), way: 0.0 };
 
 impl ContactUnknowns {
-    /// Zero force, couple and path.
+    /// Zero force, couple and sliding increment.
     pub fn zeros() -> Self {
         NONE
     }
@@ -174,8 +174,8 @@ impl Contact<'_> {
         self.passage.first()
     }
 
-    /// Factor of the couple in the forces on the master: the path `Δξ`, or one with a kink, because the offset of the slave is a moment arm for paths
-    /// of any length.
+    /// Factor of the couple in the forces on the master: the sliding increment `Δξ`, or one with a kink, because the offset of the slave is a moment
+    /// arm for paths of any length.
     fn couple_share(&self) -> f64 {
         self.kink.map_or(self.unknowns.way, |_| 1.0)
     }

@@ -6,7 +6,7 @@ use super::contact::PathVector;
 use super::{Contact, ContactUnknowns, Equation, Unit};
 use crate::geometry::Vec2;
 
-/// Number of derivatives: offset of the slave, tangent, swing, `λ`, couple and path.
+/// Number of derivatives: offset of the slave, tangent, swing, `λ`, couple and sliding increment.
 pub(super) const ALL_SLOPES: usize = 11;
 
 /// No derivatives. Values come from the same operations in the same order.
@@ -19,8 +19,8 @@ const FORCE: usize = 6;
 const COUPLE: usize = 8;
 const WAY: usize = 10;
 
-/// Number with derivatives with respect to the offset of the slave from the smooth axis, mean tangent `τ`, swing `d`, force `λ`, couple, and path
-/// `Δξ`: [`ALL_SLOPES`] of them, or [`NO_SLOPES`].
+/// Number with derivatives with respect to the offset of the slave from the smooth axis, mean tangent `τ`, swing `d`, force `λ`, couple, and sliding
+/// increment `Δξ`: [`ALL_SLOPES`] of them, or [`NO_SLOPES`].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Dual<const SLOPES: usize> {
     pub value: f64,
@@ -45,7 +45,7 @@ pub(super) struct ContactDuals<const SLOPES: usize> {
     pub force: DualVector<SLOPES>,
     /// Couple of the contact [force].
     pub couple: DualVector<SLOPES>,
-    /// Path `Δξ` [-].
+    /// Sliding increment `Δξ` [-].
     pub way: Dual<SLOPES>,
 }
 

@@ -1,7 +1,7 @@
 //! Laws of sliding joints: closure of the contact, and the sliding equation.
 //!
-//! A step has, for each slider, the contact force `λ` on the master, the couple force `η` and the path `Δξ` as unknowns. All laws apply the same
-//! forces to slave and master (see [`Contact`]) and differ in the five equations for these unknowns.
+//! A step has, for each slider, the contact force `λ` on the master, the couple force `η` and the sliding increment `Δξ` as unknowns. All laws apply
+//! the same forces to slave and master (see [`Contact`]) and differ in the five equations for these unknowns.
 
 mod conserving;
 mod contact;

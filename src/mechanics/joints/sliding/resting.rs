@@ -18,7 +18,7 @@ pub struct Resting;
 /// Law of a slider held at the stop at an end of its master: `x_s = Σ B_i(ξ) x_i` at that end, with its kink.
 #[derive(Debug, Clone, Copy)]
 pub struct AtStop {
-    /// Path `Δξ` to the end [-].
+    /// Sliding increment `Δξ` to the end [-].
     pub way: f64,
 }
 

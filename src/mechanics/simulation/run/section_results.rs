@@ -7,7 +7,7 @@ use crate::system::{
 };
 
 impl Simulation {
-    /// Section forces and strains at a station in the present configuration: see [`Model::section_forces`](crate::system::Model::section_forces).
+    /// Section forces and strains at a station in the present configuration: see [`System::section_forces`](crate::system::System::section_forces).
     ///
     /// # Errors
     /// Fails if the station lies outside its beam or on a particle.
@@ -41,7 +41,7 @@ impl Simulation {
         self.model.sample_along(along)
     }
 
-    /// Instantaneous accelerations and forces: see [`Model::instant`](crate::system::Model::instant).
+    /// Instantaneous accelerations and forces: see [`System::instant`](crate::system::System::instant).
     ///
     /// # Errors
     /// Fails if a load has no value, or contact forces are undetermined.

@@ -237,7 +237,6 @@ impl<'a> Assembly<'a> {
         Ok(Elements::new(parts.into_iter(), weight))
     }
 
-    /// Mass of the beams [mass].
     fn mass(&self) -> f64 {
         let lengths = self.bodies.iter().map(|beam| beam.lumped_lengths().iter().sum::<f64>());
         let beams = lengths.zip(&self.scene.beams);

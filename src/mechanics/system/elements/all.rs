@@ -252,7 +252,6 @@ impl Elements {
         stored.filter_map(|element| element.energy(bodies)).reduce(|a, b| a + b).unwrap_or(0.0)
     }
 
-    /// Accepts the movements that the bodies gathered last.
     pub fn advance(&mut self, bodies: &[Body], rotations: RotationIncrement) {
         self.forces.iter_mut().for_each(|force| force.advance(bodies, rotations));
         self.resistances.iter_mut().for_each(|resistance| resistance.advance(bodies));

@@ -37,7 +37,6 @@ pub struct ContactWatch {
 }
 
 impl ContactWatch {
-    /// Creates the monitor of a spring with a largest stiffness and a typical length or angle.
     pub fn new(largest_stiffness: f64, extent: f64) -> Self {
         Self { noise: TOUCH * largest_stiffness * extent, ..Self::default() }
     }

@@ -130,6 +130,7 @@ impl DampingLaw {
         law
     }
 
+    /// Force at a rate [force, force·length].
     pub fn force(&self, rate: f64) -> f64 {
         match self {
             Self::Linear(constant) => constant * rate,

@@ -1,6 +1,6 @@
 //! Drag at a point of a body in a step.
 //!
-//! The force is an unknown of its own, in components across and along the line. A force computed from velocities would carry `c` times their
+//! The force is an independent unknown, in components across and along the line. A force computed from velocities would carry `c` times their
 //! rounding, which under strong drag or wind exceeds the forces that it balances.
 
 use super::drag_law::{DragLaw, DragResponse, in_space};
@@ -72,7 +72,6 @@ fn unit_tangent(gradient: Vec2) -> (Vec2, f64) {
 }
 
 impl DragPoint {
-    /// Creates a point of a line from basis functions and their derivatives, with a quadrature weight.
     pub fn new(
         (body, first): (usize, usize),
         shape: Vec<f64>,
@@ -231,7 +230,6 @@ impl DragPoint {
         }
     }
 
-    /// Updates the force after a correction of the movements, to first order.
     pub fn correct(&mut self, body: &Body, correction: &[f64]) {
         let DragTrial { resisted, turn_by_gradient, rates: (by_change, share), .. } =
             self.linearised;
@@ -280,7 +278,6 @@ impl DragPoint {
         }
     }
 
-    /// Ends a step in which the point had this velocity.
     pub fn advance(&mut self, velocity: Vec2) {
         self.last_velocity = velocity;
         self.last_force = self.force;

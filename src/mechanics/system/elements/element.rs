@@ -11,7 +11,7 @@ use crate::system::SystemError;
 
 /// Element of a scene: a mass on a body, or forces on bodies.
 ///
-/// To add a kind, add a variant and a file in `model/elements` with its [`ElementDef`] and the [`ExternalForce`] or
+/// To add a kind, add a variant and a file in `system/elements` with its [`ElementDef`] and the [`ExternalForce`] or
 /// [`InternalForce`](super::InternalForce) that it builds.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub enum Element {

@@ -318,7 +318,6 @@ impl Elongation {
         }
     }
 
-    /// Accepts the movements that the bodies gathered last.
     pub fn advance(&mut self, bodies: &[Body], rotations: RotationIncrement) {
         let components = self.components();
         let terminals = self.moved.chunks_exact_mut(components.len()).zip(&self.terminals);

@@ -19,7 +19,7 @@ pub struct SpringTrialState {
 
 /// Element that resists movements of bodies and stores or dissipates energy.
 ///
-/// The force is an unknown of its own, as the section forces of beams are. Residuals use the current force, linearisations condense it, and
+/// The force is an independent unknown, as the section forces of beams are. Residuals use the current force, linearisations condense it, and
 /// corrections update it together with the movements. Thereby stiff elements do not carry the rounding of the configuration, and the number of
 /// iterations does not grow with stiffness. Dispatch is dynamic, once per element and iterate.
 pub trait InternalForce {

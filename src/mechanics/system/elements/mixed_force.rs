@@ -1,4 +1,4 @@
-//! Force of an element as an unknown of its own.
+//! Force of an element as an independent unknown.
 
 use crate::geometry::larger;
 
@@ -69,7 +69,6 @@ impl MixedForce {
         self.stiffness = target.stiffness;
     }
 
-    /// Updates the force after a correction, to first order.
     pub fn correct(&mut self, change: f64) {
         self.force += self.mismatch + self.stiffness * change;
     }

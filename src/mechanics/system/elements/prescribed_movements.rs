@@ -24,7 +24,6 @@ use crate::system::bodies::Body;
 /// Supported degree of freedom with a prescribed movement.
 pub struct PrescribedMovement {
     pub support: Support,
-    /// Index of the drive.
     pub drive: usize,
     pub motion: PrescribedMotion,
 }

@@ -1,4 +1,4 @@
-//! Springs and dampers in a step: forces along an elongation, as unknowns of their own.
+//! Springs and dampers in a step: forces along an elongation, as independent unknowns.
 //!
 //! ```text
 //! energy–momentum      F = ΔU/Δq + d(Δq/Δt)  along the secant: F Δq = ΔU + D, opposite at both ends
@@ -62,7 +62,6 @@ pub struct SpringDamper {
 }
 
 impl SpringDamper {
-    /// Creates a spring with a law and its origin, a damper, or both along an elongation.
     pub fn new(
         name: String,
         elongation: Elongation,

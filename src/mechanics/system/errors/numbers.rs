@@ -11,7 +11,6 @@ pub fn rounded(number: f64) -> String {
     rounded.to_string()
 }
 
-/// Formats a point as in `(1.570796, 2.8)`.
 pub fn written(at: Vec2) -> String {
     format!("({}, {})", rounded(at.x), rounded(at.y))
 }

@@ -185,7 +185,6 @@ impl Links {
         self.rollers.iter().fold(most, |most, roller| larger(most, roller.gap(bodies)))
     }
 
-    /// Accepts the unknowns of a step or a movement.
     pub fn advance(&mut self, bodies: &Bodies, arms: ArmRule, values: &[f64]) {
         for link in &mut self.rigid {
             link.advance(bodies, self.acting, arms, values);

@@ -153,7 +153,6 @@ impl InclinedRoller {
         self.across.dot(&self.values_at(bodies, rates))
     }
 
-    /// Accepts the unknowns of a step or a movement.
     pub fn advance(&mut self, acting: ForceUnknowns, values: &[f64]) {
         if let Some(unknown) = self.unknown {
             self.force = acting.force(self.force, values[unknown]);

@@ -56,7 +56,6 @@ pub struct ArmRule {
 /// Point of a rigid body off its centre of mass.
 #[derive(Debug, Clone)]
 pub struct RigidLink {
-    /// Index of the body.
     pub body: usize,
     /// Control point that is linked to the first one, the centre of mass.
     pub point: usize,
@@ -256,7 +255,6 @@ impl RigidLink {
         relative - perpendicular(self.arm()) * spin
     }
 
-    /// Accepts the unknowns of a step or a movement with a rotation increment of the body.
     pub fn advance(
         &mut self,
         bodies: &Bodies,

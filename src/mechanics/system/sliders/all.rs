@@ -36,7 +36,6 @@ impl DerefMut for Sliders {
 }
 
 impl Sliders {
-    /// Creates the sliders in the order of the scene, with contact blocks if these are eliminated block by block.
     pub fn new(all: Vec<SliderContact>, blocks: Option<BlockLayout>) -> Self {
         Self { all, blocks, aim: None }
     }
@@ -215,7 +214,6 @@ impl Sliders {
         self.iter_mut().for_each(|slider| slider.close(bodies, increments, unknowns));
     }
 
-    /// Accepts a step for all sliders, after the bodies have been moved.
     pub fn advance(&mut self, unknowns: &[f64], ending: IntervalEnd) {
         self.iter_mut().for_each(|slider| slider.advance(unknowns, ending));
     }

@@ -8,7 +8,6 @@ use crate::system::bodies::Body;
 /// Connection of a slider by the places of its unknowns in the vectors of the model.
 #[derive(Debug, Clone, Copy)]
 pub struct Connection {
-    /// Index of the master.
     pub master: usize,
     /// Index of the slave body, and of its control point.
     pub slave: (usize, usize),

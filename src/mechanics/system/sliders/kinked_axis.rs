@@ -61,7 +61,6 @@ pub struct KinkedAxis {
 }
 
 impl KinkedAxis {
-    /// Creates the axis of a master of a length as drawn without a contact force.
     pub fn new(kink: MasterKink, length: f64, section: &Section) -> Self {
         let compliance = 1.0 / section.shear_stiffness;
         Self {

@@ -96,7 +96,6 @@ pub struct MasterCurve {
 }
 
 impl MasterCurve {
-    /// Creates a master from the axis of a beam as drawn and the parameter range of its mesh.
     pub fn new(axis: Curve, domain: (f64, f64)) -> Self {
         Self { axis, domain }
     }
@@ -106,7 +105,6 @@ impl MasterCurve {
         self.domain
     }
 
-    /// Length as drawn [length].
     pub fn length(&self) -> f64 {
         self.axis.length()
     }

@@ -43,7 +43,7 @@ pub struct SliderContact {
     pub is_pulled: bool,
     /// Parameter `ξ` of the master at the slider [-].
     pub parameter: f64,
-    /// Contact unknowns of the last step: force, couple and path.
+    /// Contact unknowns of the last step: force, couple and sliding increment.
     pub unknowns: ContactUnknowns,
     /// Largest number of spans of its master passed in a step [-].
     pub most_spans: f64,
@@ -93,7 +93,6 @@ pub(super) fn would_pull(push: f64, force: f64, length: f64) -> bool {
 }
 
 impl SliderContact {
-    /// Creates a slider at a parameter of the mesh of its master.
     pub fn new(
         slider: &Slider,
         connection: Connection,
@@ -355,7 +354,6 @@ impl SliderContact {
         self.kink_at_end = law.kink_at_end(&self.take(bodies, increments, unknowns));
     }
 
-    /// Accepts a step, after the bodies have been moved.
     pub fn advance(&mut self, unknowns: &[f64], ending: IntervalEnd) {
         self.unknowns = self.read(unknowns);
         let before = self.parameter;

@@ -13,7 +13,6 @@ const SAME: f64 = 1e-9;
 /// Beam of a track with the data of its sliders.
 #[derive(Debug, Clone)]
 pub struct TrackPathSegment {
-    /// Index of the beam.
     pub beam: usize,
     pub heading: TrackDirection,
     pub rail: MasterCurve,
@@ -33,7 +32,7 @@ pub struct TrackPath {
     leg: usize,
     /// Number of passages from the last beam of a closed track to the first, minus those back.
     turns: f64,
-    /// Time of the last passage of a seam; [`NEVER`](super::sliding::NEVER) before the first [time].
+    /// Time of the last passage of a seam; [`NEVER`](super::slider_contact::NEVER) before the first [time].
     pub passed_at: f64,
 }
 
@@ -47,7 +46,6 @@ pub struct Seam {
 }
 
 impl TrackPath {
-    /// Creates the path for a slider on one of the beams of a track.
     pub fn new(legs: Arc<[TrackPathSegment]>, course: TrackEnd, leg: usize) -> Self {
         let ends = legs.iter().scan(0.0, |sum, leg| {
             *sum += leg.rail.length();
@@ -136,7 +134,6 @@ impl TrackPath {
 }
 
 impl TrackPathSegment {
-    /// Creates a beam of a track with a direction.
     pub fn new(
         beam: usize,
         heading: TrackDirection,

@@ -70,7 +70,6 @@ impl MotionState {
         &self.resolution
     }
 
-    /// Accepts the increments of a step and the rates at its end, and updates the prediction.
     pub fn advance(&mut self, step: &StepMeasures, increments: &[f64], rates: &[f64]) {
         let duration = step.interval.duration();
         for one in &mut self.watched {

@@ -7,7 +7,6 @@ use crate::beams::RotationIncrement;
 /// Body with its degrees of freedom and resolution measures.
 #[derive(Debug, Clone)]
 pub struct MonitoredBody {
-    /// Index of the body.
     pub body: usize,
     degrees: Vec<usize>,
     resolution: Resolution,

@@ -39,7 +39,6 @@ impl PrescribedMovements {
         })
     }
 
-    /// Returns true if an equilibrium has to apply prescribed positions.
     pub fn moves_at_rest(&self) -> bool {
         self.present.iter().any(|present| present.goal != 0.0)
     }

@@ -13,7 +13,6 @@ impl SliderContact {
         10 + CONTACT_UNKNOWNS + of_route
     }
 
-    /// Returns true if stored numbers fit this slider.
     pub fn may_be(&self, numbers: &[f64]) -> bool {
         let (parameter, rail) = (numbers[0], &self.rail);
         match (&self.route, numbers.last_chunk::<ROUTE>()) {

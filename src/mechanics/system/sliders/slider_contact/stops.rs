@@ -19,7 +19,6 @@ impl SliderContact {
         }
     }
 
-    /// Returns true if the slider is held with a tensile stop force.
     pub fn is_pulled_off(&self) -> bool {
         self.is_pulled && matches!(self.state, SliderState::Held(_))
     }
