@@ -1,43 +1,42 @@
-//! How a span at rest resists small movements, taken apart: what it is that section forces and moments resist, and how a section force
-//! pulls at what turns.
+//! Stiffness of a span at rest in factored form: strains with their stiffnesses, and the geometric stiffness of section forces.
 //!
 //! ```text
 //! δΓ = Λᵀ δg - J (Γ + e1) δω        δκ = δω'        the rows B, with the stiffness w C and w EI
 //! K_g = p qᵀ + q pᵀ      p·δ = w (Λ J N·δg - ½ g·ΛN δω)      q·δ = δω
 //! ```
 //!
-//! `K = Bᵀ C B + K_g`: added up, the large first part hides by its rounding what is soft in it.
+//! `K = Bᵀ C B + K_g`. In the sum, rounding of the large first part would hide its soft modes.
 
-/// A strain of a beam by its direction.
+/// Kind of a strain of a beam.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StrainKind {
-    /// Stretching along the axis.
+    /// Axial strain.
     Axial,
-    /// Shear across the axis.
+    /// Shear strain.
     Shear,
-    /// Bending: a change of the curvature.
+    /// Change of curvature.
     Bending,
 }
 
-/// How one span of a beam resists small movements at rest: rows with an entry for each component (x, y, rotation) of each of its control points.
+/// Stiffness of one span of a beam at rest: rows with an entry for each component (x, y, rotation) of each of its control points.
 #[derive(Debug, Clone, Default)]
 pub struct SpanStiffness {
-    /// The index of the first control point of the span.
+    /// First control point of the span.
     pub first: usize,
-    /// The rows of the span, one after another: a strain or curvature by movements [1/length; shear by rotation: -; curvature by rotation: 1/length].
+    /// Rows of strains and curvatures by movements, in sequence [1/length; shear by rotation: -; curvature by rotation: 1/length].
     pub strains: Vec<f64>,
-    /// The stiffness of each strain or curvature of the span, times the length it stands for [force·length, force·length³].
+    /// Stiffness of each strain or curvature, times the integration length [force·length, force·length³].
     pub stiffness: Vec<f64>,
-    /// The kind of strain of each row of a beam; none for what is not a beam.
+    /// Kind of the strain of each row; empty for bodies that are not beams.
     pub kinds: Vec<StrainKind>,
-    /// The pairs of rows `p` and `q` by which section forces resist turning, one after another [force; force·length for rotations, -].
+    /// Pairs of rows `p` and `q` of the geometric stiffness of section forces, in sequence [force; force·length for rotations, -].
     pub twists: Vec<f64>,
-    /// How much of the section force of each pair of rows rounding may have made [-].
+    /// Fraction of the section force of each pair that may be rounding [-].
     pub doubts: Vec<f64>,
 }
 
 impl SpanStiffness {
-    /// Begins with the rows of another span, whose first control point is `first`.
+    /// Clears the rows for another span with the first control point `first`.
     pub fn begin(&mut self, first: usize) {
         self.first = first;
         self.strains.clear();
@@ -47,7 +46,7 @@ impl SpanStiffness {
         self.doubts.clear();
     }
 
-    /// Adds a row of a strain or curvature: its derivative by x, y and rotation of each control point of the span.
+    /// Adds a row of a strain or curvature: its derivatives with respect to x, y and rotation of each control point.
     pub(super) fn add_strain<const N: usize>(
         &mut self,
         kind: StrainKind,
@@ -59,7 +58,7 @@ impl SpanStiffness {
         self.kinds.push(kind);
     }
 
-    /// Adds a pair of rows, `p` and `q`, by which a section force resists turning.
+    /// Adds a pair of rows `p` and `q` of the geometric stiffness.
     pub(super) fn add_twist<const N: usize>(
         &mut self,
         doubt: f64,

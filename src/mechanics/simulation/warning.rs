@@ -1,4 +1,4 @@
-//! What a run should be told of: steps that went well and mean little.
+//! Warnings about steps that converged but are not meaningful.
 
 use std::f64::consts::TAU;
 use std::fmt;
@@ -6,27 +6,27 @@ use std::fmt;
 use super::StepControl;
 use crate::system::{MotionCurvature, RESOLVED_BLOW, ShortBounce};
 
-/// The largest rotation of a section in a step that is not noted: ten steps a turn [rad].
+/// Largest rotation of a section in a step without a warning: ten steps per turn [rad].
 pub(super) const LARGEST_ROTATION: f64 = 0.1 * TAU;
 
-/// The most spans of its master that a slider may pass in a step without a note [-].
+/// Largest number of spans of its master that a slider may pass in a step without a warning [-].
 pub(super) const MOST_SPANS: f64 = 1.0;
 
-/// A note is told again where its measure has grown by this factor.
+/// Growth of the measure of a warning after which it is repeated.
 const WORSE: f64 = 2.0;
 
-/// By how much a step has to be shorter where a bounce took no more than three.
+/// Factor by which a step has to be shorter if a bounce took at most three.
 const BOUNCE: f64 = 5.0;
 
-/// How many steps a period has where nothing is to be told any more.
+/// Number of steps per period that needs no warning.
 const ENOUGH: f64 = 20.0;
 
-/// What may change rates within a step besides vibration.
+/// Cause of changes of rates within a step other than vibration.
 #[derive(Debug, Clone, PartialEq)]
 pub enum RateChangeCause {
-    /// A damper, the damping of a material, or drag, by name.
+    /// Name of a damper, a damped material, or a drag element.
     Damping(String),
-    /// A controller that is asked once a step, by its load or drive in words.
+    /// Description of a load or drive with a controller that is sampled once per step.
     Controller(String),
 }
 
@@ -41,114 +41,114 @@ impl fmt::Display for RateChangeCause {
     }
 }
 
-/// Something that steps do not resolve.
+/// Motion that the steps do not resolve.
 ///
-/// A further kind is a variant, its words and its condition in [`Simulation::notes`].
+/// To add a kind, add a variant, its message, and its condition in [`Simulation::notes`].
 #[derive(Debug, Clone, PartialEq)]
 pub enum Warning {
-    /// Vibration has a good part of the kinetic energy, and steps do not follow it.
+    /// Unresolved vibration with a large fraction of the kinetic energy.
     Motion {
-        /// The step size with which vibration is not followed [time].
+        /// Step size [time].
         dt: f64,
-        /// The part of the kinetic energy that belongs to vibration which steps do not follow [-].
+        /// Unresolved fraction of the kinetic energy [-].
         share: f64,
-        /// The period of what accelerates the scene, in the mean over accelerations [time].
+        /// Mean period of the accelerated motion [time].
         period: f64,
-        /// The lowest period of the scene as drawn, where there is one [time].
+        /// Lowest period of the scene as drawn, if known [time].
         lowest: Option<f64>,
-        /// What else than vibration may change rates within a step.
+        /// Possible causes other than vibration.
         suspects: Vec<RateChangeCause>,
-        /// The name of a method that would damp such vibration; none where it is in use, or damps nothing in the scene.
+        /// Name of a method that would damp the vibration; `None` if it is in use, or would have no effect.
         damping: Option<&'static str>,
     },
-    /// Vibration has a good part of the kinetic energy of a damped beam, of which there is little beside that of other bodies, and steps do not follow it.
+    /// Unresolved vibration of a damped beam with little kinetic energy compared to other bodies.
     Beam {
-        /// The name of the beam.
+        /// Name of the beam.
         beam: String,
-        /// The step size with which its motion is not followed [time].
+        /// Step size [time].
         dt: f64,
-        /// The part of its kinetic energy that belongs to motion which steps do not follow [-].
+        /// Unresolved fraction of its kinetic energy [-].
         share: f64,
-        /// The period of what accelerates it, in the mean over accelerations [time].
+        /// Mean period of its accelerated motion [time].
         period: f64,
     },
-    /// Long and short steps take turns, and something is joined rigidly or strongly damped.
+    /// Alternating long and short steps with rigid links or strong damping.
     Uneven {
-        /// The shortest of the last steps [time].
+        /// Shortest of the last steps [time].
         shortest: f64,
-        /// The longest of the last steps [time].
+        /// Longest of the last steps [time].
         longest: f64,
     },
-    /// Sections turn far in a step.
+    /// Large rotation of sections in a step.
     Rotation {
-        /// The step size with which sections turn far [time].
+        /// Step size [time].
         dt: f64,
-        /// The largest rotation of a section in a step [rad].
+        /// Largest rotation of a section in a step [rad].
         angle: f64,
     },
-    /// A slider passes many spans in a step.
+    /// Slider that passes many spans in a step.
     Way {
-        /// The name of the slider that passes many spans in a step.
+        /// Name of the slider.
         slider: String,
-        /// The step size with which a slider passes many spans [time].
+        /// Step size [time].
         dt: f64,
-        /// The most spans that the slider passes in a step [-].
+        /// Largest number of spans passed in a step [-].
         spans: f64,
     },
-    /// A slider on a kinked axis runs nearly as fast as the waves by which its master gives way.
+    /// Slider on a kinked axis that moves almost as fast as the waves of its master.
     Fast {
-        /// The name of the slider.
+        /// Name of the slider.
         slider: String,
-        /// The highest speed along the master that was recorded [length/time].
+        /// Largest recorded speed along the master [length/time].
         speed: f64,
-        /// The speed up to which the kink follows the contact force [length/time].
+        /// Speed up to which the kink follows the contact force [length/time].
         limit: f64,
     },
-    /// The energy is not kept as the method promises.
+    /// Energy drift that contradicts the claims of the method.
     Drift {
-        /// The largest change of the energy, loads accounted for, relative to the largest energy [-].
+        /// Largest change of the energy, with loads accounted for, relative to the largest energy [-].
         drift: f64,
-        /// The stiffest spring, by name, with its stiffness; none where there is no spring.
+        /// Name and stiffness of the stiffest spring, if any.
         stiffest: Option<(String, f64)>,
     },
-    /// Something that dissipates gave energy back over a step.
+    /// Dissipative element that added energy in a step.
     Fed {
-        /// The time at the end of that step [time].
+        /// Time at the end of the step [time].
         time: f64,
-        /// The length of that step [time].
+        /// Length of the step [time].
         dt: f64,
-        /// What it gave back [energy].
+        /// Added energy [energy].
         energy: f64,
     },
-    /// A given motion bends within a step.
+    /// Prescribed motion with a kink within a step.
     Bend {
-        /// The name of the drive whose motion bends.
+        /// Name of the drive.
         drive: String,
-        /// The step in which it bends, and the rates before and after it.
+        /// Step of the kink, and the rates before and after it.
         bend: MotionCurvature,
     },
-    /// A spring that is slack at times was struck for fewer steps than tell anything.
+    /// Spring with a contact that lasted too few steps.
     Contact {
-        /// The name of the spring.
+        /// Name of the spring.
         spring: String,
-        /// The tolerance of steps that keep one [-].
+        /// Tolerance, for variable steps [-].
         tolerance: Option<f64>,
-        /// The number of steps of the bounce, how long it took, and the force in it.
+        /// Number of steps, duration and force of the bounce.
         bounce: ShortBounce,
     },
-    /// A slider in elastic contact bounced off what gives way, and steps are longer than such a blow lasts.
+    /// Elastic contact of a slider that is shorter than a step.
     Bounce {
-        /// The name of the slider that bounced.
+        /// Name of the slider.
         slider: String,
-        /// The step size that is longer than the blow [time].
+        /// Step size [time].
         dt: f64,
-        /// How many times as long as the blow a step is [-].
+        /// Ratio of step size to impact duration [-].
         blows: f64,
     },
 }
 
 impl Warning {
-    /// How bad it is; only notes of a kind can be compared.
+    /// Severity; comparable between warnings of the same kind only.
     fn measure(&self) -> f64 {
         match self {
             Self::Motion { share, .. } | Self::Beam { share, .. } => *share,
@@ -164,7 +164,7 @@ impl Warning {
         }
     }
 
-    /// What it is about, if that is one of several.
+    /// Name of the object, for kinds with several.
     fn about(&self) -> Option<&str> {
         match self {
             Self::Motion { .. }
@@ -181,7 +181,7 @@ impl Warning {
         }
     }
 
-    /// Whether the note says something that those told before have not said, or not as bad.
+    /// Returns true if the warning is new, or more severe than those reported before.
     pub fn is_news_after(&self, told: &[Self]) -> bool {
         !told.iter().any(|other| {
             std::mem::discriminant(other) == std::mem::discriminant(self)
@@ -344,7 +344,6 @@ impl fmt::Display for Warning {
     }
 }
 
-/// A number in words, of three digits.
 pub(super) fn short(number: f64) -> String {
     let rounded: f64 = format!("{number:.2e}").parse().unwrap_or(number);
     let size = rounded.abs();

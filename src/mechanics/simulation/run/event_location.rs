@@ -1,4 +1,4 @@
-//! Steps that end exactly where a slider reaches the end of its master, and what happens there.
+//! Location of arrivals of sliders at the ends of their masters, and the resulting events.
 
 use super::Simulation;
 use crate::elementary::whole_power;
@@ -10,53 +10,48 @@ use crate::simulation::first_step::first_step;
 use crate::simulation::{Arrival, ArrivalKind, SimulationError, StepSize};
 use crate::system::{Arriving, MasterEnd, MasterLimit, SliderState};
 
-/// Most tries to find the time of an arrival; few are needed, the rest is for bad luck.
+/// Largest number of tries to find the time of an arrival. A few are usual.
 const MOST_TRIES: usize = 60;
 
-/// A slider that is about to reach an end and as near to it as this, as a part of its master, has reached it: a step over what
-/// is left would make velocities out of the rounding of places.
+/// Distance from an end, relative to the master, at which an approaching slider has reached it. A step over the rest would convert rounding of
+/// positions to velocities.
 const NEAR: f64 = 1e-10;
 
-/// How often a step is halved to see whether a slider at an end leaves it for a while.
+/// Number of halvings of a step to detect whether a slider at an end leaves it for a while.
 const PROBES: i32 = 12;
 
-/// A slider that has struck the same end so often within as many steps leans on it.
+/// Number of impacts at the same end within as many steps after which the slider is held at the stop.
 const CHATTER: usize = 3;
 
-/// The most arrivals of sliders within one step of the grid; more are an error.
+/// Largest number of arrivals within one step of the grid; more are an error.
 pub(super) const MOST_ARRIVALS: usize = 10_000;
 
-/// A step that was cut where a slider arrives at an end of its master.
+/// Step that was cut at the arrival of a slider at an end of its master.
 pub(super) struct EventStep {
-    /// The interval of the step and its work; none for a slider that is at the end already and led beyond it by every step.
+    /// Interval of the step and its work; `None` for a slider at the end that every step leads beyond it.
     pub(super) step: Option<(Interval, NewtonReport)>,
-    /// What comes of the step.
     event: Event,
 }
 
-/// What ends a step before its time, or keeps it from beginning.
+/// Event that ends a step early, or prevents it.
 enum Event {
-    /// A slider reaches a limit.
     Reaches(MasterLimit),
-    /// A slider would pass a limit by a jump: the step ends just before it.
+    /// A slider would jump past a limit, so the step ends just before it.
     JustBefore,
-    /// Sliders leave stops that would have to pull.
+    /// Sliders leave stops because of tensile stop forces.
     Leaves,
 }
 
-/// What is known of an arrival before it is searched for.
 enum ArrivalEstimate {
-    /// It lies between two times.
     Between(TimeBracket),
-    /// A step was taken that ends with it, or none is needed.
+    /// A step that ends with it was taken, or none is needed.
     Landed(EventStep),
 }
 
-/// Durations of steps that end before and after an arrival, with the distances beyond the limit there.
+/// Durations of steps that end before and after an arrival, with the distances beyond the limit.
 struct TimeBracket {
     before: (f64, f64),
     after: (f64, f64),
-    /// The side that was replaced last.
     last: Option<BracketSide>,
 }
 
@@ -71,7 +66,7 @@ impl TimeBracket {
         Self { before, after, last: None }
     }
 
-    /// Puts a duration in the place of the one on its side.
+    /// Replaces the duration on the side of the new one.
     fn narrow(&mut self, duration: f64, distance: f64) {
         let side = if distance > 0.0 { BracketSide::After } else { BracketSide::Before };
         let is_again = self.last == Some(side);
@@ -86,22 +81,21 @@ impl TimeBracket {
         self.last = Some(side);
     }
 
-    /// Whether there is no duration between the two any more.
     fn is_closed(&self) -> bool {
         self.after.0 - self.before.0 <= 4.0 * f64::EPSILON * self.after.0
     }
 
-    /// The next duration to try: false position, with the weight of an end halved that stays (Illinois; Dowell & Jarratt 1971).
+    /// Next duration to try: false position with a halved weight of a retained end (Illinois; Dowell & Jarratt 1971).
     fn guess(&self) -> f64 {
         let ((t0, f0), (t1, f1)) = (self.before, self.after);
         let t = t1 - f1 * (t1 - t0) / (f1 - f0);
-        // Rounding may put it on an end.
+        // Rounding may give an end.
         if t > t0 && t < t1 { t } else { 0.5 * (t0 + t1) }
     }
 }
 
 impl Simulation {
-    /// Takes a step that ends where the slider arrives that went too far in the whole interval.
+    /// Takes a step that ends at the arrival of the slider that overshoots in the whole interval.
     pub(super) fn land(
         &mut self,
         interval: Interval,
@@ -115,7 +109,7 @@ impl Simulation {
     fn search(&mut self, interval: Interval, first: Overshoot) -> Result<EventStep, StepError> {
         let (mut cut, mut overshoot) = (interval, first);
         let mut tries = 0..MOST_TRIES;
-        // Once for each slider that turns out to arrive before the one aimed at.
+        // One pass for each slider that arrives before the current target.
         loop {
             let limit = MasterLimit::of(overshoot.limit);
             if let SliderState::Held(_) = self.model.slider_state(limit.slider) {
@@ -153,7 +147,7 @@ impl Simulation {
         }
     }
 
-    /// Looks for a step that ends before the arrival, given one that ends after it.
+    /// Searches for a step that ends before the arrival, given one that ends after it.
     fn prospect(
         &mut self,
         interval: Interval,
@@ -170,7 +164,7 @@ impl Simulation {
         if !self.model.is_at(limit) {
             return Ok(ArrivalEstimate::Between(TimeBracket::new((0.0, -left), after)));
         }
-        // Where the whole step hardly leaves the end, the slider rests there: halves of it would tell rounding from rounding.
+        // If the whole step hardly leaves the end, the slider is held there. Half steps would only show rounding.
         for halving in 1..=PROBES {
             if after.1 <= NEAR {
                 break;
@@ -198,7 +192,7 @@ impl Simulation {
         Ok(ArrivalEstimate::Landed(at_once))
     }
 
-    /// Tries a step; one that does not end where it is aimed at is counted, and not taken.
+    /// Tries a step. A step that misses its target is counted but not taken.
     fn attempt(&mut self, cut: Interval) -> Result<Result<NewtonReport, Overshoot>, StepError> {
         match self.stepper.integrator.step(&mut self.model, cut) {
             Ok(report) => Ok(Ok(report)),
@@ -210,7 +204,7 @@ impl Simulation {
         }
     }
 
-    /// Whether a slider that is at a limit and led beyond it does something there other than to rest: by what steps follow of its motion, it strikes.
+    /// Returns true if a slider at a limit has an event other than being held: in the motion resolved by the steps it strikes.
     fn strikes(&mut self, limit: MasterLimit) -> bool {
         let dt = self.dt();
         !self.model.end_action(limit.slider).has_stop()
@@ -218,7 +212,7 @@ impl Simulation {
             || self.model.approaches(limit, dt).unwrap_or(true)
     }
 
-    /// Does what is to be done where sliders arrive, all that do at one time together: the run stops, or sliders bounce, rest or leave.
+    /// Executes the events of all simultaneous arrivals: the run stops, or sliders bounce, are held, or are released.
     pub(super) fn arrive(&mut self, landing: &EventStep) -> Result<(), SimulationError> {
         let limit = match landing.event {
             Event::Reaches(limit) => limit,
@@ -232,7 +226,7 @@ impl Simulation {
             let strikes = self.model.leads_beyond(limit);
             let kind = match self.model.end_action(limit.slider) {
                 _ if self.model.goes_on(limit) => {
-                    // It only touched the seam, or its velocity has turned round just there.
+                    // The slider only touched the seam, or its velocity reversed just there.
                     if landing.step.is_some() && !strikes {
                         continue;
                     }
@@ -248,7 +242,7 @@ impl Simulation {
                     self.model.release(limit.slider);
                     ArrivalKind::Released
                 }
-                // It only touched the stop, or its velocity has turned round just there.
+                // The slider only touched the stop, or its velocity reversed just there.
                 _ if landing.step.is_some() && !strikes => ArrivalKind::Bounced,
                 _ if self.leans(limit, landing, dt)? => {
                     arriving.lean.push(limit);
@@ -271,14 +265,14 @@ impl Simulation {
                 arrival.impulse = self.model.impulse_of(arrival.limit.slider);
             }
         }
-        // What ends the run is told last.
+        // The arrival that ends the run is listed last.
         arrivals.sort_by_key(|arrival| arrival.kind == ArrivalKind::Stopped);
         self.progress.arrivals.extend(arrivals);
         Ok(())
     }
 
-    /// Whether a slider at a limit comes to lean on its stop, and not to bounce: it strikes again and again within few steps, its blow is an elastic contact
-    /// that the steps to come resolve, or every step leads it beyond although it does not approach.
+    /// Returns true if a slider at a limit stays at its stop instead of bouncing: repeated impacts within few steps, an elastic contact that the
+    /// next steps resolve, or steps that pass the limit although the slider does not approach it.
     fn leans(
         &mut self,
         limit: MasterLimit,
@@ -292,14 +286,14 @@ impl Simulation {
         Ok(landing.step.is_none() && !self.model.approaches(limit, dt)?)
     }
 
-    /// Whether a slider at a seam comes to lean on it, and not to pass: both sides lead it back at once, or it passes to and fro within few steps.
+    /// Returns true if a slider at a seam becomes held instead of passing: both sides lead it back at once, or it oscillates within few steps.
     fn stays_at_seam(&self, limit: MasterLimit, landing: &EventStep, dt: f64) -> bool {
         let is_led_back = landing.step.is_none() && self.model.came_to_seam_now(limit.slider);
         is_led_back || self.passes_to_and_fro(limit, dt)
     }
 
-    /// The time in which so many blows, or ways to and fro, are none that steps of a length tell apart [time]. Of varying steps, which grow as far as flights last,
-    /// those are taken in which a wave passes a span.
+    /// Time in which repeated impacts or oscillations are not resolved by steps of a length [time]. Variable steps grow with the flights, so for them
+    /// the step in which a wave passes a span is used.
     fn unresolved(&self, dt: f64) -> f64 {
         CHATTER as f64
             * match self.settings.dt {
@@ -308,7 +302,7 @@ impl Simulation {
             }
     }
 
-    /// Whether a slider has passed the same seam to and fro so often within as many steps that nothing is resolved of what is between.
+    /// Returns true if a slider has passed the same seam back and forth so often within as many steps that the motion in between is not resolved.
     fn passes_to_and_fro(&self, limit: MasterLimit, dt: f64) -> bool {
         let since = self.time() - self.unresolved(dt);
         let own = self.progress.arrivals.iter().rev();
@@ -323,14 +317,13 @@ impl Simulation {
         places.len() == 2 * CHATTER && places.chunks_exact(2).all(back)
     }
 
-    /// The arrival of a slider at a limit at the present moment.
     fn arrival(&self, limit: MasterLimit, kind: ArrivalKind) -> Arrival {
         let is_on_track = self.scene.sliders[limit.slider].track.is_some();
         let beam = is_on_track.then(|| self.model.slider_beam(limit.slider));
         Arrival { time: self.model.time(), limit, beam, kind, impulse: Vec2::zeros() }
     }
 
-    /// Whether a slider has struck the same end so often within as many steps that nothing is resolved of its flights between.
+    /// Returns true if a slider has struck the same end so often within as many steps that its flights are not resolved.
     fn chatters(&self, limit: MasterLimit, dt: f64) -> bool {
         let own = self.progress.arrivals.iter().rev();
         let mut last = own.filter(|arrival| arrival.limit.slider == limit.slider).take(CHATTER);
@@ -339,7 +332,7 @@ impl Simulation {
         last.by_ref().take_while(|arrival| again(arrival)).count() == CHATTER
     }
 
-    /// Lets every slider arrive at the end of its master, for a pretended run: scripts may wait for that.
+    /// Records arrivals of all sliders at the ends of their masters in a dry run, because scripts may wait for them.
     pub(super) fn pretend_arrivals(&mut self) {
         let arrival = |slider: usize| {
             let limit = MasterLimit { slider, end: MasterEnd::End };
@@ -356,28 +349,27 @@ impl Simulation {
         self.progress.arrivals = arrivals;
     }
 
-    /// The arrivals of sliders at the ends of their masters so far.
+    /// Arrivals of sliders at the ends of their masters so far.
     pub fn arrivals(&self) -> &[Arrival] {
         &self.progress.arrivals
     }
 
-    /// Whether a slider has ended the run.
+    /// Returns true if an arrival has ended the run.
     pub fn has_ended(&self) -> bool {
         self.progress.stopped().is_some()
     }
 
-    /// The arrival that has ended the run, in words, if one has.
+    /// Description of the arrival that has ended the run, if any.
     pub fn ending(&self) -> Option<String> {
         self.progress.stopped().map(|stopped| self.describe(stopped))
     }
 
-    /// An arrival of the simulation in words.
     pub(super) fn describe(&self, arrival: &Arrival) -> String {
         let beam = arrival.beam.map(|beam| self.scene.beams[beam].name.as_str());
         arrival.describe(&self.scene.sliders[arrival.limit.slider].name, beam)
     }
 
-    /// What a slider of the simulation does at present, by its index.
+    /// Present state of a slider.
     pub fn slider_state(&self, slider: usize) -> SliderState {
         self.model.slider_state(slider)
     }

@@ -1,8 +1,8 @@
-//! Impulses at sliders: consistent start velocities, and blows at the ends of masters, all that strike at one time together.
+//! Impulses at sliders: consistent start velocities, and impacts at the ends of masters, all simultaneous ones together.
 //!
-//! Impulses `P` at contacts change the velocities by `M (v⁺ - v⁻) = Σ Gᵀ P`, `G v` being the velocity of a slave relative to its place on the
-//! master. Where the contact is closed, linear and angular momentum stay; a gap of the relaxed rule costs angular momentum.
-//! For a blow `G` is what steps follow of that velocity ([`Rigidity`]). What a contact gives to the bodies is `½ P (w⁻ + w⁺)`.
+//! Impulses `P` at contacts change the velocities by `M (v⁺ - v⁻) = Σ Gᵀ P`, where `G v` is the velocity of a slave relative to its place on the
+//! master. A closed contact conserves linear and angular momentum; a gap of the relaxed rule changes angular momentum. In an impact, `G` is the part
+//! of that velocity that the steps resolve ([`Rigidity`]). The work of a contact on the bodies is `½ P (w⁻ + w⁺)`.
 
 use super::System;
 use super::rigidity::{Deformation, Rigidity};
@@ -12,24 +12,24 @@ use crate::linalg::{BandedLu, LinearError, Pairing, complementary};
 use crate::system::SystemError;
 use crate::system::elements::WorkAndImpulse;
 
-/// A slider, and the component of its relative velocity on which an impulse acts.
+/// Slider, and the direction of its relative velocity on which an impulse acts.
 pub(super) type ImpactDirection = (usize, Vec2);
 
-/// Directions in which contacts give impulses, and the deformations by which beams answer to these.
+/// Directions of impulses at contacts, and the deformations that take part.
 pub(super) type ImpactSelection<'a> = (&'a [ImpactDirection], Deformation);
 
-/// What moves by less than this part of the change of relative velocity is held.
+/// Fraction of the change of relative velocity below which a direction counts as fixed.
 pub(super) const GIVES: f64 = 1e-9;
 
-/// What a unit impulse transmits, and how the velocities answer.
+/// Forces of a unit impulse, and the velocity response.
 pub(super) struct ImpulseResponse {
-    /// `Gᵀ`, on all degrees of freedom, with what is passed on within a step.
+    /// `Gᵀ` on all degrees of freedom, including forces transmitted within a step.
     pub(super) forces: Vec<f64>,
-    /// `M⁻¹ Gᵀ`, of the unknowns.
+    /// `M⁻¹ Gᵀ` of the unknowns.
     pub(super) rates: Vec<f64>,
-    /// Where `Gᵀ` has entries.
+    /// Nonzero entries of `Gᵀ`.
     touched: Vec<usize>,
-    /// What section forces pass on, where anything is rigid.
+    /// Impulses of section forces, if any strain is rigid.
     passed_on: Vec<f64>,
 }
 
@@ -41,25 +41,25 @@ impl ImpulseResponse {
         Self { forces, rates, touched, passed_on }
     }
 
-    /// The velocity that rates are in the direction of the impulse: `G v`.
+    /// Velocity `G v` of rates in the direction of the impulse.
     pub(super) fn velocity(&self, rates: &[f64]) -> f64 {
         let of_rates = self.touched.iter().filter(|at| **at < rates.len());
         of_rates.map(|&at| rates[at] * self.forces[at]).sum()
     }
 }
 
-/// What an impulse makes of the velocity `w` on which it acts.
+/// Law of an impact for the velocity `w` on which its impulse acts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum ImpactLaw {
-    /// `w⁺ = 0`, by an impulse of either sign.
+    /// `w⁺ = 0`, with an impulse of either sign.
     Ends,
-    /// `w⁺ = -w⁻`, by an impulse of either sign: no work is done.
+    /// `w⁺ = -w⁻`, with an impulse of either sign and without work.
     Reverses,
-    /// `0 ≤ P ⟂ w⁺ + e w⁻ ≥ 0`, with the coefficient of restitution `e`: a stop, which pushes and does not pull (Moreau 1988).
+    /// `0 ≤ P ⟂ w⁺ + e w⁻ ≥ 0` with the coefficient of restitution `e`: a stop with compressive impulses only (Moreau 1988).
     Strikes(f64),
-    /// `0 ≤ P ⟂ w⁺ ≥ 0`: what leans on a stop.
+    /// `0 ≤ P ⟂ w⁺ ≥ 0`: a slider held at a stop.
     Leans,
-    /// `0 ≤ P ⟂ w⁺ - c ≥ 0`: a stop that gives back what it stored, by a speed `c` [length/time].
+    /// `0 ≤ P ⟂ w⁺ - c ≥ 0`: a stop that returns its stored energy with a speed `c` [length/time].
     Leaves(f64),
 }
 
@@ -71,7 +71,7 @@ impl ImpactLaw {
         }
     }
 
-    /// By how much the velocity after the blow lacks what it must be, without an impulse [length/time].
+    /// Deficit of the velocity after the impact without an impulse [length/time].
     fn lack(self, w: f64) -> f64 {
         match self {
             Self::Ends | Self::Leans => w,
@@ -82,7 +82,7 @@ impl ImpactLaw {
     }
 }
 
-/// Contacts that meet in one impact, in their directions, and how velocities answer to their impulses.
+/// Contacts of one impact with their directions and the velocity responses to their impulses.
 pub(super) struct ImpactProblem {
     directions: Vec<ImpactDirection>,
     answers: Vec<ImpulseResponse>,
@@ -90,47 +90,45 @@ pub(super) struct ImpactProblem {
     pub(super) response: Vec<Vec<f64>>,
     /// `w⁻` [length/time].
     before: Vec<f64>,
-    /// What changes without impulses of contacts: where points of rigid bodies move beside these, and beside what jumps.
+    /// Velocity change without contact impulses: closure of rigid links and jumps of prescribed rates.
     change: Vec<f64>,
-    /// By how much the rates of prescribed movements jump, where their degrees of freedom are; empty where none does.
+    /// Jumps of prescribed rates by degree of freedom; empty without jumps.
     jumps: Vec<f64>,
 }
 
-/// The impulses of an impact, one for each direction.
 #[derive(Debug, Clone)]
 pub(super) struct ImpactImpulses {
     /// [mass·length/time]
     pub(super) values: Vec<f64>,
-    /// What each gives to the bodies, `½ P (w⁻ + w⁺)` [energy].
+    /// Work of each impulse on the bodies, `½ P (w⁻ + w⁺)` [energy].
     pub(super) works: Vec<f64>,
 }
 
 impl ImpactProblem {
-    /// By how much the velocity in a direction changes without impulses of contacts [length/time].
+    /// Velocity change in a direction without contact impulses [length/time].
     fn by_links(&self, at: usize) -> f64 {
         self.answers[at].velocity(&self.change)
     }
 
-    /// The velocity in a direction before the impact, and by how much such impulses change it [length/time].
+    /// Velocity in a direction before the impact, and its change by the given impulses [length/time].
     pub(super) fn meets(&self, at: usize, impulses: &[f64]) -> (f64, f64) {
         let by_impulses: f64 = self.response[at].iter().zip(impulses).map(|(a, p)| a * p).sum();
         (self.before[at], self.by_links(at) + by_impulses)
     }
 
-    /// The velocities half-way between before and after the impact, without impulses of contacts [length/time].
+    /// Mean of the velocities before and after the impact, without contact impulses [length/time].
     pub(super) fn half_way(&self) -> Vec<f64> {
         let half_way = |(at, w): (usize, &f64)| w + 0.5 * self.by_links(at);
         self.before.iter().enumerate().map(half_way).collect()
     }
 
-    /// By how much velocities after the impact lack, without impulses, what laws for the last directions ask for [length/time].
+    /// Deficits of the velocities after the impact without impulses, for the laws of the last directions [length/time].
     pub(super) fn lacks(&self, laws: &[ImpactLaw]) -> Vec<f64> {
         let first = self.before.len() - laws.len();
         let lack = |(at, law): (usize, &ImpactLaw)| law.lack(self.before[at]) + self.by_links(at);
         (first..).zip(laws).map(lack).collect()
     }
 
-    /// Impulses with the works that they do.
     pub(super) fn with_works(&self, values: Vec<f64>) -> ImpactImpulses {
         let work = |at: usize| {
             let (before, change) = self.meets(at, &values);
@@ -140,7 +138,6 @@ impl ImpactProblem {
         ImpactImpulses { values, works }
     }
 
-    /// The impulses by a law for each direction.
     pub(super) fn impulses(&self, laws: &[ImpactLaw]) -> Result<ImpactImpulses, LinearError> {
         let pairings: Vec<Pairing> = laws.iter().map(|law| law.pairing()).collect();
         let values = complementary(&self.response, &self.lacks(laws), &pairings)?;
@@ -148,7 +145,7 @@ impl ImpactProblem {
     }
 }
 
-/// The velocities in all directions that unit impulses cause: `G M⁻¹ Gᵀ`, a row for each answer [1/mass].
+/// Velocities in all directions caused by unit impulses: `G M⁻¹ Gᵀ`, one row per response [1/mass].
 fn response(answers: &[ImpulseResponse]) -> Vec<Vec<f64>> {
     let row = |answer: &ImpulseResponse| {
         answers.iter().map(|other| answer.velocity(&other.rates)).collect()
@@ -157,15 +154,14 @@ fn response(answers: &[ImpulseResponse]) -> Vec<Vec<f64>> {
 }
 
 impl System {
-    /// Takes away the velocities of sliders across all masters, by the impulses that change least (Gauss's principle of least constraint).
+    /// Removes the velocities of sliders across all masters by the smallest change (Gauss's principle of least constraint).
     ///
     /// # Errors
-    /// When the impulses are not determined.
+    /// Fails if the impulses are not determined.
     pub(in crate::system) fn project_velocities(&mut self) -> Result<(), SystemError> {
         self.strike_across().map_err(|_| self.sliders.overdetermined())
     }
 
-    /// Takes away the velocities across all masters, and of points of rigid bodies beside these.
     fn strike_across(&mut self) -> Result<(), LinearError> {
         let across = self.across();
         let encounter = self.encounter(&[(&across, Deformation::All)], -1.0)?;
@@ -174,9 +170,8 @@ impl System {
         Ok(())
     }
 
-    /// Where a drive begins with a rate and points of rigid bodies do not have the velocities of that, they get them, as the nearest that fit;
-    /// velocities that miss by less than a number [length/time] do. It would alternate from step to step without end, as all rates do that do not
-    /// fit.
+    /// Adjusts the velocities of points of rigid bodies to the initial rates of drives if they differ by more than a tolerance [length/time].
+    /// Incompatible rates would alternate from step to step permanently.
     pub(in crate::system) fn fit_links_to_drives(&mut self, negligible: f64) {
         if self.links.count() == 0 || !self.supports.prescribed().begins_with_a_rate() {
             return;
@@ -186,8 +181,7 @@ impl System {
         if missed.iter().all(|missed| missed.abs() <= negligible) {
             return;
         }
-        // The blow with which a motion begins is before the start: nothing of it is in the sums since then. A matrix that cannot be factorised is found by
-        // the first step.
+        // The impulse that starts the motion precedes the start and is not accumulated. A singular matrix is reported by the first step.
         let before = std::mem::take(&mut self.exchanged);
         let struck = self.strike_across();
         self.exchanged = before;
@@ -196,19 +190,19 @@ impl System {
         }
     }
 
-    /// Where the rate of a drive jumps at the start of a step, all that is tied to it by more than strains follows at once: points of rigid bodies, and
-    /// sliders. It would alternate from step to step without end, as all rates do that do not fit. The blow keeps the energy but for the work of
-    /// drives: what is tied moves after it as it did before, but for the sign of what it lacked (theory.md 9.5). Gives whether there was one.
+    /// Applies jumps of prescribed rates at the start of a step to rigid links and sliders by an impact. Incompatible rates would alternate from step
+    /// to step permanently. The impact conserves energy except for the work of drives: the constraint violation changes its sign (theory.md 9.5).
+    /// Returns true if there was a jump.
     pub fn follow_jumps_of_drives(&mut self, interval: Interval) -> bool {
         if self.links.count() == 0 && self.sliders.iter().next().is_none() {
             return false;
         }
-        // A function that fails is told by the step that begins.
+        // Errors of functions are reported by the step that begins.
         let prescribed = self.supports.prescribed();
         let Ok(Some(jumps)) = prescribed.jumps(interval, &self.motion.rates) else { return false };
         let directions = self.sliders.directions(&self.bodies);
         let laws = vec![ImpactLaw::Reverses; directions.len()];
-        // So is a matrix that cannot be factorised.
+        // So are singular matrices.
         let Ok(encounter) = self.encounter_of(&[(&directions, Deformation::All)], -2.0, jumps)
         else {
             return false;
@@ -218,7 +212,7 @@ impl System {
         true
     }
 
-    /// How fast a slave and its place on the master move in a direction by such rates [length/time].
+    /// Speeds of a slave and of its place on the master in a direction [length/time].
     pub(super) fn speeds(&self, (slider, unit): ImpactDirection, rates: &[f64]) -> (f64, f64) {
         let slider = &self.sliders[slider];
         let (slave, relative) = (
@@ -228,23 +222,22 @@ impl System {
         (slave.dot(&unit), (slave - relative).dot(&unit))
     }
 
-    /// The speed of the fastest control point of the model [length/time].
+    /// Speed of the fastest control point [length/time].
     pub(in crate::system) fn fastest_speed(&self) -> f64 {
         self.bodies.fastest_speed(&self.motion.rates)
     }
 
-    /// The speed of a slave across its master [length/time].
+    /// Speed of a slave across its master [length/time].
     pub(in crate::system) fn speed_across(&self, slider: usize) -> f64 {
         let slider = &self.sliders[slider];
         slider.across(&self.bodies).dot(&slider.relative_velocity(&self.bodies, &self.motion.rates))
     }
 
-    /// The directions across all masters.
     fn across(&self) -> Vec<ImpactDirection> {
         self.sliders.iter().map(|slider| slider.across(&self.bodies)).enumerate().collect()
     }
 
-    /// `Gᵀ` of a direction, on all degrees of freedom.
+    /// `Gᵀ` of a direction on all degrees of freedom.
     fn transmitted(&self, (slider, unit): ImpactDirection) -> Vec<f64> {
         let mut forces = vec![0.0; self.degrees_of_freedom()];
         self.sliders[slider].transmit(&self.bodies, unit, &mut forces);
@@ -263,7 +256,10 @@ impl System {
         directions.iter().map(answer).collect()
     }
 
-    /// How velocities answer to a blow with such deformations. Where two are held against each other by all others, they answer with all.
+    /// Velocity responses to unit impulses with given deformations. A direction whose partners are both fixed has no response.
+    ///
+    /// # Errors
+    /// Fails if the matrix is singular.
     pub(super) fn answers_with(
         &mut self,
         inertia: &BandedLu<'_>,
@@ -288,7 +284,7 @@ impl System {
         Ok(directions.iter().map(&mut answer).collect())
     }
 
-    /// The contacts in some directions; what points of rigid bodies move beside these is changed by `links` times itself: by -2, and rigid links do no work.
+    /// Impact problem for some directions. Violations of rigid links are changed by `links` times themselves; with -2 the links do no work.
     pub(super) fn encounter(
         &mut self,
         met: &[ImpactSelection<'_>],
@@ -297,7 +293,7 @@ impl System {
         self.encounter_of(met, links, Vec::new())
     }
 
-    /// The same where the rates of prescribed movements jump; contacts and links are met by rates half-way through that.
+    /// The same with jumps of prescribed rates. Contacts and links use the mean of the rates before and after the jump.
     fn encounter_of(
         &mut self,
         met: &[ImpactSelection<'_>],
@@ -330,7 +326,7 @@ impl System {
         Ok(ImpactProblem { directions, answers, response, before, change, jumps })
     }
 
-    /// Changes the velocities by the impulses of an encounter.
+    /// Changes the velocities by the impulses of an impact.
     pub(super) fn apply(&mut self, encounter: ImpactProblem, impulses: &[f64]) {
         let ImpactProblem { directions, answers, mut change, jumps, .. } = encounter;
         let most_passed_on = answers.iter().map(|answer| answer.passed_on.len()).max();
@@ -345,7 +341,7 @@ impl System {
             own.for_each(|(sum, passed)| *sum += impulse * passed);
         }
         change.extend(jumps.iter().skip(change.len()));
-        // What is left of `M (v⁺ - v⁻) - Gᵀ P` at supports is their impulse.
+        // The remainder of `M (v⁺ - v⁻) - Gᵀ P` at supports is their impulse.
         self.add_inertia(1.0, &change, &mut residual);
         self.links.transmit(&self.bodies, &change, &mut residual);
         for (unknown, roller) in self.links.rollers() {
@@ -358,7 +354,7 @@ impl System {
             self.sliders[slider].impulse -= impulse;
         }
         self.add_impulses_of_blow(&change, &passed_on, on_slaves);
-        // Impulses of rigid links are no forces that go on.
+        // Impulses of rigid links are not continuing forces.
         self.links.clear(&mut change);
         self.motion.jump(&change);
         self.elements.forget_rates();
@@ -372,7 +368,7 @@ impl System {
         }
     }
 
-    /// The velocities across the masters that unit impulses across them cause: `G M⁻¹ Gᵀ`, a row for each direction [1/mass].
+    /// Velocities across the masters caused by unit impulses: `G M⁻¹ Gᵀ`, one row per direction [1/mass].
     pub(in crate::system) fn response_across(&self) -> Result<Vec<Vec<f64>>, LinearError> {
         let mut inertia = self.banded_inertia();
         let answers = self.answers(&inertia.factorise()?, &self.across());

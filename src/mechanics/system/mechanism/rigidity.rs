@@ -1,15 +1,14 @@
-//! The deformations that take part in an impact: how much of an impulse the section forces of beams pass on.
+//! Response of beams to an impulse, with the deformations that take part in an impact.
 //!
-//! An impulse `Gᵀ` on beams whose fast vibrations do not take part is answered by
+//! The acceleration impulse `a` that answers a unit impulse `Gᵀ` and the impulses `n` of the section forces satisfy
 //!
 //! ```text
 //! M a + Bᵀ n = Gᵀ        B a = n/(s C)        f = Gᵀ - Bᵀ n        a = M⁻¹ f
 //! ```
 //!
-//! with `s = h²/4` for strains that steps of a length `h` follow, and `1/s = 0` for strains that do not occur at all. `f` is the impulse with
-//! what section forces pass on. These are unknowns of their own: what they take from one place they give to another whatever rounding makes
-//! of them, so that momenta are kept. Springs and dampers have no part of it: their forces are bounded, and their impulse in an instant is
-//! zero.
+//! with `s = h²/4` for strains that steps of a length `h` resolve, and `1/s = 0` for suppressed strains. `f` is the impulse including the
+//! impulses of section forces. The latter are separate unknowns and `Bᵀ n` has no resultant, so momenta are conserved in spite of rounding.
+//! Springs and dampers take no part: their forces are bounded, so their impulse during an impact is zero.
 
 use super::System;
 use crate::beams::StrainKind;
@@ -18,36 +17,33 @@ use crate::geometry::larger;
 use crate::integrators::{Inertia, Mechanism};
 use crate::linalg::{BandedLu, BandedMatrix};
 
-/// The largest stiffness beside the inertia: what vibrates so much faster than steps are is rigid to five digits and more.
+/// Largest ratio of stiffness to inertia. Vibrations that are faster than the steps by this ratio are rigid to at least five digits.
 const MOST: f64 = 1e10;
 
-/// How often a solution is corrected at least: each time its error falls by `MOST` rounding units.
+/// Smallest number of corrections of a solution. Each reduces the error by `MOST` rounding units.
 const CORRECTIONS: usize = 4;
 
-/// How often a solution is corrected at most, until strains that do not occur are zero.
+/// Largest number of corrections until suppressed strains vanish.
 const MOST_CORRECTIONS: usize = 60;
 
-/// Strains that do not occur are zero where their part of the energy is less than this [-].
+/// Fraction of the energy below which suppressed strains count as zero [-].
 const NO_STRAIN: f64 = 1e-20;
 
-/// The deformations that take part in an impact.
+/// Deformations that take part in an impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Deformation {
-    /// All of them: only inertia meets the impulse.
+    /// All deformations: only inertia resists the impulse.
     All,
-    /// Those that steps of a length follow [time].
+    /// Deformations that steps of a length resolve [time].
     Slow(f64),
-    /// Those that steps of a length follow [time], of beams that do not stretch.
+    /// Deformations that steps of a length resolve [time], without axial strain.
     Inextensible(f64),
 }
 
-/// A strain, and how it resists.
 struct StrainResistance {
-    /// The degrees of freedom that strain.
     degrees: Vec<usize>,
-    /// The strain by movements of these.
     strain: Vec<f64>,
-    /// Its stiffness, times what it stands for and `s`, or, where it does not occur, what weighs it.
+    /// Stiffness times integration length times `s`, or the penalty weight of a suppressed strain.
     weight: f64,
     is_rigid: bool,
 }
@@ -59,13 +55,12 @@ impl StrainResistance {
     }
 }
 
-/// How the present configuration answers to impulses with some deformations.
+/// Strains of the present configuration with their weights in an impact.
 pub(super) struct Rigidity {
     resistances: Vec<StrainResistance>,
 }
 
 impl Rigidity {
-    /// The rigidity of a model in an impact with such deformations.
     pub(super) fn of(model: &System, deformation: Deformation) -> Self {
         let (length, rigid) = match deformation {
             Deformation::All => (0.0, None),
@@ -92,7 +87,6 @@ impl Rigidity {
         Self { resistances }
     }
 
-    /// The inertia of the model with what resists beside it, to be factorised.
     pub(super) fn matrix(&self, model: &System) -> BandedMatrix {
         let mut matrix = model.banded_inertia();
         let size = matrix.size();
@@ -106,9 +100,9 @@ impl Rigidity {
         matrix
     }
 
-    /// Makes of a unit impulse what acts with all that section forces pass on, by the factors of the [`matrix`](Self::matrix).
+    /// Converts a unit impulse to the impulse with transmitted section forces, using the factors of the [`matrix`](Self::matrix).
     ///
-    /// Strains that do not occur are brought to zero by the method of multipliers. Gives the impulses `n` of the section forces.
+    /// Suppressed strains are brought to zero by the method of multipliers (Hestenes 1969). Returns the impulses `n` of the section forces.
     pub(super) fn pass_on(
         &self,
         model: &mut System,
@@ -159,7 +153,7 @@ impl Rigidity {
     }
 }
 
-/// The largest quotient of what resistances with such weights make of the movement of a degree of freedom, and of its inertia.
+/// Largest ratio of weighted stiffness to inertia over the degrees of freedom.
 fn fastest<'r>(inertia: &[f64], resistances: impl Iterator<Item = &'r StrainResistance>) -> f64 {
     let mut resistance = vec![0.0; inertia.len()];
     for StrainResistance { degrees, strain, weight, .. } in resistances {
@@ -171,7 +165,7 @@ fn fastest<'r>(inertia: &[f64], resistances: impl Iterator<Item = &'r StrainResi
     with_inertia.map(|(k, m)| k / m).fold(0.0, larger)
 }
 
-/// Gives every strain of a beam that is resisted: the degrees of freedom that make it, by how much, its stiffness and its kind.
+/// Calls `take` for every strain with stiffness: degrees of freedom, coefficients, stiffness and kind.
 fn each_resisting(model: &System, mut take: impl FnMut(&[usize], &[f64], f64, StrainKind)) {
     model.each_span_of_bodies(&mut |degrees, span| {
         let rows = span.stiffness.iter().zip(&span.kinds).zip(span.strains.chunks(degrees.len()));
@@ -180,7 +174,7 @@ fn each_resisting(model: &System, mut take: impl FnMut(&[usize], &[f64], f64, St
     });
 }
 
-/// Adds what section forces passed on in a blow, `Bᵀ n`, with the numbers that movements have at present; nothing where nothing was rigid.
+/// Adds the transmitted impulses `Bᵀ n` of an impact in the current numbering; nothing if no strain is rigid.
 pub(super) fn add_passed_on(model: &System, passed: &[f64], out: &mut [f64]) {
     let mut passed = passed.iter();
     each_resisting(model, |degrees, row, _, _| {

@@ -1,15 +1,16 @@
-//! Sliders that pass from beam to beam of a track: what a corner between the two does to velocities.
+//! Sliders that pass from beam to beam of a track: effect of a corner at the seam on velocities.
 //!
-//! A corner is the limit of a rounded one. While the tangent turns, the contact keeps `w`, the velocity of the slave relative to its place, along it by
-//! impulses across, which do no work: `½ w·W⁻¹w` stays, with `W = G M⁻¹ Gᵀ` as in an impact. So `w` turns with the tangent, in the metric `W⁻¹`:
+//! A corner is the limit of a rounded one. While the tangent rotates, the contact keeps `w`, the velocity of the slave relative to its place, along
+//! it by impulses across, which do no work: `½ w·W⁻¹w` is constant, with `W = G M⁻¹ Gᵀ` as in an impact. So `w` rotates with the tangent in the
+//! metric `W⁻¹`:
 //!
 //! ```text
 //! w⁺ = w⁻ + W P        P = γ J ½ (w⁻ + w⁺)        γ = 2 tan(θ/2)/√det W
 //! ```
 //!
-//! with the angle `θ` between the two tangents in that metric. Sections turn it first, for which `G` is what steps follow of the velocity, as in a blow,
-//! and in one impact with all blows of that moment; then what is left, the difference of the shear of both sides, for which it is the velocity itself.
-//! Derived in docs/theory.md, section 10.3.
+//! with the angle `θ` between both tangents in that metric. Sections rotate it first, with the part `G` of the velocity that the steps resolve, in
+//! one impact with all simultaneous impacts. The remaining angle, the difference of the shear on both sides, follows with the full velocity. Derived
+//! in docs/theory.md, section 10.3.
 
 use super::System;
 use super::impact::{ImpactDirection, ImpactImpulses, ImpactLaw, ImpactProblem};
@@ -19,22 +20,22 @@ use crate::geometry::{Vec2, cross, perpendicular};
 use crate::linalg::{BandedMatrix, LinearError, Pairing, complementary};
 use crate::system::sliders::{MasterEnd, MasterLimit, Seam};
 
-/// Tangents whose directions differ by less than this angle are one: rounding [rad].
+/// Angle below which two tangents are equal within rounding [rad].
 const STRAIGHT: f64 = 1e-13;
 
-/// What moves in one direction only, by this part of what it moves at all, is turned by no corner.
+/// Relative determinant of the response below which it has rank one. A rank-one response is not rotated at corners.
 const ONE_WAY: f64 = 1e-20;
 
-/// The most times that the angles of corners are corrected that are passed together, where those who pass move each other.
+/// Largest number of corrections of the angles of corners that are passed simultaneously by coupled sliders.
 const CORRECTIONS: usize = 40;
 
-/// An angle that is off by less is right [rad].
+/// Tolerance of an angle [rad].
 const RIGHT: f64 = 1e-12;
 
-/// By how much the angle of a turn may change with the one that stands for it, to be believed.
+/// Plausible derivatives of the rotation angle with respect to the parameter angle.
 const SLOPES: std::ops::Range<f64> = 0.2..5.0;
 
-/// A corner that a slider passes: the directions in which it comes and goes [-].
+/// Corner that a slider passes: its incoming and outgoing directions [-].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SeamCorner {
     pub(super) slider: usize,
@@ -43,7 +44,6 @@ pub(super) struct SeamCorner {
 }
 
 impl SeamCorner {
-    /// The directions of the impulses at corners, two for each.
     pub(super) fn directions(corners: &[Self]) -> Vec<ImpactDirection> {
         let both = |Self { slider, .. }: &Self| [(*slider, Vec2::x()), (*slider, Vec2::y())];
         corners.iter().flat_map(both).collect()
@@ -54,23 +54,21 @@ impl SeamCorner {
     }
 }
 
-/// Sliders that pass seams at one time.
+/// Sliders that pass seams at the same time.
 pub(super) struct SeamCrossings {
     passing: Vec<(usize, MasterEnd, Seam)>,
-    /// Their corners as sections make them.
     of_sections: Vec<SeamCorner>,
-    /// What the shear of both sides leaves of these.
     of_shear: Vec<SeamCorner>,
 }
 
 impl SeamCrossings {
-    /// The corners that sections make; none where all are straight.
+    /// Corners of the sections; empty if all are straight.
     pub(super) fn corners_of_sections(&self) -> &[SeamCorner] {
         if self.of_sections.iter().all(SeamCorner::is_straight) { &[] } else { &self.of_sections }
     }
 }
 
-/// How the relative velocity of a slider answers to an impulse on it: the symmetric matrix `W` by its rows [1/mass].
+/// Response of the relative velocity of a slider to an impulse: the symmetric matrix `W` by rows [1/mass].
 #[derive(Debug, Clone, Copy)]
 struct Response([Vec2; 2]);
 
@@ -91,7 +89,7 @@ impl Response {
         self.determinant() <= ONE_WAY * square(self.trace())
     }
 
-    /// The angle by which one velocity has to be turned to have the direction of another one, in the metric `W⁻¹` [rad].
+    /// Rotation angle between two velocities in the metric `W⁻¹` [rad].
     fn angle(&self, from: Vec2, to: Vec2) -> f64 {
         // `det W` times the scalar product.
         let along = perpendicular(from).dot(&self.times(perpendicular(to)));
@@ -100,17 +98,17 @@ impl Response {
 }
 
 impl System {
-    /// Whether the track of a slider goes on beyond a limit, so that it does not end there.
+    /// Returns true if the track of a slider continues beyond a limit.
     pub fn goes_on(&self, limit: MasterLimit) -> bool {
         self.sliders[limit.slider].seam(&self.bodies, limit.end).is_some()
     }
 
-    /// Whether a slider came to a seam at the present moment, or left one on which it leant.
+    /// Returns true if a slider reached or left a seam at the present time.
     pub fn came_to_seam_now(&self, slider: usize) -> bool {
         self.sliders[slider].came_to_seam_at(self.motion.time)
     }
 
-    /// How sliders pass the seams of their tracks at which they are.
+    /// Crossings of sliders that are at seams of their tracks.
     pub(super) fn passages(&self, limits: &[MasterLimit]) -> SeamCrossings {
         let passing = limits.iter().filter_map(|&MasterLimit { slider, end }| {
             Some((slider, end, self.sliders[slider].seam(&self.bodies, end)?))
@@ -126,7 +124,6 @@ impl System {
         SeamCrossings { passing, of_sections, of_shear }
     }
 
-    /// Lets sliders that sections have turned pass to the other sides of their seams.
     pub(super) fn pass_seams(&mut self, passages: &SeamCrossings) -> Result<(), LinearError> {
         self.turn(&passages.of_shear, Deformation::All)?;
         let time = self.motion.time;
@@ -138,8 +135,8 @@ impl System {
         Ok(())
     }
 
-    /// Sliders that are at ends of kinked axes, where no kink has an energy, turn onto the axes as they are: what their kinks vibrate with goes into the
-    /// motion along.
+    /// Rotates the velocities of sliders at the ends of kinked axes, where the kink has no energy, onto the smooth axes. The motion of the kink
+    /// becomes motion along the axis.
     pub(super) fn straighten_kinks(&mut self, limits: &[MasterLimit]) -> Result<(), LinearError> {
         let rates = &self.motion.rates;
         let corner = |&MasterLimit { slider, end }: &MasterLimit| {
@@ -152,7 +149,7 @@ impl System {
         Ok(())
     }
 
-    /// The directions of the axis, as sections have them that are not sheared, in which a slider leaves the one side of a seam and comes to the other [-].
+    /// Unsheared axis directions in which a slider leaves one side of a seam and enters the other [-].
     fn sections_at(&self, slider: usize, end: MasterEnd, seam: Seam) -> Option<[Vec2; 2]> {
         let slider = &self.sliders[slider];
         let along = |beam: usize, end: MasterEnd| {
@@ -163,7 +160,7 @@ impl System {
         Some([along(slider.connection.master, end)?, -beyond])
     }
 
-    /// Turns the relative velocities of sliders round corners, met by such deformations.
+    /// Deflects the relative velocities of sliders at corners, with the deformations that take part.
     pub(super) fn turn(
         &mut self,
         corners: &[SeamCorner],
@@ -188,16 +185,17 @@ impl System {
     }
 }
 
-/// A direction turned by the angle between two others.
+/// Direction rotated by the angle between two others.
 fn turned(direction: Vec2, [from, to]: [Vec2; 2]) -> Vec2 {
     direction * from.dot(&to) + perpendicular(direction) * cross(from, to)
 }
 
-/// The impulses of an impact in which sliders are turned round corners, two for each, and all other contacts have a law: `P = γ J ½ (w⁻ + w⁺)` at corners,
-/// with `γ` such that each is turned by its own angle, to 1e-12, or as the last correction leaves it. None where stops strike too and the angles are not met.
+/// Impulses of an impact with sliders rotated at corners, two impulses each, and laws for all other contacts: `P = γ J ½ (w⁻ + w⁺)` at corners, with
+/// `γ` such that each rotates by its own angle, to 1e-12 or as accurately as the last correction. `None` if stops are struck too and the angles are
+/// not reached.
 ///
-/// For any `γ` it is one complementarity problem, with the rows `cos(θ/2) √det W P - sin(θ/2) J W P = sin(θ/2) J 2 w̄` for corners; theory.md, section 10.3,
-/// shows that it has one solution.
+/// For any `γ` it is one complementarity problem, with the rows `cos(θ/2) √det W P - sin(θ/2) J W P = sin(θ/2) J 2 w̄` for corners. Theory.md,
+/// section 10.3, shows that its solution is unique.
 pub(super) fn round_corners(
     encounter: &ImpactProblem,
     corners: &[SeamCorner],
@@ -219,7 +217,7 @@ pub(super) fn round_corners(
         for (at, bend) in bends.iter().enumerate() {
             let [x, y] = [2 * at, 2 * at + 1];
             let (keeps, swings) = bend.row();
-            // J turns (x, y) into (-y, x).
+            // J maps (x, y) to (-y, x).
             for (row, from, sign) in [(x, y, swings), (y, x, -swings)] {
                 matrix[row] = encounter.response[from].iter().map(|w| w * sign).collect();
                 matrix[row][row] += keeps;
@@ -241,7 +239,7 @@ pub(super) fn round_corners(
     Ok(last.filter(|_| !strikes).map(|impulses| encounter.with_works(impulses)))
 }
 
-/// How sliders at corners answer to their own impulses, when all contacts answer that keep slaves on masters.
+/// Responses of sliders at corners to their own impulses, with the responses of all contacts that keep slaves on masters.
 fn own_responses(
     encounter: &ImpactProblem,
     corners: &[SeamCorner],
@@ -269,12 +267,12 @@ fn own_responses(
     (0..corners.len()).map(own).collect()
 }
 
-/// A corner in the search for the `γ` with which its slider is turned by its angle.
+/// Search at a corner for the `γ` that rotates its slider by the required angle.
 struct TurnSearch {
     own: Response,
-    /// By which angle it is to be turned [rad].
+    /// Required angle [rad].
     wanted: f64,
-    /// The angle that stands for `γ` [rad], and by how much the one before was off.
+    /// Parameter angle of `γ` [rad], and the error of the previous one.
     angle: f64,
     before: Option<(f64, f64)>,
 }
@@ -285,7 +283,7 @@ impl TurnSearch {
         Self { own: *own, wanted, angle: wanted, before: None }
     }
 
-    /// The factors of `P` and of `J W P` in the equations of the corner.
+    /// Factors of `P` and `J W P` in the equations of the corner.
     fn row(&self) -> (f64, f64) {
         let (sine, cosine) = sin_cos(0.5 * self.angle);
         match self.own.is_one_way() {
@@ -294,14 +292,14 @@ impl TurnSearch {
         }
     }
 
-    /// Corrects the angle by the velocities before and after the impact; gives whether they were right.
+    /// Corrects the angle from the velocities before and after the impact. Returns true if they are correct.
     fn correct(&mut self, before: Vec2, after: Vec2) -> bool {
         if self.own.is_one_way() || before == Vec2::zeros() {
             return true;
         }
         let off = self.own.angle(before, after) - self.wanted;
         let slope = self.before.map(|(angle, other)| (off - other) / (self.angle - angle));
-        // By the secant where it is one.
+        // Secant method, if the slope is plausible.
         let slope = slope.filter(|slope| SLOPES.contains(slope)).unwrap_or(1.0);
         self.before = Some((self.angle, off));
         self.angle -= off / slope;
@@ -309,7 +307,6 @@ impl TurnSearch {
     }
 }
 
-/// Solves a few equations with a dense matrix.
 fn solve(matrix: &[Vec<f64>], mut rhs: Vec<f64>) -> Result<Vec<f64>, LinearError> {
     let count = rhs.len();
     let mut dense = BandedMatrix::zeros(count, count - 1);

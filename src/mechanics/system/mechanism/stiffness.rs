@@ -1,7 +1,7 @@
-//! How the present configuration resists small movements, and with which inertia.
+//! Stiffness and inertia of the present configuration.
 //!
-//! Rotations are increments of the angle itself, for which the stiffness is the Hessian of the strain energy. Loads of fixed direction
-//! have none; those that turn with a section are left out.
+//! Rotations are increments of the angle itself, for which the stiffness is the Hessian of the strain energy. Loads of fixed direction have no
+//! stiffness; follower loads are ignored.
 
 use super::{OrderAtRest, System};
 use crate::beams::SpanStiffness;
@@ -11,13 +11,12 @@ use crate::linalg::{PreciseBand, SymmetricSparse};
 use crate::system::links::RigidLink;
 use crate::system::state::UnknownKind;
 
-/// A rigid link is so many times as stiff as anything else of a model where small movements are looked for: frequencies are lower by less than a part of that,
-/// and with 32 digits nothing else is hidden.
+/// Stiffness of rigid links relative to the stiffest element, for small movements. It lowers frequencies by a smaller relative amount, and with 32
+/// digits hides nothing else.
 const RIGID: f64 = 1e8;
 
 impl System {
-    /// Gives every span of every body, and every spring, as at rest: the places of the unknowns of its components, and its rows. Those of supported
-    /// components stand behind the unknowns of all.
+    /// Passes every span and spring at rest: places of the unknowns of its components, and its rows. Supported components follow all unknowns.
     pub fn each_span_at_rest(
         &self,
         order: &OrderAtRest,
@@ -26,13 +25,12 @@ impl System {
         self.each_span(&mut in_order(order, take));
     }
 
-    /// Gives every span of every body, and every spring, as at rest, with the degrees of freedom of its components.
     fn each_span(&self, take: &mut dyn FnMut(&[usize], &SpanStiffness)) {
         self.each_span_of_bodies(take);
         self.elements.each_at_rest(&self.bodies, take);
     }
 
-    /// Gives every span of every body, as at rest, with the degrees of freedom of its components.
+    /// Calls `take` for the stiffness of every span of every body, with the degrees of freedom of its components.
     pub(super) fn each_span_of_bodies(&self, take: &mut dyn FnMut(&[usize], &SpanStiffness)) {
         for body in self.bodies.iter() {
             let order = body.dynamics.order();
@@ -43,21 +41,19 @@ impl System {
         }
     }
 
-    /// The power that dampers, damped materials and drag dissipate at such rates of the unknowns in the present configuration, as at rest there
-    /// [energy/time].
+    /// Power dissipated by dampers, damped materials and drag at given rates in the present configuration [energy/time].
     pub fn dissipation(&self, rates: &[f64]) -> f64 {
         let mut power = 0.0;
         self.each_damped_rate(rates, &mut |damping, rate| power += damping * square(rate));
         power
     }
 
-    /// Gives each rate that dampers, damped materials and drag resist at such rates of the unknowns in the present configuration, as at rest there, behind what
-    /// damps it: its product with the square of the rate is the power that it dissipates [energy/time]. As many are given, in the same order, at any rates.
+    /// Passes each damped rate with its damping coefficient, in the present configuration at rest. The coefficient times the squared rate is the
+    /// dissipated power [energy/time]. The number and order of calls do not depend on the rates.
     pub fn each_damped_rate(&self, rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
         self.elements.each_damped_rate(&self.bodies, rates, take);
     }
 
-    /// How far from the diagonal the stiffness of a configuration has entries, where rigid links couple points and bodies without forces between them.
     pub(super) fn half_bandwidth_at_rest(&self) -> usize {
         let of_link = |link: &RigidLink| {
             let degrees = &self.bodies[link.body].degrees_of_freedom;
@@ -74,8 +70,8 @@ impl System {
         reaches.fold(self.unknowns.half_bandwidth(), usize::max)
     }
 
-    /// Gives every rigid link and every contact as at rest, so stiff that nothing is seen of what gives way: `RIGID` times the largest `stiffness` of a
-    /// movement of the model, asked for by its place [force/length, force·length].
+    /// Passes every rigid link and contact as a penalty stiffness: `RIGID` times the largest `stiffness` of its movements, queried by place
+    /// [force/length, force·length].
     pub fn each_tie_at_rest(
         &self,
         order: &OrderAtRest,
@@ -102,7 +98,7 @@ impl System {
         self.sliders.each_at_rest(&self.bodies, self.unknowns.count(), rigid, take);
     }
 
-    /// How many movements with inertia fewer the model has than its inertia matrix: rigid links and contacts hold them to each other.
+    /// Number of movements with inertia that rigid links and contacts remove.
     pub fn held_by_ties(&self, order: &OrderAtRest, inertia: &SymmetricSparse) -> usize {
         self.held_by_links(order, inertia) + self.sliders.movements_held()
     }
@@ -118,8 +114,8 @@ impl System {
         self.links.forces().saturating_sub(kinds.filter(is_light).count())
     }
 
-    /// About the square of the slowest bending, as if all beams were one: the least `EI` over the largest `ρA` and the fourth power of
-    /// their length together; none without a beam [1/time²].
+    /// Approximate square of the lowest bending frequency, as if all beams were one: the smallest `EI` over the largest `ρA` and the fourth power of
+    /// the total length; `None` without a beam [1/time²].
     pub fn slowest_bending(&self) -> Option<f64> {
         let extents = || self.bodies.iter().filter_map(|body| body.dynamics.extent());
         let length: f64 = extents().map(|(_, length)| length).sum();
@@ -129,13 +125,12 @@ impl System {
         (length > 0.0).then(|| bending / mass / square(square(length)))
     }
 
-    /// In how many ways a movement from here would release energy if loads keep their directions: the negative eigenvalues of the
-    /// stiffness.
+    /// Number of negative eigenvalues of the stiffness, for loads of fixed direction.
     pub fn falls(&self) -> usize {
         self.falls_against(0.0)
     }
 
-    /// In how many ways that would be so against what resists every movement by such a multiple of its inertia [1/time²].
+    /// The same with a multiple of the inertia added to the stiffness [1/time²].
     pub fn falls_against(&self, rate: f64) -> usize {
         let order = self.order_at_rest();
         let inertia = match rate > 0.0 {
@@ -154,7 +149,7 @@ impl System {
     }
 }
 
-/// Gives the places of unknowns where unknowns are told.
+/// Maps unknowns to their places before they are passed on.
 fn in_order<'t>(
     order: &'t OrderAtRest,
     take: &'t mut dyn FnMut(&[usize], &SpanStiffness),
@@ -168,7 +163,7 @@ fn in_order<'t>(
     }
 }
 
-/// Adds to the stiffness of a configuration how a span resists: `Bᵀ k B + K_g`.
+/// Adds the stiffness `Bᵀ k B + K_g` of a span.
 pub fn add_resistance(stiffness: &mut PreciseBand, degrees: &[usize], span: &SpanStiffness) {
     let width = degrees.len();
     for (factor, row) in span.stiffness.iter().zip(span.strains.chunks_exact(width)) {

@@ -1,7 +1,7 @@
-//! Blows at the ends of masters: who is struck together, what stops store, and when a slider leaves one.
+//! Impacts at the ends of masters: simultaneous impacts, energy stored in stops, and sliders that leave a stop.
 //!
-//! A slider that comes to lean on its stop comes to rest against it by an impulse. What that takes from the motion the stop stores, as the
-//! elastic body that it is, and gives it back when the slider leaves; with a coefficient of restitution below one it is lost.
+//! A slider that becomes held at a stop is brought to rest by an impulse. The stop, as an elastic body, stores the lost kinetic energy and returns it
+//! when the slider leaves. With a coefficient of restitution below one the energy is lost.
 
 use super::System;
 use super::impact::{GIVES, ImpactDirection, ImpactLaw};
@@ -14,40 +14,40 @@ use crate::linalg::LinearError;
 use crate::system::SystemError;
 use crate::system::sliders::{AxialImpact, MasterLimit, SliderState};
 
-/// A slider that is as near to its end as this, as a part of its master, arrives together with one that is there.
+/// Relative distance from the end of a master within which sliders arrive simultaneously.
 const TOGETHER: f64 = 1e-12;
 
-/// What vibrates faster than in so many steps is rigid for a blow.
+/// Number of steps per period below which a vibration is rigid in an impact.
 pub(super) const RIGID: f64 = 4.0;
 
-/// The largest part of a blow that a step may be to resolve it [-].
+/// Largest ratio of step length to impact duration that resolves an impact [-].
 pub const RESOLVED_BLOW: f64 = 0.125;
 
-/// A slider that approaches its end with less than this part of the fastest speed of the model does not.
+/// Smallest approach speed relative to the fastest speed of the model.
 const APPROACHES: f64 = 1e-12;
 
-/// A direction in which a contact gives an impulse, and by which law.
+/// Direction of a contact impulse, with its law.
 #[derive(Debug, Clone, Copy)]
 struct ImpactContact {
     direction: ImpactDirection,
     law: ImpactLaw,
 }
 
-/// Who strikes an end of its master, who comes to lean on it, and who passes it.
+/// Sliders that strike an end of their master, become held there, or pass it.
 #[derive(Debug, Clone, Default)]
 pub struct Arriving {
-    /// The limits at which sliders strike and bounce.
+    /// Limits at which sliders bounce.
     pub strike: Vec<MasterLimit>,
-    /// The limits that sliders strike and do not leave: their stops give no speed back, and steps do not resolve the blow.
+    /// Limits that sliders strike without leaving: the stop has zero restitution, and the impact is not resolved.
     pub stay: Vec<MasterLimit>,
-    /// The limits on which sliders come to lean.
+    /// Limits at which sliders become held.
     pub lean: Vec<MasterLimit>,
-    /// The limits beyond which sliders go on along their tracks.
+    /// Limits that sliders pass along their tracks.
     pub pass: Vec<MasterLimit>,
 }
 
 impl Arriving {
-    /// Whether nobody strikes, leans or passes.
+    /// Returns true if no slider arrives.
     pub fn is_empty(&self) -> bool {
         !self.strikes_or_leans() && self.pass.is_empty()
     }
@@ -65,8 +65,7 @@ impl Arriving {
 }
 
 impl System {
-    /// The limits that sliders reach at the present moment together with one that does, in the order of the scene: as near to them as rounding
-    /// can tell, and led beyond.
+    /// Limits reached simultaneously with the given one, in the order of the scene: sliders within rounding of an end that move beyond it.
     pub fn arriving_with(&self, limit: MasterLimit) -> Vec<MasterLimit> {
         let limits = (0..self.sliders.len()).flat_map(MasterLimit::both);
         let arrives = |other: &MasterLimit| {
@@ -77,10 +76,10 @@ impl System {
         limits.filter(arrives).collect()
     }
 
-    /// Whether a slider approaches an end at which it is, by what takes part in an impact in steps of such a length.
+    /// Returns true if a slider at an end approaches it, with the deformations that take part in an impact in steps of length `dt` [time].
     ///
     /// # Errors
-    /// When the impulse of a blow is not determined.
+    /// Fails if the impulse is not determined.
     pub fn approaches(&mut self, limit: MasterLimit, dt: f64) -> Result<bool, SystemError> {
         let direction = (limit.slider, self.inward(limit));
         let approach = |model: &mut Self| -> Result<f64, LinearError> {
@@ -93,18 +92,18 @@ impl System {
         Ok(speed < -APPROACHES * self.fastest_speed())
     }
 
-    /// Whether steps of such a length resolve the blow of a slider at a limit, that lasts as long as its waves run: where something gives way to it
-    /// and is no more than so light. Notes how many times as long as the blow a step is.
+    /// Returns true if steps of a length resolve the impact of a slider at a limit, whose duration follows from waves, if one of the bodies is
+    /// deformable and light enough. Records the ratio of step length to impact duration.
     ///
     /// # Errors
-    /// When the impulse of a blow is not determined.
+    /// Fails if the impulse is not determined.
     pub fn resolves_blow(&mut self, limit: MasterLimit, dt: f64) -> Result<bool, SystemError> {
         let lasts = self.blow_lasts(limit).map_err(|_| self.sliders.overdetermined())?;
         self.sliders[limit.slider].note_blow(dt / lasts);
         Ok(lasts.is_finite() && dt <= RESOLVED_BLOW * lasts)
     }
 
-    /// How long a blow of a slider at a limit lasts [time]; for ever where nothing gives way to it.
+    /// Duration of the impact of a slider at a limit [time]; infinite if nothing is compliant.
     fn blow_lasts(&self, limit: MasterLimit) -> Result<f64, LinearError> {
         let direction = (limit.slider, self.inward(limit));
         let mut inertia = self.banded_inertia();
@@ -117,8 +116,8 @@ impl System {
         Ok(self.sliders[limit.slider].blow_lasts(&self.bodies, AxialImpact { slave, master }))
     }
 
-    /// The deformations that take part in an impact at such limits in steps of such a length [time]. A coefficient of restitution stands for the
-    /// waves along the beams and for all that is over within the blow; an elastic contact has what steps follow.
+    /// Deformations that take part in an impact at limits in steps of length `dt` [time]. A coefficient of restitution includes the axial waves and
+    /// everything faster than the impact; an elastic contact has the deformations that steps resolve.
     fn deformation_at(&self, limits: &[MasterLimit], dt: f64) -> Result<Deformation, LinearError> {
         let mut longest = None;
         for limit in limits.iter().filter(|at| self.end_action(at.slider) != EndAction::Contact) {
@@ -130,32 +129,32 @@ impl System {
         }))
     }
 
-    /// Keeps the kinks under contact forces as they are in steps to come; gives whether that is another law for the next step.
+    /// Fixes the kinks under contact forces for the following steps. Returns true if this changes the law of the next step.
     pub fn keep_kinks(&mut self) -> bool {
         self.sliders.keep_kinks()
     }
 
-    /// Lets the kinks under contact forces follow these again.
+    /// Makes the kinks under contact forces follow these again.
     pub fn let_kinks_follow(&mut self) {
         self.sliders.let_kinks_follow();
     }
 
-    /// Whether a kink under a contact force stays as it is, whatever that force.
+    /// Returns true if a kink under a contact force is fixed.
     pub fn has_kept_kinks(&self) -> bool {
         self.sliders.iter().any(|slider| slider.is_frozen())
     }
 
-    /// The direction in which the stop at a limit pushes the slave [-].
+    /// Direction of the stop force on the slave at a limit [-].
     fn inward(&self, limit: MasterLimit) -> Vec2 {
         self.sliders[limit.slider].along_contact(&self.bodies) * -limit.end.outward()
     }
 
-    /// All that arrives at ends of masters and at seams of tracks at the present moment is one impact, in steps of such a length [time]:
-    /// `0 ≤ P ⟂ w⁺ + e w⁻ ≥ 0` at stops, with those on which sliders lean already, a turn round the corner at seams, while all other contacts keep slaves on
-    /// masters. Then who passes a seam is on its other side.
+    /// Computes one impact of all sliders that arrive at ends of masters and at seams at the present time, in steps of a length [time]:
+    /// `0 ≤ P ⟂ w⁺ + e w⁻ ≥ 0` at stops, including those that hold sliders, a rotation at the corners of seams, and constraints for all other
+    /// contacts. Sliders that pass a seam are then on its other side.
     ///
     /// # Errors
-    /// When the impulses are not determined.
+    /// Fails if the impulses are not determined.
     pub fn meet(&mut self, arriving: &Arriving, dt: f64) -> Result<(), SystemError> {
         self.sliders.iter_mut().for_each(|slider| slider.impulse = Vec2::zeros());
         let met = self.meet_at_once(arriving, dt);
@@ -177,7 +176,7 @@ impl System {
             self.hit(&hits, corners, [Deformation::Slow(RIGID * dt), at_stops])?;
         }
         if !arriving.stay.is_empty() {
-            // The blow is that of a rigid body, which does more than its very end; what is left of it is rounding, and none may be left.
+            // The impact is that of a rigid body, which includes more than its end. The rest is rounding and must be removed.
             let hits =
                 self.hits(|_, limit| arriving.stay.contains(&limit).then_some(ImpactLaw::Ends));
             self.hit(&hits, &[], [Deformation::All; 2])?;
@@ -186,8 +185,8 @@ impl System {
         self.pass_seams(&passages)
     }
 
-    /// Changes the velocities by impulses at all contacts at once, those of passing sliders round corners and the others by their laws, with such
-    /// deformations. What a stop comes to hold it must hold as it is, with all deformations.
+    /// Applies simultaneous impulses: sliders that pass corners are deflected, others follow their impact laws. Sliders that come to rest at a stop
+    /// are held with all deformations.
     fn hit(
         &mut self,
         hits: &[ImpactContact],
@@ -206,7 +205,7 @@ impl System {
         let met = [(&turned[..], at_corners), (others, at_stops), (held, Deformation::All)];
         let encounter = self.encounter(&met, -2.0)?;
         let Some(impulses) = round_corners(&encounter, corners, &laws)? else {
-            // A blow that turns somebody back at a corner comes first.
+            // Impacts that reverse a slider at a corner come first.
             self.hit(hits, &[], [Deformation::All, at_stops])?;
             return self.turn(corners, at_corners);
         };
@@ -224,15 +223,15 @@ impl System {
         Ok(())
     }
 
-    /// The impulses that a slider gave its master in the last impact [mass·length/time].
+    /// Impulse of a slider on its master in the last impact [mass·length/time].
     pub fn impulse_of(&self, slider: usize) -> Vec2 {
         self.sliders[slider].impulse
     }
 
-    /// All sliders whose stops would have had to pull leave these, with what the stops have stored.
+    /// Frees all sliders with tensile stop forces, with the energy stored in the stops.
     ///
     /// # Errors
-    /// When the impulses are not determined.
+    /// Fails if the impulses are not determined.
     pub fn leave_stops(&mut self) -> Result<(), SystemError> {
         let leaving = |slider: &usize| self.sliders[*slider].is_pulled_off();
         let leaving: Vec<usize> = (0..self.sliders.len()).filter(leaving).collect();
@@ -253,9 +252,9 @@ impl System {
         Ok(())
     }
 
-    /// Gives sliders that leave what their stops have stored, by speeds in proportion to the roots of that.
+    /// Returns the energy stored in stops to the sliders that leave, by speeds proportional to its square roots.
     ///
-    /// The impulses are linear in a scale `s` of these speeds, as long as the same contacts act, and what they give is quadratic.
+    /// The impulses are linear in a scale `s` of these speeds as long as the same contacts act, and the returned energy is quadratic.
     fn give_back(&mut self) -> Result<(), LinearError> {
         let hits = self.hits(|model, limit| {
             let slider = &model.sliders[limit.slider];
@@ -300,8 +299,7 @@ impl System {
         Ok(())
     }
 
-    /// The directions [-] in which all contacts transmit impulses: across masters that do not give way, and along them where sliders lean on stops or
-    /// have a law at a limit.
+    /// Directions [-] of all contact impulses: across masters that do not yield, and along them for held sliders and those with a law at a limit.
     fn hits(&self, law: impl Fn(&Self, MasterLimit) -> Option<ImpactLaw>) -> Vec<ImpactContact> {
         let mut hits = Vec::new();
         for (at, slider) in self.sliders.iter().enumerate() {
@@ -326,10 +324,10 @@ impl System {
     }
 }
 
-/// The positive root of `a x² + b x + c`, if there is one.
+/// Positive root of `a x² + b x + c`, if there is one.
 fn nonnegative_root(a: f64, b: f64, c: f64) -> Option<f64> {
     let root = (square(b) - 4.0 * a * c).sqrt();
-    // The two forms of the quotient, by which nothing is cancelled.
+    // Forms of the quotient without cancellation.
     let x = if b > 0.0 { -2.0 * c / (b + root) } else { (root - b) / (2.0 * a) };
     (x.is_finite() && x >= 0.0).then_some(x)
 }
