@@ -256,7 +256,7 @@ impl System {
         directions.iter().map(answer).collect()
     }
 
-    /// Velocity responses to unit impulses with given deformations. A direction whose partners are both fixed has no response.
+    /// Velocity responses to unit impulses with given deformations. All deformations take part where the given ones fix both partners.
     ///
     /// # Errors
     /// Fails if the matrix is singular.
