@@ -247,7 +247,7 @@ fn a_run_that_cannot_be_made_again_has_its_shape_alone_and_says_so() {
     );
     let asked = script(", #{ fields: \"all\" }");
     let (_, told) = ran(&format!(
-        "{scene} let refused = false; try {{ {asked} }} catch (error) {{ refused = `${{error}}`.contains(\"another one\"); }} check(refused);"
+        "{scene} let refused = false; try {{ {asked} }} catch (error) {{ refused = `${{error}}`.contains(\"the repeated run differs\"); }} check(refused);"
     ));
     assert!(!told.contains("note: the states"), "{told}");
 }

@@ -451,7 +451,7 @@ fn names_of_the_session_are_explained_with_their_values() {
         (
             "?plot",
             &[
-                "To plot the height of a tip and the bending moment at a clamp over time",
+                "To plot the height of a tip and the bending moment",
                 "scene.record(\"rod.end.y\")",
                 "plot_history(sim, [\"rod.end.y\"]",
                 "plot_history(sim, [\"rod.start.M\"]",

@@ -374,7 +374,7 @@ fn what_is_wrong_is_told() {
     let said = refused("write_viewer(sim, \"a.html\", #{ from: 3 });");
     assert!(said.contains("'two' has no recorded state from t = 3"), "{said}");
     let said = refused("write_viewer([], \"a.html\");");
-    assert!(said.contains("at least one"), "{said}");
+    assert!(said.contains("one or more simulations"), "{said}");
     let said = refused("write_animation(sim, \"a.gif\");");
     assert!(said.contains("does not end in .png"), "{said}");
 }
