@@ -66,7 +66,7 @@ impl ParsedCsv {
     /// Parses comma-separated values.
     ///
     /// # Errors
-    /// If two columns have the same name, or a row has another number of cells than there are columns.
+    /// Fails if two columns have the same name, or a row has another number of cells than there are columns.
     pub fn parse(text: &str) -> Result<Self, ParsedCsvError> {
         let mut reader = csv::ReaderBuilder::new()
             .comment(Some(b'#'))
@@ -133,7 +133,7 @@ impl ParsedCsv {
     /// Text of a cell.
     ///
     /// # Errors
-    /// If there is no such column.
+    /// Fails if there is no such column.
     ///
     /// # Panics
     /// If there is no such row.
@@ -147,7 +147,7 @@ impl ParsedCsv {
     /// Number in a cell.
     ///
     /// # Errors
-    /// When there is no such column, or something else than a finite number whose square is finite.
+    /// Fails when there is no such column, or something else than a finite number whose square is finite.
     pub fn number(&self, row: usize, column: &str) -> Result<f64, ParsedCsvError> {
         let text = self.text(row, column)?;
         let number = text.parse().ok().filter(|number: &f64| number.abs() <= LARGEST);
@@ -161,7 +161,7 @@ impl ParsedCsv {
     /// Non-negative size of an error in a cell.
     ///
     /// # Errors
-    /// If there is no such column, or the cell is not a finite non-negative number.
+    /// Fails if there is no such column, or the cell is not a finite non-negative number.
     pub fn size(&self, row: usize, column: &str) -> Result<f64, ParsedCsvError> {
         let number = self.number(row, column)?;
         let (column, line) = (column.to_owned(), self.rows[row].0);

@@ -54,7 +54,7 @@ impl ExternalResult {
     /// reference; integrator, elements, dof and dt are optional.
     ///
     /// # Errors
-    /// If a column is missing, a number is invalid, or the positions belong to another time than that of the study.
+    /// Fails if a column is missing, a number is invalid, or the positions belong to another time than that of the study.
     pub fn of_sheet(
         sheet: &ParsedCsv,
         observables: &[Observable],

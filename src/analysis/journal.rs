@@ -61,7 +61,7 @@ impl Journal {
     /// Opens a journal; a missing file is created with the first record.
     ///
     /// # Errors
-    /// If an existing file cannot be read.
+    /// Fails if an existing file cannot be read.
     pub fn open(path: impl Into<PathBuf>) -> Result<Self, JournalError> {
         let path = path.into();
         let read = |(folder, name): (Folder, PathBuf)| folder.read(&name, LARGEST);
@@ -82,7 +82,7 @@ impl Journal {
     /// Combines several files for reading only.
     ///
     /// # Errors
-    /// If one of them cannot be read.
+    /// Fails if one of them cannot be read.
     pub fn of_files(paths: impl IntoIterator<Item = PathBuf>) -> Result<Self, JournalError> {
         let mut known = BTreeMap::new();
         for path in paths {
@@ -94,7 +94,7 @@ impl Journal {
     /// Removes the results of earlier runs.
     ///
     /// # Errors
-    /// If the file cannot be removed.
+    /// Fails if the file cannot be removed.
     pub fn clear(&mut self) -> Result<(), JournalError> {
         self.known.clear();
         self.file = None;
@@ -119,7 +119,7 @@ impl Journal {
     /// Writes the result of a case at once; returns the number of bytes.
     ///
     /// # Errors
-    /// If writing fails.
+    /// Fails if writing fails.
     pub fn write<T: Serialize>(
         &mut self,
         fingerprint: u64,
@@ -138,7 +138,7 @@ impl Journal {
     /// Creates the file of the journal, even without records, to mark the study as started.
     ///
     /// # Errors
-    /// If writing fails.
+    /// Fails if writing fails.
     pub fn begin(&mut self) -> Result<(), JournalError> {
         let path = self.path.clone();
         let begun = self.begin_file().map(drop);
@@ -186,7 +186,7 @@ impl Journal {
     /// Removes the journal of a completed study.
     ///
     /// # Errors
-    /// If the file cannot be removed.
+    /// Fails if the file cannot be removed.
     pub fn finish(self) -> Result<(), JournalError> {
         drop(self.file);
         remove(&self.path)

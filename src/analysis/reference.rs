@@ -192,7 +192,7 @@ impl ReferenceSolution {
     /// observables. Estimated errors are in columns d_xA, d_A or d_pos, d_thA or d_th, d_E, ….
     ///
     /// # Errors
-    /// If a time or all stations are missing, or a cell is not a number.
+    /// Fails if a time or all stations are missing, or a cell is not a number.
     pub fn of_sheet(
         source: impl Into<String>,
         sheet: &ParsedCsv,

@@ -45,7 +45,7 @@ pub struct RowJournal {
 /// no file.
 ///
 /// # Errors
-/// If an existing file cannot be read, or `heed` returns an error.
+/// Fails if an existing file cannot be read, or `heed` returns an error.
 pub fn read_rows<E: From<io::Error>>(
     path: &Path,
     mut heed: impl FnMut(RowEntry) -> Result<(), E>,
@@ -68,7 +68,7 @@ impl RowJournal {
     /// Opens a journal for appending after the first `whole` bytes; a missing file is created.
     ///
     /// # Errors
-    /// If writing fails.
+    /// Fails if writing fails.
     pub fn append(path: &Path, whole: u64) -> io::Result<Self> {
         let (folder, name) = place(path, Folder::make)?;
         let file = folder.append(&name)?;
@@ -79,7 +79,7 @@ impl RowJournal {
     /// Appends an entry; returns its length [bytes].
     ///
     /// # Errors
-    /// If writing fails.
+    /// Fails if writing fails.
     pub fn write(&mut self, entry: &RowEntry) -> io::Result<u64> {
         let payload = postcard::to_stdvec(entry).map_err(io::Error::other)?;
         let length = u32::try_from(payload.len()).map_err(io::Error::other)?;
@@ -93,7 +93,7 @@ impl RowJournal {
     /// Flushes the buffer periodically.
     ///
     /// # Errors
-    /// If writing fails.
+    /// Fails if writing fails.
     pub fn beat(&mut self) -> io::Result<()> {
         if self.flushed.elapsed() > DELAY {
             self.flush()?;
@@ -104,7 +104,7 @@ impl RowJournal {
     /// Flushes the buffer.
     ///
     /// # Errors
-    /// If writing fails.
+    /// Fails if writing fails.
     pub fn flush(&mut self) -> io::Result<()> {
         self.flushed = Instant::now();
         self.file.flush()
@@ -114,7 +114,7 @@ impl RowJournal {
 /// Removes a journal, if it exists.
 ///
 /// # Errors
-/// If removing fails.
+/// Fails if removing fails.
 pub fn remove_rows(path: &Path) -> io::Result<()> {
     match place(path, Folder::find).and_then(|(folder, name)| folder.remove(&name)) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),

@@ -50,7 +50,7 @@ impl SweptValues {
         }
     }
 
-    /// Number of a row; `None` for other values.
+    /// Numeric value of the parameter in a row; `None` if it is not a number.
     pub fn number(&self, row: usize) -> Option<f64> {
         match self {
             Self::Levels { numbers, .. } => numbers.as_ref()?.get(self.level(row)?).copied(),

@@ -42,7 +42,7 @@ pub(super) struct JudgeLimits<'a> {
 /// Mark of an attempt from a separate process; `None` if grading was stopped before.
 ///
 /// # Errors
-/// If no process can be started, which is not the student's fault.
+/// Fails if no process can be started, which is not the student's fault.
 pub(super) fn mark_apart(
     submission: &Submission,
     file: &Path,

@@ -13,7 +13,7 @@ pub const LARGEST: u64 = 1 << 20;
 /// Reads an attempt in a folder.
 ///
 /// # Errors
-/// If it is not a regular UTF-8 file of at most a megabyte, or is a link.
+/// Fails if it is not a regular UTF-8 file of at most a megabyte, or is a link.
 pub fn load(path: &Path, folder: &Path) -> Result<Program, Diagnostic> {
     let refused = |why: &str| {
         let told = format!("cannot read the attempt '{}': {why}", path.display());

@@ -37,7 +37,7 @@ pub struct MarksFile(File);
 /// Opens or creates a file of marks.
 ///
 /// # Errors
-/// If it cannot be read or written, another run uses it, or it exists and contains no marks.
+/// Fails if it cannot be read or written, another run uses it, or it exists and contains no marks.
 pub fn open(path: &Path) -> io::Result<(KnownMarks, MarksFile)> {
     let folder = path.parent().unwrap_or(Path::new("."));
     let (folder, name) = (Folder::open(folder)?, Path::new(path.file_name().unwrap_or_default()));
@@ -92,7 +92,7 @@ impl MarksFile {
     /// Appends a mark and syncs the file. Without a fingerprint the attempt will be judged again.
     ///
     /// # Errors
-    /// If writing fails.
+    /// Fails if writing fails.
     pub fn note(
         &mut self,
         submission: &Submission,

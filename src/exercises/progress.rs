@@ -29,7 +29,7 @@ impl StudentProgress {
     /// Reads the progress from a student's folder; empty if there is no file.
     ///
     /// # Errors
-    /// If the file cannot be read or is damaged.
+    /// Fails if the file cannot be read or is damaged.
     pub fn read(folder: &Path) -> Result<Self, ExerciseError> {
         let path = folder.join(FILE);
         let text = match read_text(&path, LARGEST) {
@@ -43,7 +43,7 @@ impl StudentProgress {
     /// Writes the progress to a student's folder.
     ///
     /// # Errors
-    /// If writing fails; the old file is kept.
+    /// Fails if writing fails; the old file is kept.
     pub fn write(&self, folder: &Path) -> Result<(), ExerciseError> {
         let text = format!("{:#}\n", serde_json::json!(self));
         Ok(write_whole(folder.join(FILE), text.as_bytes())?)

@@ -21,7 +21,7 @@ impl Submission {
     /// Submissions in a folder, by name: each subfolder is one, or the folder itself if it contains attempts.
     ///
     /// # Errors
-    /// If the folder cannot be read, or there is nothing to grade.
+    /// Fails if the folder cannot be read, or there is nothing to grade.
     pub fn all_in(folder: &Path) -> Result<Vec<Self>, ExerciseError> {
         let unreadable = |source| ExerciseError::Read { path: folder.into(), source };
         let own = Self::new(folder);

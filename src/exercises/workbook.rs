@@ -52,7 +52,7 @@ impl Workbook {
     /// Creates the folder and missing start files. Returns the number of files written.
     ///
     /// # Errors
-    /// If writing fails.
+    /// Fails if writing fails.
     pub fn fill(&self) -> Result<usize, ExerciseError> {
         let missing: Vec<_> =
             EXERCISES.iter().filter(|exercise| !self.file(exercise).exists()).collect();
@@ -83,7 +83,7 @@ impl Workbook {
     /// Progress of the student.
     ///
     /// # Errors
-    /// If the progress file cannot be used.
+    /// Fails if the progress file cannot be used.
     pub fn progress(&self) -> Result<StudentProgress, ExerciseError> {
         StudentProgress::read(&self.folder)
     }
@@ -91,7 +91,7 @@ impl Workbook {
     /// First exercise that has not passed; `None` if all have.
     ///
     /// # Errors
-    /// If the progress file cannot be used.
+    /// Fails if the progress file cannot be used.
     pub fn next(&self) -> Result<Option<&'static Exercise>, ExerciseError> {
         let progress = self.progress()?;
         Ok(EXERCISES.iter().find(|exercise| !progress.has_passed(exercise)))
@@ -100,7 +100,7 @@ impl Workbook {
     /// Records the result of a check.
     ///
     /// # Errors
-    /// If the progress file cannot be used.
+    /// Fails if the progress file cannot be used.
     pub fn note(&self, exercise: &Exercise, passed: bool) -> Result<(), ExerciseError> {
         self.change(|progress| progress.note(exercise, passed))
     }
@@ -108,7 +108,7 @@ impl Workbook {
     /// Next hint of an exercise, which is recorded as given.
     ///
     /// # Errors
-    /// If the progress file cannot be used.
+    /// Fails if the progress file cannot be used.
     pub fn hint(&self, exercise: &Exercise) -> Result<Advice, ExerciseError> {
         let given = self.progress()?.hints(exercise);
         let hints = exercise.judge().hints;
@@ -122,7 +122,7 @@ impl Workbook {
     /// Restores the start file of an exercise. Returns the file that keeps the old attempt.
     ///
     /// # Errors
-    /// If writing fails; the attempt is kept.
+    /// Fails if writing fails; the attempt is kept.
     pub fn reset(&self, exercise: &Exercise) -> Result<PathBuf, ExerciseError> {
         let file = self.file(exercise);
         let kept = free_name(&file);

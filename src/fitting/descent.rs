@@ -198,7 +198,7 @@ impl Design {
             Some(rating) => Ok(Some(rating)),
             None => rate(x),
         })?;
-        // The result includes the best design of the descent, from which the search started.
+        // The search starts from the best design of the descent, so its result is never worse.
         Ok(more.map(|more| Designed {
             runs: runs + more.runs - asked_again,
             gradient_runs,

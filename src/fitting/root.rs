@@ -32,7 +32,7 @@ pub enum RootError<E> {
 /// Derivatives, 1973, chapter 4), which brackets the root and uses inverse quadratic interpolation and secants.
 ///
 /// # Errors
-/// If the signs do not differ, a value is not finite, or the function fails.
+/// Fails if the signs do not differ, a value is not finite, or the function fails.
 pub fn root<E>(
     (from, to): (f64, f64),
     tolerance: f64,

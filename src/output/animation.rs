@@ -37,7 +37,7 @@ impl Animation<'_> {
     /// Returns the file. It loops without end; programs that do not support animations show the first frame.
     ///
     /// # Errors
-    /// If a frame cannot be painted, there are too many pixels, or there is no frame at all.
+    /// Fails if a frame cannot be painted, there are too many pixels, or there is no frame at all.
     pub fn to_png(&self) -> Result<Vec<u8>, OutputError> {
         let (width, height) = (self.draw)(0)?.size();
         let pixels = f64::from(width) * f64::from(height) * self.frames as f64;

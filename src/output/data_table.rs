@@ -69,7 +69,7 @@ impl DataTable {
     /// Text of the CSV file; numbers have 17 digits, which determine a double.
     ///
     /// # Errors
-    /// If the columns differ in length.
+    /// Fails if the columns differ in length.
     pub fn to_csv(&self, heading: TableHeading) -> Result<String, OutputError> {
         let rows = self.rows()?;
         let mut writer = ::csv::Writer::from_writer(Vec::new());

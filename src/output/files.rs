@@ -12,7 +12,7 @@ use crate::sandbox_fs::Folder;
 /// followed.
 ///
 /// # Errors
-/// If the folder cannot be created, the file cannot be written, or the path names a folder, a pipe or a device.
+/// Fails if the folder cannot be created, the file cannot be written, or the path names a folder, a pipe or a device.
 pub fn write_whole(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), OutputError> {
     let path = path.as_ref();
     let not_a_file = || OutputError::NotAFile { path: path.into() };

@@ -34,7 +34,7 @@ impl NpzArchive {
     /// Bytes of the `.npz` file; equal arrays give equal bytes.
     ///
     /// # Errors
-    /// If the number of values contradicts the shape, or two arrays have the same name.
+    /// Fails if the number of values contradicts the shape, or two arrays have the same name.
     pub fn to_bytes(&self) -> Result<Vec<u8>, OutputError> {
         let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
         let options = SimpleFileOptions::default()

@@ -16,7 +16,7 @@ impl DataTable {
     /// Bytes of an uncompressed `.parquet` file; the metadata `dimension.NAME` holds the dimension of a column.
     ///
     /// # Errors
-    /// If the columns differ in length, or two have the same name.
+    /// Fails if the columns differ in length, or two have the same name.
     pub fn to_parquet(&self) -> Result<Vec<u8>, OutputError> {
         self.rows()?;
         self.written_to_parquet()

@@ -6,7 +6,7 @@ use std::borrow::Cow;
 const REPLACEMENT: char = '\u{fffd}';
 
 /// The text with a replacement sign for every character that a terminal obeys or hides: control characters such as the beginning of an escape
-/// sequence, marks of writing direction, and characters without width. Line breaks and tabs stay, and the number of characters.
+/// Line breaks and tabs are kept, and the number of characters does not change.
 pub fn printable(text: &str) -> Cow<'_, str> {
     let is_harmful = |(at, letter): (usize, char)| is_harmful(letter) && !is_line_break(text, at);
     if !text.char_indices().any(is_harmful) {

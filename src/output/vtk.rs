@@ -66,7 +66,7 @@ impl VtkGrid {
     /// Text of a `.vtu` file: an unstructured grid in one piece.
     ///
     /// # Errors
-    /// If a field does not have one value per point.
+    /// Fails if a field does not have one value per point.
     pub fn to_vtu(&self) -> Result<String, OutputError> {
         let points: Vec<Point> = self.cells.iter().flat_map(|cell| cell.points.clone()).collect();
         if let Some(field) = self.fields.iter().find(|field| field.length() != points.len()) {

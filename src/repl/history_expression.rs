@@ -24,7 +24,7 @@ pub struct Followed {
 /// Evaluates an expression at every earlier state of a simulation that can be reproduced. The simulation itself does not move.
 ///
 /// # Errors
-/// If the expression fails at a state, moves the simulation, or is interrupted; the user has been told.
+/// Fails if the expression fails at a state, moves the simulation, or is interrupted; the user has been told.
 pub fn follow(
     shell: &mut Shell,
     subject: &SimulationHandle,

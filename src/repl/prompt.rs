@@ -9,7 +9,7 @@ use super::shell::{CommandOutcome, Shell};
 /// Reads and evaluates inputs until the user quits.
 ///
 /// # Errors
-/// If the terminal fails.
+/// Fails if the terminal fails.
 pub fn run(shell: &mut Shell, editor: &mut Editor) -> io::Result<()> {
     let _held = TypedAhead::keep();
     loop {

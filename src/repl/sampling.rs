@@ -12,7 +12,7 @@ use super::session::Rounds;
 pub const LONGEST: Duration = Duration::from_secs(1);
 /// Maximum total time of the repetitions.
 const PATIENCE: Duration = Duration::from_secs(2);
-/// Minimum total time, unless the median is known to [`KNOWN`] earlier.
+/// Minimum total time. Sampling ends earlier if the relative uncertainty of the median is below [`KNOWN`].
 const LEAST_TIME: Duration = Duration::from_millis(200);
 const LEAST_RUNS: usize = 7;
 const MOST_RUNS: usize = 10_000;

@@ -288,7 +288,7 @@ impl Session {
     /// Successful inputs as a script.
     ///
     /// # Errors
-    /// If they cannot be combined to a script, with the reason.
+    /// Fails if they cannot be combined to a script, with the reason.
     pub fn script(&self) -> Result<String, Diagnostic> {
         let script = self.record.script(self.engine());
         let program = Program::named("the saved session", &script);

@@ -24,7 +24,7 @@ impl Folder {
     /// Entries of this folder, sorted by name. Links are not followed. Entries that cannot be inspected are left out.
     ///
     /// # Errors
-    /// If the folder cannot be read.
+    /// Fails if the folder cannot be read.
     pub fn entries(&self) -> io::Result<Vec<FolderEntry>> {
         let entry = |entry: cap_std::fs::DirEntry| {
             let about = self.0.symlink_metadata(entry.file_name()).ok()?;
@@ -40,7 +40,7 @@ impl Folder {
     /// Opens a subfolder by its name; links are not followed.
     ///
     /// # Errors
-    /// If there is no folder of this name, or it is a link.
+    /// Fails if there is no folder of this name, or it is a link.
     pub fn below(&self, name: &OsStr) -> io::Result<Self> {
         match is_plain(Path::new(name)) {
             true => self.enter(name),

@@ -25,7 +25,7 @@ impl Folder {
     /// Opens a folder given by the user; links are followed.
     ///
     /// # Errors
-    /// If there is no folder at `path`.
+    /// Fails if there is no folder at `path`.
     pub fn open(path: &Path) -> io::Result<Self> {
         let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
         Dir::open_ambient_dir(path, ambient_authority()).map(Self)
@@ -35,7 +35,7 @@ impl Folder {
     /// elsewhere.
     ///
     /// # Errors
-    /// If the folder cannot be created, or is a link.
+    /// Fails if the folder cannot be created, or is a link.
     pub fn make(path: &Path) -> io::Result<Self> {
         let above = path.parent().filter(|above| !above.as_os_str().is_empty());
         let above = above.unwrap_or(Path::new("."));
@@ -51,7 +51,7 @@ impl Folder {
     /// Opens a folder like [`make`](Self::make), without creating it.
     ///
     /// # Errors
-    /// If there is no folder at `path`, or it is a link.
+    /// Fails if there is no folder at `path`, or it is a link.
     pub fn find(path: &Path) -> io::Result<Self> {
         match path.components().next_back() {
             Some(Component::Normal(name)) => {
@@ -105,7 +105,7 @@ impl Folder {
     /// Reads a regular file below this folder of at most `most` bytes. Links are not followed.
     ///
     /// # Errors
-    /// If there is none, it is too long, or a link, a pipe, a device or a folder.
+    /// Fails if there is none, it is too long, or a link, a pipe, a device or a folder.
     pub fn read(&self, name: &Path, most: u64) -> io::Result<Vec<u8>> {
         reading::read(self.open_file(name)?, most)
     }
@@ -113,7 +113,7 @@ impl Folder {
     /// Opens a regular file below this folder for reading. Links are not followed.
     ///
     /// # Errors
-    /// If there is none, or it is a link, a pipe, a device or a folder.
+    /// Fails if there is none, or it is a link, a pipe, a device or a folder.
     pub fn open_file(&self, name: &Path) -> io::Result<fs::File> {
         let (folder, name) = self.parent_of(name, Self::enter)?;
         let about = folder.0.symlink_metadata(name)?;
@@ -135,7 +135,7 @@ impl Folder {
     /// Returns true if a regular file below this folder is not locked.
     ///
     /// # Errors
-    /// If there is none, or it cannot be opened.
+    /// Fails if there is none, or it cannot be opened.
     pub fn is_let_go(&self, name: &Path) -> io::Result<bool> {
         Ok(self.open_file(name)?.try_lock().is_ok())
     }
@@ -143,7 +143,7 @@ impl Folder {
     /// Creates a new file for writing; missing parent folders are created.
     ///
     /// # Errors
-    /// If the name exists.
+    /// Fails if the name exists.
     pub fn create(&self, name: &Path) -> io::Result<fs::File> {
         let (folder, name) = self.parent_of(name, Self::enter_or_make)?;
         folder.create_here(name)
@@ -158,7 +158,7 @@ impl Folder {
     /// Opens a regular file for appending, and creates it if necessary.
     ///
     /// # Errors
-    /// If it is a link, a pipe, a device or a folder.
+    /// Fails if it is a link, a pipe, a device or a folder.
     pub fn append(&self, name: &Path) -> io::Result<fs::File> {
         let (folder, name) = self.parent_of(name, Self::enter_or_make)?;
         let mut options = OpenOptions::new();
@@ -171,7 +171,7 @@ impl Folder {
     /// Renames a file in this folder, replacing the target.
     ///
     /// # Errors
-    /// If renaming fails.
+    /// Fails if renaming fails.
     pub fn replace(&self, name: &Path, new: &Path) -> io::Result<()> {
         self.0.rename(name, &self.0, new)?;
         self.sync()
@@ -180,7 +180,7 @@ impl Folder {
     /// Removes a file or link in this folder.
     ///
     /// # Errors
-    /// If removing fails.
+    /// Fails if removing fails.
     pub fn remove(&self, name: &Path) -> io::Result<()> {
         self.0.remove_file_or_symlink(name)
     }

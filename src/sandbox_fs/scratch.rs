@@ -27,7 +27,7 @@ impl Scratch {
     /// Creates a scratch folder, and removes those of killed processes.
     ///
     /// # Errors
-    /// If it cannot be created.
+    /// Fails if it cannot be created.
     pub fn new() -> io::Result<Self> {
         Self::within(&std::env::temp_dir())
     }
@@ -53,7 +53,7 @@ impl Scratch {
     /// Creates a subfolder.
     ///
     /// # Errors
-    /// If it cannot be created.
+    /// Fails if it cannot be created.
     pub fn part(&self) -> io::Result<TempDir> {
         tempfile::Builder::new().prefix("part-").tempdir_in(self.path())
     }

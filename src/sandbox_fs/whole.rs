@@ -28,7 +28,7 @@ impl Prepared {
     /// Gives the file its name, which lasts through a loss of power. What has the name is replaced.
     ///
     /// # Errors
-    /// When it cannot be renamed; nothing has changed then.
+    /// Fails when it cannot be renamed; nothing has changed then.
     pub fn place(self) -> io::Result<()> {
         self.folder.0.rename(&self.partial, &self.folder.0, &self.name)?;
         self.folder.sync()
@@ -47,7 +47,7 @@ impl Folder {
     /// not followed, if it is a file or a link; folders on the way are made.
     ///
     /// # Errors
-    /// When it cannot be written, or a folder, a pipe or a device has its name; nothing has changed then.
+    /// Fails when it cannot be written, or a folder, a pipe or a device has its name; nothing has changed then.
     pub fn write_whole(&self, name: &Path, bytes: &[u8]) -> io::Result<()> {
         self.prepare(name, |file| file.write_all(bytes))?.place()
     }
@@ -116,7 +116,7 @@ impl Folder {
     /// Gives a file below this folder a new name, which nothing else may have.
     ///
     /// # Errors
-    /// When it cannot be renamed.
+    /// Fails when it cannot be renamed.
     pub fn keep_as(&self, name: &Path, free: impl Fn(usize) -> PathBuf) -> io::Result<PathBuf> {
         let (folder, own) = self.parent_of(name, Self::enter)?;
         for number in 1..TRIES * TRIES {
@@ -139,7 +139,7 @@ impl Folder {
     /// Gives a file that was kept by another name its own name back, unless something else has it by now.
     ///
     /// # Errors
-    /// When it cannot be renamed.
+    /// Fails when it cannot be renamed.
     pub fn give_back(&self, kept: &Path, name: &Path) -> io::Result<()> {
         let (folder, own) = self.parent_of(name, Self::enter)?;
         let (_, kept) = self.parent_of(kept, Self::enter)?;

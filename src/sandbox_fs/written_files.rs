@@ -31,7 +31,7 @@ impl FileChecksum {
     /// Checksum of a stream.
     ///
     /// # Errors
-    /// If reading fails.
+    /// Fails if reading fails.
     pub fn of(mut content: impl Read) -> io::Result<Self> {
         let (mut hasher, mut length, mut piece) = (crc32fast::Hasher::new(), 0, vec![0; PIECE]);
         loop {
@@ -128,7 +128,7 @@ impl WrittenFiles {
     /// Notes, and writes down at once, that this program is about to give a file of the folder this name.
     ///
     /// # Errors
-    /// If the record cannot be written.
+    /// Fails if the record cannot be written.
     pub fn note(&mut self, folder: &Folder, name: &str, written: FileChecksum) -> io::Result<()> {
         let is_last = self.files.get(name).is_some_and(|known| known[1] == Some(written));
         if name.contains(['\n', '\r']) || is_last {

@@ -26,7 +26,7 @@ const PATIENCE: Duration = Duration::from_millis(50);
 /// Watches the attempts of a student and judges each saved one, until the user leaves or `stop` is set.
 ///
 /// # Errors
-/// If the folder or the terminal cannot be used; the terminal is restored.
+/// Fails if the folder or the terminal cannot be used; the terminal is restored.
 pub(in crate::cli) fn watch(
     workbook: &Workbook,
     limits: &LimitOptions,

@@ -37,7 +37,7 @@ impl JudgeProcess {
     /// Starts judging the attempt in the student's folder.
     ///
     /// # Errors
-    /// If no process can be started.
+    /// Fails if no process can be started.
     pub fn begin(exercise: &Exercise, options: &LimitOptions) -> io::Result<Self> {
         let mut command = Command::new(env::current_exe()?);
         command.args(["learn", "try"]).args(options.words()).args(["--", &exercise.id()]);

@@ -39,7 +39,7 @@ impl RawTerminal {
     /// Switches to the alternate screen and raw mode.
     ///
     /// # Errors
-    /// If the terminal does not support this.
+    /// Fails if the terminal does not support this.
     pub fn take() -> io::Result<Self> {
         hold()?;
         let style = TerminalStyle::of_environment(|name| std::env::var(name).ok());
@@ -55,7 +55,7 @@ impl RawTerminal {
     /// Draws lines, in one write; unchanged screens are not redrawn.
     ///
     /// # Errors
-    /// If writing fails.
+    /// Fails if writing fails.
     pub fn show(&mut self, lines: &[ScreenLine], size: (usize, usize)) -> io::Result<()> {
         let mut drawing = Vec::new();
         queue!(drawing, BeginSynchronizedUpdate)?;
@@ -85,7 +85,7 @@ impl RawTerminal {
     /// Next key; `None` after the timeout or if the size has changed.
     ///
     /// # Errors
-    /// If reading fails.
+    /// Fails if reading fails.
     pub fn key(&self, patience: Duration) -> io::Result<Option<Key>> {
         if !event::poll(patience)? {
             return Ok(None);

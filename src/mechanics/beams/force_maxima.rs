@@ -1,4 +1,4 @@
-//! Largest mismatches, forces and rotations of points in lanes.
+//! Largest strain mismatch, section forces and rotation over quadrature points in vector lanes.
 
 use pulp::Simd;
 

@@ -76,7 +76,7 @@ fn control_polygon_length(control_points: &[Vec2], span: &Span, degree: usize) -
     own.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
 }
 
-/// Integrals of the lower splines of a span up to a place on it, `Σ_(a > t) N_a`, as coefficients of powers of t from -1 to 1 on the span.
+/// Integrals of the B-splines of degree p-1 from the start of a span, `Σ_(a > t) N_a`, as coefficients of powers of a coordinate from -1 to 1.
 fn fractions(mesh: &Mesh, span: &Span) -> Vec<Vec<f64>> {
     let degree = mesh.basis().degree();
     let half = 0.5 * (span.end - span.start);

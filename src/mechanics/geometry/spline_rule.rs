@@ -124,7 +124,7 @@ fn places(degree: usize) -> Vec<f64> {
     (0..count).map(place).collect()
 }
 
-/// Zeros of a spline of the run on each span; `None` if their number differs from that of the lower splines.
+/// Zeros of a spline on each span; `None` if their number is not that of the basis functions of the next lower degree.
 fn zeros(basis: &Basis, run: &[Span], coefficients: &[f64]) -> Option<Vec<Vec<f64>>> {
     let (degree, offset) = (basis.degree(), run.first()?.first);
     let places = places(degree);
@@ -192,8 +192,8 @@ impl Polynomial {
 
 /// Weights with which points integrate the derivative of every function of a run of spans exactly.
 ///
-/// `points` holds those of each span, in all one less than the functions of the run. Returns `None` if no such weights exist or a weight is not
-/// finite.
+/// `points` lists the quadrature points of each span; their total is one less than the number of basis functions. Returns `None` if no such weights
+/// exist or a weight is not finite.
 ///
 /// The collocation matrix of the lower splines is totally positive. (Weights as in Auricchio, Calabrò, Hughes, Reali & Sangalli, A simple algorithm
 /// for obtaining nearly optimal quadrature rules for NURBS-based isogeometric analysis, Comput. Methods Appl. Mech. Eng. 249-252 (2012) 15-27.)

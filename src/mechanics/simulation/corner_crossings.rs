@@ -1,4 +1,4 @@
-//! Impact times of springs in half steps and whole steps.
+//! Crossings of sharp corners of spring laws, in the two half steps and in the whole step of the error estimate.
 
 use crate::geometry::larger;
 use crate::system::{Along, Branch, System};

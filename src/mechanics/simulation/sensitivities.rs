@@ -159,7 +159,7 @@ impl Sensitivities {
         }
     }
 
-    /// Ends the derivatives. The first reason is kept.
+    /// Stops the computation of derivatives. An earlier reason is kept.
     pub(super) fn lose(&mut self, reason: DerivativeError) {
         let _: &mut DerivativeError = self.lost.get_or_insert(reason);
     }

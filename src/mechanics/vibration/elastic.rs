@@ -87,7 +87,7 @@ impl Elastic {
         Shapes { forces: rows.clone(), missing: rows, resisting: vector.clone(), movements: vector }
     }
 
-    /// Initialises shapes from four movements with the section forces of their strains. Returns their energies.
+    /// Sets four mode shapes from their displacements, with the section forces of their strains. Returns their energies.
     pub(super) fn begin(&self, movements: &VectorStrip, shapes: &mut Shapes) -> Energies {
         // Corrects zero shapes by the whole movements.
         shapes.movements.fill([0.0; STRIP_WIDTH]);

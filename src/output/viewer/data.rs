@@ -100,7 +100,7 @@ pub struct SpringShape {
 /// A load over time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Arrow {
-    /// Kind of symbol; for a moment the first component counts, counter-clockwise.
+    /// Kind of symbol. Of a moment only the first component of the value is used, positive counter-clockwise.
     pub symbol: Symbol,
     /// Name of the load.
     pub name: String,

@@ -48,7 +48,7 @@ impl Viewer {
     /// Text of the page. Equal data gives equal bytes.
     ///
     /// # Errors
-    /// If the data cannot be compressed.
+    /// Fails if the data cannot be compressed.
     pub fn to_html(&self) -> Result<String, OutputError> {
         let films = self.films.iter().map(packed_film).collect::<Result<Vec<_>, _>>()?;
         let hues: Vec<[u8; 3]> = (0..HUE_COUNT)

@@ -55,7 +55,7 @@ impl Quantisation {
 /// Packs `numbers` time series of `frames` values each in the format of the page; `value` takes the series and the frame.
 ///
 /// # Errors
-/// If compression fails, which would be an internal error.
+/// Fails if compression fails, which would be an internal error.
 pub fn pack(
     scale: Quantisation,
     (numbers, frames): (usize, usize),

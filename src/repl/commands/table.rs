@@ -189,7 +189,7 @@ impl Command {
 /// Command with this name or unambiguous prefix, including the colon.
 ///
 /// # Errors
-/// If no command, or more than one, starts with this prefix.
+/// Fails if no command, or more than one, starts with this prefix.
 pub fn find(name: &str) -> Result<&'static Command, Diagnostic> {
     if let Some(exact) = COMMANDS.iter().find(|command| command.name == name) {
         return Ok(exact);

@@ -15,7 +15,7 @@ pub struct Expected<'a, 't> {
     levels: Vec<OpenBracket<'t>>,
 }
 
-/// A called function, and the number of its parameters before the dot.
+/// Called function; the second number is 1 if the receiver of a method call is its first parameter.
 #[derive(Clone, Copy)]
 pub struct ActiveCall {
     pub row: &'static FunctionBinding,

@@ -85,7 +85,7 @@ impl Editor {
     /// A line editor on this terminal. An unreadable history is reported by [`Self::take_note`] and not used.
     ///
     /// # Errors
-    /// If the terminal cannot be used.
+    /// Fails if the terminal cannot be used.
     pub fn new(options: EditorOptions) -> io::Result<Self> {
         let lines = rustyline::Editor::with_config(configuration(&options)?).map_err(into_io)?;
         let entries = Entries::default();
@@ -99,7 +99,7 @@ impl Editor {
     /// Reads an input, which may span several lines, and adds it to the history.
     ///
     /// # Errors
-    /// If the terminal fails.
+    /// Fails if the terminal fails.
     pub fn read(
         &mut self,
         prompt: &str,

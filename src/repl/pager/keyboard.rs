@@ -18,13 +18,13 @@ pub trait Keyboard {
     /// Waits for the next key.
     ///
     /// # Errors
-    /// If the terminal fails.
+    /// Fails if the terminal fails.
     fn read(&mut self, was_interrupted: &dyn Fn() -> bool) -> io::Result<Pressed>;
 
     /// Bytes that a key sends after the escape character; may be empty.
     ///
     /// # Errors
-    /// If the terminal fails.
+    /// Fails if the terminal fails.
     fn rest_of_sequence(&mut self) -> io::Result<Vec<u8>>;
 }
 

@@ -83,7 +83,7 @@ impl Pages<'_> {
 /// Shows a text page by page on a terminal with `lines` lines until the user leaves or the text ends.
 ///
 /// # Errors
-/// If the terminal fails.
+/// Fails if the terminal fails.
 pub fn walk(
     text: &str,
     lines: usize,

@@ -16,7 +16,7 @@ const LESS: (&str, &str) = ("LESS", "FRX");
 /// Shows a text with a pager program and waits for its end. Ctrl-C is left to that program.
 ///
 /// # Errors
-/// If the program does not start.
+/// Fails if the program does not start.
 pub fn show(program: &str, text: &str, was_interrupted: &dyn Fn() -> bool) -> io::Result<()> {
     let mut words = program.split_whitespace();
     let mut command = Command::new(words.next().unwrap_or_default());

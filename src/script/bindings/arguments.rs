@@ -69,7 +69,7 @@ impl Arguments {
     /// The argument as a text, if present.
     ///
     /// # Errors
-    /// If it is not a text, which the parameter must exclude.
+    /// Fails if it is not a text, which the parameter must exclude.
     pub fn text_if_given(&self, name: &str) -> Result<Option<String>, ScriptError> {
         self.has(name).then(|| self.text(name).map(String::from)).transpose()
     }

@@ -30,7 +30,7 @@ impl<T: Copy> KeySets<T> {
     /// Returns the meaning of the set that `options` selects.
     ///
     /// # Errors
-    /// If a key of the set is missing, or a key of another set is given.
+    /// Fails if a key of the set is missing, or a key of another set is given.
     pub fn choose(&self, owner: &str, options: &Options) -> Result<T, ScriptError> {
         let Some(meant) = self.meant(options) else {
             return Err(ScriptError::bug(format!("{owner} has no sets of keys")));

@@ -12,7 +12,7 @@ pub trait FromOption: Sized {
     /// Reads the value of a key, given or by default.
     ///
     /// # Errors
-    /// If the kind does not match, which is an internal error.
+    /// Fails if the kind does not match, which is an internal error.
     fn read(options: &Arguments, key: &str) -> Result<Self, ScriptError>;
 }
 
@@ -82,7 +82,7 @@ macro_rules! option_set {
             /// Reads checked options.
             ///
             /// # Errors
-            /// If a key is not of the kind of its field, which is an internal error.
+            /// Fails if a key is not of the kind of its field, which is an internal error.
             pub fn of(
                 options: &$crate::script::bindings::options::Options,
             ) -> Result<Self, $crate::script::messages::error::ScriptError> {

@@ -56,7 +56,7 @@ impl StoredFunction {
     /// Calls the function with a number and returns a number.
     ///
     /// # Errors
-    /// If the function fails or returns another type.
+    /// Fails if the function fails or returns another type.
     pub fn number_of(&self, argument: f64) -> Result<f64, NoNumber> {
         let value = self.call([Dynamic::from(argument)]).map_err(NoNumber::Failed)?;
         as_number(&value).ok_or_else(|| {

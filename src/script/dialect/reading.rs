@@ -16,7 +16,7 @@ pub const MOST: usize = 65_000;
 /// Parses `source` as if it followed `lines_before` empty lines, with the constants of `scope` known.
 ///
 /// # Errors
-/// If the text is too large or has a syntax error, or the run was stopped.
+/// Fails if the text is too large or has a syntax error, or the run was stopped.
 pub fn read(
     engine: &Engine,
     scope: &Scope,

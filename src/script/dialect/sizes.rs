@@ -27,7 +27,7 @@ pub fn install(engine: &mut Engine) {
 /// Checks that a value of a variable is not too large to be used.
 ///
 /// # Errors
-/// When its text or its number of elements is longer than a script may make one.
+/// Fails when its text or its number of elements is longer than a script may make one.
 pub fn check(value: &Dynamic) -> EngineResult<()> {
     if let Some(text) = value.read_lock::<ImmutableString>() {
         expect(text.len() <= LONGEST_TEXT, TEXT)

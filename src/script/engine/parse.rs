@@ -25,7 +25,7 @@ pub struct SourcePiece<'a> {
 /// Parses a whole program.
 ///
 /// # Errors
-/// If the program has an error.
+/// Fails if the program has an error.
 pub fn parse(engine: &Engine, program: &Program) -> EngineResult<AST> {
     let (name, text) = (program.name.as_str(), &program.text);
     let piece = SourcePiece { name, text, before: 0, scope: &Scope::new() };
@@ -38,7 +38,7 @@ pub fn parse(engine: &Engine, program: &Program) -> EngineResult<AST> {
 /// lines.
 ///
 /// # Errors
-/// If the piece has an error.
+/// Fails if the piece has an error.
 pub fn parse_piece(
     engine: &Engine,
     piece: &SourcePiece,

@@ -59,7 +59,7 @@ impl ScriptEngine {
     /// Resets the counters and enforces the limits while the guard lives.
     ///
     /// # Errors
-    /// If no thread can be started.
+    /// Fails if no thread can be started.
     pub fn watch(&self) -> Result<Watchdog, Halt> {
         self.context.meter().watch().map_err(|error| {
             let told = format!("cannot start a thread that keeps the limits: {error}");
@@ -70,7 +70,7 @@ impl ScriptEngine {
     /// Runs `work` with the engine, then ends its progress and flushes its output; `program` returns the text for error messages.
     ///
     /// # Errors
-    /// If the work does not complete. A panic in native code is an internal error; earlier results remain valid.
+    /// Fails if the work does not complete. A panic in native code is an internal error; earlier results remain valid.
     pub fn run<T>(
         &self,
         _limits_kept: &Watchdog,

@@ -11,7 +11,7 @@ use crate::script::state::limits::Limits;
 /// limited.
 ///
 /// # Errors
-/// If no thread can be started, or the work panics.
+/// Fails if no thread can be started, or the work panics.
 pub fn on_large_stack<T: Send>(
     limits: &Limits,
     work: impl FnOnce() -> T + Send,
@@ -22,7 +22,7 @@ pub fn on_large_stack<T: Send>(
 /// Does `work` on a thread with a stack of so many bytes, or of fewer down to the least that calls within calls need.
 ///
 /// # Errors
-/// When no thread can be started, or the work panics.
+/// Fails when no thread can be started, or the work panics.
 pub fn on_stack<T: Send>(
     mut bytes: usize,
     limits: &Limits,

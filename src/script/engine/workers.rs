@@ -199,7 +199,7 @@ impl<J, R> WorkerPool<'_, J, R> {
 /// converted by `panicked`. Unfinished jobs are stopped when `drive` returns.
 ///
 /// # Errors
-/// If no worker can be created.
+/// Fails if no worker can be created.
 pub fn with_crew<J: Send, R: Send, T>(
     blueprint: &EngineConfig,
     wall: Duration,

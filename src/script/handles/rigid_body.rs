@@ -33,7 +33,7 @@ impl RigidBodyHandle {
     /// Station at a named point of the body.
     ///
     /// # Errors
-    /// If the body has no such point.
+    /// Fails if the body has no such point.
     pub fn point(&self, name: &str) -> Result<StationHandle, ScriptError> {
         let station = self.scene.scene().borrow().point_of_body(self.index, name)?;
         Ok(StationHandle { scene: self.scene.clone(), station })

@@ -111,7 +111,7 @@ impl SceneHandle {
     /// Declares a parameter, and returns its value as a variant number with side values at a step.
     ///
     /// # Errors
-    /// If the name is in use, or other parameters are in use already.
+    /// Fails if the name is in use, or other parameters are in use already.
     pub fn declare(
         &self,
         name: &str,
@@ -129,7 +129,7 @@ impl SceneHandle {
     /// Dependence of the scene on its parameters.
     ///
     /// # Errors
-    /// If the scene has script functions, which cannot be evaluated per variant.
+    /// Fails if the scene has script functions, which cannot be evaluated per variant.
     pub fn variations(&self) -> Result<Vec<Variation>, ScriptError> {
         let Some(Beside { family, scenes }) = self.variants.beside.get() else {
             return Ok(Vec::new());
@@ -162,7 +162,7 @@ impl SceneHandle {
     /// Rejects a beam, by its index, whose length depends on a parameter.
     ///
     /// # Errors
-    /// If the length differs between the variants.
+    /// Fails if the length differs between the variants.
     pub fn expect_length_beside(&self, beam: usize) -> Result<(), ScriptError> {
         let Some(Beside { scenes, .. }) = self.variants.beside.get() else { return Ok(()) };
         let own = self.variants.scene.borrow();
@@ -236,7 +236,7 @@ impl SceneHandle {
     /// Rejects a scene with functions that are called between steps, because a study runs it without its script.
     ///
     /// # Errors
-    /// If a load or drive has a controller, or a release a condition.
+    /// Fails if a load or drive has a controller, or a release a condition.
     pub fn expect_unasked(&self) -> Result<(), ScriptError> {
         if self.controllers.borrow().is_empty() && self.conditions.borrow().is_empty() {
             return Ok(());

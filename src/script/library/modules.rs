@@ -46,7 +46,7 @@ impl Module {
 /// Module of an import path, with or without `.rhai`; `None` for files of the script's folder.
 ///
 /// # Errors
-/// If the path belongs to the library but there is no such module.
+/// Fails if the path belongs to the library but there is no such module.
 pub fn find(path: &str) -> Option<Result<&'static Module, ScriptError>> {
     let name = path.strip_suffix(".rhai").unwrap_or(path);
     if !name.starts_with(FOLDER) {

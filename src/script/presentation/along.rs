@@ -33,7 +33,7 @@ impl SectionForceProfile {
     /// Results at the present time of a simulation, for the beams with these indices, or all if there are none.
     ///
     /// # Errors
-    /// If an axis has a point without a tangent.
+    /// Fails if an axis has a point without a tangent.
     pub fn of_simulation(simulation: &Simulation, beams: &[usize]) -> Result<Self, SystemError> {
         let when = format!("t = {}", significant(simulation.time(), DIGITS));
         let at = SceneAt::of(simulation, simulation.time());
@@ -43,7 +43,7 @@ impl SectionForceProfile {
     /// Results of an equilibrium under full load.
     ///
     /// # Errors
-    /// If an axis has a point without a tangent.
+    /// Fails if an axis has a point without a tangent.
     pub fn of_equilibrium(rest: &Equilibrium, beams: &[usize]) -> Result<Self, SystemError> {
         Self::of_model(&SceneAt::at_rest(rest), rest.model(), beams)
     }

@@ -81,7 +81,7 @@ impl MotionView {
     /// Collects the content from a simulation; `expect` checks each snapshot, with the requested and the recorded time.
     ///
     /// # Errors
-    /// If no or too many snapshots lie in the interval, or `expect` fails.
+    /// Fails if no or too many snapshots lie in the interval, or `expect` fails.
     pub fn of(
         simulation: &Simulation,
         wanted: MotionOptions,
@@ -253,7 +253,7 @@ fn magnified(start: &Configuration, now: &Configuration, lens: Magnifier) -> Mot
 /// Symbols in the configuration nearest to a time, with magnified displacements.
 ///
 /// # Errors
-/// If a station lies outside its beam.
+/// Fails if a station lies outside its beam.
 pub fn placed(
     simulation: &Simulation,
     time: f64,

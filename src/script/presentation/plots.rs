@@ -15,7 +15,7 @@ const DIGITS: usize = 6;
 /// Chart of history columns over time, as text for a terminal.
 ///
 /// # Errors
-/// If no column or an unknown one is named; the error lists the columns.
+/// Fails if no column or an unknown one is named; the error lists the columns.
 pub fn history_chart(
     history: &History,
     columns: &[String],
@@ -53,7 +53,7 @@ pub fn drift_summary(history: &History) -> String {
 /// One-line summary of a column, without a terminal.
 ///
 /// # Errors
-/// If the column is unknown; the error lists the columns.
+/// Fails if the column is unknown; the error lists the columns.
 pub fn column_summary(history: &History, column: &str) -> Result<String, ScriptError> {
     let dimension = expect_column(history, column)?;
     let values = history.column(column).unwrap_or_default();
@@ -80,7 +80,7 @@ pub fn column_summary(history: &History, column: &str) -> Result<String, ScriptE
 /// Configuration at the present time or nearest to a time, as text for a terminal, with the initial configuration dotted.
 ///
 /// # Errors
-/// If an axis has a point without a tangent.
+/// Fails if an axis has a point without a tangent.
 pub fn configuration_picture(
     simulation: &Simulation,
     time: Option<f64>,
@@ -107,7 +107,7 @@ pub fn configuration_picture(
 /// Summary of a configuration in lines, without a terminal.
 ///
 /// # Errors
-/// If an axis has a point without a tangent.
+/// Fails if an axis has a point without a tangent.
 pub fn configuration_summary(
     simulation: &Simulation,
     time: Option<f64>,

@@ -83,7 +83,7 @@ impl<'a> SceneAt<'a> {
     /// Symbols in the current configuration of a model.
     ///
     /// # Errors
-    /// If a station lies outside its beam.
+    /// Fails if a station lies outside its beam.
     pub fn symbols(&self, model: &System) -> Result<Vec<PlacedSymbol>, SystemError> {
         let place = |at: &_| Ok(model.position(&self.scene.place(at, model.meshes())?));
         symbols(self, |stations| stations.iter().map(place).collect())

@@ -44,7 +44,7 @@ pub struct ViewerOptions<'a> {
 /// Creates the viewer data of the recorded frames.
 ///
 /// # Errors
-/// If nothing is recorded in the interval, a station lies outside its beam, or the function of a load fails.
+/// Fails if nothing is recorded in the interval, a station lies outside its beam, or the function of a load fails.
 pub fn film(simulation: &Simulation, wishes: ViewerOptions) -> Result<ViewerData, ScriptError> {
     let (from, to) = wishes.span;
     let shown = FrameSelection::of(simulation, wishes.frames);

@@ -58,7 +58,7 @@ impl Program {
     /// Script from the bytes of a file.
     ///
     /// # Errors
-    /// If it is not UTF-8.
+    /// Fails if it is not UTF-8.
     pub fn from_bytes(path: &Path, bytes: Vec<u8>) -> Result<Self, Unreadable> {
         let name = path.display().to_string();
         let text = String::from_utf8(bytes).map_err(|error| {

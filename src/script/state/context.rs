@@ -131,7 +131,7 @@ impl Context {
     /// Checks in advance that the run may use this much memory at once [bytes].
     ///
     /// # Errors
-    /// If this exceeds the memory limit.
+    /// Fails if this exceeds the memory limit.
     pub fn expect_room(&self, what: &str, bytes: u64) -> Result<(), ScriptError> {
         match self.meter().limits().memory.filter(|limit| bytes > *limit) {
             None => Ok(()),

@@ -53,7 +53,7 @@ impl OutputFolder {
     /// Writes the file `name` in the output folder. A dry build only checks the name.
     ///
     /// # Errors
-    /// If the name leads out of the folder, or writing fails.
+    /// Fails if the name leads out of the folder, or writing fails.
     pub fn write(&self, name: &str, content: &[u8]) -> Result<WrittenFile, ScriptError> {
         self.write_by(name, |file| file.write_all(content))
     }
@@ -61,7 +61,7 @@ impl OutputFolder {
     /// Writes the file `name` in the output folder piece by piece, by calls of `write`. A dry build only checks the name.
     ///
     /// # Errors
-    /// If the name leads out of the folder, or writing fails.
+    /// Fails if the name leads out of the folder, or writing fails.
     pub fn write_by(
         &self,
         name: &str,
@@ -128,7 +128,7 @@ impl OutputFolder {
     /// Writes a file that the script may [`read`](Self::read) again, also in a dry build.
     ///
     /// # Errors
-    /// If the name leads out of the folder, or writing fails.
+    /// Fails if the name leads out of the folder, or writing fails.
     pub fn write_to_read(&self, name: &str, content: Vec<u8>) -> Result<WrittenFile, ScriptError> {
         let written = self.write(name, &content)?;
         if self.mode == RunMode::DryBuild {
@@ -140,7 +140,7 @@ impl OutputFolder {
     /// Reads the file `name` of the output folder or else of the script's folder, at most `most` bytes.
     ///
     /// # Errors
-    /// If there is none, or it is too long or no regular file.
+    /// Fails if there is none, or it is too long or no regular file.
     pub fn read(&self, name: &str, most: Option<u64>) -> Result<Vec<u8>, ScriptError> {
         if let Some(content) = self.pretended.borrow().get(&self.folder.join(name)) {
             return Ok(content.clone());
@@ -171,7 +171,7 @@ impl OutputFolder {
     /// Path of the file `name` in the output folder.
     ///
     /// # Errors
-    /// If the name leads out of the folder.
+    /// Fails if the name leads out of the folder.
     pub fn path_of(&self, name: &str) -> Result<PathBuf, ScriptError> {
         if !is_plain(Path::new(name)) {
             return Err(ScriptError::new(format!(
@@ -229,7 +229,7 @@ impl InputFolders {
     /// Content of the file `name` in the first folder that has it, at most `most` bytes.
     ///
     /// # Errors
-    /// If no folder has it, a link or the name leads out of the folder, or it is too long or no regular file.
+    /// Fails if no folder has it, a link or the name leads out of the folder, or it is too long or no regular file.
     pub fn read(&self, name: &str, most: u64) -> Result<Vec<u8>, ScriptError> {
         let words = self
             .0

@@ -40,7 +40,7 @@ impl Journals {
     /// Opens the journal of a study, if the run uses journals.
     ///
     /// # Errors
-    /// If an existing file cannot be read, or cannot be removed for a fresh start.
+    /// Fails if an existing file cannot be read, or cannot be removed for a fresh start.
     pub fn open(
         &self,
         path: PathBuf,
@@ -63,7 +63,7 @@ impl Journals {
     /// Opens the files of parts as one read-only journal.
     ///
     /// # Errors
-    /// If one cannot be read.
+    /// Fails if one cannot be read.
     pub fn open_parts(
         &self,
         paths: impl IntoIterator<Item = PathBuf>,
@@ -87,7 +87,7 @@ impl Journals {
     /// Writes the result of a case; returns the number of bytes.
     ///
     /// # Errors
-    /// If the file cannot be written.
+    /// Fails if the file cannot be written.
     pub fn write<T: Serialize>(
         &self,
         journal: JournalNumber,
@@ -105,7 +105,7 @@ impl Journals {
     /// `about` identifies.
     ///
     /// # Errors
-    /// If it cannot be read or written.
+    /// Fails if it cannot be read or written.
     pub fn open_rows(
         &self,
         path: PathBuf,
@@ -151,7 +151,7 @@ impl Journals {
     /// Removes the journals after the script has ended.
     ///
     /// # Errors
-    /// If a file cannot be removed.
+    /// Fails if a file cannot be removed.
     pub fn finish(&self) -> Result<(), ScriptError> {
         if !self.has_parts.get() {
             self.kept.set(0);
@@ -176,7 +176,7 @@ impl RowKeeper {
     /// Writes an entry; returns the number of bytes.
     ///
     /// # Errors
-    /// If it cannot be written.
+    /// Fails if it cannot be written.
     pub fn write(&mut self, journals: &Journals, entry: &RowEntry) -> Result<u64, ScriptError> {
         if matches!(entry, RowEntry::Found(..) | RowEntry::Failed(..)) {
             journals.kept.set(journals.kept.get() + 1);
@@ -191,7 +191,7 @@ impl RowKeeper {
     /// Syncs the file periodically.
     ///
     /// # Errors
-    /// If it cannot be written.
+    /// Fails if it cannot be written.
     pub fn beat(&mut self) -> Result<(), ScriptError> {
         self.journal.beat().map_err(|error| refused_rows(&self.path, &error))
     }
@@ -199,7 +199,7 @@ impl RowKeeper {
     /// Syncs the file.
     ///
     /// # Errors
-    /// If it cannot be written.
+    /// Fails if it cannot be written.
     pub fn flush(&mut self) -> Result<(), ScriptError> {
         self.journal.flush().map_err(|error| refused_rows(&self.path, &error))
     }

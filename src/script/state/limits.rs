@@ -220,7 +220,7 @@ impl Meter {
     /// Resets the counters and supervises time and memory until the guard is dropped.
     ///
     /// # Errors
-    /// If no thread can be started.
+    /// Fails if no thread can be started.
     pub fn watch(&self) -> io::Result<Watchdog> {
         self.alarm.store(QUIET, Ordering::Relaxed);
         self.steps.set(0);

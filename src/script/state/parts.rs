@@ -61,7 +61,7 @@ const MOST_TOLD: usize = 10;
 /// Files of all parts of a study in some folders, ordered by part.
 ///
 /// # Errors
-/// If there are none, some are missing or duplicate, the numbers of parts differ, or a folder cannot be read.
+/// Fails if there are none, some are missing or duplicate, the numbers of parts differ, or a folder cannot be read.
 pub fn find_parts(
     study: &str,
     folders: &[PathBuf],

@@ -74,7 +74,7 @@ impl<'c> CaseRunner<'c> {
     /// Starts a study, whose name is that of its files; opens a journal if requested.
     ///
     /// # Errors
-    /// If the name is not valid for a file in the output folder, or the journal cannot be read.
+    /// Fails if the name is not valid for a file in the output folder, or the journal cannot be read.
     pub fn open(context: &'c Context, name: &str) -> Result<Self, ScriptError> {
         let wishes = context.studies();
         let path = |file: String| context.output().path_of(&file);
@@ -101,7 +101,7 @@ impl<'c> CaseRunner<'c> {
     /// and `None` is returned.
     ///
     /// # Errors
-    /// If the run is stopped, with finished cases in the journal, or if a case is missing in merged parts.
+    /// Fails if the run is stopped, with finished cases in the journal, or if a case is missing in merged parts.
     pub fn in_parallel<R: Finding + Clone + Send>(
         &self,
         task: CaseTask,
@@ -170,7 +170,7 @@ impl<'c> CaseRunner<'c> {
     /// false to stop.
     ///
     /// # Errors
-    /// If the run is stopped; finished cases are in the journal.
+    /// Fails if the run is stopped; finished cases are in the journal.
     pub fn one_by_one<R: Finding>(
         &self,
         task: CaseTask,

@@ -164,7 +164,7 @@ pub fn expect_quantity(
 /// Errors of a quantity with an integrator; `None` in a dry build.
 ///
 /// # Errors
-/// If the quantity or integrator is not in the study; the error lists the known ones.
+/// Fails if the quantity or integrator is not in the study; the error lists the known ones.
 pub fn find<'s>(
     call: &Call,
     study: &'s Convergence,

@@ -135,7 +135,7 @@ impl StabilityPlan {
     /// Case of each cell, or the message thrown by the script function.
     ///
     /// # Errors
-    /// If the function returns an invalid value, fails otherwise, or throws at every cell, which means that the function is wrong.
+    /// Fails if the function returns an invalid value, fails otherwise, or throws at every cell, which means that the function is wrong.
     pub fn cases(
         &self,
         call: &Call,

@@ -102,7 +102,7 @@ impl Assembly<'_> {
     ) -> Result<Option<KinkedAxis>, SystemError> {
         let (master, beam) = (slider.master, &self.scene.beams[slider.master]);
         let basis = self.mesh(master).basis();
-        // At a node where the mesh may kink there is no kink length, and a slider could not pass.
+        // A C0 mesh represents the kink at its nodes, so no compliance is missing there; the kink could not pass a node.
         let has_nodes = basis.breaks().len() > 2 && basis.continuity() == 0;
         if slider.rule != SlidingRule::Kinked || has_nodes {
             return Ok(None);

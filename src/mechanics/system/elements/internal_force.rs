@@ -125,6 +125,6 @@ pub trait InternalForce {
 
     fn restore(&mut self, next: &mut dyn FnMut() -> f64);
 
-    /// Describes the use of the element in a step.
+    /// Contribution of the element to the equations of a step, in words.
     fn explain(&self) -> String;
 }

@@ -77,7 +77,7 @@ pub fn refusal(name: &str) -> Option<&'static str> {
 /// Checks the name of something of a scene, or of what is made of one.
 ///
 /// # Errors
-/// When nobody could read or type the name.
+/// Fails if the name has invisible characters or characters that cannot be typed.
 pub fn check_name(kind: &'static str, name: &str) -> Result<(), SystemError> {
     match refusal(name) {
         Some(why) => Err(SystemError::Unnamed { kind, name: name.to_owned(), why }),

@@ -201,7 +201,7 @@ impl Scene {
     /// Adds a column that the caller fills after every row.
     ///
     /// # Errors
-    /// When there is a column of that name, or nobody could read or type it.
+    /// Fails if the column exists, or the name has invisible characters or characters that cannot be typed.
     pub fn record_outside(&mut self, name: &str) -> Result<(), SystemError> {
         check_name(COLUMN, name)?;
         self.check_column(name)?;

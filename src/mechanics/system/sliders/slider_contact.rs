@@ -72,7 +72,7 @@ pub struct SliderContact {
     chord: f64,
     /// Compressive stop force in the iterate times the tangent, for a held slider [force·length].
     push: f64,
-    /// The same for the other side of a seam that holds the slider.
+    /// Value of `push` for the beam beyond the seam at which the slider is held [force·length].
     push_beyond: f64,
     /// True if the slider is pulled onto the other beam.
     pub leaves_beyond: bool,

@@ -14,7 +14,7 @@ use crate::script::messages::numbers::as_number;
 /// contain their variants; for booleans, texts and integers the result of variant 0 is used.
 ///
 /// # Errors
-/// If arrays or maps differ in more than numbers.
+/// Fails if arrays or maps differ in more than numbers.
 pub fn gather(
     family: &Rc<ParameterSet>,
     results: &[Dynamic],

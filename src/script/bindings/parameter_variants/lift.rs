@@ -195,7 +195,7 @@ impl ParameterSet {
     /// Common parameter set of some values, if any depends on one.
     ///
     /// # Errors
-    /// If they depend on parameters of two scenes.
+    /// Fails if they depend on parameters of two scenes.
     pub fn common(values: &[&Dynamic]) -> Result<Option<Rc<Self>>, ScriptError> {
         let own = |value: &&Dynamic| family_of(value).or_else(|| of_thing(value));
         let mut found: Option<Rc<Self>> = None;
@@ -224,7 +224,7 @@ impl ParameterSet {
 /// Combines the results that were computed from some values in each variant.
 ///
 /// # Errors
-/// If arrays or maps differ in more than numbers.
+/// Fails if arrays or maps differ in more than numbers.
 pub fn gathered(
     family: &Rc<ParameterSet>,
     results: &[Dynamic],
@@ -238,7 +238,7 @@ pub fn gathered(
 /// Combines the results of all variants to one value without derivatives, with the reason.
 ///
 /// # Errors
-/// If arrays or maps differ in more than numbers.
+/// Fails if arrays or maps differ in more than numbers.
 pub fn gathered_without(
     family: &Rc<ParameterSet>,
     results: &[Dynamic],

@@ -119,7 +119,7 @@ impl ParameterSet {
     /// Adds a parameter with its value and a step, or the default step; returns the variant number.
     ///
     /// # Errors
-    /// If the name is in use, or variants are in use already.
+    /// Fails if the name is in use, or variants are in use already.
     pub fn declare(
         self: &Rc<Self>,
         name: &str,

@@ -61,7 +61,7 @@ impl VariantValue {
     /// Derivative with respect to the parameter with this index.
     ///
     /// # Errors
-    /// If it is unknown, or the value is not differentiable.
+    /// Fails if it is unknown, or the value is not differentiable.
     pub fn derivative(&self, parameter: usize) -> Result<Dynamic, ScriptError> {
         if let Some(reason) = &self.lost {
             return Err(ScriptError::new(reason.to_string()));

@@ -22,7 +22,7 @@ impl Revisit {
     /// Replaces a simulation by a copy at the present time.
     ///
     /// # Errors
-    /// If the scene cannot be built again.
+    /// Fails if the scene cannot be built again.
     pub fn at_present(handle: &SimulationHandle) -> Result<Self, ScriptError> {
         let copy = handle.simulation().copy_at_present()?;
         Ok(Self::with(handle, copy))
@@ -31,7 +31,7 @@ impl Revisit {
     /// Replaces a simulation by a copy at the start, to repeat the run.
     ///
     /// # Errors
-    /// If the scene cannot be built again.
+    /// Fails if the scene cannot be built again.
     pub fn at_start(handle: &SimulationHandle) -> Result<Self, ScriptError> {
         let copy = handle.simulation().copy_at_start()?;
         Ok(Self::with(handle, copy))
@@ -61,7 +61,7 @@ impl Revisit {
     /// Moves the copy to a stored state; returns false if it is not stored.
     ///
     /// # Errors
-    /// If the scene cannot be built again.
+    /// Fails if the scene cannot be built again.
     pub fn go_back_to(&self, steps: usize) -> Result<bool, ScriptError> {
         Ok(self.handle.0.simulation.borrow_mut().revisit(&self.original(), steps)?)
     }
@@ -69,7 +69,7 @@ impl Revisit {
     /// Advances the copy to a row of the original's history; returns true if everything is equal.
     ///
     /// # Errors
-    /// If a step fails that did not fail before, or the run is stopped.
+    /// Fails if a step fails that did not fail before, or the run is stopped.
     pub fn run_again(&self, row: usize, context: &Context) -> Result<bool, ScriptError> {
         loop {
             self.handle.command()?;

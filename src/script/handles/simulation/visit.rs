@@ -23,7 +23,7 @@ impl SimulationHandle {
     /// energies and momenta are compared bit by bit; this takes time and counts steps.
     ///
     /// # Errors
-    /// If a step fails that did not fail before, the run is stopped, or `look` fails.
+    /// Fails if a step fails that did not fail before, the run is stopped, or `look` fails.
     pub fn visit(
         &self,
         times: &[f64],

@@ -17,7 +17,7 @@ use crate::script::messages::numbers::format_number;
 /// Help page on `name`, or the overview for an empty name.
 ///
 /// # Errors
-/// If there is no help on this name; the error contains suggestions.
+/// Fails if there is no help on this name; the error contains suggestions.
 pub fn page(catalog: &Catalog, name: &str) -> Result<HelpPage, UnknownTopic> {
     if name.trim().is_empty() {
         return Ok(overview(catalog));

@@ -104,7 +104,7 @@ fn chart(
 /// Chart of curves drawn by the prompt over `over`, with options of `plot`.
 ///
 /// # Errors
-/// If an option is unknown or invalid.
+/// Fails if an option is unknown or invalid.
 pub fn typed_chart(
     engine: &rhai::Engine,
     map: &Map,

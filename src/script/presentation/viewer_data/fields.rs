@@ -48,7 +48,7 @@ impl FieldReader {
     /// Creates storage for this many frames of the named fields; `None` if no field needs states.
     ///
     /// # Errors
-    /// If an axis has a point without a tangent.
+    /// Fails if an axis has a point without a tangent.
     pub fn of(
         simulation: &Simulation,
         frames: usize,

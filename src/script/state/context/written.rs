@@ -36,7 +36,7 @@ impl Context {
     /// is told.
     ///
     /// # Errors
-    /// If it cannot be written, or a limit of the run is exceeded.
+    /// Fails if it cannot be written, or a limit of the run is exceeded.
     pub fn write_file(&self, name: &str, content: &[u8]) -> Result<PathBuf, ScriptError> {
         self.account_for(content)?;
         self.output().write(name, content).map(|written| self.tell_kept(written))
@@ -45,7 +45,7 @@ impl Context {
     /// Writes a file in the output folder piece by piece and counts the bytes. An existing file is kept as in [`Self::write_file`].
     ///
     /// # Errors
-    /// If it cannot be written, or a limit of the run is exceeded.
+    /// Fails if it cannot be written, or a limit of the run is exceeded.
     pub fn write_file_by(
         &self,
         name: &str,
@@ -63,7 +63,7 @@ impl Context {
     /// [`Self::write_file`].
     ///
     /// # Errors
-    /// If it cannot be written, or a limit of the run is exceeded.
+    /// Fails if it cannot be written, or a limit of the run is exceeded.
     pub fn write_to_read(&self, name: &str, content: Vec<u8>) -> Result<PathBuf, ScriptError> {
         self.account_for(&content)?;
         self.output().write_to_read(name, content).map(|written| self.tell_kept(written))
@@ -72,7 +72,7 @@ impl Context {
     /// Reads a file of the output folder or of the script's folder, up to the memory limit.
     ///
     /// # Errors
-    /// If there is none, or it is too long or no regular file.
+    /// Fails if there is none, or it is too long or no regular file.
     pub fn read_file(&self, name: &str) -> Result<Vec<u8>, ScriptError> {
         let room = self.meter().limits().memory.map(|bytes| bytes / TIMES_ITS_LENGTH);
         self.output().read(name, room)

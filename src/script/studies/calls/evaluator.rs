@@ -91,7 +91,7 @@ impl FunctionQuery<'_> {
     /// Calls `drive` with the evaluator.
     ///
     /// # Errors
-    /// If there is no worker; errors of `drive`.
+    /// Fails if there is no worker; errors of `drive`.
     pub fn with_evaluator<T>(
         &self,
         calling: &Call,
@@ -161,7 +161,7 @@ impl<'w> Evaluator<'w> {
     /// Values of the function at several points, in order.
     ///
     /// # Errors
-    /// If the run is stopped, or the script is wrong before the function has ever succeeded.
+    /// Fails if the run is stopped, or the script is wrong before the function has ever succeeded.
     pub fn ask(&mut self, points: &[Vec<f64>]) -> Result<Vec<Evaluation>, ScriptError> {
         let answers = self.answers(points.iter().cloned().map(QueryPoint::Value).collect())?;
         let mut found = Vec::with_capacity(points.len());
@@ -184,7 +184,7 @@ impl<'w> Evaluator<'w> {
     /// step. The inner error is the reason for missing derivatives.
     ///
     /// # Errors
-    /// If the run is stopped.
+    /// Fails if the run is stopped.
     pub fn slopes(&mut self, point: &[(f64, f64)]) -> Result<Sloped, ScriptError> {
         let answers = match self.answers(vec![QueryPoint::Slopes(point.to_vec())]) {
             Err(error) if self.call.context().is_stopped() => return Err(error),

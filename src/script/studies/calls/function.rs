@@ -38,7 +38,7 @@ impl RunFunction {
     /// Reads the function given for an option key.
     ///
     /// # Errors
-    /// If it has captured a value that cannot be sent to other threads; the error points at its use.
+    /// Fails if it has captured a value that cannot be sent to other threads; the error points at its use.
     pub fn read(call: &Call, key: &str, function: &FnPtr) -> Result<Self, ScriptError> {
         let Some(definition) = call.definition(function) else {
             let told = format!(
@@ -86,7 +86,7 @@ impl RunFunction {
     /// Adds a further argument after the map.
     ///
     /// # Errors
-    /// If the value cannot be sent to other threads.
+    /// Fails if the value cannot be sent to other threads.
     pub fn take(&mut self, call: &Call, key: &str, value: &Dynamic) -> Result<(), ScriptError> {
         let parameters_of = |function: &FnPtr| call.definition(function).map(|of| of.params.len());
         let portable = Portable::of(call.engine(), value, &parameters_of).map_err(|immovable| {
@@ -145,7 +145,7 @@ impl RunFunction {
     /// Rejects parameters that the function never reads, if this can be determined.
     ///
     /// # Errors
-    /// If there is one.
+    /// Fails if there is one.
     pub fn expect_read<'n>(
         call: &Call,
         (key, function): (&str, &FnPtr),

@@ -72,7 +72,7 @@ impl Portable {
     /// Converts a value; `parameters_of` returns the number of parameters of a script function, including captured ones.
     ///
     /// # Errors
-    /// If it or a part of it cannot be converted.
+    /// Fails if it or a part of it cannot be converted.
     pub fn of(
         engine: &Engine,
         value: &Dynamic,

@@ -208,7 +208,7 @@ impl DesignRequest<'_> {
     /// Finds the best design.
     ///
     /// # Errors
-    /// If the function is wrong or fails at the start, a result is missing, or no run meets the constraints.
+    /// Fails if the function is wrong or fails at the start, a result is missing, or no run meets the constraints.
     pub fn make(self, call: &Call) -> Result<BestDesign, ScriptError> {
         let function = RunFunction::read(call, "run", self.function)?;
         let question = FunctionQuery {

@@ -96,7 +96,7 @@ impl FitRequest<'_> {
     /// Finds the parameters.
     ///
     /// # Errors
-    /// If the function is wrong, fails at the start, or its number of values does not match the data.
+    /// Fails if the function is wrong, fails at the start, or its number of values does not match the data.
     pub fn make(self, call: &Call) -> Result<Fit, ScriptError> {
         let mut function = RunFunction::read(call, self.key, self.function)?;
         if let Some(data) = &self.data {
@@ -363,7 +363,7 @@ impl Fit {
     /// Page as an SVG picture.
     ///
     /// # Errors
-    /// If it cannot be drawn.
+    /// Fails if it cannot be drawn.
     pub fn picture(&self) -> Result<String, ScriptError> {
         Ok(self.page().figure()?.to_svg()?)
     }

@@ -40,7 +40,7 @@ impl<'s> ResultScales<'s> {
     /// Scaled objective and constraints with derivatives.
     ///
     /// # Errors
-    /// If the derivatives are not usable, with the reason.
+    /// Fails if the derivatives are not usable, with the reason.
     pub(super) fn with_slopes(&self, rows: Vec<(f64, Vec<f64>)>, results: usize) -> SlopesOfRating {
         if rows.len() != results {
             return Err("it returns different results".into());

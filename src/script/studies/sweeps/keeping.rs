@@ -17,7 +17,7 @@ impl SweepRequest<'_> {
     /// read and no journal is opened.
     ///
     /// # Errors
-    /// If a file cannot be read or written, or the parts do not form the whole sweep.
+    /// Fails if a file cannot be read or written, or the parts do not form the whole sweep.
     pub fn keeper(
         &self,
         call: &Call,

@@ -40,7 +40,7 @@ impl SweepRequest<'_> {
     /// Runs all rows.
     ///
     /// # Errors
-    /// If the function cannot be sent to workers, is wrong, or fails in all rows; or if the run is stopped, with finished rows in the
+    /// Fails if the function cannot be sent to workers, is wrong, or fails in all rows; or if the run is stopped, with finished rows in the
     /// journal.
     pub fn make(self, call: &Call) -> Result<FinishedSweep, ScriptError> {
         let context = call.context();
