@@ -221,7 +221,9 @@ fn names_that_nobody_could_read_are_refused_in_files_and_names_that_follow_are_m
         |scene| scene.beams[0].name = WRONG.into(),
         |scene| {
             scene.elements.iter_mut().for_each(|element| {
-                if let Element::Spring(spring) = element {
+                if let Element::Spring(spring) = element
+                    && spring.name == "spring1"
+                {
                     spring.name = WRONG.into();
                 }
             });

@@ -116,7 +116,7 @@ fn a_script_and_its_workers_fit_a_limited_address_space() {
     let script = "let found = study_sweep(#{ name: \"doubled\", parameters: #{ a: [1, 2, 3, 4] }, run: |p| #{ b: 2 * p.a } });
                   print(found.table);";
     let home = Home::with(&[("main.rhai", script)]);
-    for megabytes in [600, 1000, 2000, 4000] {
+    for megabytes in [512, 1000, 2000, 4000] {
         let line = format!("ulimit -v {}; exec \"$0\" run main.rhai", megabytes * 1024);
         let mut shell = std::process::Command::new("sh");
         shell.args(["-c", &line, env!("CARGO_BIN_EXE_withy")]).current_dir(home.0.path());
