@@ -1,4 +1,4 @@
-//! docs/theory.md speaks of what is in the code: names that it gives exist, and so do files and the numbers behind its tolerances.
+//! Check of docs/theory.md against the code: names, files and numeric tolerances.
 
 #![allow(clippy::unwrap_used)]
 
@@ -14,12 +14,12 @@ fn theory() -> String {
     std::fs::read_to_string(root().join("docs/theory.md")).unwrap()
 }
 
-/// Whether there is a file of this name in a crate.
+/// Returns true if a crate has a file of this name.
 fn is_source(name: &str) -> bool {
     crates().iter().any(|root| root.join(name).is_file())
 }
 
-/// What stands between backticks in the text, outside of fenced blocks.
+/// Inline code of the text, outside of fenced blocks.
 fn in_code_style(text: &str) -> Vec<String> {
     let mut words = Vec::new();
     let mut is_fenced = false;
@@ -37,12 +37,12 @@ fn is_name(word: &str) -> bool {
         && word.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
 }
 
-/// Whether a line of code contains a word by itself.
+/// Returns true if a line of code contains a whole word.
 fn has_word(line: &str, word: &str) -> bool {
     line.split(|c: char| !(c.is_alphanumeric() || c == '_')).any(|other| other == word)
 }
 
-/// Whether a line declares a name: as a function, type, constant, module, field or variant.
+/// Returns true if a line declares a name: as a function, type, constant, module, field or variant.
 fn declares(line: &str, name: &str) -> bool {
     let line = line.trim_start();
     let line =
@@ -62,7 +62,7 @@ fn declares(line: &str, name: &str) -> bool {
     }
 }
 
-/// Whether a type has a member: it is declared in the body of the type, or in one of its implementations.
+/// Returns true if a type has a member, declared in its body or in one of its implementations.
 fn has_member(all: &[(PathBuf, String)], of: &str, member: &str) -> bool {
     all.iter().any(|(_, text)| {
         let mut is_inside = false;
@@ -80,7 +80,7 @@ fn has_member(all: &[(PathBuf, String)], of: &str, member: &str) -> bool {
     })
 }
 
-/// Whether a module, in `src` or below one of its folders, declares a name.
+/// Returns true if a module, in `src` or below one of its folders, declares a name.
 fn has_item(all: &[(PathBuf, String)], module: &str, name: &str) -> bool {
     let folder = PathBuf::from(module.replace("::", "/"));
     all.iter().any(|(path, text)| {
@@ -112,10 +112,13 @@ fn names_of_the_theory_are_in_the_code() {
         }
     }
     for gone in ["mass", "axial"] {
-        assert!(!has_member(&all, "Section", gone), "members that are not there are not found");
+        assert!(
+            !has_member(&all, "Section", gone),
+            "has_member finds a member that does not exist"
+        );
     }
     assert!(count > 60, "only {count} names were found");
-    assert!(missing.is_empty(), "docs/theory.md names what is not in src: {missing:?}");
+    assert!(missing.is_empty(), "docs/theory.md has names that are not in src: {missing:?}");
 }
 
 #[test]
@@ -133,7 +136,7 @@ fn files_of_the_theory_are_there() {
                 let inside = word.split(['{', '}']).nth(1).unwrap();
                 inside.split(',').map(|name| format!("{before}{name}{after}")).collect()
             }
-            // A name alone is a file beside the one before it.
+            // A name without a folder is a file beside the previous one.
             None if !word.contains('/') => vec![format!("{folder}/{word}")],
             None => vec![word.to_owned()],
         };
@@ -144,10 +147,10 @@ fn files_of_the_theory_are_there() {
             }
         }
     }
-    assert!(missing.is_empty(), "docs/theory.md names files that are not there: {missing:?}");
+    assert!(missing.is_empty(), "docs/theory.md has files that do not exist: {missing:?}");
 }
 
-/// What the theory says about a number, and the line of code that has it.
+/// Phrase of the theory with a number, source file, and the line of code with that number.
 const NUMBERS: &[(&str, &str, &str)] = &[
     (
         "to 1e-12 of the beam's length plus the distance from the origin",
@@ -259,11 +262,11 @@ fn tolerances_of_the_theory_are_those_of_the_code() {
     for (said, file, code) in NUMBERS {
         let words = said.split_whitespace().collect::<Vec<_>>().join(" ");
         if !theory.contains(&words) {
-            wrong.push(format!("docs/theory.md does not say \"{said}\""));
+            wrong.push(format!("docs/theory.md does not contain \"{said}\""));
         }
         if !std::fs::read_to_string(crates()[0].join(file)).unwrap().contains(code) {
             wrong
-                .push(format!("{file} does not have `{code}`, of which theory.md says \"{said}\""));
+                .push(format!("{file} does not contain `{code}`, the source of this phrase of theory.md: \"{said}\""));
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
