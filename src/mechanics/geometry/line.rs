@@ -76,7 +76,7 @@ mod tests {
         );
         assert_eq!(
             refusal(point, Vec2::new(f64::NAN, 0.0)),
-            "end of the line: NaN is not a finite number; give a finite one"
+            "end of the line is NaN, but must be a finite number"
         );
         assert!(
             refusal(Vec2::new(-1.5e308, 0.0), Vec2::new(1.5e308, 0.0))

@@ -59,7 +59,7 @@ impl Scene {
                 return Err(SystemError::Unnamed { kind: "point", name: name.clone(), why });
             }
             if name == CENTRE && *place != Vec2::zeros() {
-                let (kind, why) = ("point", "the centre of mass of a body is called so");
+                let (kind, why) = ("point", "this is the name of the centre of mass");
                 return Err(SystemError::Unnamed { kind, name: name.clone(), why });
             }
             if body.points[..at].iter().any(|(other, _)| other == name) {
