@@ -68,7 +68,7 @@ impl Folder {
         self.0.open_dir_nofollow(name).map(Self).map_err(|error| {
             match self.0.symlink_metadata(name).is_ok_and(|about| about.is_symlink()) {
                 true => io::Error::other(format!(
-                    "'{}' is a link, and links are not followed here; name the folder itself",
+                    "'{}' is a link, and links are not followed; give the folder itself",
                     name.display()
                 )),
                 false => error,
@@ -94,7 +94,8 @@ impl Folder {
         name: &'n Path,
         enter: fn(&Self, &OsStr) -> io::Result<Self>,
     ) -> io::Result<(Self, &'n OsStr)> {
-        let refused = || io::Error::new(ErrorKind::InvalidInput, "it leads out of the folder");
+        let refused =
+            || io::Error::new(ErrorKind::InvalidInput, "it is outside the allowed folder");
         if !is_plain(name) {
             return Err(refused());
         }
@@ -121,7 +122,7 @@ impl Folder {
         let (folder, name) = self.parent_of(name, Self::enter)?;
         let about = folder.0.symlink_metadata(name)?;
         if about.is_symlink() {
-            return Err(io::Error::other("it is a link, and links are not followed here"));
+            return Err(io::Error::other("it is a link, and links are not followed"));
         }
         reading::expect_ordinary(about.is_file())?;
         let file = folder.0.open_with(name, &reading::options(FollowSymlinks::No))?;
@@ -242,7 +243,7 @@ impl Folder {
                 Err(error) => return Err(error),
             }
         }
-        Err(io::Error::new(ErrorKind::AlreadyExists, "there is no free name to keep it by"))
+        Err(io::Error::new(ErrorKind::AlreadyExists, "no unused file name was found for the copy"))
     }
 
     /// Renames a file in this folder, replacing the target.

@@ -81,7 +81,7 @@ fn bad_knots_are_refused_with_reasons() {
     );
     assert_eq!(
         refusal(1, &[2.0, 2.0, 2.0, 2.0]),
-        "knots: all of them are 2; the last knot must be larger than the first"
+        "knots: all are 2, but the last knot must be larger than the first"
     );
     assert_eq!(
         refusal(2, &[0.0, 0.0, 0.5, 1.0, 1.0, 1.0]),
