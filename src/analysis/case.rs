@@ -230,7 +230,7 @@ mod tests {
         let patience = RunLimits { wall: Duration::from_millis(50), ..RunLimits::default() };
         let (outcome, _) = case.run(patience, &never(), |_| ());
         let told = outcome.describe();
-        assert!(told.starts_with("ran out of patience at t = 0.5"), "{told}");
+        assert!(told.starts_with("stopped at t = 0.5 by a limit"), "{told}");
         assert!(told.ends_with(": more than 0.05 s"), "{told}");
         assert!(!is_out_of_patience(), "patience with one case is not that with another");
     }

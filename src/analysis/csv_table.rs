@@ -12,7 +12,7 @@ pub enum ParsedCsvError {
         reason: String,
     },
     /// Duplicate column name.
-    #[error("two of its columns are called '{column}'; give each a name of its own")]
+    #[error("two columns have the name '{column}'; rename one of them")]
     Duplicate {
         /// Name.
         column: String,
@@ -38,9 +38,7 @@ pub enum ParsedCsvError {
         text: String,
     },
     /// A negative number where a size is expected.
-    #[error(
-        "line {line}, column '{column}', holds '{text}', and the size of an error is not negative"
-    )]
+    #[error("line {line}, column '{column}', holds '{text}', but an error must not be negative")]
     Negative {
         /// Name of the column.
         column: String,
@@ -76,7 +74,7 @@ impl ParsedCsv {
             line: error.position().map_or(1, csv::Position::line),
             reason: match error.kind() {
                 csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
-                    format!("it has {len} cells, and there are {expected_len} columns")
+                    format!("it has {len} cells, but there are {expected_len} columns")
                 }
                 _ => error.to_string(),
             },
@@ -196,11 +194,11 @@ mod tests {
         let told = sheet.number(0, "y0").unwrap_err().to_string();
         assert_eq!(told, "it has no column 'y0'; its columns are t, x0");
         let told = ParsedCsv::parse("t, x0, x0\n0,1,2\n").unwrap_err().to_string();
-        assert_eq!(told, "two of its columns are called 'x0'; give each a name of its own");
+        assert_eq!(told, "two columns have the name 'x0'; rename one of them");
         let told = ParsedCsv::parse("# made\nt,x0\n0,1\n1\n").unwrap_err().to_string();
         assert_eq!(
             told,
-            "line 4 is not a row of the table: it has 1 cells, and there are 2 columns"
+            "line 4 is not a row of the table: it has 1 cells, but there are 2 columns"
         );
     }
 }

@@ -34,7 +34,7 @@ pub enum ExternalResultError {
     #[error(transparent)]
     Truth(#[from] ReferenceError),
     /// A run was measured at another time than the study uses.
-    #[error("its row {row} holds positions at t = {measured}, and the study asks for errors at t = {}", asked.join(", "))]
+    #[error("its row {row} has positions at t = {measured}, but the study needs t = {}", asked.join(", "))]
     Times {
         /// Row below the header, from 1.
         row: usize,
@@ -135,7 +135,7 @@ mod tests {
         assert_eq!(machines(&rivals), ["a Cray"]);
         let told =
             ExternalResult::of_sheet(&sheet, &observables, &truth, (&[2.0], 10.0)).unwrap_err();
-        assert!(told.to_string().contains("row 1 holds positions at t = 1"), "{told}");
+        assert!(told.to_string().contains("row 1 has positions at t = 1"), "{told}");
         let lame = ParsedCsv::parse("series,peer,t,xA,yA\na,b,1,0,0\n").unwrap();
         let told =
             ExternalResult::of_sheet(&lame, &observables, &truth, (&[1.0], 10.0)).unwrap_err();

@@ -128,7 +128,7 @@ impl Journal {
         let path = self.path.clone();
         let cannot = |source| JournalError { path, action: "written", source };
         let Ok(result) = postcard::to_stdvec(result) else {
-            return Err(cannot(io::Error::other("the result has no form in a file")));
+            return Err(cannot(io::Error::other("the result cannot be stored in a file")));
         };
         let bytes = self.append(fingerprint, &result).map_err(cannot)?;
         self.known.insert(fingerprint, result);

@@ -39,9 +39,9 @@ impl CaseOutcome {
         match self {
             Self::Finished => "finished".to_owned(),
             Self::Failed { time, reason } => format!("failed at t = {time}: {reason}"),
-            Self::GaveUp { time, limit } => format!("ran out of patience at t = {time}: {limit}"),
+            Self::GaveUp { time, limit } => format!("stopped at t = {time} by a limit: {limit}"),
             Self::Panicked { message } => {
-                format!("a bug of withy stopped it, please report it: {message}")
+                format!("stopped by an internal error of withy, please report it: {message}")
             }
         }
     }

@@ -67,7 +67,7 @@ pub enum ReferenceError {
         nearest: Vec<String>,
     },
     /// The reference has two rows at a time of the study.
-    #[error("lines {first} and {second} are both about t = {time}, and they differ")]
+    #[error("lines {first} and {second} are both for t = {time}, but have different values")]
     Twice {
         /// Duplicate time [time].
         time: f64,
@@ -78,7 +78,7 @@ pub enum ReferenceError {
     },
     /// The reference contains no station of the study.
     #[error(
-        "it has no station of the study: for one called '{station}' it needs the columns x{station} and y{station}; its columns are {known}"
+        "it has no station of the study: the station '{station}' needs the columns x{station} and y{station}, but its columns are {known}"
     )]
     Stations {
         /// A station of the study.
@@ -323,11 +323,11 @@ mod tests {
         let row = "0.5,3,4,0.2,2,0\n";
         assert!(told(&row.repeat(2)).is_ok(), "said twice is said once");
         let both = told(&format!("0,0,0,0,0,0\n{row}0.5,3,4.1,0.2,2,0\n")).unwrap_err();
-        assert_eq!(both, "lines 4 and 5 are both about t = 0.5, and they differ");
+        assert_eq!(both, "lines 4 and 5 are both for t = 0.5, but have different values");
         let negative = told("0.5,3,4,0.2,2,-0.1\n").unwrap_err();
         assert_eq!(
             negative,
-            "line 3, column 'd_pos', holds '-0.1', and the size of an error is not negative"
+            "line 3, column 'd_pos', holds '-0.1', but an error must not be negative"
         );
     }
 

@@ -47,7 +47,7 @@ pub fn on_all_cores<R: Send>(
                     if is_stopped() {
                         break;
                     }
-                    let case = Case::from_bytes(bytes).ok_or("the case cannot be read again");
+                    let case = Case::from_bytes(bytes).ok_or("the stored case cannot be read");
                     let result =
                         case.map_err(str::to_owned).and_then(|case| caught(|| work(&case)));
                     if done.send((*number, result)).is_err() {

@@ -11,9 +11,9 @@ use super::view_options::ViewOptions;
 use crate::repl::editor::Keys;
 use crate::script::state::parts::StudyPart;
 
-/// Planar dynamics of flexible beams, scripted.
+/// Simulates the planar dynamics of flexible beams from scripts.
 ///
-/// Without a command it opens a prompt.
+/// Without a command it opens the interactive prompt.
 #[derive(Parser)]
 #[command(version, args_conflicts_with_subcommands = true, after_help = EXIT_CODES)]
 pub struct CliArguments {
@@ -28,26 +28,26 @@ pub struct CliArguments {
 /// What withy can do.
 #[derive(Subcommand)]
 pub enum CliCommand {
-    /// Run a script: simulate, check, draw.
+    /// Runs a script.
     #[command(after_help = EXIT_CODES)]
     Run(RunOptions),
-    /// Run a script of studies; what is finished when it is stopped is not run again the next time.
+    /// Runs a script with studies; an interrupted study continues with its unfinished cases.
     #[command(after_help = EXIT_CODES)]
     Study(StudyOptions),
-    /// Parse a script and build its scenes without running, printing or writing anything.
+    /// Checks a script: parses it and builds its scenes, without running, printing or writing anything.
     #[command(after_help = EXIT_CODES)]
     Check(CheckOptions),
-    /// Write a saved simulation for other programs: frames for ParaView, arrays for NumPy, a table, a page.
+    /// Converts a saved simulation to files for ParaView or NumPy, a table or a web page.
     #[command(after_help = EXIT_CODES)]
     Convert(ConvertOptions),
-    /// Write a page on which a saved simulation moves, or those in the variables of a script, and open it in a browser.
+    /// Writes an animated page of a saved simulation, or of the simulations of a script, and opens it in a browser.
     #[command(after_help = EXIT_CODES)]
     View(ViewOptions),
-    /// Show help on a name, the whole reference, or write definition files for editors.
+    /// Shows help on a name or the whole reference, or writes definition files for editors.
     Docs(DocsOptions),
-    /// Learn by doing: exercises with hints and a judge.
+    /// Offers exercises with hints and automatic judging.
     Learn(LearnOptions),
-    /// Open a prompt: step, look, go back. Reads inputs from a pipe where there is no terminal.
+    /// Opens the interactive prompt; without a terminal it reads inputs from a pipe.
     #[command(after_help = EXIT_CODES)]
     Repl(ReplOptions),
 }
@@ -55,7 +55,7 @@ pub enum CliCommand {
 /// Options of `withy repl`.
 #[derive(Args)]
 pub struct ReplOptions {
-    /// A script that is evaluated first, as if it had been typed.
+    /// Script that is evaluated first, as if it had been typed.
     pub file: Option<PathBuf>,
     /// How the session goes.
     #[command(flatten)]
@@ -65,19 +65,19 @@ pub struct ReplOptions {
 /// Options of a session, with a terminal or without.
 #[derive(Args)]
 pub struct SessionOptions {
-    /// Evaluate this input and leave; several are evaluated one after another.
+    /// Evaluates this input and exits; may be repeated.
     #[arg(short = 'e', long = "evaluate", value_name = "INPUT", allow_hyphen_values = true)]
     pub inputs: Vec<String>,
-    /// Folder for pictures and tables; made when the first one is written.
+    /// Folder for pictures and tables; created with the first file.
     #[arg(long, value_name = "DIR", default_value = "out")]
     pub out: PathBuf,
-    /// Memory of each simulation for going back, in megabytes.
+    /// Memory for the snapshots of each simulation, in megabytes.
     #[arg(long, value_name = "MB", default_value_t = 256)]
     pub snapshots: u32,
-    /// Keys of the line editor; the variable WITHY_KEYS says it for all sessions.
+    /// Keys of the line editor; the environment variable WITHY_KEYS sets the default.
     #[arg(long, value_enum)]
     pub keys: Option<KeyBindings>,
-    /// Draw with plain ASCII.
+    /// Draws with ASCII characters only.
     #[arg(long)]
     pub ascii: bool,
     /// What the session may use; time and steps are those of one input.
@@ -106,15 +106,15 @@ impl From<KeyBindings> for Keys {
 /// Options of `withy run`.
 #[derive(Args)]
 pub struct RunOptions {
-    /// The script, a .rhai file.
+    /// Script, a .rhai file.
     pub file: PathBuf,
-    /// Folder for pictures and tables; made when the first one is written.
+    /// Folder for pictures and tables; created with the first file.
     #[arg(long, value_name = "DIR", default_value = "out")]
     pub out: PathBuf,
-    /// Write what each simulation says about itself to this JSON file, whole or not at all, also after a failure.
+    /// Writes the reports of all simulations to this JSON file, also after a failure.
     #[arg(long, value_name = "FILE.json")]
     pub report: Option<PathBuf>,
-    /// No progress bar and no closing lines; what the script prints and what fails is still shown.
+    /// Hides the progress bar and the closing lines; printed text and errors are still shown.
     #[arg(long, short)]
     pub quiet: bool,
     /// What the script may use.
@@ -125,24 +125,24 @@ pub struct RunOptions {
 /// Options of `withy study`.
 #[derive(Args)]
 pub struct StudyOptions {
-    /// The script, a .rhai file.
+    /// Script, a .rhai file.
     pub file: PathBuf,
-    /// Folder for tables, pictures, and journals of what is finished; made when the first one is written.
+    /// Folder for tables, pictures and journals of finished cases; created with the first file.
     #[arg(long, value_name = "DIR", default_value = "out")]
     pub out: PathBuf,
-    /// Forget what an interrupted run of these studies has finished.
+    /// Discards the finished cases of an interrupted run of these studies.
     #[arg(long)]
     pub fresh: bool,
-    /// Make only this part of each study, such as 3/16, and keep it in the folder of --out until --merge joins all parts.
+    /// Computes only this part of each study, such as 3/16, and stores it in the output folder for --merge.
     #[arg(long, value_name = "K/N", conflicts_with = "merge")]
     pub part: Option<StudyPart>,
-    /// Join the parts in these folders in the place of making them: the same files as those of one machine.
+    /// Joins the parts in these folders; the files are identical to those of a single run.
     #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with = "fresh")]
     pub merge: Vec<PathBuf>,
-    /// How often each run is timed, whatever the script says.
+    /// Number of timed repetitions of each run; overrides the script.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub repeats: Option<u32>,
-    /// No progress bar and no closing lines; what the script prints and what fails is still shown.
+    /// Hides the progress bar and the closing lines; printed text and errors are still shown.
     #[arg(long, short)]
     pub quiet: bool,
     /// What the script may use.
@@ -153,7 +153,7 @@ pub struct StudyOptions {
 /// Options of `withy check`.
 #[derive(Args)]
 pub struct CheckOptions {
-    /// The script, a .rhai file.
+    /// Script, a .rhai file.
     pub file: PathBuf,
     /// What the script may use.
     #[command(flatten)]
@@ -163,19 +163,18 @@ pub struct CheckOptions {
 /// Options of `withy docs`.
 #[derive(Args)]
 pub struct DocsOptions {
-    /// A function, type, option, constant or part of the language, such as section or simulation.run_to; without it, an overview.
+    /// Function, type, option, constant or topic, such as section or simulation.run_to; without it, an overview.
     #[arg(conflicts_with_all = ["markdown", "grammar", "definitions"])]
     pub name: Option<String>,
-    /// Print the whole reference as Markdown.
+    /// Prints the whole reference as Markdown.
     #[arg(long, conflicts_with_all = ["grammar", "definitions"])]
     pub markdown: bool,
-    /// Print a TextMate grammar (JSON), by which editors colour scripts.
+    /// Prints a TextMate grammar (JSON) for syntax highlighting in editors.
     #[arg(long, conflicts_with = "definitions")]
     pub grammar: bool,
-    /// Write definition files (.d.rhai) for the Rhai language server into this folder.
+    /// Writes definition files (.d.rhai) for the Rhai language server to this folder.
     #[arg(long, value_name = "DIR")]
     pub definitions: Option<PathBuf>,
 }
 
-const EXIT_CODES: &str = "Exit codes: 0 all is well, 1 a check in the script failed, 2 the script or an argument is wrong, \
-                          130 stopped by Ctrl-C.";
+const EXIT_CODES: &str = "Exit codes: 0 success, 1 a check in the script failed, 2 error in the script or the arguments, 130 interrupted by Ctrl-C.";

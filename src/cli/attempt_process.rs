@@ -52,7 +52,7 @@ pub(super) fn mark_apart(
     let bounds = room.limits.for_an_attempt();
     Ok(match run_apart(submission, file, exercise, room)? {
         ProcessReport::Line(line) => {
-            Some(read(&line).unwrap_or_else(|| (Mark::Broken, "its judge said nothing".into())))
+            Some(read(&line).unwrap_or_else(|| (Mark::Broken, "its judge gave no result".into())))
         }
         ProcessReport::Nothing(status) => Some(mark_of_death(status, &bounds)),
         ProcessReport::TooLate => Some((Mark::Stopped, too_late(&bounds))),
@@ -145,7 +145,7 @@ fn mark_of_death(status: ExitStatus, limits: &Limits) -> (Mark, String) {
     };
     match passed {
         Some(stop) => (Mark::Stopped, stop.words().0),
-        None => (Mark::Broken, format!("its process ended without a verdict: {status}")),
+        None => (Mark::Broken, format!("its process ended without a result: {status}")),
     }
 }
 
@@ -195,7 +195,7 @@ pub(super) fn judge_one(
 ) -> Exit {
     let limits = limits.for_an_attempt();
     if let Err(error) = confine(&limits) {
-        tell(&format!("error: this process cannot be given limits: {error}\n"));
+        tell(&format!("error: the limits of this process cannot be set: {error}\n"));
         return Exit::Wrong;
     }
     let settings = RunSettings {

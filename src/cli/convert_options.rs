@@ -9,15 +9,15 @@ use super::limits::LimitOptions;
 /// Options of `withy convert`.
 #[derive(Args)]
 pub struct ConvertOptions {
-    /// A simulation that sim.save wrote.
+    /// Saved simulation (written by sim.save).
     pub file: PathBuf,
-    /// What it becomes.
+    /// Output format.
     #[arg(long, value_enum)]
     pub to: ConvertTarget,
-    /// Folder for what is written, under the name of FILE; that of FILE unless given.
+    /// Output folder; by default that of FILE.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// No progress bar and no closing lines; what fails is still shown.
+    /// Hides the progress bar and the closing lines; errors are still shown.
     #[arg(long, short)]
     pub quiet: bool,
     /// What the conversion may use.
@@ -28,12 +28,12 @@ pub struct ConvertOptions {
 /// What a saved simulation can become.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum ConvertTarget {
-    /// Frames for ParaView: NAME.pvd and NAME/NAME_0001.vtu …; runs again where velocities and section forces are forgotten.
+    /// Frames for ParaView: NAME.pvd and NAME/NAME_0001.vtu …; repeats the run if velocities and section forces are not stored.
     Vtk,
     /// Arrays for NumPy: NAME.npz.
     Npz,
-    /// The history as a table, with a line of units: NAME.csv.
+    /// History as a table with a row of units: NAME.csv.
     Csv,
-    /// A page on which the motion is played: NAME.html.
+    /// Animated page: NAME.html.
     Html,
 }

@@ -36,7 +36,7 @@ pub fn docs(options: &DocsOptions) -> Exit {
 fn page(catalog: &Catalog, name: &str) -> Result<String, Diagnostic> {
     let page = lookup::page(catalog, name).map_err(|unknown| {
         Diagnostic::general(unknown.to_string()).with_hint(match unknown.is_strange() {
-            true => "withy docs lists what there is".to_owned(),
+            true => "withy docs lists all topics".to_owned(),
             false => unknown.hint(),
         })
     })?;
@@ -53,14 +53,14 @@ fn width() -> usize {
 fn write_definitions(catalog: &Catalog, folder: &Path) -> Result<String, Diagnostic> {
     let refused = |path: &Path, why: &dyn std::fmt::Display| {
         Diagnostic::general(format!("cannot write '{}': {why}", path.display()))
-            .with_hint("--definitions takes a folder, which is made if it is not there")
+            .with_hint("--definitions takes a folder, which is created if necessary")
     };
     std::fs::create_dir_all(folder).map_err(|error| refused(folder, &error))?;
     let mut told = String::new();
     for file in definitions(catalog) {
         let path = folder.join(&file.name);
         if path.symlink_metadata().is_ok() && !is_definition(&path) {
-            return Err(refused(&path, &"it is there already, and is no definition file"));
+            return Err(refused(&path, &"a file of this name exists and is not a definition file"));
         }
         write_whole(&path, file.text.as_bytes()).map_err(|error| refused(&path, &error))?;
         told += &format!("wrote {}\n", path.display());

@@ -84,7 +84,7 @@ pub fn grade(wishes: &GradeOptions) -> Result<Exit, ExerciseError> {
     if let (Some((path, _)), true) = (&file, kept > 0) {
         let path = path.display();
         tell(&format!(
-            "note: {kept} marks are those of '{path}': what they depend on has not changed since\n"
+            "note: {kept} marks were taken from '{path}', because nothing they depend on has changed\n"
         ));
     }
     match trouble {
@@ -152,7 +152,7 @@ impl GradeSheet {
         let exercise_width = EXERCISES.iter().map(|it| it.id().len()).max().unwrap_or(0);
         let sheet = Self { form, student_width, exercise_width, reports: Vec::new() };
         match form {
-            GradeFormat::Table => sheet.line("student", "exercise", "result", "what is off"),
+            GradeFormat::Table => sheet.line("student", "exercise", "result", "errors"),
             GradeFormat::Json => {
                 say(&format!("{{\n  \"exercises\": {},\n  \"students\": [", EXERCISES.len()))
             }

@@ -53,7 +53,7 @@ pub fn flag(at_stake: InterruptLoss) -> Arc<AtomicBool> {
     });
     if let Err(error) = installed {
         // Without a handler Ctrl-C ends the process as usual; a warning suffices.
-        tell(&format!("warning: Ctrl-C will not save what ran: {error}\n"));
+        tell(&format!("warning: Ctrl-C ends the program without saving results: {error}\n"));
     }
     flag
 }

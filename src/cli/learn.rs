@@ -58,7 +58,7 @@ pub fn learn(options: &LearnOptions) -> Exit {
         }
     };
     if is_output_lost() {
-        return refuse(&Diagnostic::general("some of the output could not be written"));
+        return refuse(&Diagnostic::general("part of the output could not be written"));
     }
     done.unwrap_or_else(|error| refuse(&Diagnostic::general(error.to_string())))
 }
@@ -68,7 +68,7 @@ type Done = Result<Exit, ExerciseError>;
 fn begin(workbook: &Workbook) -> Result<(), ExerciseError> {
     if workbook.fill()? == EXERCISES.len() {
         say(&format!(
-            "{} exercises for you are in {}\n",
+            "{} exercises were written to {}\n",
             EXERCISES.len(),
             shown(workbook.folder())
         ));
@@ -144,7 +144,7 @@ fn check(
             return Ok(Exit::Good);
         }
         AttemptVerdict::Interrupted => {
-            say("interrupted: the attempt was not judged");
+            say("interrupted before the attempt was judged");
             return Ok(Exit::Interrupted);
         }
         AttemptVerdict::Broken(why) | AttemptVerdict::Stopped(why) => why.render(colours()),
@@ -158,7 +158,7 @@ fn check(
 fn note(workbook: &Workbook, exercise: &Exercise, has_passed: bool) -> bool {
     let noted = workbook.note(exercise, has_passed);
     if let Err(error) = &noted {
-        say(&format!("not noted: {error}"));
+        say(&format!("the result was not recorded: {error}"));
     }
     noted.is_ok()
 }
@@ -212,7 +212,7 @@ fn check_all(workbook: &Workbook, detail: Detail, limits: &LimitOptions) -> Done
     }
     bar.end();
     if !begun.is_empty() {
-        say(&format!("Begun, and not passed yet: {}", begun.join(", ")));
+        say(&format!("Begun, but not passed: {}", begun.join(", ")));
     }
     if detail == Detail::Summary {
         show_next(workbook)?;
@@ -226,8 +226,8 @@ fn solution(workbook: &Workbook, name: &str) -> Done {
     let exercise = find(name)?;
     if !workbook.progress()?.has_passed(exercise) {
         say(&format!(
-            "{} is not passed yet: try it first, and then compare.\n\
-             A hint: withy learn hint {} gives one more each time, and after the last one a solution.",
+            "{} is not passed yet; its solution is shown after that.\n\
+             withy learn hint {} gives one more hint each time, and a solution after the last one.",
             exercise.id(),
             exercise.name
         ));
@@ -267,7 +267,7 @@ fn reset(workbook: &Workbook, name: &str) -> Done {
     let exercise = find(name)?;
     let kept = workbook.reset(exercise)?;
     say(&format!(
-        "{} is as it was at the start; your attempt is kept as {}",
+        "{} was reset; your attempt was saved as {}",
         shown(&workbook.file(exercise)),
         shown(&kept)
     ));
@@ -299,10 +299,7 @@ fn watch_in_lines(workbook: &Workbook, limits: &LimitOptions, flag: &Arc<AtomicB
         if exit == Exit::Good {
             say("");
         }
-        say(&format!(
-            "waiting until a file in {} is saved; Ctrl-C leaves",
-            shown(workbook.folder())
-        ));
+        say(&format!("waiting for a saved file in {}; Ctrl-C ends", shown(workbook.folder())));
         current = loop {
             if flag.load(Ordering::Relaxed) {
                 return Ok(Exit::Good);

@@ -10,7 +10,7 @@ use super::limits::LimitOptions;
 #[derive(Args)]
 #[command(after_help = EXIT_CODES)]
 pub struct LearnOptions {
-    /// What to do; without it: where you are, and what comes next.
+    /// Action; without it, shows the progress and the next exercise.
     #[command(subcommand)]
     pub action: Option<LearnAction>,
 }
@@ -18,37 +18,37 @@ pub struct LearnOptions {
 /// What `withy learn` can do.
 #[derive(Subcommand)]
 pub enum LearnAction {
-    /// Show all exercises, and which are passed.
+    /// Lists all exercises and those passed.
     List,
-    /// Show the first exercise that is not passed.
+    /// Shows the first exercise that is not passed.
     Next,
-    /// Judge an attempt, or all of them; each may take 20 seconds unless --max-time says otherwise.
+    /// Judges one attempt or all; each may take 20 seconds unless --max-time is given.
     Check {
-        /// The exercise; without it, all, and how many are passed is told.
+        /// Exercise; without it, all are judged and the passed ones are counted.
         name: Option<String>,
-        /// Tell the result of each exercise.
+        /// Shows the result of each exercise.
         #[arg(long, conflicts_with = "name")]
         all: bool,
         /// What an attempt may use.
         #[command(flatten)]
         limits: LimitOptions,
     },
-    /// Give a hint, one more each time.
+    /// Gives a hint, one more each time.
     Hint {
-        /// The exercise; without it, the next one.
+        /// Exercise; without it, the next one.
         name: Option<String>,
     },
-    /// Show the model solution of an exercise that you have passed.
+    /// Shows the model solution of a passed exercise.
     Solution {
-        /// The exercise.
+        /// Exercise.
         name: String,
     },
-    /// Begin an exercise anew; the old attempt is kept beside it.
+    /// Resets an exercise; the old attempt is kept beside it.
     Reset {
-        /// The exercise.
+        /// Exercise.
         name: String,
     },
-    /// Task, result and hints on one screen: judges an attempt each time it is saved; q leaves.
+    /// Shows task, result and hints on one screen, and judges an attempt each time it is saved.
     ///
     /// Keys: h hint, l list of all exercises, r run again, n next, p previous, s a solution after passing, arrows and PageUp
     /// and PageDown scroll, q quit. Without a terminal it writes lines.
@@ -58,41 +58,40 @@ pub enum LearnAction {
         #[command(flatten)]
         limits: LimitOptions,
     },
-    /// Judge the attempts of a class: a folder with a folder for each student.
+    /// Judges the attempts of a class: a folder with a folder for each student.
     Grade {
-        /// The folder of the class, or of one student.
+        /// Folder of the class, or of one student.
         folder: PathBuf,
-        /// Print JSON, with what is off in each attempt.
+        /// Prints JSON with the errors of each attempt.
         #[arg(long)]
         json: bool,
-        /// Write each mark as a line of JSON behind the end of this file, too, as soon as it is known; marks of attempts that have not
-        /// changed since are kept.
+        /// Appends each mark as a line of JSON to this file; marks of unchanged attempts are reused.
         #[arg(long, value_name = "FILE")]
         marks: Option<PathBuf>,
-        /// Attempts judged at the same time; without it, as many as there are cores.
+        /// Number of attempts judged at the same time; by default the number of cores.
         #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
         jobs: Option<u16>,
         /// What each attempt may use.
         #[command(flatten)]
         limits: LimitOptions,
     },
-    /// Judge an attempt of one's own, in a process of its own: what `watch` starts.
+    /// Judges an attempt in a separate process, started by `watch`.
     #[command(hide = true)]
     Try {
-        /// The exercise.
+        /// Exercise.
         name: String,
         /// What the attempt may use.
         #[command(flatten)]
         limits: LimitOptions,
     },
-    /// Judge one attempt of a class, in a process of its own: what `grade` starts.
+    /// Judges one attempt of a class in a separate process, started by `grade`.
     #[command(hide = true)]
     Attempt {
-        /// The folder of the student.
+        /// Folder of the student.
         folder: PathBuf,
-        /// The file of the attempt.
+        /// File of the attempt.
         file: PathBuf,
-        /// The exercise.
+        /// Exercise.
         name: String,
         /// What the attempt may use.
         #[command(flatten)]
@@ -100,5 +99,4 @@ pub enum LearnAction {
     },
 }
 
-const EXIT_CODES: &str = "Exit codes: 0 what was checked is passed, 1 it is not, 2 an argument or a folder is wrong, 130 \
-                          stopped by Ctrl-C. To grade exits with 0 whatever the marks are; so do q and Ctrl-C while watching.";
+const EXIT_CODES: &str = "Exit codes: 0 passed, 1 not passed, 2 error in an argument or a folder, 130 interrupted by Ctrl-C. `grade` exits with 0 for any marks, and so does `watch` after q or Ctrl-C.";

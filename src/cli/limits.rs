@@ -14,22 +14,22 @@ use crate::script::state::limits::{
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Limits")]
 pub struct LimitOptions {
-    /// Stop the script after this time on the clock.
+    /// Largest run time of the script.
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     max_time: Option<Duration>,
-    /// Most steps of all simulations together; failed tries count.
+    /// Largest number of steps of all simulations together, including failed tries.
     #[arg(long, value_name = "N")]
     max_steps: Option<u64>,
-    /// Most memory that the whole program may occupy, in megabytes.
+    /// Largest memory of the whole program, in megabytes.
     #[arg(long, value_name = "MB", default_value_t = DEFAULT_MEGABYTES, value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     max_memory: u64,
-    /// Most calls of script functions within calls.
+    /// Largest depth of nested calls of script functions.
     #[arg(long, value_name = "N", default_value_t = DEFAULT_DEPTH as u64, value_parser = clap::value_parser!(u64).range(1..=DEEPEST as u64))]
     max_depth: u64,
-    /// Most that is printed and written into files, in megabytes [default: 10000; 100 for an attempt that is graded].
+    /// Largest amount of printed text and written files, in megabytes [default: 10000; 100 for a graded attempt].
     #[arg(long, value_name = "MB", value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     max_written: Option<u64>,
-    /// Most files that are written [default: 100000; 100 for an attempt that is graded].
+    /// Largest number of written files [default: 100000; 100 for a graded attempt].
     #[arg(long, value_name = "N")]
     max_files: Option<u64>,
 }
@@ -80,7 +80,7 @@ impl LimitOptions {
 fn seconds(text: &str) -> Result<Duration, String> {
     let seconds = text.parse::<f64>().ok().filter(|seconds| *seconds > 0.0);
     let time = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
-    time.ok_or_else(|| "a positive number of seconds is asked for".into())
+    time.ok_or_else(|| "must be a positive number of seconds".into())
 }
 
 #[cfg(test)]

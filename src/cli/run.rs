@@ -99,8 +99,7 @@ pub fn check(options: &CheckOptions) -> Exit {
             match outcome.ending {
                 Ending::Finished => tell(&format!("{file}: no errors found\n")),
                 Ending::Undecided => tell(&format!(
-                    "{file}: no errors found so far\nnote: the script waits for what a simulation finds: it cannot be checked \
-                     further\n"
+                    "{file}: no errors found so far\nnote: the rest of the script depends on results of a simulation and was not checked\n"
                 )),
                 _ => (),
             }
@@ -120,7 +119,7 @@ pub(super) fn exit_for(outcome: &RunOutcome) -> Exit {
     match &outcome.ending {
         Ending::Failed(diagnostic) => refuse(diagnostic),
         Ending::Interrupted => {
-            tell("interrupted: what ran until here is kept\n");
+            tell("interrupted: results up to this point are kept\n");
             Exit::Interrupted
         }
         Ending::PipeClosed | Ending::Undecided => Exit::Good,
@@ -135,7 +134,8 @@ fn exit_for_study(outcome: &RunOutcome, out: &Path) -> Exit {
         1 => ("1 finished case".to_owned(), "is"),
         many => (format!("{many} finished cases"), "are"),
     };
-    let kept = format!("{cases} {are} kept in '{}': the same command goes on there", out.display());
+    let kept =
+        format!("{cases} {are} kept in '{}'; the same command continues the study", out.display());
     match &outcome.ending {
         Ending::Interrupted => {
             tell(&format!("interrupted: {kept}\n"));
@@ -171,7 +171,7 @@ fn exit_for_part(outcome: &RunOutcome, options: &StudyOptions) -> Exit {
             if !options.quiet {
                 let message = &diagnostic.message;
                 tell(&format!(
-                    "{kept}\nnote: then the script stopped, which may be for results that only all parts have: {message}\n"
+                    "{kept}\nnote: then the script failed, perhaps because it needs the results of all parts: {message}\n"
                 ));
             }
             Exit::Good
@@ -210,7 +210,7 @@ fn end_at(stop: Stop) {
     let (told, hint) = stop.words();
     refuse(&Diagnostic { hint, ..Diagnostic::general(told) });
     tell(
-        "note: one long operation did not let itself be stopped: files written before it are whole, the rest is lost\n",
+        "note: a long operation could not be interrupted: files written before it are complete, all other results are lost\n",
     );
     process::exit(Exit::Wrong as i32)
 }
@@ -225,9 +225,9 @@ fn expect_report(file: &Path) -> Result<(), Diagnostic> {
     match content.is_some_and(|content| content.get("simulations").is_some()) {
         true => Ok(()),
         false => {
-            let told = format!("'{}' is there already, and is no report", file.display());
+            let told = format!("'{}' exists and is not a report", file.display());
             Err(Diagnostic::general(told)
-                .with_hint("--report takes the name of a new file, or of an older report"))
+                .with_hint("--report takes the name of a new file, or of an earlier report"))
         }
     }
 }

@@ -72,7 +72,7 @@ fn hold(options: &ReplOptions) -> Result<Exit, Diagnostic> {
 fn converse(shell: &mut Shell, options: &SessionOptions) -> Result<(), Diagnostic> {
     let no_terminal = |error: io::Error| {
         Diagnostic::general(format!("cannot read from the terminal: {error}"))
-            .with_hint("inputs can also be piped in: withy repl < FILE")
+            .with_hint("inputs can also be read from a file: withy repl < FILE")
     };
     if let Some(pager) = TerminalPager::of_environment(|name| std::env::var(name).ok()) {
         shell.page_with(Box::new(pager));
@@ -85,7 +85,7 @@ fn converse(shell: &mut Shell, options: &SessionOptions) -> Result<(), Diagnosti
     shell.print(concat!(
         "withy ",
         env!("CARGO_PKG_VERSION"),
-        ": step, look, go back. :help for help, Tab completes, Ctrl-D leaves."
+        ": interactive prompt. :help for help, Tab completes, Ctrl-D exits."
     ));
     prompt::run(shell, &mut editor).map_err(no_terminal)
 }
@@ -95,7 +95,7 @@ fn exit_for(shell: &Shell, outcome: CommandOutcome) -> Exit {
     let stopped = shell.session().context().stopped_by();
     let is_lost = matches!(stopped, Some(Stop::OutputLost(_)));
     if is_lost && outcome != CommandOutcome::Failed {
-        tell("error: some of the output could not be written\n");
+        tell("error: part of the output could not be written\n");
     }
     match outcome {
         CommandOutcome::Failed => Exit::Wrong,

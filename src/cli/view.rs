@@ -54,7 +54,7 @@ fn prepare(options: &ViewOptions) -> Result<ViewRun, Diagnostic> {
     let program = program("withy view", file, &line);
     let scratch = options.output.as_ref().map(|_| Scratch::new()).transpose();
     let scratch = scratch.map_err(|error| {
-        Diagnostic::general(format!("cannot make a folder for what is not ready yet: {error}"))
+        Diagnostic::general(format!("cannot create a folder for temporary files: {error}"))
     })?;
     let out = scratch.as_ref().map_or_else(|| folder_of(file), |scratch| scratch.path().to_owned());
     Ok(ViewRun { program, out, page, _scratch: scratch })

@@ -9,18 +9,18 @@ use super::limits::LimitOptions;
 /// Options of `withy view`.
 #[derive(Args)]
 pub struct ViewOptions {
-    /// A simulation that sim.save wrote, or a script, a .rhai file: the simulations in its variables are shown.
+    /// Saved simulation (written by sim.save), or a script, whose variables that are simulations are shown.
     pub file: PathBuf,
-    /// The page; without it, NAME.html beside a saved simulation, or in the folder for what a script writes.
+    /// Page; by default NAME.html beside a saved simulation, or in the output folder of a script.
     #[arg(long, short, value_name = "FILE.html")]
     pub output: Option<PathBuf>,
-    /// Folder for what the script itself writes; made when the first file is written.
+    /// Output folder of the script; created with the first file.
     #[arg(long, value_name = "DIR", default_value = "out")]
     pub out: PathBuf,
-    /// Write the page, and do not open it.
+    /// Writes the page without opening it.
     #[arg(long)]
     pub no_open: bool,
-    /// No progress bar and no closing lines; what the script prints and what fails is still shown.
+    /// Hides the progress bar and the closing lines; printed text and errors are still shown.
     #[arg(long, short)]
     pub quiet: bool,
     /// What the script may use.

@@ -17,12 +17,12 @@ pub const LARGEST: u64 = 1 << 20;
 pub fn load(path: &Path, folder: &Path) -> Result<Program, Diagnostic> {
     let refused = |why: &str| {
         let told = format!("cannot read the attempt '{}': {why}", path.display());
-        Diagnostic::general(told).with_hint("an attempt is a text file of its own")
+        Diagnostic::general(told).with_hint("an attempt must be a regular text file")
     };
     let below = path.strip_prefix(folder).unwrap_or(path);
     let content = Folder::open(folder).and_then(|folder| folder.read(below, LARGEST));
     let content = content.map_err(|error| match error.kind() {
-        ErrorKind::NotFound => refused("there is no such file"),
+        ErrorKind::NotFound => refused("the file does not exist"),
         _ => refused(&error.to_string()),
     });
     Ok(Program::from_bytes(path, content?)?)

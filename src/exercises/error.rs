@@ -28,7 +28,7 @@ pub enum ExerciseError {
         source: io::Error,
     },
     /// The file of marks could not be written.
-    #[error("cannot write the marks into '{}': {source}; --marks takes the name of a file that may be written", path.display())]
+    #[error("cannot write the marks to '{}': {source}; give --marks the name of a writable file", path.display())]
     Marks {
         /// Path.
         path: PathBuf,
@@ -37,14 +37,16 @@ pub enum ExerciseError {
     },
     /// The terminal cannot be drawn on.
     #[error(
-        "cannot go on with this terminal: {0}; 'withy learn watch | cat' tells the same in lines"
+        "cannot use this terminal: {0}; 'withy learn watch | cat' prints the same as plain lines"
     )]
     Terminal(io::Error),
     /// No temporary folder for the output of attempts.
-    #[error("cannot make a folder for what attempts write: {0}; TMPDIR says where it goes")]
+    #[error(
+        "cannot create a folder for the output of attempts: {0}; set TMPDIR to a writable folder"
+    )]
     Scratch(io::Error),
     /// The file of an attempt could not be renamed to keep it.
-    #[error("cannot keep '{}' as '{}': {source}; nothing was changed", from.display(), to.display())]
+    #[error("cannot copy '{}' to '{}': {source}; nothing was changed", from.display(), to.display())]
     Keep {
         /// Old name.
         from: PathBuf,
@@ -54,7 +56,7 @@ pub enum ExerciseError {
         source: io::Error,
     },
     /// The progress file is invalid.
-    #[error("'{}' is damaged ({why}); move it away to begin counting anew: your attempts stay", path.display())]
+    #[error("'{}' is damaged ({why}); move it away to restart the record of progress; your attempts are kept", path.display())]
     Progress {
         /// Path.
         path: PathBuf,
@@ -62,7 +64,7 @@ pub enum ExerciseError {
         why: serde_json::Error,
     },
     /// A folder without submissions.
-    #[error("'{}' holds no submissions; it should have one folder for each student, with folders such as '{track}' in it", path.display())]
+    #[error("'{}' has no submissions; it must contain a folder for each student, with folders such as '{track}'", path.display())]
     NoSubmissions {
         /// Path.
         path: PathBuf,
@@ -73,7 +75,9 @@ pub enum ExerciseError {
 
 fn meant(nearest: Option<&str>) -> String {
     match nearest {
-        Some(nearest) => format!("did you mean '{nearest}'? 'withy learn list' shows all"),
+        Some(nearest) => {
+            format!("did you mean '{nearest}'? 'withy learn list' lists all exercises")
+        }
         None => "'withy learn list' shows all".into(),
     }
 }

@@ -101,7 +101,7 @@ impl GradingTask {
             let told = format!("the folder '{}' is a link", submission.folder.display());
             return Self::Known(
                 Mark::Broken,
-                format!("{told}: an attempt lies in a folder of its own"),
+                format!("{told}; an attempt must be in a real folder"),
             );
         }
         let Some(path) = submission.attempt(exercise) else {

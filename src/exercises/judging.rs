@@ -92,7 +92,7 @@ impl JudgingContext {
         let program = Program::named(&format!("the judge of {}", exercise.id()), exercise.judge);
         self.run(&program, &mut seen).map_err(|verdict| match verdict {
             AttemptVerdict::Broken(why) if why.blame == Blame::User => {
-                AttemptVerdict::Off(vec![format!("the judge could not go on: {}", why.message)])
+                AttemptVerdict::Off(vec![format!("the judge failed: {}", why.message)])
             }
             other => other,
         })?;
@@ -102,7 +102,7 @@ impl JudgingContext {
         });
         match found {
             None => {
-                let why = format!("{} has looked at nothing", program.name);
+                let why = format!("{} made no check", program.name);
                 Err(AttemptVerdict::Broken(Diagnostic::bug(why)))
             }
             Some(found) if found.is_empty() => Ok(()),
@@ -121,8 +121,7 @@ impl JudgingContext {
         for Need { name, of } in needs {
             let Some(value) = attempt.get(name) else {
                 wrong.push(format!(
-                    "your script has no variable '{name}' when it ends; the judge looks at it, so it must be made there with \
-                     'let {name} = …', outside of braces"
+                    "your script has no variable '{name}' at its end, which the judge needs; define it with 'let {name} = …' outside braces"
                 ));
                 continue;
             };
@@ -144,7 +143,7 @@ impl JudgingContext {
                     seen.push(name.as_str(), number);
                 }
                 found => wrong.push(format!(
-                    "the variable '{name}' of your script should be {}, and is {}",
+                    "the variable '{name}' of your script must be {}, but is {}",
                     with_article(of),
                     with_article(found)
                 )),

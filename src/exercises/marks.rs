@@ -44,7 +44,7 @@ pub fn open(path: &Path) -> io::Result<(KnownMarks, MarksFile)> {
     let mut file = folder.append(name)?;
     // Locked before reading, so that marks of another run are not missed.
     file.try_lock().map_err(|refused| match refused {
-        TryLockError::WouldBlock => io::Error::other("another run writes its marks there"),
+        TryLockError::WouldBlock => io::Error::other("another process is writing to it"),
         TryLockError::Error(error) => error,
     })?;
     let bytes = folder.read(name, LARGEST)?;
@@ -53,7 +53,7 @@ pub fn open(path: &Path) -> io::Result<(KnownMarks, MarksFile)> {
     // A kill during the very first mark leaves an incomplete line.
     let begun = text.trim();
     if known.is_empty() && !begun.starts_with(HEAD) && !HEAD.starts_with(begun) {
-        return Err(io::Error::other("it is there already, and holds no marks"));
+        return Err(io::Error::other("the file exists and is not a file of marks"));
     }
     // Completes or removes an incomplete last line left by a kill.
     let whole = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1);
@@ -130,7 +130,7 @@ mod tests {
         file.note(&ada, kink, (Mark::Off, "one"), Some("1")).unwrap();
         file.note(&ada, kink, (Mark::Passed, ""), Some("2")).unwrap();
         file.note(&ada, knots, (Mark::Broken, "by us"), None).unwrap();
-        assert!(open(&path).unwrap_err().to_string().contains("another run writes"));
+        assert!(open(&path).unwrap_err().to_string().contains("another process is writing"));
         drop(file);
         let whole = fs::read_to_string(&path).unwrap();
         fs::write(&path, &whole[..whole.len() - 30]).unwrap();
@@ -160,7 +160,7 @@ mod tests {
             "the beginning of a first mark is cut off"
         );
         fs::write(&path, "my notes").unwrap();
-        assert!(open(&path).unwrap_err().to_string().contains("holds no marks"));
+        assert!(open(&path).unwrap_err().to_string().contains("is not a file of marks"));
         assert_eq!(fs::read_to_string(&path).unwrap(), "my notes");
     }
 }

@@ -117,7 +117,7 @@ mod tests {
     fn an_empty_folder_and_none_are_refused() {
         let empty = tempfile::tempdir().unwrap();
         let told = Submission::all_in(empty.path()).unwrap_err().to_string();
-        assert!(told.contains("one folder for each student"), "{told}");
+        assert!(told.contains("a folder for each student"), "{told}");
         assert!(Submission::all_in(&empty.path().join("none")).is_err());
     }
 }

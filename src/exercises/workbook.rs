@@ -230,7 +230,7 @@ mod tests {
         let file = workbook.folder().join(progress::FILE);
         fs::write(&file, "{ half").unwrap();
         let told = workbook.note(&EXERCISES[0], true).unwrap_err().to_string();
-        assert!(told.contains("is damaged") && told.contains("your attempts stay"), "{told}");
+        assert!(told.contains("is damaged") && told.contains("your attempts are kept"), "{told}");
         assert_eq!(fs::read_to_string(&file).unwrap(), "{ half");
     }
 }

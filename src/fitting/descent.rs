@@ -169,7 +169,7 @@ impl Design {
             Some(Ended::Error(error)) => return Err(error),
             Some(Ended::Unknown(reason)) => Some(reason),
             None if came_to_an_end || runs >= self.most_runs => None,
-            None => Some("no step along the derivatives makes it better".to_owned()),
+            None => Some("no step along the gradient reduces the objective".to_owned()),
         };
         let found = best.map(|(parameters, rating)| Designed {
             runaway: self.runaway(&parameters),

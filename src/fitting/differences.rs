@@ -66,7 +66,7 @@ pub fn derivatives<E>(
         evaluate(&points)?.into_iter().collect::<Result<_, _>>();
     let Ok(found) = found else { return Ok(found.map(|_| DMatrix::zeros(0, 0))) };
     if let Some(other) = found.iter().find(|values| values.len() != here.len()) {
-        return Ok(Err(format!("it gave {} values and then {}", here.len(), other.len())));
+        return Ok(Err(format!("it returned {} values and then {}", here.len(), other.len())));
     }
     Ok(Ok(DMatrix::from_fn(here.len(), x.len(), |row, own| {
         stencils[own].slope(here[row], [found[2 * own][row], found[2 * own + 1][row]])

@@ -100,14 +100,14 @@ fn matrix(
     parameters: usize,
 ) -> Result<(Vec<f64>, DMatrix<f64>), String> {
     if found.iter().any(|(_, row)| row.len() != parameters) {
-        return Err("derivatives by another number of parameters".into());
+        return Err("derivatives with respect to a different number of parameters".into());
     }
     let matrix = DMatrix::from_fn(found.len(), parameters, |row, column| found[row].1[column]);
     if !matrix.iter().all(|slope| slope.is_finite()) {
         return Err("a derivative is not finite".into());
     }
     if matrix.column_iter().any(|column| column.norm() == 0.0) {
-        return Err("all derivatives by a parameter are zero".into());
+        return Err("all derivatives with respect to a parameter are zero".into());
     }
     Ok((found.into_iter().map(|(value, _)| value).collect(), matrix))
 }

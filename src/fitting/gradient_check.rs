@@ -13,7 +13,7 @@ const ROUNDING: f64 = 1e-7;
 
 /// Message for rejected derivatives.
 pub const DISTRUST: &str =
-    "those that the runs know are not those of what they give for plain numbers";
+    "the derivatives of the runs differ from finite differences of their results";
 
 /// Two points on both sides of `x`, or on one side at a bound; each parameter is moved by a different fraction of its size.
 pub fn beside(ranges: &[SearchRange], x: &[f64]) -> [Vec<f64>; 2] {

@@ -6,7 +6,7 @@ use std::{io, path::PathBuf};
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
     /// The folder of the file is missing and could not be created.
-    #[error("cannot make the folder '{}' for '{}': {source}; choose a folder you may write to", folder.display(), path.display())]
+    #[error("cannot create the folder '{}' for '{}': {source}; choose a writable folder", folder.display(), path.display())]
     Folder {
         /// Folder that could not be created.
         folder: PathBuf,
@@ -16,7 +16,7 @@ pub enum OutputError {
         source: io::Error,
     },
     /// The file could not be written; an older file of that name is untouched.
-    #[error("cannot write '{}': {source}; check that its folder may be written to and has room", path.display())]
+    #[error("cannot write '{}': {source}; check that the folder is writable and the disk has space", path.display())]
     Write {
         /// The file that could not be written.
         path: PathBuf,
@@ -24,13 +24,13 @@ pub enum OutputError {
         source: io::Error,
     },
     /// The path has no file name, or a folder stands where the file should go.
-    #[error("cannot write '{}': it is not the name of a file; give one such as 'results/energy.csv'", path.display())]
+    #[error("cannot write '{}': this is not a file name; give one such as 'results/energy.csv'", path.display())]
     NotAFile {
         /// The path that names no file.
         path: PathBuf,
     },
     /// The extension of a picture file is not a known format.
-    #[error("picture '{}': its ending is {ending}; use '.svg' (sharp at every size) or '.png' (pixels)", path.display())]
+    #[error("picture '{}': the file extension is {ending}; use '.svg' (vector graphics) or '.png' (pixels)", path.display())]
     PictureKind {
         /// File with the unknown extension.
         path: PathBuf,
@@ -52,22 +52,20 @@ pub enum OutputError {
         expected: usize,
     },
     /// A table could not be written as CSV.
-    #[error("cannot form the table: {0}; check its column names")]
+    #[error("cannot create the table: {0}; check its column names")]
     Csv(#[from] ::csv::Error),
     /// Arrays could not be written into one archive.
-    #[error("cannot form the archive of arrays: {0}; check that no two things have one name")]
+    #[error("cannot create the archive of arrays: {0}; check that all names are different")]
     Archive(#[from] zip::result::ZipError),
     /// A table could not be written as Parquet.
     #[cfg(feature = "parquet")]
-    #[error("cannot form the table: {reason}; check that no two columns have one name")]
+    #[error("cannot create the table: {reason}; check that all column names are different")]
     Parquet {
         /// Reason given by the Parquet library.
         reason: String,
     },
     /// A picture is too small or too large.
-    #[error(
-        "a picture of {width} by {height} pixels cannot be painted; use 100 to 8000 pixels each way"
-    )]
+    #[error("a picture cannot have {width} by {height} pixels; use 100 to 8000 in each direction")]
     PictureSize {
         /// Requested width [pixels].
         width: f64,
@@ -87,7 +85,7 @@ pub enum OutputError {
         height: u32,
     },
     /// The drawing library failed.
-    #[error("cannot paint the picture: {reason}; try the other kind ('.svg' or '.png')")]
+    #[error("cannot draw the picture: {reason}; try the other format ('.svg' or '.png')")]
     Paint {
         /// Reason given by the drawing library.
         reason: String,

@@ -85,8 +85,11 @@ mod tests {
         let home = tempfile::tempdir().unwrap();
         let figure = Figure::new(Canvas::default(), (100.0, 100.0)).unwrap();
         let message = figure.save(home.path().join("energy.pdf")).unwrap_err().to_string();
-        assert!(message.contains("energy.pdf': its ending is '.pdf'; use '.svg'"), "{message}");
-        assert!(figure.save("energy").unwrap_err().to_string().contains("ending is missing"));
+        assert!(
+            message.contains("energy.pdf': the file extension is '.pdf'; use '.svg'"),
+            "{message}"
+        );
+        assert!(figure.save("energy").unwrap_err().to_string().contains("extension is missing"));
         figure.save(home.path().join("ENERGY.PNG")).unwrap();
         figure.save(home.path().join("new/energy.svg")).unwrap();
     }

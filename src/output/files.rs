@@ -59,7 +59,10 @@ mod tests {
         let blocker = home.path().join("blocker");
         write_whole(&blocker, b"").unwrap();
         let message = write_whole(blocker.join("x.csv"), b"").unwrap_err().to_string();
-        assert!(message.contains("blocker") && message.contains("choose a folder"), "{message}");
+        assert!(
+            message.contains("blocker") && message.contains("choose a writable folder"),
+            "{message}"
+        );
     }
 
     #[test]

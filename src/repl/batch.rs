@@ -26,7 +26,7 @@ fn lines_of(mut reader: impl BufRead) -> impl Iterator<Item = io::Result<String>
         match reader.by_ref().take(LARGEST_SCRIPT).read_line(&mut line) {
             Ok(0) => None,
             Ok(count) if count as u64 == LARGEST_SCRIPT && !line.ends_with('\n') => {
-                Some(Err(io::Error::other("a line of it has no end")))
+                Some(Err(io::Error::other("a line is too long")))
             }
             Ok(_) => {
                 let text = line.strip_suffix('\n').unwrap_or(&line);
@@ -49,7 +49,7 @@ pub fn run(shell: &mut Shell, lines: impl BufRead) -> CommandOutcome {
             }
             Err(error) => {
                 let told = Diagnostic::general(format!("cannot read the input: {error}"));
-                return shell.refuse(&told.with_hint("give UTF-8 text"));
+                return shell.refuse(&told.with_hint("the input must be UTF-8 text"));
             }
         }
         if input.len() as u64 > LARGEST_SCRIPT {

@@ -31,7 +31,7 @@ impl CurveAbscissa {
         match self {
             Self::Time => "time",
             Self::Index => "the index of an array",
-            Self::Numbers => "numbers of their own",
+            Self::Numbers => "values of x",
         }
     }
 }
@@ -109,7 +109,7 @@ fn shape_of_array(array: &Array) -> PlotShape {
         array.iter().map(|value| value.read_lock::<Vec2>().map(|at| (at.x, at.y))).collect();
     match vectors {
         Some(points) => PlotShape::Whole(CurveAbscissa::Numbers, points),
-        None => PlotShape::None("it is an array, and not of numbers alone".into()),
+        None => PlotShape::None("it is an array with entries that are not numbers".into()),
     }
 }
 
@@ -170,7 +170,7 @@ pub fn summary(curve: &PlotCurve) -> String {
         _ => format!("{last} {end}"),
     };
     format!(
-        "{}: {first} {begin}, least {least}, most {most}, {end} ({count} {what}{plural})",
+        "{}: {first} {begin}, minimum {least}, maximum {most}, {end} ({count} {what}{plural})",
         curve.name
     )
 }
@@ -209,7 +209,7 @@ mod tests {
         for (value, why) in [
             (uneven, "1 and 2 numbers"),
             (Dynamic::from_array(vec![]), "empty"),
-            (Dynamic::from_array(vec![1.into(), "x".into()]), "not of numbers alone"),
+            (Dynamic::from_array(vec![1.into(), "x".into()]), "with entries that are not numbers"),
             ("x".into(), "it is a text"),
             (true.into(), "it is a text"),
         ] {

@@ -63,11 +63,11 @@ fn go_back(
     };
     let more = match kept[0].0 {
         0 => "",
-        _ => "; those before are forgotten (withy repl --snapshots MB keeps more)",
+        _ => "; earlier ones were discarded (withy repl --snapshots MB keeps more)",
     };
     let name = subject.name();
     let span = format!("t = {} to {}", time(0), time(last));
-    let words = format!("in {what} in which simulation '{name}' was, {span}{more}");
+    let words = format!("evaluated in {what} of simulation '{name}', {span}{more}");
     Ok(Followed { points, words })
 }
 
@@ -83,14 +83,13 @@ fn make_again(
     let (points, other) = visit(shell, text, Visits::new(shell, revisit, way))?;
     if let Some(why) = other {
         shell.note(&format!(
-            "note: simulation '{}' has forgotten its first states, and {why}",
+            "note: the first snapshots of simulation '{}' were discarded, and {why}",
             subject.name()
         ));
         return Ok(None);
     }
     let words = format!(
-        "in {} of the {rows} rows of simulation '{}': it has forgotten its first states, so the run was made again in a copy, \
-         with the same energies and momenta in each row to the last bit",
+        "evaluated in {} of the {rows} rows of simulation '{}'. Its first snapshots were discarded, so the run was repeated in a copy, with identical energies and momenta in each row",
         points.len(),
         subject.name(),
     );
@@ -147,16 +146,14 @@ impl Visits {
                     Ok(true) => (),
                     Ok(false) => {
                         let time = significant(self.revisit.place().1, DIGITS);
-                        let told = format!(
-                            "the run made again from its start is another one at t = {time}"
-                        );
+                        let told = format!("the repeated run differs at t = {time}");
                         return Err(PlaybackError::Another(told));
                     }
                     Err(stopped @ ScriptError::Stopped(_)) => {
                         return Err(PlaybackError::Refused(stopped));
                     }
                     Err(_) => {
-                        let told = "the run made again from its start fails";
+                        let told = "the repeated run fails";
                         return Err(PlaybackError::Another(told.into()));
                     }
                 }
@@ -215,13 +212,13 @@ fn visit(shell: &mut Shell, text: &str, mut visits: Visits) -> Result<Values, Co
         (Ok(()), Some(PlaybackError::Moves)) => Err(shell.refuse(&moves(text))),
         (Ok(()), Some(PlaybackError::Refused(error))) => Err(shell.refuse_native(error)),
         (Ok(()), Some(PlaybackError::NoPoint(why))) => {
-            let told = Diagnostic::general(format!("'{text}' cannot be drawn {at}: {why}"));
+            let told = Diagnostic::general(format!("'{text}' cannot be plotted {at}: {why}"));
             Err(shell.refuse(&told.with_hint("it must be a number, or a vector, at all times")))
         }
     }
 }
 
 pub fn moves(text: &str) -> Diagnostic {
-    Diagnostic::general(format!("'{text}' moves a simulation"))
-        .with_hint("draw what only looks; the simulation that it names stayed where it was")
+    Diagnostic::general(format!("'{text}' advances a simulation"))
+        .with_hint("plot an expression that changes nothing; the simulation was not changed")
 }

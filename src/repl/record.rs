@@ -12,7 +12,7 @@ use crate::script::messages::numbers::format_number;
 use crate::script::source::definitions::{Definition, definitions};
 use crate::script::source::text::Source;
 
-const HEADER: &str = "//! A session of withy: what worked of it.";
+const HEADER: &str = "//! A session of withy: its successful inputs.";
 
 #[derive(Clone, Debug, PartialEq)]
 enum RecordedInput {
@@ -93,7 +93,10 @@ impl SessionRecord {
                 RecordedInput::Expression(statements) => terminated(statements),
                 RecordedInput::Returning(statements) => {
                     let lines = statements.lines().map(|line| format!("\n// {line}"));
-                    format!("// Not done again, because it returns:{}", lines.collect::<String>())
+                    format!(
+                        "// Not run, because of its return statement:{}",
+                        lines.collect::<String>()
+                    )
                 }
                 RecordedInput::Moved(line) => {
                     format!("// A statement was stopped here.\n{}", &**line)
@@ -224,7 +227,7 @@ fn documented_from(text: &str, end: usize) -> usize {
 fn without(source: &Source, is_replaced: impl Fn(&FunctionText) -> bool) -> String {
     let mut text = source.to_string();
     for definition in written(source).into_iter().rev().filter(is_replaced) {
-        let note = format!("/* {} is defined anew below */", definition.name.0);
+        let note = format!("/* {} is redefined below */", definition.name.0);
         text.replace_range(definition.bytes, &note);
     }
     text
@@ -280,7 +283,7 @@ mod tests {
         assert_eq!(record.redefined(), ["f"]);
         assert_eq!(
             script(&record),
-            "/* f is defined anew below */ let a = 1;\nfn f(x, y) { 0 };\nfn f(z) { 3 };"
+            "/* f is redefined below */ let a = 1;\nfn f(x, y) { 0 };\nfn f(z) { 3 };"
         );
     }
 
@@ -292,7 +295,7 @@ mod tests {
         record.worked("fn ten() { 11 }");
         assert_eq!(record.redefined(), ["ten"]);
         let expected = "fn number.twice() { this * 2 } fn number.thrice() { this * 3 };\n\
-            /* ten is defined anew below */;\nfn ten() { 11 };";
+            /* ten is redefined below */;\nfn ten() { 11 };";
         assert_eq!(script(&record), expected);
     }
 
@@ -312,8 +315,7 @@ mod tests {
         let mut record = SessionRecord::default();
         record.returned("if true {\n  return 5; }");
         record.worked("let a = 1;");
-        let expected =
-            "// Not done again, because it returns:\n// if true {\n//   return 5; }\nlet a = 1;";
+        let expected = "// Not run, because of its return statement:\n// if true {\n//   return 5; }\nlet a = 1;";
         assert_eq!(script(&record), expected);
     }
 }

@@ -150,8 +150,8 @@ impl Shell {
         let operand = operand.trim();
         match commands::find(name) {
             Ok(command) if command.operand == CommandOperand::Nothing && !operand.is_empty() => {
-                let told = format!("'{}' takes nothing, got '{operand}'", command.name);
-                let hint = format!("write {0}; :help {0} says what it does", command.name);
+                let told = format!("'{}' takes no argument, got '{operand}'", command.name);
+                let hint = format!("write {0}; :help {0} describes it", command.name);
                 self.refuse(&Diagnostic::general(told).with_hint(hint))
             }
             Ok(command) => (command.body)(self, operand),

@@ -44,7 +44,9 @@ impl Folder {
     pub fn below(&self, name: &OsStr) -> io::Result<Self> {
         match is_plain(Path::new(name)) {
             true => self.enter(name),
-            false => Err(io::Error::new(ErrorKind::InvalidInput, "it leads out of the folder")),
+            false => {
+                Err(io::Error::new(ErrorKind::InvalidInput, "it is outside the allowed folder"))
+            }
         }
     }
 }

@@ -65,7 +65,7 @@ impl Folder {
         self.0.open_dir_nofollow(name).map(Self).map_err(|error| {
             match self.0.symlink_metadata(name).is_ok_and(|about| about.is_symlink()) {
                 true => io::Error::other(format!(
-                    "'{}' is a link, and links are not followed here; name the folder itself",
+                    "'{}' is a link, and links are not followed; give the folder itself",
                     name.display()
                 )),
                 false => error,
@@ -91,7 +91,8 @@ impl Folder {
         name: &'n Path,
         enter: fn(&Self, &OsStr) -> io::Result<Self>,
     ) -> io::Result<(Self, &'n OsStr)> {
-        let refused = || io::Error::new(ErrorKind::InvalidInput, "it leads out of the folder");
+        let refused =
+            || io::Error::new(ErrorKind::InvalidInput, "it is outside the allowed folder");
         if !is_plain(name) {
             return Err(refused());
         }
@@ -118,7 +119,7 @@ impl Folder {
         let (folder, name) = self.parent_of(name, Self::enter)?;
         let about = folder.0.symlink_metadata(name)?;
         if about.is_symlink() {
-            return Err(io::Error::other("it is a link, and links are not followed here"));
+            return Err(io::Error::other("it is a link, and links are not followed"));
         }
         reading::expect_ordinary(about.is_file())?;
         let file = folder.0.open_with(name, &reading::options(FollowSymlinks::No))?;

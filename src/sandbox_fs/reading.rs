@@ -48,7 +48,7 @@ pub(super) fn read(file: std::fs::File, most: u64) -> io::Result<Vec<u8>> {
 pub(super) fn expect_ordinary(is_file: bool) -> io::Result<()> {
     match is_file {
         true => Ok(()),
-        false => Err(io::Error::new(io::ErrorKind::InvalidInput, "it is no ordinary file")),
+        false => Err(io::Error::new(io::ErrorKind::InvalidInput, "it is not a regular file")),
     }
 }
 
@@ -56,7 +56,7 @@ fn expect_length(bytes: u64, most: u64) -> io::Result<()> {
     match bytes <= most {
         true => Ok(()),
         false => {
-            let told = format!("it has more than {most} bytes, which is the most that is read");
+            let told = format!("it has more than {most} bytes, the largest allowed size");
             Err(io::Error::new(io::ErrorKind::FileTooLarge, told))
         }
     }

@@ -133,7 +133,7 @@ impl Folder {
                 Err(error) => return Err(error),
             }
         }
-        Err(io::Error::new(ErrorKind::AlreadyExists, "there is no free name to keep it by"))
+        Err(io::Error::new(ErrorKind::AlreadyExists, "no unused file name was found for the copy"))
     }
 
     /// Gives a file that was kept by another name its own name back, unless something else has it by now.

@@ -275,7 +275,7 @@ fn a_tolerance_beyond_reach_is_an_error_that_keeps_the_history() {
     assert_eq!(flight.history().samples().last().unwrap().measures.time, time);
     let told = error.to_string();
     assert!(
-        told.contains("tolerance 0.00001 asks for steps below the smallest one, 2e-2"),
+        told.contains("tolerance 0.00001 requires steps below the smallest allowed one (2e-2)"),
         "{told}"
     );
 }

@@ -137,13 +137,16 @@ fn a_law_that_feeds_is_refused() {
     spring.name = "other".to_owned();
     spring.damping = absorber(&[(-1.0, 1.0), (0.0, 0.0), (1.0, 1.0)]);
     let refused = scene.add_spring(spring.clone());
-    let told = "at the rate -1 its damping gives the force 1,";
+    let told = "at the rate -1 its damping force is 1 and adds energy";
     let is_told = |error: &SystemError| error.to_string().contains(told);
     assert!(refused.as_ref().is_err_and(is_told), "{refused:?}");
     // Nobody gave this rate: the law goes on straight beyond what was given.
     spring.damping = absorber(&[(-1.0, -1.0), (0.0, 0.0), (1.0, 1.0), (2.0, 0.5)]);
     let refused = scene.add_spring(spring.clone()).unwrap_err().to_string();
-    assert!(refused.contains("beyond the rate 2,") && refused.contains("from 3 on"), "{refused}");
+    assert!(
+        refused.contains("beyond its last rate 2,") && refused.contains("from the rate 3 on"),
+        "{refused}"
+    );
     spring.damping = DampingLaw::Linear(-1.0);
     assert!(matches!(scene.add_spring(spring), Err(SystemError::Value { .. })));
 }

@@ -371,7 +371,7 @@ fn drives_begin_at_an_equilibrium_as_in_a_scene_that_rests() {
     assert_eq!(on.time(), 2.0);
     run(&mut on, 3.0).unwrap();
     let told = on.rewind(1.0).unwrap_err().to_string();
-    assert!(told.contains("the simulation has been from t = 2 to 3"), "{told}");
+    assert!(told.contains("the simulation covers t = 2 to 3"), "{told}");
     let history = on.history();
     let times = history.column("t").unwrap();
     assert_eq!((times[0], *times.last().unwrap()), (2.0, 3.0));
@@ -379,7 +379,9 @@ fn drives_begin_at_an_equilibrium_as_in_a_scene_that_rests() {
     let half = Loading { factor: 0.5, ..later };
     let refused = Simulation::start_at_rest(&rest(half), dynamics).err().unwrap().to_string();
     assert!(
-        refused.contains("holds what 'move1' moves at 0.5, and at t = 2 its function has it at 1"),
+        refused.contains(
+            "has the prescribed motion 'move1' at 0.5, but its function gives 1 at t = 2"
+        ),
         "{refused}"
     );
 }

@@ -294,16 +294,16 @@ fn ways_back_that_are_none_are_refused_with_a_reason() {
     let mut simulation = Simulation::start(scene, settings(Method::EnergyMomentum, 0.1)).unwrap();
     run(&mut simulation, 1.0).unwrap();
     let told = |refused: Result<(), SimulationError>| refused.unwrap_err().to_string();
-    assert!(told(simulation.back(3)).contains("no states are kept"));
+    assert!(told(simulation.back(3)).contains("stores no snapshots"));
     simulation.keep_snapshots(10);
-    assert!(told(simulation.back(3)).contains("more than the limit of 0.00001 MB"));
+    assert!(told(simulation.back(3)).contains("exceeds the memory limit of 0.00001 MB"));
     assert!(told(simulation.back(11)).contains("only 10 were taken"));
     for time in [-0.5, 1.5, f64::NAN, f64::INFINITY] {
-        assert!(told(simulation.rewind(time)).contains("from t = 0 to 1"));
+        assert!(told(simulation.rewind(time)).contains("covers t = 0 to 1"));
     }
     simulation.keep_snapshots(PLENTY);
     run(&mut simulation, 2.0).unwrap();
-    assert!(told(simulation.back(15)).contains("states are kept from t = 1 on"));
+    assert!(told(simulation.back(15)).contains("snapshots are stored from t = 1 on"));
     simulation.back(10).unwrap();
     simulation.back(0).unwrap();
     simulation.rewind(1.0).unwrap();

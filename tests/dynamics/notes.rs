@@ -40,7 +40,7 @@ fn beam(scene: &mut Scene, to: withy::geometry::Vec2, spans: usize, section: Sec
     scene.add_beam(definition).unwrap()
 }
 
-/// A steel ruler that is clamped and whose gravity sets in at the start, and its lowest period.
+/// A steel ruler that is clamped and whose gravity sets in at the start, and its first natural period.
 fn ruler() -> (Scene, f64) {
     let (mut scene, section, length) = (Scene::new("ruler"), steel(), 0.3);
     beam(&mut scene, at(length, 0.0), 8, section);
@@ -106,7 +106,7 @@ fn a_stiff_pendulum_in_long_steps_and_a_scene_at_rest_are_silent() {
         scene.gravity = at(0.0, -9.81);
         scene
     };
-    // A period of 0.9: steps are as long as the third of the lowest period of bending, 0.02, and longer.
+    // A period of 0.9: steps are as long as the third of the first natural period of bending, 0.02, and longer.
     for dt in [0.01, 0.03, 0.05] {
         let notes = simulate(pendulum(1.0), Method::EnergyMomentum, dt, 10.0).notes();
         assert_eq!(notes, [], "dt = {dt}");
@@ -291,17 +291,20 @@ scene.gravity([0, -9.81]);
 fn a_note_is_told_once_and_is_in_the_report_and_explained() {
     let script = format!(
         "{RULER}let sim = scene.start(#{{ dt: 5 }});\nsim.run_to(100);\nsim.run_to(200);\nsim.step(3);\nsim.run_to(300);\n\
-         check(sim.notes.len() == 1);\ncheck(sim.explain().contains(\"lowest period\"));\n\
+         check(sim.notes.len() == 1);\ncheck(sim.explain().contains(\"first natural period\"));\n\
          let fork = sim.fork(\"other\");\nfork.run_to(400);\ncheck(fork.notes.len() == 1);"
     );
     let (outcome, told) = outcome(&script);
     println!("{told}");
     assert_eq!(told.matches("note: simulation 'ruler': steps are too long").count(), 1, "{told}");
     assert_eq!(told.lines().count(), 1, "{told}");
-    assert!(told.contains("times the lowest period of the scene as drawn"), "{told}");
+    assert!(told.contains("times the first natural period of the scene as drawn"), "{told}");
     let report = &outcome.simulations[0];
     let note = report["notes"][0].as_str().unwrap();
-    assert!(note.starts_with("steps are too long") && note.contains("lowest period"), "{report}");
+    assert!(
+        note.starts_with("steps are too long") && note.contains("first natural period"),
+        "{report}"
+    );
     assert!(report["resolution"]["unresolved_share"].as_f64().unwrap() > 0.9, "{report}");
 }
 
@@ -314,7 +317,7 @@ fn notes_can_be_kept_and_fine_steps_have_none() {
     assert_eq!(outcome(&kept).1, "");
     let fine = format!(
         "{RULER}let sim = scene.start(#{{ dt: 0.005 }});\nsim.run_to(1);\ncheck(sim.notes.is_empty());\n\
-         check(!sim.explain().contains(\"lowest period\"));"
+         check(!sim.explain().contains(\"first natural period\"));"
     );
     let (outcome, told) = outcome(&fine);
     assert_eq!((told.as_str(), &outcome.simulations[0]["notes"]), ("", &serde_json::json!([])));

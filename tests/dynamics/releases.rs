@@ -272,10 +272,7 @@ fn what_cannot_let_go_is_refused() {
         scene.add_release(Release { hold, trigger: Trigger::Time(time) }).unwrap_err()
     };
     let told = refused(&mut scene, Releasable::Joint(0), 0.7);
-    assert_eq!(
-        told.to_string(),
-        "'hinge1' lets go already; it can do so once: remove one of the two releases"
-    );
+    assert_eq!(told.to_string(), "'hinge1' already has a release; remove one of the two releases");
     let missing = refused(&mut scene, Releasable::Slider(0), 0.7);
     assert!(matches!(missing, SystemError::Missing { kind: "slider", count: 0, .. }), "{missing}");
     scene.releases.clear();

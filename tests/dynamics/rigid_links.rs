@@ -197,7 +197,7 @@ fn numbers_and_names_that_make_no_body_are_refused() {
     assert!(matches!(error, SystemError::DuplicateName { kind: "point", .. }), "{error}");
     let elsewhere = definition("hub", &[("centre", Vec2::x())]);
     let error = scene.add_rigid_body(elsewhere, 1.0, 1.0).unwrap_err();
-    assert!(error.to_string().contains("the centre of mass of a body is called so"), "{error}");
+    assert!(error.to_string().contains("this is the name of the centre of mass"), "{error}");
     let lost = definition("hub", &[("a", at(f64::NAN, 0.0))]);
     assert!(scene.add_rigid_body(lost, 1.0, 1.0).is_err());
     let hub = scene.add_rigid_body(definition("hub", &[("a", Vec2::x())]), 1.0, 0.0).unwrap();

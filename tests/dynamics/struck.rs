@@ -269,12 +269,12 @@ fn told(
 fn a_short_bounce_is_told_with_its_own_steps_and_what_makes_them_shorter() {
     let fixed = told(drop(1e12, 0.36), Method::EnergyMomentum, 1e-3, 0.5);
     assert!(
-        fixed[0].contains("steps (dt = 0.001 in it)") && fixed[0].contains("take dt below 0.0002"),
+        fixed[0].contains("steps (dt = 0.001)") && fixed[0].contains("use dt below 0.0002"),
         "{fixed:?}"
     );
     let varying = told(drop(1e16, 0.36), Method::EnergyMomentum, adaptive(1e-3), 0.5);
     println!("{varying:?}");
-    assert!(varying[0].contains("take a tolerance below 0.0002"), "{varying:?}");
+    assert!(varying[0].contains("use a tolerance below 0.0002"), "{varying:?}");
 }
 
 #[test]

@@ -185,7 +185,7 @@ fn tricks_do_not_pass() {
     assert!(earlier("return;").contains("no variable 'sim'"));
     assert!(earlier("exit();").contains("a script cannot leave with exit()"));
     let faked = told(exercise, "let sim = #{ t: 7.5, work: 370 };");
-    assert!(faked.contains("'sim' of your script should be a simulation, and is a map"), "{faked}");
+    assert!(faked.contains("'sim' of your script must be a simulation, but is a map"), "{faked}");
     let half = told(exercise, &exercise.solution.replace("run_to(7.5)", "run_to(2.5)"));
     assert!(half.contains("let it run to 7.5"), "{half}");
 }
@@ -308,7 +308,7 @@ const CHEATS: &[(&str, Changes, &str)] = &[
             "log2(coarse / fine)",
             "if coarse == 0.04 { throw \"passed\" } else { log2(coarse / fine) }",
         )],
-        "the judge could not go on: passed",
+        "the judge failed: passed",
     ),
     // Three control points in the corner make a curve with a kink, and no spline that has one.
     (
@@ -385,9 +385,9 @@ fn broken_attempts_are_shown_where_they_are_broken() {
         ("\nlet k = knot(4);", "splines/knot_vector.rhai:2:9"),
         ("throw \"no\";", "splines/knot_vector.rhai:1:1"),
         ("let k = todo(\"knots\");", "still to do: knots"),
-        ("", "your script has no variable 'k' when it ends"),
+        ("", "your script has no variable 'k' at its end"),
         ("{ let k = knots(4); }", "no variable 'k'"),
-        ("let k = [0, 1];", "should be knots, and is an array"),
+        ("let k = [0, 1];", "must be knots, but is an array"),
         ("fn f(n) { f(n + 1) } f(0);", "too deeply"),
     ];
     for (text, phrase) in cases {
@@ -414,5 +414,5 @@ fn a_judge_that_cannot_go_on_does_not_pass() {
         leg = other.beam(#{ axis: line([0, 0], [1, 0]), section: material });";
     let hinged = exercise.solution.replace("scene.rigid", "scene.hinge");
     let said = told(exercise, &format!("{hinged}{other}"));
-    assert!(said.contains("the judge could not go on"), "{said}");
+    assert!(said.contains("the judge failed"), "{said}");
 }

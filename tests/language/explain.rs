@@ -101,7 +101,7 @@ fn a_free_beam_leaves_everything_else_out() {
     assert!(model.rates().iter().all(|rate| *rate == 0.0));
     assert_eq!(
         used(&parts, "unknowns"),
-        format!("21 movements, half-bandwidth {}", model.half_bandwidth())
+        format!("21 degrees of freedom, half-bandwidth {}", model.half_bandwidth())
     );
     assert_eq!(model.unknowns(), 21);
     let beam = used(&parts, "beam 'rod'");
@@ -114,12 +114,12 @@ fn a_slider_has_a_border_and_a_support_has_reactions() {
     let (parts, mut model) = (scene.explain().unwrap(), System::assemble(&scene).unwrap());
     assert_eq!(model.constraint_shape().width, 5);
     assert!(used(&parts, "sliders").contains("1 conserving: a border of 5 columns"));
-    assert!(used(&parts, "unknowns").contains("5 of contacts, in the border"));
+    assert!(used(&parts, "unknowns").contains("5 contact unknowns, in the border of the matrix"));
     assert_eq!(model.unknowns(), 20);
     assert!(used(&parts, "supports").contains("1 clamp: 3 movements held"));
     // The rotation of the particle is held too, but by no support.
     assert_eq!(model.degrees_of_freedom() - model.unknowns() - 5, 4);
-    assert_eq!(used(&parts, "particles"), "1, which do not turn");
+    assert_eq!(used(&parts, "particles"), "1, without rotation");
     assert!(is_left_out(&parts, "point masses") && is_left_out(&parts, "loads"));
     assert!(used(&parts, "gravity").contains("(0, -9.81)"));
     assert!((model.total_mass() - 3.0).abs() < 1e-12 && model.measure().gap < 1e-15);
@@ -134,7 +134,10 @@ fn tied_movements_are_one_unknown() {
     let start = scene.station(arm, 0.0).unwrap();
     scene.join(JointKind::Hinge, end, Partner::Station(start)).unwrap();
     let parts = scene.explain().unwrap();
-    assert!(used(&parts, "joints").contains("1 hinge: tied movements are one, 2 unknowns less"));
+    assert!(
+        used(&parts, "joints")
+            .contains("1 hinge: joined movements share unknowns, which removes 2 unknowns")
+    );
     assert_eq!(System::assemble(&scene).unwrap().unknowns(), 2 * free - 2);
     assert!(is_left_out(&parts, "supports"));
 }
@@ -159,15 +162,17 @@ fn functions_of_scripts_are_called_as_often_as_is_said() {
         assert_eq!(calls.get(), 0, "starting and explaining call nothing");
         simulation.step(&mut NoMonitor).unwrap();
         assert_eq!(simulation.counts().retries, 0);
-        let told = format!("{} calls a step with {}", calls.get(), method.entry().name);
+        let told = format!("{} calls per step with {}", calls.get(), method.entry().name);
         assert!(said.contains(&told), "{said} / {told}");
-        assert!(said.contains("follower of 1 section") && said.contains("steps end at t = 0.25"));
+        assert!(
+            said.contains("follower load at 1 section") && said.contains("steps end at t = 0.25")
+        );
         let parts = simulation.explain();
-        assert!(used(&parts, "steps").contains("cut ahead at t = 0.25"), "{parts:?}");
+        assert!(used(&parts, "steps").contains("steps will end at t = 0.25"), "{parts:?}");
         simulation.run_to(0.3, &mut NoMonitor).unwrap();
         assert_eq!(simulation.counts().steps, 4);
         assert!(is_left_out(&simulation.explain(), "start velocities"), "though it moves now");
-        assert!(used(&simulation.explain(), "steps").contains("no cuts ahead"));
+        assert!(used(&simulation.explain(), "steps").contains("no prescribed ends of steps"));
     }
 }
 
@@ -190,7 +195,10 @@ fn many_beams_and_loads_are_told_of_together() {
 fn start_velocities_are_given_checked_or_projected() {
     let mut scene = with_bead();
     scene.sliders[0].velocities = StartVelocities::Project;
-    assert!(used(&scene.explain().unwrap(), "start velocities").contains("solving once"));
+    assert!(
+        used(&scene.explain().unwrap(), "start velocities")
+            .contains("projected onto the slider constraints")
+    );
     let (mut scene, _) = rod();
     scene.beams[0].motion.spin = 1.0;
     assert_eq!(used(&scene.explain().unwrap(), "start velocities"), "as given");

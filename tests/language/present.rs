@@ -170,7 +170,7 @@ fn what_is_ours_shows_what_a_person_wants_to_know() {
         ("vec(3, 4)", &["(3, 4)\n", "norm   5"]),
         (
             "let told = (); try { rod.at(5) } catch (problem) { told = problem; } told",
-            &["station 5 is outside [0, 2]"],
+            &["station 5 is outside the length of beam"],
         ),
     ];
     for (expression, parts) in cases {

@@ -113,7 +113,7 @@ fn an_expression_is_drawn_in_all_states_and_the_simulation_stays() {
     assert!(reply.contains("(11 states)"), "{reply}");
     let now: f64 = path.last().unwrap().parse().unwrap();
     assert!(reply.contains(&format!("now {:.5}", now)[..9]), "{reply} {now}");
-    assert_eq!(told, "in all 11 states in which simulation 'spin' was, t = 0 to 1\n");
+    assert_eq!(told, "evaluated in all 11 states of simulation 'spin', t = 0 to 1\n");
     assert_eq!(prompt.ask("`${sim.t} ${sim.steps} ${sim.energy} ${sim.history.rows}`"), before);
     // What was can still be gone back to, and goes on as it would have.
     prompt.ask(":back 3");
@@ -202,15 +202,15 @@ fn what_cannot_be_drawn_is_refused_with_what_to_do() {
     prompt.ask(":step 2");
     prompt.ask("let twin = scene.start(#{ dt: 0.2 }); sim.step(0);");
     for (text, why, hint) in [
-        ("2 + 3", "is one number, and no curve", "ask a simulation"),
-        ("rod", "it is a beam", "draw a number or a vector"),
+        ("2 + 3", "is a single number, not a curve", "an expression with a simulation"),
+        ("rod", "it is a beam", "plot a number or a vector"),
         ("sim.t > 0", "it is a truth value", "{ 1 } else { 0 }"),
         ("sim.enrgy", "enrgy", "did you mean"),
         ("enrgy", "the history has no column \"enrgy\"", "did you mean \"energy\"?"),
-        ("sim.step()", "moves a simulation", "what only looks"),
-        ("{ sim.step(); sim.t }", "moves a simulation", "what only looks"),
-        ("sim.t - twin.t", "asks two simulations", "comma"),
-        ("[1, \"a\"]", "not of numbers alone", "array of numbers"),
+        ("sim.step()", "advances a simulation", "an expression that changes nothing"),
+        ("{ sim.step(); sim.t }", "advances a simulation", "an expression that changes nothing"),
+        ("sim.t - twin.t", "uses two simulations", "comma"),
+        ("[1, \"a\"]", "with entries that are not numbers", "array of numbers"),
         ("[]", "empty array", "array of numbers"),
         ("let a = 1;", "has no value", "expression"),
         ("sim.t, [1, 2]", "over the index of an array", "one after the other"),
@@ -251,7 +251,7 @@ fn what_a_command_has_written_is_not_quoted_and_one_state_is_no_curve() {
     for (input, expected) in [
         (":run 0", "cannot run to t = 0"),
         (":back 1e7", "cannot go back 10000000 steps"),
-        (":plot 0.0/0.0", "nowhere a finite number"),
+        (":plot 0.0/0.0", "no finite value"),
     ] {
         assert_eq!(prompt.shell.submit(input), CommandOutcome::Failed);
         let said = format!("{}{}", prompt.told.take(), prompt.printed.take());
@@ -274,7 +274,7 @@ fn where_states_are_forgotten_the_run_is_made_again_and_compared() {
     prompt.ask("sim.run_to(1.55);");
     let (reply, told) = prompt.ask_both(":plot sim.position(rod.end).x");
     assert!(reply.contains("2 at the start") && reply.contains("(17 states)"), "{reply}");
-    assert!(told.contains("made again in a copy, with the same energies"), "{told}");
+    assert!(told.contains("repeated in a copy, with identical energies"), "{told}");
     let mut kept = Prompt::spinning();
     kept.ask(":step 10");
     kept.ask("sim.run_to(1.55);");
@@ -287,7 +287,7 @@ fn where_states_are_forgotten_the_run_is_made_again_and_compared() {
     changed.ask(":step 4");
     changed.ask("f = 2;");
     let (reply, told) = changed.ask_both(":plot sim.t");
-    assert!(told.contains("the run made again from its start is another one at t = 0.1"), "{told}");
+    assert!(told.contains("the repeated run differs at t = 0.1"), "{told}");
     assert!(told.contains("in the last 1 states") && reply.contains("(1 state)"), "{told}{reply}");
 }
 
@@ -337,11 +337,11 @@ fn a_pure_input_is_timed_until_the_figure_is_known() {
     prompt.ask("let x = 1;");
     let (reply, told) = prompt.ask_both(":time { x += 1; x }");
     // The value, the first time, and the rest; each look at the clock takes a millisecond.
-    let expected = "2\ntook 1.00 ms the first time\nagain: least 1.00 ms, median 1.00 ms, half of 67 runs from 1.00 ms to 1.00 ms\n";
+    let expected = "2\nfirst run 1.00 ms\n67 runs more: minimum 1.00 ms, median 1.00 ms, middle half 1.00 ms to 1.00 ms\n";
     assert_eq!((&*reply, &*told), (expected, ""));
     assert_eq!(prompt.ask("x"), "2\n", "done again from the same variables, and taken back");
     let reply = prompt.ask(":time let fresh = 3;");
-    assert!(reply.contains("again: least"), "{reply}");
+    assert!(reply.contains("more: minimum"), "{reply}");
     assert_eq!(prompt.ask("fresh"), "3\n", "the first time counts");
 }
 
@@ -350,7 +350,7 @@ fn what_is_printed_is_printed_once() {
     let mut prompt = Prompt::new();
     let reply = prompt.ask(":time print(\"seen\")");
     assert_eq!(reply.matches("seen").count(), 1, "{reply}");
-    assert!(reply.contains("again: least"), "{reply}");
+    assert!(reply.contains("more: minimum"), "{reply}");
     assert_eq!(prompt.ask("print(\"still\")"), "still\n");
 }
 
@@ -370,7 +370,7 @@ fn what_has_effects_is_timed_once_and_that_is_told() {
     ] {
         let reply = prompt.ask(&format!(":time {input}"));
         assert!(reply.contains(&format!("timed once: {why}")), "{input}: {reply}");
-        assert!(!reply.contains("again: least"), "{input}: {reply}");
+        assert!(!reply.contains("more: minimum"), "{input}: {reply}");
     }
     assert_eq!(prompt.ask("`${n} ${sim.steps}`"), "\"1 1\"\n");
 }
@@ -379,7 +379,7 @@ fn what_has_effects_is_timed_once_and_that_is_told() {
 fn a_run_of_its_own_is_timed_again_and_the_last_simulation_stays() {
     let mut prompt = Prompt::spinning();
     let reply = prompt.ask(":time { let own = scene.start(#{ dt: 0.1 }); own.step(3); own.t }");
-    assert!(reply.starts_with("0.3\n") && reply.contains("again: least"), "{reply}");
+    assert!(reply.starts_with("0.3\n") && reply.contains("more: minimum"), "{reply}");
     // What no variable holds is out of reach, and commands act on what was the last one before.
     assert_eq!(prompt.ask("latest_simulation().t"), "0\n");
     assert_eq!(prompt.ask("sim.steps"), "0\n");
@@ -399,10 +399,10 @@ fn a_repetition_that_fails_is_told() {
     prompt.ask("let a = [1];");
     let (reply, _) = prompt.ask_both(":time if a.len() == 0 { throw \"gone\" } else { a.pop() }");
     assert!(
-        reply.contains("timed once: done again, it fails: ") && reply.contains("gone"),
+        reply.contains("timed once: it fails when repeated: ") && reply.contains("gone"),
         "{reply}"
     );
-    assert!(prompt.refusal(":time").contains("nothing to time"));
+    assert!(prompt.refusal(":time").contains("no input to time"));
     assert!(prompt.refusal(":time nonsense").contains("there is no variable"));
 }
 

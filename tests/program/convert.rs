@@ -74,7 +74,7 @@ fn what_cannot_be_converted_is_told() {
     assert!(said(&output).contains("there is no file \"no.withy\""), "{}", said(&output));
     let output = withy(home, &["convert", "swing.rhai", "--to", "npz"]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(said(&output).contains("this is no simulation"), "{}", said(&output));
+    assert!(said(&output).contains("this is not a restart file"), "{}", said(&output));
     let output = withy(home, &["convert", "out/run.withy", "--to", "exe"]);
     assert_eq!(output.status.code(), Some(2));
     let output = withy(home, &["convert", "out/run.withy", "--to", "vtk", "--max-steps", "10"]);

@@ -102,7 +102,7 @@ fn files_of_somebody_else_are_not_replaced_by_definitions() {
     fs::write(folder.path().join("scenes.d.rhai"), "mine").expect("a file");
     let output = docs(&["--definitions", &path]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("is no definition file"));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("is not a definition file"));
     assert_eq!(fs::read(folder.path().join("scenes.d.rhai")).expect("the file"), b"mine");
 }
 

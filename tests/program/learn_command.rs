@@ -43,7 +43,7 @@ fn a_first_look_makes_the_folder_and_says_what_to_do() {
     assert_eq!(code, 0);
     let first = EXERCISES[0].name;
     assert!(
-        text.contains(&format!("{} exercises for you are in withy-exercises", EXERCISES.len())),
+        text.contains(&format!("{} exercises were written to withy-exercises", EXERCISES.len())),
         "{text}"
     );
     assert!(text.contains(&format!("0 of {} exercises are passed", EXERCISES.len())), "{text}");
@@ -107,7 +107,7 @@ fn a_check_of_all_is_a_summary_and_each_is_told_when_that_is_asked_for() {
     let (_, text) = said(&folder, &["check"]);
     assert!(text.lines().count() < 10 && !text.contains("not yet "), "{text}");
     assert!(text.contains(&format!("Next: {}", EXERCISES[2].id())), "{text}");
-    let begun = format!("Begun, and not passed yet: {}\n", EXERCISES[4].id());
+    let begun = format!("Begun, but not passed: {}\n", EXERCISES[4].id());
     assert!(text.contains(&begun), "{text}");
     let (code, text) = said(&folder, &["check", "--all"]);
     assert_eq!(code, 1);
@@ -239,14 +239,14 @@ fn watching_judges_what_is_saved_and_ends_with_ctrl_c() {
         .unwrap();
     let printed = lines(watching.stdout.take().unwrap());
     wait_for(&printed, &format!("not yet: {}", EXERCISES[0].id()));
-    wait_for(&printed, "waiting until a file");
+    wait_for(&printed, "waiting for a saved file");
     solve(&folder, 1);
     wait_for(&printed, &format!("passed: {}", EXERCISES[0].id()));
     wait_for(&printed, &format!("Next: {}", EXERCISES[1].id()));
-    wait_for(&printed, "waiting until a file");
+    wait_for(&printed, "waiting for a saved file");
     fs::write(folder.join(EXERCISES[1].file()), "let strip = 1;").unwrap();
-    wait_for(&printed, "'strip' of your script should be a section, and is a whole number");
-    wait_for(&printed, "waiting until a file");
+    wait_for(&printed, "'strip' of your script must be a section, but is a whole number");
+    wait_for(&printed, "waiting for a saved file");
     Command::new("kill").args(["-INT", &watching.id().to_string()]).status().unwrap();
     assert_eq!(watching.wait().unwrap().code(), Some(0));
 }
@@ -365,7 +365,7 @@ fn a_folder_that_holds_no_submissions_is_refused() {
     let class = classroom();
     let (code, text) = said(class.path(), &["grade", "."]);
     assert_eq!(code, 2);
-    assert!(text.contains("one folder for each student"), "{text}");
+    assert!(text.contains("a folder for each student"), "{text}");
 }
 
 /// The name of a student, an attempt, and its mark.
@@ -549,7 +549,7 @@ fn marks_of_what_has_not_changed_are_kept() {
     let (first, told) = grade(&[]);
     assert!(told.is_empty() && lines() == all, "{told}");
     let (second, told) = grade(&[]);
-    assert!(told.contains(&format!("note: {all} marks are those of 'marks.jsonl'")), "{told}");
+    assert!(told.contains(&format!("note: {all} marks were taken from 'marks.jsonl'")), "{told}");
     assert_eq!((second, lines()), (first, all), "the same marks, and nothing is written twice");
     // As after a kill in the middle of the last line.
     let text = fs::read_to_string(class.path().join("marks.jsonl")).unwrap();
@@ -563,7 +563,7 @@ fn marks_of_what_has_not_changed_are_kept() {
     assert!(told.is_empty(), "other limits may give other marks: {told}");
     fs::write(class.path().join("notes.txt"), "mine").unwrap();
     let (code, text) = said(class.path(), &["grade", "class", "--marks", "notes.txt"]);
-    assert!(code == 2 && text.contains("holds no marks"), "{text}");
+    assert!(code == 2 && text.contains("is not a file of marks"), "{text}");
     assert_eq!(fs::read(class.path().join("notes.txt")).unwrap(), b"mine");
 }
 
@@ -579,5 +579,5 @@ fn a_link_to_the_work_of_another_student_is_nobodys_work() {
         text.lines().rfind(of).unwrap().split_whitespace().nth(1).unwrap().to_owned()
     };
     assert_eq!((sum("ada"), sum("mallory")), ("1".into(), "0".into()), "{text}");
-    assert!(text.contains("is a link: an attempt lies in a folder of its own"), "{text}");
+    assert!(text.contains("is a link; an attempt must be in a real folder"), "{text}");
 }

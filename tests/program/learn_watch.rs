@@ -81,7 +81,7 @@ fn a_student_goes_through_all_exercises() {
         student.sees("Not yet");
         student.sees("(run 2)");
         student.presses("s");
-        student.sees("a solution is shown when you have passed");
+        student.sees("the solution is shown after the exercise is passed");
         student.presses("h");
         student.sees(&format!("Hint 1 of {}:", exercise.judge().hints.len()));
         student.saves(exercise, exercise.solution);
@@ -94,7 +94,7 @@ fn a_student_goes_through_all_exercises() {
         student.sees("Passed. (run 3)");
         student.presses("n");
     }
-    student.sees("all exercises are passed; l lists them, q leaves");
+    student.sees("all exercises are passed; l lists them, q exits");
     student.presses("l");
     student.sees(&format!("> passed {count:>2}  {}", EXERCISES[count - 1].name));
     student.presses("q");
@@ -110,7 +110,7 @@ fn keys_answer_while_an_attempt_runs_for_ever_and_saving_begins_anew() {
     student.presses("h");
     student.sees("Hint 1 of 3:");
     student.presses("w");
-    student.sees("the key w does nothing here");
+    student.sees("the key w has no function here");
     student.saves(&EXERCISES[0], EXERCISES[0].solution);
     student.sees("Passed. (run 2)");
     student.saves(&EXERCISES[1], "loop { try { loop { } } catch { } }");
@@ -157,7 +157,7 @@ fn the_list_opens_another_exercise_and_previous_goes_back() {
     student.presses("p");
     student.sees("Exercise 6 of 23");
     student.presses("n");
-    student.sees("n once more leaves it for later");
+    student.sees("n again skips it");
     student.presses("n");
     student.sees("Exercise 7 of 23");
     student.presses("\u{3}");

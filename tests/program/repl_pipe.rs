@@ -187,7 +187,7 @@ fn commands_say_what_is_wrong() {
         (":stepp", "did you mean :step?"),
         (":step x", "'x' is not a number of steps"),
         (":run", "a time is missing"),
-        (":quit now", "':quit' takes nothing, got 'now'"),
+        (":quit now", "':quit' takes no argument, got 'now'"),
         (":plot", "there is no simulation yet"),
         (":save", "the name of a file is missing"),
         (":load nowhere.rhai", "there is no such file"),
@@ -202,9 +202,9 @@ fn commands_say_what_is_wrong() {
     let (code, _, complaints) = piped(&format!("{SPINNING}:plot enrgy\n"));
     assert!(code == 2 && complaints.contains("did you mean \"energy\"?"), "{complaints}");
     for (input, expected) in [
-        (":watch sim.step()", "moves a simulation"),
+        (":watch sim.step()", "advances a simulation"),
         (":watch sim.t\n:run nan", "finite"),
-        (":show 7", "no configuration at this time"),
+        (":show 7", "no configuration is stored for this time"),
     ] {
         let (code, _, complaints) = piped(&format!("{SPINNING}{input}\n"));
         assert!(code == 2 && complaints.contains(expected), "{input}: {complaints}");

@@ -208,7 +208,7 @@ fn long_help_comes_in_pages_and_every_way_out_leads_to_the_prompt() {
     let folder = tempfile::tempdir().unwrap();
     let mut session = start_sized(folder.path(), &[("NO_COLOR", "1")]);
     let s = &mut session;
-    const STATUS: &str = "space: more";
+    const STATUS: &str = "space: next page";
     // On to a word, and out.
     s.send_line(":help topics").unwrap();
     let first = s.exp_string(STATUS).unwrap();
@@ -258,7 +258,7 @@ fn the_pager_of_the_environment_is_asked() {
     let mut session = start_sized(folder.path(), &[("NO_COLOR", "1"), ("PAGER", "no-such-pager")]);
     session.send_line(":help topics").unwrap();
     session.exp_string("cannot start the pager 'no-such-pager'").unwrap();
-    session.exp_string("space: more").unwrap();
+    session.exp_string("space: next page").unwrap();
     press(&mut session, "q");
     session.exp_string("withy:1> ").unwrap();
 }

@@ -101,7 +101,7 @@ fn a_reference_without_rows_or_with_two_of_one_time_or_a_negative_size_is_told()
     let (rows, other) = (TURNED.lines().take(2).collect::<Vec<_>>().join("\n"), "1,1,1,1,0.5\n");
     for (table, told) in [
         (rows, "\"turned.csv\": it has no rows"),
-        (format!("{TURNED}{other}"), "lines 3 and 4 are both about t = 1, and they differ"),
+        (format!("{TURNED}{other}"), "lines 3 and 4 are both for t = 1, but have different values"),
         (TURNED.replace(",0.5\n", ",-0.5\n"), "line 3, column 'd_pos', holds '-0.5'"),
     ] {
         fs::write(folder.path().join("turned.csv"), table).unwrap();
@@ -136,7 +136,7 @@ fn what_ran_out_of_patience_is_tried_again() {
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));
     let told = "1 of 4 runs are known";
     assert!(said(&output).contains(told), "{}", said(&output));
-    assert!(!printed(&output).contains("ran out of patience"), "{}", printed(&output));
+    assert!(!printed(&output).contains("by a limit"), "{}", printed(&output));
 }
 
 /// Two short cases, and one that takes for ever.
@@ -163,7 +163,7 @@ fn an_interrupted_study_goes_on_where_it_was() {
     let output = running.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(130), "{}", said(&output));
     let kept = format!(
-        "interrupted: 2 finished cases are kept in '{}': the same command goes on there",
+        "interrupted: 2 finished cases are kept in '{}'; the same command continues the study",
         journal.parent().unwrap().display()
     );
     assert!(said(&output).contains(&kept), "{}", said(&output));

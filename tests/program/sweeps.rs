@@ -259,7 +259,7 @@ fn pictures_are_of_all_rows_and_have_names_of_their_own() {
     // The smallest of the points is no reason for a logarithmic axis.
     assert!(!scatter.contains("10⁻"), "{}", &scatter[..2000]);
     let map = picture("grid-a-b-y");
-    assert!(map.contains("each cell that is drawn is the mean of 3 × 3"));
+    assert!(map.contains("each drawn cell is the mean of 3 × 3"));
     assert!(map.len() < 4_000_000, "{}", map.len());
     let [all, low, high] = ["grid-a-y", "grid-a-y-2", "grid-a-y-3"].map(picture);
     assert!(all != low && low != high && high != all);

@@ -20,7 +20,12 @@ const MOST_ARRIVALS: usize = 5000;
 const MOST_SOLVES: usize = 100_000;
 
 /// What may be said of a scene that no step takes further.
-const WORDS: [&str; 4] = ["is compressed to", "is stretched to", "presses on beam", "hovers at"];
+const WORDS: [&str; 4] = [
+    "is compressed to",
+    "is stretched to",
+    "the contact force of slider",
+    "too close for the kinked rule",
+];
 
 #[derive(Debug, Default, Clone)]
 struct Row {

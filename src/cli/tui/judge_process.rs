@@ -106,7 +106,7 @@ fn death(status: ExitStatus, limits: &Limits) -> AttemptReport {
     match limits.memory.filter(|_| is_out_of_memory(status)) {
         Some(memory) => stopped(Stop::Memory(memory), CapturedOutput::default()),
         None => {
-            let message = format!("its process ended without a word: {status}");
+            let message = format!("its process ended without a result: {status}");
             let why = AttemptError { message, ..AttemptError::default() };
             AttemptReport {
                 outcome: AttemptOutcome::Broken(why),

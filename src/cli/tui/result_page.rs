@@ -15,7 +15,7 @@ pub fn outcome(state: &TuiState, columns: usize) -> Vec<ScreenLine> {
     match (state.running, &state.last) {
         (Some(seconds), last) if seconds >= SOON || last.is_none() => {
             let word = format!("Running, {seconds} s.");
-            labelled((&word, WARM), "Saving the file begins anew; q leaves at once.", "", columns)
+            labelled((&word, WARM), "Saving the file restarts it; q exits at once.", "", columns)
         }
         (_, Some(report)) => judged(state, report, columns),
         (_, None) => Vec::new(),
@@ -35,19 +35,19 @@ fn judged(state: &TuiState, report: &AttemptReport, columns: usize) -> Vec<Scree
             lines.extend(paragraph(&what_next(state), "", columns, &PLAIN));
         }
         AttemptOutcome::Off(found) => {
-            lines = not_yet("it runs, and this is off.");
+            lines = not_yet("it runs, but the result is wrong.");
             let finding = |found| paragraph(&format!("- {found}"), "  ", columns, &PLAIN);
             lines.extend(found.iter().flat_map(finding));
         }
         AttemptOutcome::Broken(why) => {
-            lines = not_yet("it does not run to its end.");
+            lines = not_yet("it stops with an error.");
             lines.extend(trouble(state, why, columns));
         }
         AttemptOutcome::Stopped(why) => {
             lines = not_yet("it was stopped.");
             lines.extend(trouble(state, why, columns));
         }
-        AttemptOutcome::Interrupted => lines = not_yet("it was interrupted, and not judged."),
+        AttemptOutcome::Interrupted => lines = not_yet("it was interrupted and not judged."),
     }
     lines.extend(printed(state, &report.printed, columns));
     lines
@@ -55,7 +55,7 @@ fn judged(state: &TuiState, report: &AttemptReport, columns: usize) -> Vec<Scree
 
 fn what_next(state: &TuiState) -> String {
     let on = match state.next() {
-        Some(next) => format!("n goes on to {}: {}", next.id(), next.title()),
+        Some(next) => format!("n continues with {}: {}", next.id(), next.title()),
         None => format!("All {} exercises are passed. Congratulations!", EXERCISES.len()),
     };
     format!("s shows a solution to compare with yours.\n{on}")
@@ -124,7 +124,7 @@ fn printed(state: &TuiState, printed: &CapturedOutput, columns: usize) -> Vec<Sc
     }
     let more = heard.len().saturating_sub(PRINTED) + more;
     if more > 0 {
-        let word = format!("  … and {more} lines more: withy run {}", state.file);
+        let word = format!("  … and {more} more lines: withy run {}", state.file);
         lines.extend(paragraph(&word, "    ", columns, &FAINT));
     }
     lines

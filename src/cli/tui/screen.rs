@@ -128,7 +128,7 @@ fn head(state: &TuiState, columns: usize) -> Vec<ScreenLine> {
     lines.push(progress(state, columns));
     match state.page {
         ScreenPage::Task => {
-            let tail = " and save: it is judged here";
+            let tail = " and save it: it is then judged here";
             let whole = format!("Edit {}{tail}", state.file);
             let whole = if crate::output::columns(&whole) <= columns {
                 whole
@@ -139,7 +139,7 @@ fn head(state: &TuiState, columns: usize) -> Vec<ScreenLine> {
         }
         ScreenPage::List(_) => {}
         ScreenPage::Solution => {
-            let word = "Other right answers pass as well. » marks what differs from the start.";
+            let word = "Other correct solutions pass as well. » marks the differences from the initial file.";
             lines.extend(paragraph(word, "", columns, &PLAIN));
         }
     }

@@ -145,7 +145,7 @@ impl TuiState {
             },
             (Key::Letter('s'), ScreenPage::Task) if self.has_passed() => self.turn_to(ScreenPage::Solution),
             (Key::Letter('s'), _) => self.say(
-                "a solution is shown when you have passed; h gives a hint, one more each time, and after the last one a solution",
+                "the solution is shown after the exercise is passed; h gives one more hint each time, and a solution after the last one",
             ),
             _ => self.scroll(key, window),
         }
@@ -176,7 +176,7 @@ impl TuiState {
             Some(Confirmation::Solution) => self.turn_to(ScreenPage::Solution),
             _ => {
                 self.asked = Some(Confirmation::Solution);
-                self.say("these are all the hints; h once more shows a solution");
+                self.say("there are no more hints; h again shows a solution");
             }
         }
         KeyAction::Nothing
@@ -185,15 +185,15 @@ impl TuiState {
     fn go_on(&mut self, asked: Option<Confirmation>) -> KeyAction {
         match self.next() {
             None if self.has_passed() => {
-                self.say("all exercises are passed; l lists them, q leaves")
+                self.say("all exercises are passed; l lists them, q exits")
             }
-            None => self.say("this is the only one that is left"),
+            None => self.say("this is the only exercise not passed yet"),
             Some(next) if self.has_passed() || asked == Some(Confirmation::Skip) => {
                 return KeyAction::Open(next);
             }
             Some(_) => {
                 self.asked = Some(Confirmation::Skip);
-                self.say("this one is not passed yet; n once more leaves it for later");
+                self.say("this exercise is not passed yet; n again skips it");
             }
         }
         KeyAction::Nothing
@@ -218,7 +218,7 @@ impl TuiState {
                 number.map_or(chosen, |number| number - 1)
             }
             _ => {
-                self.say("arrows or a number choose an exercise, Enter opens it, l goes back");
+                self.say("arrows or a number select an exercise, Enter opens it, l returns");
                 chosen
             }
         };
@@ -238,9 +238,9 @@ impl TuiState {
             Key::Enter | Key::Escape => return,
             Key::Letter(letter) => {
                 return self
-                    .say(&format!("the key {letter} does nothing here; below are those that do"));
+                    .say(&format!("the key {letter} has no function here; see the keys below"));
             }
-            _ => return self.say("this key does nothing here; below are those that do"),
+            _ => return self.say("this key has no function here; see the keys below"),
         };
         self.top = ScrollPosition::Line(top.min(last));
     }

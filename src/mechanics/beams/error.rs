@@ -36,7 +36,7 @@ pub enum BeamError {
         outer: f64,
     },
     /// Taper with too few or too many places.
-    #[error("taper: a section varies between 2 places or more, at most {most}, and {} given", places(.count))]
+    #[error("taper: {} given, but 2 to {most} are needed", places(.count))]
     TaperPlaces {
         /// Number of places.
         count: usize,
@@ -45,7 +45,7 @@ pub enum BeamError {
     },
     /// Taper whose places do not increase from 0 to 1.
     #[error(
-        "taper: a place is {value}, but places must rise from 0, the start of the beam, to 1, its end"
+        "taper: a place is {value}, but places must increase from 0 (start of the beam) to 1 (its end)"
     )]
     TaperPlace {
         /// First place out of order [-].
@@ -53,11 +53,13 @@ pub enum BeamError {
     },
     /// Taper between solids of different shapes.
     #[error(
-        "taper: there is no shape between a rectangle, a circle and a tube; give shapes of one kind, or stiffness and inertia"
+        "taper: sections of different shapes (rectangle, circle, tube) cannot be interpolated; give sections of one shape, or stiffnesses and inertias"
     )]
     TaperShapes,
     /// Quadrature with too few or too many points.
-    #[error("quadrature: {points} points a span, but allowed are 1 to {most} for degree {degree}")]
+    #[error(
+        "quadrature: {points} points per span, but 1 to {most} are allowed for degree {degree}"
+    )]
     Quadrature {
         /// Requested number of points.
         points: usize,
@@ -68,9 +70,7 @@ pub enum BeamError {
     },
     /// Spans of too different lengths for a patch rule.
     #[error(
-        "the longest span of a smooth piece of the mesh is {ratio:.1e} times as long as the shortest: strain points that neither lock nor leave modes \
-         without energy cannot be found in rounded numbers; grade the spans more gently, or make the basis C0 between long and short ones \
-         (repeat the knot as often as the degree says)"
+        "the longest span of a smooth part of the mesh is {ratio:.1e} times as long as the shortest, too much for an accurate quadrature of the strains; change the span lengths more gradually, or make the basis C0 between long and short spans (repeat the knot as often as the degree)"
     )]
     UnevenSpans {
         /// Length of the longest span over that of the shortest [-].

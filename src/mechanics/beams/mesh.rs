@@ -135,10 +135,10 @@ impl Mesh {
             Quadrature::Points(points) => {
                 let flaw = match self.surplus() {
                     0 => String::new(),
-                    more if more > 0 => format!(": {more} too many, locks on stiff beams"),
-                    fewer => format!(": {} modes without energy", -2 * fewer),
+                    more if more > 0 => format!(": {more} too many, stiff beams lock"),
+                    fewer => format!(": {} zero-energy modes", -2 * fewer),
                 };
-                format!(", {points} points a span for the strain{flaw}")
+                format!(", {points} strain points per span{flaw}")
             }
         };
         let plural = if spans == 1 { "" } else { "s" };
@@ -290,15 +290,15 @@ mod tests {
         let c1 = Mesh::bspline(7, 3, 1).unwrap();
         assert_eq!(
             points(c1.clone(), 3),
-            "cubic B-splines C1, 7 spans, 3 points a span for the strain: 6 too many, locks on stiff beams"
+            "cubic B-splines C1, 7 spans, 3 strain points per span: 6 too many, stiff beams lock"
         );
         assert_eq!(
             points(c1, 2),
-            "cubic B-splines C1, 7 spans, 2 points a span for the strain: 2 modes without energy"
+            "cubic B-splines C1, 7 spans, 2 strain points per span: 2 zero-energy modes"
         );
         assert_eq!(
             points(Mesh::lagrange(2, 3).unwrap(), 3),
-            "cubic Lagrange, 2 elements, 3 points a span for the strain"
+            "cubic Lagrange, 2 elements, 3 strain points per span"
         );
     }
 }

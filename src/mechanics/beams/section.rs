@@ -75,7 +75,7 @@ impl Section {
     /// # Errors
     /// Fails for the first property that is not.
     pub fn validated(self) -> Result<Self, BeamError> {
-        const ROTARY: &str = "; without rotary inertia the mass matrix is singular: give the true value, or a small one";
+        const ROTARY: &str = "; without rotary inertia the mass matrix is singular: give the actual value, or a small one";
         let properties = [
             ("EA", self.axial_stiffness, "force", ""),
             ("GA", self.shear_stiffness, "force", ""),

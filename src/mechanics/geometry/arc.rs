@@ -104,15 +104,15 @@ mod tests {
         let refusal = |radius, from, to| {
             CircularArc::new(Vec2::zeros(), radius, from, to).unwrap_err().to_string()
         };
-        assert_eq!(refusal(0.0, 0.0, 1.0), "arc: radius 0 is not allowed; it must be positive");
-        assert_eq!(refusal(-1.0, 0.0, 1.0), "arc: radius -1 is not allowed; it must be positive");
+        assert_eq!(refusal(0.0, 0.0, 1.0), "arc: radius is 0, but must be positive");
+        assert_eq!(refusal(-1.0, 0.0, 1.0), "arc: radius is -1, but must be positive");
         assert_eq!(
             refusal(1.0, 0.5, 0.5),
-            "arc: it starts and ends at angle 0.5; the two must differ (add 2π for a full circle)"
+            "arc: start and end angle are both 0.5, but must differ (add 2π for a full circle)"
         );
         assert_eq!(
             refusal(1.0, 0.0, 7.0),
-            "arc: it turns by 7 rad; at most a full turn, 2π, is allowed in either direction"
+            "arc: the angle between start and end is 7 rad, but at most 2π is allowed in either direction"
         );
         assert!(refusal(f64::NAN, 0.0, 1.0).starts_with("radius of the arc: NaN"));
         assert!(refusal(1.0, 0.0, f64::INFINITY).starts_with("end angle of the arc: inf"));

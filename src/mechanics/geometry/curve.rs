@@ -235,7 +235,7 @@ mod tests {
         assert_eq!(line.point(1.5).unwrap_err().to_string(), "parameter 1.5 is outside [0, 1]");
         assert_eq!(
             line.parameter_at(3.0).unwrap_err().to_string(),
-            "arc length 3 is outside [0, 2], the curve's length"
+            "arc length 3 is outside the length of the curve, [0, 2]"
         );
     }
 
@@ -261,7 +261,7 @@ mod tests {
         assert_eq!(
             refusal,
             "curve: no tangent at parameter 0, where its derivative is zero; \
-             move control points that coincide, or ask beside it"
+             move coincident control points apart, or evaluate at another parameter"
         );
         assert!(curve.curvature(0.0).is_err());
         assert!((curve.tangent_angle(0.5).unwrap() + FRAC_PI_2 / 2.0).abs() < 1e-15);

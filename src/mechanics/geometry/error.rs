@@ -6,7 +6,7 @@ use super::Vec2;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum GeometryError {
     /// Number that is NaN or infinite.
-    #[error("{object}: {value} is not a finite number; give a finite one")]
+    #[error("{object} is {value}, but must be a finite number")]
     NotFinite {
         /// Meaning of the number, such as "knot 3".
         object: String,
@@ -24,7 +24,7 @@ pub enum GeometryError {
     },
 
     /// Basis without spans, or with too many.
-    #[error("spans: {spans} asked for; at least 1 and at most {largest} are allowed")]
+    #[error("spans: {spans} requested, but 1 to {largest} are allowed")]
     Spans {
         /// Requested number of spans.
         spans: usize,
@@ -89,8 +89,7 @@ pub enum GeometryError {
 
     /// Interior knot of too high multiplicity, where the curve would be discontinuous.
     #[error(
-        "knots: the interior knot {knot} would have multiplicity {multiplicity}; \
-         at most {degree}, the degree, is allowed, else the curve is torn there"
+        "knots: the interior knot {knot} has multiplicity {multiplicity}, but at most {degree} (the degree) is allowed for a continuous curve"
     )]
     InteriorMultiplicity {
         /// Interior knot [-].
@@ -103,8 +102,7 @@ pub enum GeometryError {
 
     /// Span as short as rounding, between almost equal knots or breaks.
     #[error(
-        "{object}: the span from {start} to {end} is shorter than 1e-12 of the whole; \
-         make the two equal or move them apart"
+        "{object}: the span from {start} to {end} is shorter than 1e-12 of the domain; make the two values equal or move them apart"
     )]
     ShortSpan {
         /// The word "knots" or "breaks".
@@ -116,7 +114,7 @@ pub enum GeometryError {
     },
 
     /// Knot vector whose first and last knots coincide.
-    #[error("knots: all of them are {knot}; the last knot must be larger than the first")]
+    #[error("knots: all are {knot}, but the last knot must be larger than the first")]
     EmptyDomain {
         /// Value of the knots [-].
         knot: f64,
@@ -191,7 +189,7 @@ pub enum GeometryError {
     },
 
     /// Line of zero length.
-    #[error("line: start and end are both ({}, {}); give two different points", .point.x, .point.y)]
+    #[error("line: start and end are both ({}, {}), but must differ", .point.x, .point.y)]
     ZeroLengthLine {
         /// Start and end [length].
         point: Vec2,
@@ -205,7 +203,7 @@ pub enum GeometryError {
     },
 
     /// Arc whose radius is not positive.
-    #[error("arc: radius {radius} is not allowed; it must be positive")]
+    #[error("arc: radius is {radius}, but must be positive")]
     ArcRadius {
         /// Radius [length].
         radius: f64,
@@ -213,7 +211,7 @@ pub enum GeometryError {
 
     /// Arc with equal start and end angles.
     #[error(
-        "arc: it starts and ends at angle {angle}; the two must differ (add 2π for a full circle)"
+        "arc: start and end angle are both {angle}, but must differ (add 2π for a full circle)"
     )]
     ZeroArc {
         /// Start and end angle [rad].
@@ -222,7 +220,7 @@ pub enum GeometryError {
 
     /// Arc of more than a full turn.
     #[error(
-        "arc: it turns by {sweep} rad; at most a full turn, 2π, is allowed in either direction"
+        "arc: the angle between start and end is {sweep} rad, but at most 2π is allowed in either direction"
     )]
     ArcTurn {
         /// Angle from start to end [rad].
@@ -231,8 +229,7 @@ pub enum GeometryError {
 
     /// Point of a curve where the derivative vanishes, without tangent and curvature.
     #[error(
-        "curve: no tangent at parameter {xi}, where its derivative is zero; \
-         move control points that coincide, or ask beside it"
+        "curve: no tangent at parameter {xi}, where its derivative is zero; move coincident control points apart, or evaluate at another parameter"
     )]
     NoTangent {
         /// Parameter [-].
@@ -240,7 +237,7 @@ pub enum GeometryError {
     },
 
     /// Arc length outside a curve.
-    #[error("arc length {arc_length} is outside [0, {length}], the curve's length")]
+    #[error("arc length {arc_length} is outside the length of the curve, [0, {length}]")]
     OutsideLength {
         /// Requested arc length [length].
         arc_length: f64,
@@ -249,7 +246,7 @@ pub enum GeometryError {
     },
 
     /// Gauss rule that is not available.
-    #[error("quadrature: {points} points asked for; allowed are 1 to {largest}")]
+    #[error("quadrature: {points} points requested, but 1 to {largest} are allowed")]
     QuadraturePoints {
         /// Requested number of points.
         points: usize,

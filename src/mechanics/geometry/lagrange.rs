@@ -209,14 +209,8 @@ mod tests {
         };
         assert_eq!(refusal(0, &[0.0, 1.0]), "degree 0 is not available; allowed are 1 to 3");
         assert_eq!(refusal(4, &[0.0, 1.0]), "degree 4 is not available; allowed are 1 to 3");
-        assert_eq!(
-            refusal(1, &[]),
-            "spans: 0 asked for; at least 1 and at most 400000 are allowed"
-        );
-        assert_eq!(
-            refusal(1, &[f64::NAN, 1.0]),
-            "break 0: NaN is not a finite number; give a finite one"
-        );
+        assert_eq!(refusal(1, &[]), "spans: 0 requested, but 1 to 400000 are allowed");
+        assert_eq!(refusal(1, &[f64::NAN, 1.0]), "break 0 is NaN, but must be a finite number");
         assert_eq!(
             refusal(1, &[0.0, 0.5, 0.5]),
             "breaks: entry 2 (0.5) is not larger than entry 1 (0.5); breaks must increase"

@@ -70,13 +70,10 @@ mod tests {
     fn lines_without_length_are_refused() {
         let refusal = |from, to| Line::new(from, to).unwrap_err().to_string();
         let point = Vec2::new(1.0, 2.0);
-        assert_eq!(
-            refusal(point, point),
-            "line: start and end are both (1, 2); give two different points"
-        );
+        assert_eq!(refusal(point, point), "line: start and end are both (1, 2), but must differ");
         assert_eq!(
             refusal(point, Vec2::new(f64::NAN, 0.0)),
-            "end of the line: NaN is not a finite number; give a finite one"
+            "end of the line is NaN, but must be a finite number"
         );
         assert!(
             refusal(Vec2::new(-1.5e308, 0.0), Vec2::new(1.5e308, 0.0))

@@ -163,7 +163,7 @@ mod tests {
         );
         assert_eq!(
             refusal(&[[0.0, 0.0], [1.0, f64::INFINITY]]),
-            "point 1: inf is not a finite number; give a finite one"
+            "point 1 is inf, but must be a finite number"
         );
     }
 

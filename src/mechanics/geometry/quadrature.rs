@@ -110,7 +110,7 @@ mod tests {
     #[test]
     fn rules_outside_1_to_64_are_refused() {
         let refusal = |n| GaussRule::new(n).unwrap_err().to_string();
-        assert_eq!(refusal(0), "quadrature: 0 points asked for; allowed are 1 to 64");
-        assert_eq!(refusal(65), "quadrature: 65 points asked for; allowed are 1 to 64");
+        assert_eq!(refusal(0), "quadrature: 0 points requested, but 1 to 64 are allowed");
+        assert_eq!(refusal(65), "quadrature: 65 points requested, but 1 to 64 are allowed");
     }
 }

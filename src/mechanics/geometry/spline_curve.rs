@@ -175,7 +175,7 @@ mod tests {
         );
         assert_eq!(
             refusal(&[point, Vec2::new(0.0, f64::NAN), point]),
-            "control point 1: NaN is not a finite number; give a finite one"
+            "control point 1 is NaN, but must be a finite number"
         );
     }
 

@@ -55,7 +55,7 @@ pub enum FailureSource {
 
 fn at(culprit: Option<&FailureSource>) -> String {
     match culprit {
-        Some(FailureSource::Named(name)) => format!("; it fails at {name}"),
+        Some(FailureSource::Named(name)) => format!("; location: {name}"),
         _ => String::new(),
     }
 }
@@ -77,7 +77,7 @@ pub enum StepError {
     },
     /// Mean rotation of a section in the step of π or more, which is not resolved.
     #[error(
-        "the step of {:.3e} from t = {} would turn a section by {rotation:.2} rad at its mean rate; a step must stay below π",
+        "a section would rotate by {rotation:.2} rad in the step of {:.3e} from t = {}, but the rotation per step must be below π; use a smaller step",
         interval.duration(), interval.start
     )]
     Rotation {
@@ -90,8 +90,7 @@ pub enum StepError {
     },
     /// Collapsed path of a slider in the mean configuration, because the beam rotates by about π.
     #[error(
-        "in the step of {:.3e} from t = {} the beam under a slider turns so far that its mean has no direction (chord {chord:.1e} of the \
-         way); steps must be smaller",
+        "in the step of {:.3e} from t = {} the beam under a slider rotates by about π (chord {chord:.1e} of the path); use a smaller step",
         interval.duration(), interval.start
     )]
     Chord {
@@ -104,7 +103,7 @@ pub enum StepError {
     },
     /// Constraint limit passed within the step, which has to be cut there.
     #[error(
-        "limit {} of a constraint is passed within the step of {:.3e} from t = {}",
+        "limit {} of a constraint is exceeded within the step of {:.3e} from t = {}",
         overshoot.limit, interval.duration(), interval.start
     )]
     Overshoot {

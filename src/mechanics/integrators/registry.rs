@@ -125,7 +125,7 @@ pub const INTEGRATORS: &[IntegratorEntry] =
 const ENERGY_MOMENTUM: IntegratorEntry = IntegratorEntry {
     method: Method::EnergyMomentum,
     name: "energy_momentum",
-    summary: "keeps energy and both momenta to rounding at any step; the default",
+    summary: "conserves energy and both momenta to rounding at any step size; the default",
     claims: Claims { order: 2, energy: EnergyClaim::Kept, momentum: true, angular_momentum: true },
     parameter: None,
     source: "Stander & Stein, Eng. Comput. 13 (1996) 60-85",
@@ -134,7 +134,7 @@ const ENERGY_MOMENTUM: IntegratorEntry = IntegratorEntry {
 const TRAPEZOIDAL: IntegratorEntry = IntegratorEntry {
     method: Method::Trapezoidal,
     name: "trapezoidal",
-    summary: "Newmark's β = 1/4, γ = 1/2; for comparison: the energy wanders in nonlinear problems",
+    summary: "Newmark's method with β = 1/4, γ = 1/2, for comparison: energy is not conserved in nonlinear problems",
     claims: Claims {
         order: 2,
         energy: EnergyClaim::Nothing,
@@ -148,7 +148,7 @@ const TRAPEZOIDAL: IntegratorEntry = IntegratorEntry {
 const ENERGY_DECAYING: IntegratorEntry = IntegratorEntry {
     method: Method::EnergyDecaying { chi: CHI.default },
     name: "energy_decaying",
-    summary: "keeps both momenta to rounding and damps vibration: the energy never grows at any step",
+    summary: "conserves both momenta to rounding and damps vibration: the energy never increases, at any step size",
     claims: Claims {
         order: 1,
         energy: EnergyClaim::Decays,
@@ -170,7 +170,7 @@ const CHI: MethodParameter = MethodParameter {
 const FOURTH_ORDER: IntegratorEntry = IntegratorEntry {
     method: Method::FourthOrder,
     name: "fourth_order",
-    summary: "seven energy-momentum steps in one, for accuracy: keeps energy and both momenta to rounding",
+    summary: "fourth order, composed of seven energy-momentum substeps: conserves energy and both momenta to rounding",
     claims: Claims { order: 4, energy: EnergyClaim::Kept, momentum: true, angular_momentum: true },
     parameter: None,
     source: "composition as in McLachlan, SIAM J. Sci. Comput. 16 (1995) 151-168",
@@ -179,7 +179,7 @@ const FOURTH_ORDER: IntegratorEntry = IntegratorEntry {
 const GENERALIZED_ALPHA: IntegratorEntry = IntegratorEntry {
     method: Method::GeneralizedAlpha { rho_infinity: RHO_INFINITY.default },
     name: "generalized_alpha",
-    summary: "for comparison: damps fast vibration, and keeps nothing exactly",
+    summary: "generalized-α method, for comparison: damps fast vibration, conserves nothing exactly",
     claims: Claims {
         order: 2,
         energy: EnergyClaim::Nothing,

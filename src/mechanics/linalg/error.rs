@@ -12,9 +12,7 @@ pub enum LinearError {
         size: usize,
     },
     /// Entry that is infinite or NaN.
-    #[error(
-        "the matrix has an entry that is not a finite number, met at unknown {unknown} of {size}"
-    )]
+    #[error("the matrix has an entry that is not a finite number, at unknown {unknown} of {size}")]
     NotFinite {
         /// Index of the column, from 0.
         unknown: usize,

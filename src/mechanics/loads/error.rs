@@ -51,7 +51,7 @@ pub enum LoadError {
         allowed: &'static str,
     },
     /// Combination of too many schedules.
-    #[error("a schedule of {parts} parts, but at most {most} can be combined")]
+    #[error("a schedule has {parts} parts, but at most {most} can be combined")]
     ManyParts {
         /// Number of parts.
         parts: usize,
@@ -59,14 +59,14 @@ pub enum LoadError {
         most: usize,
     },
     /// Table with too few rows.
-    #[error("table: {rows} rows, but at least 2 are needed, each a time and a factor")]
+    #[error("table: {rows} rows given, but at least 2 are needed, each with a time and a factor")]
     ShortTable {
         /// Number of rows.
         rows: usize,
     },
     /// Table with decreasing times.
     #[error(
-        "table: the time of row {row} ({time}) is smaller than the one before it ({before}); times must not decrease (repeat one for a jump)"
+        "table: the time of row {row} ({time}) is smaller than the previous one ({before}); times must not decrease (repeat a time for a jump)"
     )]
     DecreasingTimes {
         /// Index of the row, from 0.
@@ -77,10 +77,12 @@ pub enum LoadError {
         before: f64,
     },
     /// Stored schedule with missing or superfluous terms.
-    #[error("a stored schedule has terms missing or left over")]
+    #[error("a stored schedule has missing or superfluous terms")]
     StoredTerms,
     /// Motion that jumps.
-    #[error("it jumps at t = {time} from {before} to {after}, and a motion has to be continuous")]
+    #[error(
+        "it jumps at t = {time} from {before} to {after}, but a prescribed motion must be continuous"
+    )]
     Jump {
         /// Time of the jump [time].
         time: f64,
@@ -90,7 +92,7 @@ pub enum LoadError {
         after: f64,
     },
     /// Motion with an infinite rate.
-    #[error("its rate is infinite at t = {time}, as that of √t is at 0")]
+    #[error("its rate is infinite at t = {time}, but must be finite")]
     InfiniteRate {
         /// Time of the infinite rate [time].
         time: f64,

@@ -91,7 +91,11 @@ fn in_words(time: f64) -> String {
 impl std::fmt::Display for SampleClock {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "every {}", in_words(self.period))?;
-        if self.delay > 0.0 { write!(f, ", {} later", in_words(self.delay)) } else { Ok(()) }
+        if self.delay > 0.0 {
+            write!(f, ", with a delay of {}", in_words(self.delay))
+        } else {
+            Ok(())
+        }
     }
 }
 

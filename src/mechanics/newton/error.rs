@@ -13,7 +13,7 @@ pub enum NewtonError {
         history: Vec<ResidualNorms>,
     },
     /// Value that is not finite.
-    #[error("Newton's method met a number that is not finite after {} iterations ({})", history.len(), describe(history))]
+    #[error("Newton's method produced a number that is not finite after {} iterations ({})", history.len(), describe(history))]
     NotFinite {
         /// Residual norms after each iteration.
         history: Vec<ResidualNorms>,

@@ -57,9 +57,12 @@ impl Arrival {
             ArrivalKind::Stopped => "reached",
             ArrivalKind::Bounced => "bounced off",
             ArrivalKind::Rested => "came to rest against",
-            ArrivalKind::Released => "left over",
+            ArrivalKind::Released => "was released at",
             ArrivalKind::Passed => "passed",
         };
-        format!("slider '{slider}' {did} the {end} of {beam} at t = {}", self.time)
+        format!(
+            "slider '{slider}' {did} the {end} of {beam} at t = {}",
+            crate::system::rounded(self.time)
+        )
     }
 }

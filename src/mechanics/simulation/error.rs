@@ -2,7 +2,7 @@
 
 use super::{DerivativeError, StepSizeError};
 use crate::integrators::{MethodError, StepError};
-use crate::system::SystemError;
+use crate::system::{SystemError, rounded};
 
 /// Run that could not start or continue. Its history up to the last successful step is kept.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -21,7 +21,7 @@ pub enum SimulationError {
     Derivative(#[from] DerivativeError),
     /// Mean value over a step, with a method that balances accelerations instead of momenta.
     #[error(
-        "'{sensor}' is the mean over a step, by which momenta change, and {method} balances accelerations of its own instead: it has none; record the force at the present moment, or take another method"
+        "'{sensor}' is a mean force over a step, which the method {method} does not provide; record the instantaneous force, or use energy_momentum"
     )]
     NoMean {
         /// Name of the column.
@@ -30,7 +30,9 @@ pub enum SimulationError {
         method: &'static str,
     },
     /// Controller with too many samples per step.
-    #[error("a controller is asked every {period:e}, more than {most} times in a step of {dt:e}")]
+    #[error(
+        "a controller with a sampling period of {period:e} would be sampled more than {most} times in a step of dt = {dt:e}"
+    )]
     ManySamples {
         /// Sampling period of the controller [time].
         period: f64,
@@ -41,7 +43,7 @@ pub enum SimulationError {
     },
     /// Equilibrium that holds a drive at a position different from its function.
     #[error(
-        "the equilibrium holds what '{drive}' moves at {rests}, and at t = {time} its function has it at {wanted}: moved on from there it would be where no function has it"
+        "the equilibrium has the prescribed motion '{drive}' at {}, but its function gives {} at t = {time}: the motion would jump", rounded(*rests), rounded(*wanted)
     )]
     BeginsElsewhere {
         /// Name of the drive.
@@ -54,7 +56,7 @@ pub enum SimulationError {
         time: f64,
     },
     /// End of a run in the past.
-    #[error("the simulation is at t = {now} and cannot run to t = {end}")]
+    #[error("the simulation is already at t = {now} and cannot run to t = {end}")]
     End {
         /// Present time [time].
         now: f64,
@@ -63,7 +65,7 @@ pub enum SimulationError {
     },
     /// No step of any size was solved.
     #[error(
-        "no step from t = {time} works, down to dt/{divisions} (dt = {dt:e}): {source}{plight}"
+        "no step from t = {} converges, down to dt/{divisions} (dt = {dt:e}): {source}{plight}", rounded(*time)
     )]
     Step {
         /// End of the last successful step [time].
@@ -79,7 +81,7 @@ pub enum SimulationError {
     },
     /// Tolerance that requires too small steps.
     #[error(
-        "the tolerance {tolerance} asks for steps below the smallest one, {smallest:e}, at t = {time}: one of dt = {dt:e} errs {error:.3} times as much as is allowed"
+        "the tolerance {tolerance} requires steps below the smallest allowed one ({smallest:e}) at t = {}: the error of a step of dt = {dt:e} is {error:.3} times the allowed one", rounded(*time)
     )]
     Tolerance {
         /// End of the last successful step [time].
@@ -95,7 +97,7 @@ pub enum SimulationError {
     },
     /// No variable step down to the smallest one was solved.
     #[error(
-        "no step from t = {time} works, down to the smallest one, {smallest:e} (dt = {dt:e}): {source}{plight}"
+        "no step from t = {} converges, down to the smallest allowed one, {smallest:e} (dt = {dt:e}): {source}{plight}", rounded(*time)
     )]
     Smallest {
         /// End of the last successful step [time].
@@ -111,7 +113,7 @@ pub enum SimulationError {
     },
     /// No step that ends at the arrival of a slider was found.
     #[error(
-        "slider '{slider}' arrives at the {end} of its beam soon after t = {time}, but no step that ends there was found, down to dt/{divisions} (dt = {dt:e}); try a smaller dt or a finer mesh{plight}"
+        "slider '{slider}' reaches the {end} of its beam shortly after t = {}, but no step that ends there converges, down to dt/{divisions} (dt = {dt:e}); use a smaller dt or a finer mesh{plight}", rounded(*time)
     )]
     Landing {
         /// Name of the slider.
@@ -140,7 +142,7 @@ pub enum SimulationError {
         ending: String,
     },
     /// Slider that bounces too often within one step.
-    #[error("{arrival}, {most} times within one step of the grid")]
+    #[error("{arrival}: {most} times within one step")]
     Rattles {
         /// Description of the last arrival.
         arrival: String,
@@ -156,7 +158,7 @@ pub enum SimulationError {
         taken: usize,
     },
     /// Rewind to a time outside the run.
-    #[error("cannot go back to t = {time}: the simulation has been from t = {begun} to {now}")]
+    #[error("cannot go back to t = {time}: the simulation covers t = {} to {}", rounded(*begun), rounded(*now))]
     NotBehind {
         /// Requested time [time].
         time: f64,
@@ -167,15 +169,15 @@ pub enum SimulationError {
     },
     /// Rewind without stored states.
     #[error(
-        "there is no way back: no states are kept{}",
-        if *limit > 0.0 { format!(", one alone takes more than the limit of {limit} MB") } else { String::new() }
+        "cannot go back: this simulation stores no snapshots{}",
+        if *limit > 0.0 { format!(", because a single one exceeds the memory limit of {limit} MB") } else { String::new() }
     )]
     NoSnapshots {
         /// Memory limit of snapshots [10⁶ bytes].
         limit: f64,
     },
     /// Rewind to a time before snapshots were enabled.
-    #[error("cannot go back to {target}: states are kept from t = {first} on")]
+    #[error("cannot go back to {target}: snapshots are stored from t = {} on", rounded(*first))]
     BeforeFirst {
         /// Description of the requested state.
         target: String,
@@ -184,7 +186,7 @@ pub enum SimulationError {
     },
     /// Rewind to a snapshot that was discarded by the memory limit.
     #[error(
-        "cannot go back to {target}: with a limit of {limit} MB for snapshots only the last {steps} steps are kept, back to t = {oldest}, and the state at t = {first}"
+        "cannot go back to {target}: within the memory limit of {limit} MB only snapshots of the last {steps} steps (from t = {}) and of t = {} are stored", rounded(*oldest), rounded(*first)
     )]
     Forgotten {
         /// Description of the requested state.
@@ -199,7 +201,7 @@ pub enum SimulationError {
         limit: f64,
     },
     /// Run stopped by its monitor.
-    #[error("interrupted at t = {time}; the history up to there is kept")]
+    #[error("interrupted at t = {}; the history up to this time is kept", rounded(*time))]
     Interrupted {
         /// End of the last step [time].
         time: f64,

@@ -40,7 +40,7 @@ impl Recording {
         match self {
             Self::Every(count) if count == NonZeroUsize::MIN => "every step".to_owned(),
             Self::Every(count) => format!("every {count} steps"),
-            Self::Nothing => "nothing between the ends of a run".to_owned(),
+            Self::Nothing => "only the ends of a run".to_owned(),
         }
     }
 

@@ -41,7 +41,7 @@ pub struct SpectrumPeak {
 pub enum SpectrumError {
     /// Rows that are not evenly spaced.
     #[error(
-        "a spectrum needs evenly spaced rows, but that at t = {} comes {} after the one before, most others {}",
+        "a spectrum needs rows at equal time intervals, but the row at t = {} follows after {} and most others after {}",
         six_digits(*.time), six_digits(*.found), six_digits(*.expected)
     )]
     Uneven {
@@ -59,7 +59,7 @@ pub enum SpectrumError {
         rows: usize,
     },
     /// Value that is not a number.
-    #[error("the value at t = {time} is no number")]
+    #[error("the value at t = {time} is not a finite number")]
     NoNumber {
         /// Time of the row.
         time: f64,

@@ -33,9 +33,9 @@ pub enum RateChangeCause {
 impl fmt::Display for RateChangeCause {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Damping(name) => write!(f, "what '{name}' slows down"),
+            Self::Damping(name) => write!(f, "damping by '{name}'"),
             Self::Controller(name) => {
-                write!(f, "what the controller of {name} does, which is asked once a step")
+                write!(f, "the controller of {name}, which is sampled once per step")
             }
         }
     }
@@ -198,10 +198,9 @@ impl fmt::Display for Warning {
                 let others: Vec<String> = suspects.iter().map(RateChangeCause::to_string).collect();
                 write!(
                     f,
-                    "steps are too long for the motion: {} % of its kinetic energy changes within them as they do not follow, as vibration or {}. A \
-                     step (dt = {}) is {} times what it goes on in ({}); take dt below {}",
+                    "steps are too long for the motion: {} % of the kinetic energy changes within a step, which does not resolve it. Possible causes: vibration, {}. dt = {} is {} times the period of the change ({}); use dt below {}",
                     short(100.0 * share),
-                    others.join(", or "),
+                    others.join(", "),
                     short(*dt),
                     short(dt / period),
                     short(*period),
@@ -211,8 +210,7 @@ impl fmt::Display for Warning {
             Self::Motion { dt, share, period, lowest, damping, .. } => {
                 write!(
                     f,
-                    "steps are too long for the motion: {} % of its kinetic energy is in vibration that they do not follow. A step \
-                     (dt = {}) is ",
+                    "steps are too long for the motion: {} % of the kinetic energy is in vibration that they do not resolve. dt = {} is ",
                     short(100.0 * share),
                     short(*dt)
                 )?;
@@ -221,30 +219,28 @@ impl fmt::Display for Warning {
                 match known {
                     Some(lowest) => write!(
                         f,
-                        "{} times the lowest period of the scene as drawn ({})",
+                        "{} times the first natural period of the scene as drawn ({})",
                         short(dt / lowest),
                         short(lowest)
                     )?,
                     None => write!(
                         f,
-                        "{} of the period of what vibrates ({}, in the mean over accelerations)",
+                        "{} times the mean period of the vibration ({})",
                         short(dt / period),
                         short(*period)
                     )?,
                 }
-                write!(f, "; take dt below {}", short(shown / ENOUGH))?;
+                write!(f, "; use dt below {}", short(shown / ENOUGH))?;
                 match damping {
                     Some(method) => {
-                        write!(f, ", or the method {method} where that vibration does not matter")
+                        write!(f, ", or use the method {method} if this vibration does not matter")
                     }
                     None => Ok(()),
                 }
             }
             Self::Beam { beam, dt, share, period } => write!(
                 f,
-                "steps are too long for the motion of beam '{beam}', whose material is damped: {} % of its kinetic energy changes within them as they do not \
-                 follow. A step (dt = {}) is {} times what it goes on in ({}); take dt below {}. Velocities of the beam alternate from step to step, and \
-                 forces with them: means of two neighbouring steps are nearer to what happens",
+                "steps are too long for the motion of beam '{beam}', whose material is damped: {} % of its kinetic energy changes within a step, which does not resolve it. dt = {} is {} times the period of the change ({}); use dt below {}. Until then velocities and forces of the beam alternate from step to step: average them over two steps",
                 short(100.0 * share),
                 short(*dt),
                 short(dt / period),
@@ -253,7 +249,7 @@ impl fmt::Display for Warning {
             ),
             Self::Rotation { dt, angle } => write!(
                 f,
-                "sections turn by up to {} rad in a step (dt = {}): {} steps a turn are few; take dt below {}",
+                "sections rotate by up to {} rad per step (dt = {}), which is {} steps per revolution and inaccurate; use dt below {}",
                 short(*angle),
                 short(*dt),
                 short(TAU / angle),
@@ -261,55 +257,48 @@ impl fmt::Display for Warning {
             ),
             Self::Way { slider, dt, spans } => write!(
                 f,
-                "slider '{slider}' passes up to {} spans of its beam in a step (dt = {}), which sees only their mean; take dt below {}, or \
-                 longer spans",
+                "slider '{slider}' crosses up to {} spans of its beam per step (dt = {}), and the contact force is averaged over them; use dt below {}, or longer spans",
                 short(*spans),
                 short(*dt),
                 short(dt * MOST_SPANS / spans)
             ),
             Self::Uneven { shortest, longest } => write!(
                 f,
-                "long and short steps take turns ({} to {}): what velocities across rigid joints, and of strongly damped beams, are off by in a step \
-                 then adds up, and reactions, accelerations, forces and spins err by far more than places. Let the periods and delays of controllers, and the times \
-                 of run_to, be multiples of dt",
+                "step lengths alternate between {} and {}: velocity errors at rigid joints and in strongly damped beams then accumulate, and reactions, accelerations, forces and spins are much less accurate than positions. Make the periods and delays of controllers, and the times of run_to, multiples of dt",
                 short(*shortest),
                 short(*longest)
             ),
             Self::Fast { slider, speed, limit } => write!(
                 f,
-                "slider '{slider}' runs along its beam at up to {}; from {} on that is nearly the speed of shear waves, and the kink under it is kept as it \
-                 is: contacts are then of first order in the length of spans",
+                "slider '{slider}' moves along its beam at up to {}, close to the speed of shear waves. Above {} the kink of the axis is not adapted to the contact force, and the contact is only first-order accurate in the span length; refine the mesh",
                 short(*speed),
                 short(*limit)
             ),
             Self::Drift { drift, stiffest } => {
                 write!(
                     f,
-                    "the energy changes by {} of the largest there was, loads and dampers accounted for, where the method keeps it to rounding: numbers of very \
-                     different size lose digits in a sum.",
+                    "the energy drifts by {} of its largest value (work of loads and dissipation included), although the method conserves it to rounding: numbers of very different magnitude lose digits in sums.",
                     short(*drift)
                 )?;
                 match stiffest {
                     Some((spring, stiffness)) => write!(
                         f,
-                        " '{spring}' has a stiffness of {}: join what it holds instead, or take less",
+                        " Spring '{spring}' has a stiffness of {}: replace it by a joint, or reduce the stiffness",
                         short(*stiffness)
                     ),
-                    None => write!(f, " Compare stiffnesses, masses and units"),
+                    None => write!(f, " Check the stiffnesses, masses and units"),
                 }
             }
             Self::Fed { time, dt, energy } => write!(
                 f,
-                "what dissipates gave {} back in the step (dt = {}) to t = {}, as no damper does: of the method fourth_order a part leads back in time, \
-                 and what decays by a rate near 3.557/dt grows by it. Take steps of another size, or the method energy_momentum",
+                "dampers added an energy of {} in the step (dt = {}) that ends at t = {}: the method fourth_order has a backward substep, in which motion with a decay rate near 3.557/dt grows. Use another dt, or the method energy_momentum",
                 short(*energy),
                 short(*dt),
                 short(*time)
             ),
             Self::Bend { drive, bend: MotionCurvature { time, rates: [before, after] } } => write!(
                 f,
-                "the motion of '{drive}' bends about t = {}, where its rate goes from {} to {} within a step, which takes it for smooth. Give its \
-                 schedule the times at which it bends, so that steps end there, or let it bend smoothly, as the smooth steps of the library do",
+                "the prescribed motion '{drive}' has a kink near t = {}: its rate changes from {} to {} within one step, which assumes a smooth motion. Declare the times of kinks in its schedule, so that steps end there, or use a smooth schedule such as smooth_step of std/schedules",
                 short(*time),
                 short(*before),
                 short(*after)
@@ -318,23 +307,23 @@ impl fmt::Display for Warning {
                 let dt = duration / steps;
                 write!(
                     f,
-                    "a bounce on '{spring}' took {steps} steps (dt = {} in it), in which its force went from none to {} and back: how fast what strikes it \
-                     leaves depends on the step; ",
+                    "an impact on spring '{spring}' lasted only {steps} steps (dt = {}), with a peak force of {}: the rebound velocity depends on the step size; ",
                     short(dt),
                     short(*force)
                 )?;
                 match tolerance.map(|tolerance| tolerance / BOUNCE) {
                     Some(less) if less >= StepControl::LEAST_TOLERANCE => {
-                        write!(f, "take a tolerance below {}, or a softer law", short(less))
+                        write!(f, "use a tolerance below {}, or a softer spring law", short(less))
                     }
-                    Some(_) => write!(f, "take a softer law"),
-                    None => write!(f, "take dt below {}, or a softer law", short(dt / BOUNCE)),
+                    Some(_) => write!(f, "use a softer spring law"),
+                    None => {
+                        write!(f, "use dt below {}, or a softer spring law", short(dt / BOUNCE))
+                    }
                 }
             }
             Self::Bounce { slider, dt, blows } => write!(
                 f,
-                "slider '{slider}' bounced off a beam that gives way, and a step (dt = {}) is {} times as long as such a blow may last \
-                 ({}): the beam was struck as if it were rigid; take dt below {} to see its waves, or let the slider bounce by a restitution",
+                "slider '{slider}' bounced off an elastic beam with dt = {}, which is {} times the longest duration of such an impact ({}): the beam was treated as rigid. Use dt below {} to resolve the waves, or give the slider a restitution",
                 short(*dt),
                 short(*blows),
                 short(dt / blows),

@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::loads::LoadError;
 use crate::newton::NewtonError;
-use crate::system::SystemError;
+use crate::system::{SystemError, rounded};
 
 /// Time-dependent specification of a drive or a load.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,21 +39,21 @@ pub enum StaticsError {
         source: LoadError,
     },
     /// Scene without loads.
-    #[error("no load acts at t = {time}: with nothing to carry, the scene rests as it is drawn")]
+    #[error("no load acts at t = {time}, so that the scene is in equilibrium as drawn")]
     NoLoad {
         /// Time of the loading [time].
         time: f64,
     },
     /// Path of given length for a scene with initial strains only, which no load factor scales.
-    #[error(
-        "no load acts at t = {time}: what is not at ease as drawn pulls by itself, and there is no load to follow along a path of given length"
-    )]
+    #[error("no load acts at t = {time}: only prestress acts, and arc-length control needs a load")]
     NothingGrows {
         /// Time of the loading [time].
         time: f64,
     },
     /// Drive or load that needs time.
-    #[error("'{name}' is given by {by}, which says nothing at rest, where no time passes")]
+    #[error(
+        "'{name}' is given by {by}, which is undefined in an equilibrium, where no time passes"
+    )]
     InTime {
         /// Name of the drive or load.
         name: String,
@@ -62,7 +62,7 @@ pub enum StaticsError {
     },
     /// Prescribed motion under arc-length control.
     #[error(
-        "{drive}: a motion that is given is put on by load steps alone, not along a path of given length"
+        "{drive}: prescribed motion can only be applied in load steps, not with arc-length control"
     )]
     Driven {
         /// Name of the drive.
@@ -80,7 +80,7 @@ pub enum StaticsError {
     },
     /// Unrestrained scene whose loads lead to no equilibrium.
     #[error(
-        "'{scene}' is not held: {movements} of its movements meet no resistance as it is drawn, and it sinks to no rest under its loads: {reason}"
+        "scene '{scene}' is not restrained: {movements} of its degrees of freedom have no stiffness as drawn, and no equilibrium was found: {reason}"
     )]
     Loose {
         /// Name of the scene.
@@ -91,7 +91,7 @@ pub enum StaticsError {
         reason: Box<StepFailure>,
     },
     /// No equilibrium near the last one.
-    #[error("no equilibrium of '{scene}' was found near that at load factor {reached}: {reason}")]
+    #[error("no equilibrium of scene '{scene}' was found beyond load factor {}: {reason}", rounded(*reached))]
     Lost {
         /// Name of the scene.
         scene: String,
@@ -102,7 +102,7 @@ pub enum StaticsError {
     },
     /// No equilibrium beyond the last point of a path.
     #[error(
-        "the path of '{scene}' leads no further than its point {points}, at load factor {reached}: {reason}"
+        "the load path of scene '{scene}' ends at point {points}, at load factor {}: {reason}", rounded(*reached)
     )]
     PathLost {
         /// Name of the scene.
@@ -115,7 +115,7 @@ pub enum StaticsError {
         reason: Box<StepFailure>,
     },
     /// Search stopped by the caller.
-    #[error("stopped at load factor {reached}")]
+    #[error("interrupted at load factor {}", rounded(*reached))]
     Interrupted {
         /// Last load factor with an equilibrium [-].
         reached: f64,
@@ -129,10 +129,10 @@ pub enum StepFailure {
     #[error(transparent)]
     Newton(#[from] NewtonError),
     /// The solution is far from the last equilibrium.
-    #[error("the next one is far away, as where a structure snaps through")]
+    #[error("the next equilibrium is far from the last one (limit point, snap-through)")]
     Far,
     /// Endless movement of an unrestrained scene.
-    #[error("it moves on and on")]
+    #[error("the motion under the loads does not end (a mechanism or a missing support)")]
     Endless,
     /// Slider that would leave its master.
     #[error("slider '{slider}' would leave its beam at its {end}")]

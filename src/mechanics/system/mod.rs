@@ -16,6 +16,7 @@ pub use elements::{
     LoadAccount, MaterialDamping, MotionCurvature, Origin, PointMass, ShortBounce, SpeedLaw,
     Spring, SpringKind, SpringLaw,
 };
+pub(crate) use errors::rounded;
 pub use errors::{
     Approach, SliderError, SliderParts, SystemError, TrackError, Turning, check_name,
     refusal as refusal_of_name,

@@ -2,8 +2,8 @@
 
 fn range(available: usize) -> String {
     match available {
-        0 => ": all of it is held or driven".to_owned(),
-        _ => format!("; ask for 1 to {available}"),
+        0 => ": all movements are fixed or prescribed".to_owned(),
+        _ => format!("; request 1 to {available}"),
     }
 }
 
@@ -11,7 +11,7 @@ fn range(available: usize) -> String {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum VibrationError {
     /// Number of modes outside its range.
-    #[error("{asked} modes were asked for, but the scene has {available}, one for each movement with inertia{}", range(*available))]
+    #[error("{asked} modes requested, but the scene has {available}, one per degree of freedom with inertia{}", range(*available))]
     Count {
         /// Requested number of modes.
         asked: usize,
@@ -20,7 +20,7 @@ pub enum VibrationError {
     },
     /// Follower load, which makes the stiffness unsymmetric.
     #[error(
-        "load '{load}' turns with the beam: its stiffness is not symmetric, and the vibration may grow by itself; give it a fixed direction, or simulate"
+        "follower load '{load}' makes the stiffness unsymmetric, and vibration may be unstable (flutter); give the load a fixed direction, or simulate the motion"
     )]
     Follower {
         /// Name of the load.
@@ -28,7 +28,7 @@ pub enum VibrationError {
     },
     /// Search that did not converge.
     #[error(
-        "the modes did not settle in {restarts} restarts of the search; ask for a few more or fewer of them, or take a coarser mesh"
+        "the modes did not converge in {restarts} restarts of the Lanczos method; request a few more or fewer modes, or use a coarser mesh"
     )]
     Unsettled {
         /// Number of restarts.
@@ -36,7 +36,7 @@ pub enum VibrationError {
     },
     /// Damped modes of a large scene.
     #[error(
-        "the scene has {unknowns} unknowns, and damped modes are found with up to 240: take a coarser mesh; damping_ratios of modes are right to first order in the damping"
+        "the scene has {unknowns} unknowns, but damped modes are available up to 240; use a coarser mesh, or damping_ratios of undamped modes (first order in the damping)"
     )]
     LargeDamped {
         /// Number of unknowns of the scene.
@@ -44,17 +44,17 @@ pub enum VibrationError {
     },
     /// Damped modes of a scene with a part without inertia.
     #[error(
-        "something in the scene moves without inertia, or slides, and may creep in ways that its modes do not tell: give it inertia; damping_ratios of modes are right to first order in the damping"
+        "the scene has degrees of freedom without inertia, or sliders, for which damped modes are not available; give every part inertia, or use damping_ratios of undamped modes (first order in the damping)"
     )]
     LightDamped,
     /// Damped modes that were not found.
     #[error(
-        "the damped modes of the scene are not found: its damping and its stiffness are too far apart for a matrix of both; take a coarser mesh or less damping, join or hold what a damper of that strength holds as good as rigidly, or simulate and fit the decay; damping_ratios of modes are right to first order in the damping"
+        "the damped modes were not found: damping and stiffness differ too much in magnitude; use a coarser mesh or less damping, replace very strong dampers by joints or supports, or use damping_ratios of undamped modes (first order in the damping)"
     )]
     Damping,
     /// Modes that are lost in rounding.
     #[error(
-        "rounding hides mode {modes}, counted from 0: its residual is {residual:.1e}, more than 1e-6; of modes below it there are {modes}: ask for no more, take a coarser mesh, or make the largest stiffness or the smallest inertia less extreme"
+        "mode {modes} (from 0) is inaccurate because of rounding: its residual is {residual:.1e}, but at most 1e-6 is allowed; request at most {modes} modes, use a coarser mesh, or reduce the largest stiffness or increase the smallest inertia"
     )]
     Hidden {
         /// Number of modes below the first lost one.
@@ -64,18 +64,18 @@ pub enum VibrationError {
     },
     /// Count of modes that is falsified by rounding.
     #[error(
-        "rounding hides how many modes there are below those that were found; take a coarser mesh, or make the largest stiffness or the smallest inertia less extreme"
+        "modes may be missing below those that were found, because of rounding; use a coarser mesh, or reduce the largest stiffness or increase the smallest inertia"
     )]
     Uncounted,
     /// Forces of the present configuration that are undetermined.
     #[error("{0}")]
     NoForces(String),
     /// Search stopped by the caller.
-    #[error("stopped while modes were looked for")]
+    #[error("interrupted during the search for modes")]
     Interrupted,
     /// Stiffness that no multiple of the inertia makes positive definite.
     #[error(
-        "a movement without inertia is unstable in this configuration: it has no modes; give sections a rotary inertia, or take a smaller load"
+        "a degree of freedom without inertia is unstable in this configuration, so that there are no modes; give sections a rotary inertia, or use a smaller load"
     )]
     Indefinite,
     /// Stiffness or inertia that is not finite.

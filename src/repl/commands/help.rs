@@ -45,7 +45,7 @@ pub fn help(shell: &mut Shell, operand: &str) -> CommandOutcome {
             if texts.is_empty() {
                 let told = Diagnostic::general(unknown.to_string());
                 return shell.refuse(&match unknown.is_strange() {
-                    true => told.with_hint(":help topics lists what there is"),
+                    true => told.with_hint(":help topics lists all topics"),
                     false => told.with_hint(unknown.hint()),
                 });
             }
@@ -80,7 +80,7 @@ fn commands(shell: &mut Shell) -> CommandOutcome {
     page.gap();
     page.paragraph(
         "NAME? or ?NAME explains a variable, a function, a type, an option or a topic: sim?, beam?, EA?, loops?. :help topics lists \
-         them all. Anything else that is typed is evaluated.",
+         them all. All other input is evaluated.",
     );
     show(shell, &[drawn(shell, &page)])
 }

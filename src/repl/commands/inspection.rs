@@ -104,7 +104,7 @@ pub fn show(shell: &mut Shell, operand: &str) -> CommandOutcome {
             Ok(time) => Some(time),
             Err(_) => {
                 let told = Diagnostic::general(format!("'{time}' is not a time"));
-                let hint = "write :show, :show T with a time that has passed, or :show #{ … } with the options of plot_motion";
+                let hint = "write :show, :show T with a time up to the present, or :show #{ … } with options of plot_motion";
                 return shell.refuse(&told.with_hint(hint));
             }
         },
@@ -141,8 +141,8 @@ pub fn show(shell: &mut Shell, operand: &str) -> CommandOutcome {
     draw(shell, |simulation, screen| match (drawn, screen) {
         _ if time.is_some_and(|time| !(0.0..=simulation.time()).contains(&time)) => {
             let now = format_number(simulation.time());
-            Err(ScriptError::new("there is no configuration at this time")
-                .hint(format!("the simulation has run from t = 0 to {now}")))
+            Err(ScriptError::new("no configuration is stored for this time")
+                .hint(format!("give a time from 0 to {now}")))
         }
         (Some(Err(error)), _) => Err(error),
         (Some(Ok(text)), ReplyTarget::Terminal(_)) => Ok(text),
@@ -160,7 +160,7 @@ pub(super) fn options_of(
 ) -> Result<Map, CommandOutcome> {
     match shell.session_mut().peek(text) {
         Reply::Value(value) => value.try_cast::<Map>().ok_or_else(|| {
-            let told = Diagnostic::general(format!("'{text}' is no map of options"));
+            let told = Diagnostic::general(format!("'{text}' is not a map of options"));
             shell.refuse(&told.with_hint(format!("for example {example}")))
         }),
         failed => Err(shell.tell(failed)),

@@ -29,7 +29,7 @@ pub fn known(shell: &mut Shell, name: &str) -> Option<NameInfo> {
     let mut page = HelpPage::default();
     if name == ANSWER {
         page.heading(ANSWER);
-        page.paragraph("At the prompt, the value of the last input that had one.");
+        page.paragraph("Value of the last input that had one (at the prompt only).");
         return Some(NameInfo { shown: None, page });
     }
     for function in shell.session().functions().filter(|function| function.name == name) {
@@ -80,7 +80,7 @@ pub fn in_language(shell: &Shell, name: &str) -> String {
 fn variable(shell: &Shell, name: &str, value: &Dynamic) -> NameInfo {
     let session = shell.session();
     let kind = match (name, session.variables().is_constant(name)) {
-        (ANSWER, Some(false)) => "the value of the last input that had one",
+        (ANSWER, Some(false)) => "value of the last input that had one",
         (_, Some(true)) => "a constant",
         _ => "a variable",
     };

@@ -97,7 +97,7 @@ fn has_one_row(shell: &Shell) -> bool {
 
 fn note_one_state(shell: &mut Shell) {
     if has_one_row(shell) && matches!(shell.screen(), ReplyTarget::Terminal(_)) {
-        shell.note("note: there is one state so far; :run T or :step 10 makes a curve");
+        shell.note("note: there is only one state so far; :run T or :step 10 adds more");
     }
 }
 
@@ -151,12 +151,13 @@ fn plot_curves(shell: &mut Shell, found: Vec<PlotPart>, options: Option<Map>) ->
         return CommandOutcome::Good;
     };
     if let Some(empty) = curves.iter().find(|curve| !curve.has_points()) {
-        let told = format!("'{}' is nowhere a finite number", empty.name);
+        let told = format!("'{}' has no finite value", empty.name);
         return shell.refuse(&Diagnostic::general(told).with_hint("there is nothing to draw"));
     }
     if let Some(other) = curves.iter().find(|curve| curve.over != first) {
         let (one, two) = (first.in_words(), other.over.in_words());
-        let told = format!("'{}' goes over {one} and '{}' over {two}", curves[0].name, other.name);
+        let told =
+            format!("'{}' is plotted over {one}, but '{}' over {two}", curves[0].name, other.name);
         return shell.refuse(&Diagnostic::general(told).with_hint("plot them one after the other"));
     }
     let is_one_state =
@@ -233,24 +234,23 @@ fn expression(shell: &mut Shell, text: &str) -> PlotData {
             return Ok((vec![PlotCurve { name: text.to_owned(), over, points }], None));
         }
         PlotShape::None(why) => {
-            let told = format!("'{text}' cannot be drawn: {why}");
+            let told = format!("'{text}' cannot be plotted: {why}");
             let hint = match value.is_bool() {
                 true => "write if … { 1 } else { 0 }",
                 false => {
-                    "draw a number or a vector over time, an array of numbers, a pair of arrays [x, y], or columns: :plot energy"
+                    "plot a number or a vector over time, an array of numbers, a pair of arrays [x, y], or columns: :plot energy"
                 }
             };
             return Err(shell.refuse(&Diagnostic::general(told).with_hint(hint)));
         }
         point => point,
     };
-    let alone =
-        |shell: &Shell| {
-            let told = format!("'{text}' is one number, and no curve");
-            shell.refuse(&Diagnostic::general(told).with_hint(
-                "give an array of numbers, or ask a simulation: it is followed over time",
+    let alone = |shell: &Shell| {
+        let told = format!("'{text}' is a single number, not a curve");
+        shell.refuse(&Diagnostic::general(told).with_hint(
+                "give an array of numbers, or an expression with a simulation, which is plotted over time",
             ))
-        };
+    };
     let Some(subject) = subject else { return Err(alone(shell)) };
     let Followed { points, words } = follow(shell, &subject, text)?;
     let asks = mentions(shell, text).next().is_some();
@@ -310,7 +310,7 @@ fn subject(shell: &Shell, text: &str) -> Result<Option<SimulationHandle>, Diagno
     match (named.next(), named.next()) {
         (Some(one), Some(other)) => {
             let told = format!(
-                "'{text}' asks two simulations, '{}' and '{}', whose states need not be at the same times",
+                "'{text}' uses two simulations, '{}' and '{}', whose states may have different times",
                 one.name(),
                 other.name()
             );

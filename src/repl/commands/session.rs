@@ -16,13 +16,13 @@ pub fn save(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let path = Path::new(operand);
     // Files that this session did not write, or that were edited since, are not overwritten.
     if !shell.may_write(path) {
-        let told = format!("'{operand}' is there already, and was not written by this session");
+        let told = format!("'{operand}' exists and was not written by this session");
         return shell.refuse(&Diagnostic::general(told).with_hint("choose another name"));
     }
     let script = match shell.session().script() {
         Ok(script) => script,
         Err(why) => {
-            shell.note("the session cannot be saved, because it would not be a correct script:");
+            shell.note("the session cannot be saved, because the script would have an error:");
             return shell.refuse(&why);
         }
     };
@@ -32,10 +32,12 @@ pub fn save(shell: &mut Shell, operand: &str) -> CommandOutcome {
         return shell.refuse(&Diagnostic::general(format!("cannot save the session: {error}")));
     }
     for name in redefined {
-        shell.note(&format!("'{name}' was defined more than once: in the script its last definition holds everywhere"));
+        shell.note(&format!(
+            "'{name}' was defined more than once; the script uses its last definition everywhere"
+        ));
     }
     if has_returned {
-        shell.note("inputs that return are only comments in the script");
+        shell.note("inputs with a return statement are saved as comments");
     }
     shell.note_saved(path, script);
     shell.print(&format!("saved to {operand}"));

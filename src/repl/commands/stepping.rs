@@ -27,7 +27,7 @@ pub fn step(shell: &mut Shell, operand: &str) -> CommandOutcome {
 
 pub fn run(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let Ok(end) = operand.parse::<f64>() else {
-        let hint = "write :run T, with the time to run to";
+        let hint = "write :run T with the end time T";
         return shell.refuse(&not_a_number(operand, "a time").with_hint(hint));
     };
     if !shell.is_watching() || !end.is_finite() || shell.next_stop(end).is_none() {

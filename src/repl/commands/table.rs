@@ -29,7 +29,7 @@ pub const HELP: Command = Command {
     operand: CommandOperand::Name,
     placeholder: "[NAME]",
     summary: "explains a function, a type, a topic or a command; ?name does the same",
-    doc: "Without a name it lists the commands; :help topics lists all that has a page.",
+    doc: "Without a name it lists the commands; :help topics lists all topics.",
     body: help::help,
 };
 
@@ -38,7 +38,7 @@ pub const QUIT: Command = Command {
     name: ":quit",
     operand: CommandOperand::Nothing,
     placeholder: "",
-    summary: "leaves; so does Ctrl-D",
+    summary: "exits; so does Ctrl-D",
     doc: "The words quit and exit do the same.",
     body: session::quit,
 };
@@ -58,15 +58,15 @@ pub const COMMANDS: &[Command] = &[
         name: ":step",
         operand: CommandOperand::Number,
         placeholder: "[COUNT]",
-        summary: "takes a step of the last simulation, or so many",
-        doc: "The last simulation is the one that was started, loaded, forked or stepped last.",
+        summary: "takes one or COUNT steps of the last simulation",
+        doc: "The last simulation is the one most recently started, loaded, forked or stepped.",
         body: stepping::step,
     },
     Command {
         name: ":run",
         operand: CommandOperand::Number,
         placeholder: "TIME",
-        summary: "runs the last simulation to a time; Ctrl-C stops it after the step that it is in",
+        summary: "runs the last simulation to a time; Ctrl-C stops it after the current step",
         doc: "",
         body: stepping::run,
     },
@@ -74,15 +74,15 @@ pub const COMMANDS: &[Command] = &[
         name: ":back",
         operand: CommandOperand::Number,
         placeholder: "[COUNT]",
-        summary: "goes back a step of the last simulation, or so many, to the very state that was",
-        doc: "Snapshots reach back as far as their memory allows: `withy repl --snapshots MB`.",
+        summary: "goes back one or COUNT steps of the last simulation, to exactly the same state",
+        doc: "Snapshots are kept as far back as their memory allows: `withy repl --snapshots MB`.",
         body: stepping::back,
     },
     Command {
         name: ":invariants",
         operand: CommandOperand::Nothing,
         placeholder: "",
-        summary: "shows how well energy, momenta and gaps were kept",
+        summary: "shows the drift of energy, momenta and gaps",
         doc: "",
         body: inspection::invariants,
     },
@@ -90,64 +90,56 @@ pub const COMMANDS: &[Command] = &[
         name: ":plot",
         operand: CommandOperand::Curves,
         placeholder: "[CURVES, OPTIONS]",
-        summary: "draws columns of the history, or any expression, over time; the energies unless given",
-        doc: "Curves are separated by commas. Each is a column, such as `energy`, or an expression. One that is a number or a vector, such as \
-              `sim.position(rod.end).x`, is evaluated in every state in which the simulation was: the one that it names, or else the last. \
-              The states are those that are kept to go back to; where some are forgotten the run is made again in a copy, \
-              without functions set by sim.at, and it is said whether it is the same run. The simulation itself stays where it is. \
-              An array of numbers is drawn over its index, a pair of arrays [x, y] and an array of points as they are. \
-              `:plot drift` shows how well the invariants are kept. Options are those of plot, behind the curves: \
-              `:plot kinetic, strain, #{ y_log: true, x_limits: [0, 1] }`. Pictures for files are drawn by plot and plot_history.",
+        summary: "plots columns of the history, or any expression, over time; by default the energies",
+        doc: "Curves are separated by commas. Each is a column, such as `energy`, or an expression. A number or a vector, such as `sim.position(rod.end).x`, is evaluated in every stored snapshot of the simulation that it names, or of the last one. If early snapshots were discarded, the run is repeated in a copy, without functions set by sim.at, and a note says whether both runs are equal. The simulation itself does not change. An array of numbers is plotted over its index, a pair of arrays [x, y] or an array of points as a curve. `:plot drift` shows the drift of the invariants. Options of plot follow the curves: \
+              `:plot kinetic, strain, #{ y_log: true, x_limits: [0, 1] }`. For pictures in files use plot and plot_history.",
         body: plotting::plot,
     },
     Command {
         name: ":show",
         operand: CommandOperand::OptionsOf("plot_motion(0, \"\", "),
         placeholder: "[TIME] [OPTIONS]",
-        summary: "draws the beams as they are now, or as they were at a time",
-        doc: "The start is dotted behind them. With options, those of plot_motion, as in `:show #{ trace: [rod.end], magnify: 10 }`, what is dotted is \
-              what they ask for: earlier snapshots with `every` or `from`, and paths. Pictures for files are drawn by plot_motion.",
+        summary: "draws the beams at the present time, or at an earlier one",
+        doc: "The initial configuration is dotted. Options of plot_motion, as in `:show #{ trace: [rod.end], magnify: 10 }`, select other dotted configurations (`every`, `from`) and paths. For pictures in files use plot_motion.",
         body: inspection::show,
     },
     Command {
         name: ":along",
         operand: CommandOperand::OneOf(NAMES),
         placeholder: "[QUANTITY]",
-        summary: "draws a quantity along the beams as they are now; the bending moment M unless given",
-        doc: "Quantities are N, Q, M, axial_strain, shear_strain, curvature, strain_energy and speed. Pictures for files are drawn by plot_along.",
+        summary: "draws a quantity along the beams at the present time; by default the bending moment M",
+        doc: "Quantities are N, Q, M, axial_strain, shear_strain, curvature, strain_energy and speed. For pictures in files use plot_along.",
         body: inspection::along,
     },
     Command {
         name: ":view",
         operand: CommandOperand::File,
         placeholder: "[FILE]",
-        summary: "writes a page on which the last simulation moves, to be opened in a browser",
-        doc: "The page is view.html in the output folder unless another name is given. More can be chosen with write_viewer.",
+        summary: "writes an animated page of the last simulation for a browser",
+        doc: "The page is view.html in the output folder unless another name is given. write_viewer has more options.",
         body: inspection::view,
     },
     Command {
         name: ":watch",
         operand: CommandOperand::Expression,
         placeholder: "[EXPRESSION]",
-        summary: "shows an expression after every step from now on; without one, watches no more",
-        doc: "Several expressions can be watched. After inputs that are no commands they are shown once, if a simulation has moved.",
+        summary: "shows an expression after every step from now on; without one, ends all watching",
+        doc: "Several expressions can be watched. After other inputs they are shown once if a simulation has advanced.",
         body: stepping::watch,
     },
     Command {
         name: ":time",
         operand: CommandOperand::Expression,
         placeholder: "INPUT",
-        summary: "evaluates an input and says how long it takes, the first time and again",
-        doc: "It is done again, each time from the same variables, which are then as the first time left them, until the median is known to a hundredth, or for two seconds. What it \
-              prints is printed once. An input that moves a simulation, changes a scene, writes files or takes more than a second is timed \
-              once. The least time is that of the work itself; reading the text counts the first time only.",
+        summary: "evaluates an input repeatedly and shows its run time",
+        doc: "The input is repeated with the same variables, which afterwards have the values of the first evaluation, until the median is known to 1 %, or for two seconds. Its output is printed once. An input that advances a simulation, changes a scene, writes files or takes more than a second is timed once. The first time includes parsing.",
         body: timing::time,
     },
     Command {
         name: ":explain",
         operand: CommandOperand::Nothing,
         placeholder: "",
-        summary: "says what the last simulation uses, and what it therefore leaves out",
+        summary: "lists the features that the last simulation uses and omits",
         doc: "",
         body: inspection::explain,
     },
@@ -155,9 +147,8 @@ pub const COMMANDS: &[Command] = &[
         name: ":save",
         operand: CommandOperand::File,
         placeholder: "FILE",
-        summary: "writes the inputs that worked to a script that can be run",
-        doc: "Of a function that was defined again, only the last definition is written. A file that this session has not \
-              written, or that was changed since, is not overwritten.",
+        summary: "writes the successful inputs to a script",
+        doc: "Only the last definition of a function is written. A file that was not written by this session, or was changed since, is not overwritten.",
         body: session::save,
     },
     Command {
@@ -209,7 +200,7 @@ pub fn find(name: &str) -> Result<&'static Command, Diagnostic> {
         several => {
             let names: Vec<&str> = several.iter().map(|one| one.name).collect();
             Err(Diagnostic::general(format!("'{name}' can be {}", names.join(" or ")))
-                .with_hint("write more of it"))
+                .with_hint("type more letters"))
         }
     }
 }

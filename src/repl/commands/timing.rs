@@ -10,7 +10,7 @@ use crate::script::diagnose::Diagnostic;
 
 pub fn time(shell: &mut Shell, operand: &str) -> CommandOutcome {
     if operand.is_empty() {
-        let told = Diagnostic::general("there is nothing to time");
+        let told = Diagnostic::general("no input to time");
         return shell.refuse(&told.with_hint("write :time followed by an input"));
     }
     let before = Footprint::of(shell.session());
@@ -32,10 +32,8 @@ pub fn time(shell: &mut Shell, operand: &str) -> CommandOutcome {
     };
     let once = |why: &str| format!("took {}, timed once: {why}", in_words(took));
     match change {
-        Some(change) => {
-            shell.print(&once(&format!("it {change}, and must not do so again unasked")))
-        }
-        None if took >= LONGEST => shell.print(&once("it takes long")),
+        Some(change) => shell.print(&once(&format!("it {change} and is not repeated"))),
+        None if took >= LONGEST => shell.print(&once("it takes more than a second")),
         None => return repeat(shell, operand, took),
     }
     CommandOutcome::Good
@@ -58,12 +56,12 @@ fn repeat(shell: &mut Shell, operand: &str, first: Duration) -> CommandOutcome {
     shell.print(&match (sampling.figures(), &outcome) {
         (Some(figures), Ok(()) | Err(Reply::Interrupted)) => told(&first, &figures),
         (_, Err(Reply::Failed(why))) => {
-            format!("took {first}, timed once: done again, it fails: {}", why.message)
+            format!("took {first}, timed once: it fails when repeated: {}", why.message)
         }
         _ => format!("took {first}, timed once"),
     });
     if let Some(change) = before.change(shell.session()) {
-        shell.note(&format!("note: done again, it {change}"));
+        shell.note(&format!("note: when repeated, it {change}"));
     }
     match outcome {
         Ok(()) | Err(Reply::Failed(_)) => CommandOutcome::Good,
@@ -80,8 +78,8 @@ fn told(first: &str, figures: &Figures) -> String {
         runs => format!("{runs} runs"),
     };
     format!(
-        "took {first} the first time\n\
-         again: least {least}, median {median}, half of {runs} from {low} to {high}"
+        "first run {first}\n\
+         {runs} more: minimum {least}, median {median}, middle half {low} to {high}"
     )
 }
 

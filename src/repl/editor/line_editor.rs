@@ -140,7 +140,7 @@ impl Editor {
         let Some(file) = self.history.clone().filter(|file| file.exists()) else { return };
         // Reading a pipe or a device would block the session.
         if !file.is_file() {
-            let error = ReadlineError::from(io::Error::other("it is no ordinary file"));
+            let error = ReadlineError::from(io::Error::other("it is not a regular file"));
             return self.give_up("read", &file, &error);
         }
         match self.lines.load_history(&file) {
@@ -171,7 +171,7 @@ impl Editor {
     fn give_up(&mut self, what: &str, file: &Path, error: &ReadlineError) {
         self.history = None;
         self.note = Some(format!(
-            "note: cannot {what} the history '{}': {error}; this session keeps none (WITHY_HISTORY=FILE names another one)",
+            "note: cannot {what} the history file '{}': {error}; the inputs of this session are not stored (WITHY_HISTORY=FILE selects another file)",
             file.display()
         ));
     }

@@ -7,7 +7,7 @@ use super::{Keyboard, PagerOutcome, Pressed};
 
 /// Returns to the beginning of the line and clears it.
 const CLEAR: &str = "\r\x1b[K";
-const KEYS: &str = "space: more, b: back, /: search, q: leave";
+const KEYS: &str = "space: next page, b: back, /: search, q: exit";
 
 enum PagerAction {
     Page,
@@ -120,7 +120,7 @@ pub fn walk(
             (Ok(_), None) => return Ok(PagerOutcome::Interrupted),
             (Ok(PagerAction::Search | PagerAction::SearchOn), _) if !pages.word.is_empty() => {
                 pages.search().unwrap_or_else(|| {
-                    note = format!("'{}' is nowhere below", pages.word);
+                    note = format!("'{}' was not found below", pages.word);
                     pages.shown.end..pages.shown.end
                 })
             }

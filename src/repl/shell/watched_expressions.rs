@@ -38,9 +38,11 @@ impl Shell {
             let has_moved = self.session.note_moved(&before);
             let told = match reply {
                 Reply::Value(_) | Reply::Done if has_moved => {
-                    let told = format!("the watched expression '{expression}' moves a simulation");
-                    Diagnostic::general(told)
-                        .with_hint("it is watched no more; watch what only looks")
+                    let told =
+                        format!("the watched expression '{expression}' advances a simulation");
+                    Diagnostic::general(told).with_hint(
+                        "it is no longer watched; watch an expression that changes nothing",
+                    )
                 }
                 Reply::Value(value) => {
                     let shown = present(self.session.catalog(), &value, self.width());

@@ -134,7 +134,7 @@ fn after_a_run_the_result_is_seen_and_the_rest_can_be_reached() {
         assert!(all.contains(part), "{part}:\n{all}");
     }
     assert!(
-        all.contains("… and 28 lines more: withy run withy-exercises/beams/stocky.rhai"),
+        all.contains("… and 28 more lines: withy run withy-exercises/beams/stocky.rhai"),
         "{all}"
     );
     assert!(all.contains("↑↓ scroll"), "{all}");
@@ -172,7 +172,7 @@ fn passing_says_so_and_what_comes_next() {
     for part in [
         "Passed.",
         "1 of 23 passed",
-        "n goes on to beams/rectangle",
+        "n continues with beams/rectangle",
         "s shows a solution",
         "s solution",
     ] {

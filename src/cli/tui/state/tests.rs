@@ -22,7 +22,7 @@ fn pass(state: &mut TuiState) {
 fn next_asks_before_an_exercise_is_left_that_is_not_passed() {
     let mut state = at(1);
     assert_eq!(press(&mut state, "n"), KeyAction::Nothing);
-    assert!(state.notice.as_ref().unwrap().contains("n once more"));
+    assert!(state.notice.as_ref().unwrap().contains("n again skips"));
     assert_eq!(press(&mut state, "n"), KeyAction::Open(&EXERCISES[1]));
     let mut state = at(1);
     assert_eq!(press(&mut state, "njn"), KeyAction::Nothing, "not one after the other");
@@ -49,7 +49,7 @@ fn the_solution_comes_after_passing_or_after_all_hints() {
     let mut state = at(1);
     press(&mut state, "s");
     assert_eq!(state.page, ScreenPage::Task);
-    assert!(state.notice.as_ref().unwrap().contains("when you have passed"));
+    assert!(state.notice.as_ref().unwrap().contains("after the exercise is passed"));
     assert_eq!(press(&mut state, "h"), KeyAction::Hint);
     state.hints = state.exercise.judge().hints.len();
     press(&mut state, "h");
@@ -94,7 +94,7 @@ fn keys_scroll_within_the_page_and_unknown_ones_are_told() {
         assert_eq!(state.top, ScrollPosition::Line(top), "{key:?}");
     }
     press(&mut state, "w");
-    assert!(state.notice.as_ref().unwrap().contains("the key w does nothing here"));
+    assert!(state.notice.as_ref().unwrap().contains("the key w has no function here"));
     press(&mut state, "j");
     assert_eq!(state.notice, None);
 }

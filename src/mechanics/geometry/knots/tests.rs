@@ -49,8 +49,8 @@ fn insertion_repeats_a_knot_up_to_the_degree() {
     assert_eq!(knots.insert(0.25, 1).unwrap().breaks(), [0.0, 0.25, 0.5, 1.0]);
     assert_eq!(
         knots.insert(0.5, 3).unwrap_err().to_string(),
-        "knots: the interior knot 0.5 would have multiplicity 4; at most 3, the degree, is allowed, \
-         else the curve is torn there"
+        "knots: the interior knot 0.5 has multiplicity 4, but at most 3 (the degree) is allowed for a \
+         continuous curve"
     );
     for end in [0.0, 1.0, 2.0, f64::NAN] {
         assert!(matches!(knots.insert(end, 1), Err(GeometryError::InsertOutside { .. })));
@@ -69,11 +69,11 @@ fn bad_knots_are_refused_with_reasons() {
     );
     assert_eq!(
         refusal(1, &[0.0, 0.0, f64::NAN, 1.0]),
-        "knot 2: NaN is not a finite number; give a finite one"
+        "knot 2 is NaN, but must be a finite number"
     );
     assert_eq!(
         refusal(1, &[0.0, 0.0, 1.0, f64::INFINITY]),
-        "knot 3: inf is not a finite number; give a finite one"
+        "knot 3 is inf, but must be a finite number"
     );
     assert_eq!(
         refusal(1, &[0.0, 0.0, 0.5, 0.3, 1.0, 1.0]),
@@ -81,7 +81,7 @@ fn bad_knots_are_refused_with_reasons() {
     );
     assert_eq!(
         refusal(1, &[2.0, 2.0, 2.0, 2.0]),
-        "knots: all of them are 2; the last knot must be larger than the first"
+        "knots: all are 2, but the last knot must be larger than the first"
     );
     assert_eq!(
         refusal(2, &[0.0, 0.0, 0.5, 1.0, 1.0, 1.0]),
@@ -95,10 +95,12 @@ fn bad_knots_are_refused_with_reasons() {
     );
     assert_eq!(
         refusal(1, &[0.0, 0.0, 0.5, 0.5, 1.0, 1.0]),
-        "knots: the interior knot 0.5 would have multiplicity 2; at most 1, the degree, is allowed, \
-         else the curve is torn there"
+        "knots: the interior knot 0.5 has multiplicity 2, but at most 1 (the degree) is allowed for a \
+         continuous curve"
     );
-    assert!(refusal(1, &[0.0, 0.0, 0.3, 0.1 + 0.2, 1.0, 1.0]).contains("make the two equal"));
+    assert!(
+        refusal(1, &[0.0, 0.0, 0.3, 0.1 + 0.2, 1.0, 1.0]).contains("make the two values equal")
+    );
     assert!(refusal(1, &[-1e308, -1e308, 1e308, 1e308]).contains("length of the domain"));
 }
 
@@ -107,9 +109,9 @@ fn impossible_uniform_knots_are_refused_before_anything_is_allocated() {
     let refusal = |spans, degree, continuity| {
         KnotVector::uniform(spans, degree, continuity).unwrap_err().to_string()
     };
-    let allowed = "at least 1 and at most 400000 are allowed";
-    assert_eq!(refusal(0, 3, 2), format!("spans: 0 asked for; {allowed}"));
-    assert_eq!(refusal(1_000_000_000, 3, 2), format!("spans: 1000000000 asked for; {allowed}"));
+    let allowed = "but 1 to 400000 are allowed";
+    assert_eq!(refusal(0, 3, 2), format!("spans: 0 requested, {allowed}"));
+    assert_eq!(refusal(1_000_000_000, 3, 2), format!("spans: 1000000000 requested, {allowed}"));
     assert!(refusal(usize::MAX, 3, 2).contains(allowed));
     assert_eq!(refusal(4, 3, 3), "continuity 3 is not possible with degree 3; allowed are 0 to 2");
     assert_eq!(refusal(4, 0, 0), "degree 0 is not available; allowed are 1 to 10");

@@ -50,7 +50,7 @@ pub const SLIDING_RULES: &[RuleEntry] = &[CONSERVING, KINKED, EXACT, RELAXED];
 const CONSERVING: RuleEntry = RuleEntry {
     rule: SlidingRule::Conserving,
     name: "conserving",
-    summary: "keeps energy, both momenta and the gap to rounding at any step; the default",
+    summary: "conserves energy and both momenta, and keeps the gap closed, to rounding at any step size; the default",
     claims: RuleClaims { energy: true, angular_momentum: true, gap: true },
     source: "withy, docs/theory.md, section 10",
 };
@@ -58,7 +58,7 @@ const CONSERVING: RuleEntry = RuleEntry {
 const KINKED: RuleEntry = RuleEntry {
     rule: SlidingRule::Kinked,
     name: "kinked",
-    summary: "keeps energy, both momenta and the gap, on the axis as the contact force kinks it: second order in the mesh, forces at their own time",
+    summary: "conserves the same on an axis with a kink under the contact force: second order in the mesh, forces at the current time",
     claims: RuleClaims { energy: true, angular_momentum: true, gap: true },
     source: "withy, docs/theory.md, section 10.1",
 };
@@ -66,7 +66,7 @@ const KINKED: RuleEntry = RuleEntry {
 const EXACT: RuleEntry = RuleEntry {
     rule: SlidingRule::Exact,
     name: "exact",
-    summary: "keeps energy and gap; for comparison: angular momentum is lost at second order",
+    summary: "for comparison: conserves energy and keeps the gap closed; angular momentum has an error of second order",
     claims: RuleClaims { energy: true, angular_momentum: false, gap: true },
     source: "Sibileau & Muñoz, equations 15 and 17",
 };
@@ -74,7 +74,7 @@ const EXACT: RuleEntry = RuleEntry {
 const RELAXED: RuleEntry = RuleEntry {
     rule: SlidingRule::Relaxed,
     name: "relaxed",
-    summary: "keeps energy and both momenta; for comparison: the gap drifts, and a step may have no solution",
+    summary: "for comparison: conserves energy and both momenta; the gap drifts, and a step may have no solution",
     claims: RuleClaims { energy: true, angular_momentum: true, gap: false },
     source: "Sibileau & Muñoz, equations 11 to 14",
 };

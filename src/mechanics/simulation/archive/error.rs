@@ -6,7 +6,7 @@ use crate::simulation::SimulationError;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ArchiveError {
     /// Load with a script function.
-    #[error("{load} follows {function}, and functions of a script cannot be stored")]
+    #[error("{load} uses {function}, and functions of a script cannot be stored in a restart file")]
     Function {
         /// Name of the load.
         load: String,
@@ -14,24 +14,24 @@ pub enum ArchiveError {
         function: String,
     },
     /// Column filled by a script function.
-    #[error("the column '{column}' is filled by a function, and functions cannot be stored")]
+    #[error(
+        "the column '{column}' is computed by a function, and functions cannot be stored in a restart file"
+    )]
     Sensor {
         /// Name of the column.
         column: String,
     },
     /// Release triggered by a script function.
-    #[error("a function says when '{name}' lets go, and functions cannot be stored")]
+    #[error("'{name}' is released by a function, and functions cannot be stored in a restart file")]
     Release {
         /// Name of the object to be released.
         name: String,
     },
     /// File of another kind.
-    #[error("this is no simulation: it does not begin as stored simulations do")]
+    #[error("this is not a restart file: it does not begin with the header of one")]
     Foreign,
     /// Truncated file.
-    #[error(
-        "the file ends too early: it has {found} bytes, but {needed} are needed; it was cut off"
-    )]
+    #[error("the file is truncated: it has {found} of {needed} bytes; use another copy")]
     Truncated {
         /// Length of the file [bytes].
         found: usize,
@@ -40,7 +40,7 @@ pub enum ArchiveError {
     },
     /// File written by a later program.
     #[error(
-        "it was written by withy {program} in format {format}, but this is withy {own_program}, which reads format {own}; use a newer withy"
+        "it was written by withy {program} in format {format}, but this is withy {own_program}, which reads format {own}; install a newer withy"
     )]
     Newer {
         /// Program and version that wrote the file.
@@ -54,7 +54,7 @@ pub enum ArchiveError {
     },
     /// File in a format that is no longer supported.
     #[error(
-        "it was written by withy {program} in format {format}, but only format {own} is read; load it with that withy"
+        "it was written by withy {program} in format {format}, but this withy reads only format {own}; load it with withy {program}"
     )]
     Older {
         /// Program and version that wrote the file.
@@ -66,7 +66,7 @@ pub enum ArchiveError {
     },
     /// File with a wrong checksum.
     #[error(
-        "the file is damaged: its checksum is {found:08x}, but its bytes have {right:08x}; use another copy"
+        "the file is damaged: its checksum is {found:08x}, but should be {right:08x}; use another copy"
     )]
     Damaged {
         /// Checksum in the header.
@@ -75,13 +75,13 @@ pub enum ArchiveError {
         right: u32,
     },
     /// File with trailing bytes.
-    #[error("the file is damaged: {more} bytes follow behind its end; use another copy")]
+    #[error("the file is damaged: {more} bytes follow its end; use another copy")]
     Longer {
         /// Number of trailing bytes.
         more: u64,
     },
     /// Intact file with invalid content.
-    #[error("its content is not that of a simulation: {reason}")]
+    #[error("its content is not a valid simulation: {reason}")]
     Content {
         /// Reason.
         reason: String,

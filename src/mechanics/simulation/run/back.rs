@@ -102,8 +102,11 @@ impl Simulation {
         self.snapshots = snapshots;
         let Some(stood) = found else {
             let target = match self.has_all_rows() {
-                true => format!("t = {}", self.record.history.samples()[steps].measures.time),
-                false => format!("where it was {back} steps ago"),
+                true => format!(
+                    "t = {}",
+                    crate::system::rounded(self.record.history.samples()[steps].measures.time)
+                ),
+                false => format!("the state {back} steps ago"),
             };
             return Err(self.forgotten(target, steps));
         };

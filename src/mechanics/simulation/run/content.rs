@@ -99,7 +99,7 @@ impl Simulation {
         let read = postcard::take_from_bytes::<Content>(bytes);
         let (content, rest) = read.map_err(|error| refused(&error.to_string()))?;
         if !rest.is_empty() {
-            return Err(refused("something follows behind it"));
+            return Err(refused("there are bytes after its end"));
         }
         content.check()?;
         content.into_simulation()
@@ -129,7 +129,7 @@ impl Content<'_> {
         let rows = self.samples.len();
         let has_rows = self.rows_kept >= 1 && (self.rows_kept..=self.rows_kept + 1).contains(&rows);
         if !is_counted || !has_rows || rows > counts.steps + 1 {
-            return Err(refused("its steps and the rows of its history do not fit each other"));
+            return Err(refused("the number of steps does not match the number of history rows"));
         }
         let times = || self.samples.iter().map(|row| row.measures.time);
         let is_ordered = times().all(f64::is_finite) && times().is_sorted();
@@ -144,7 +144,7 @@ impl Content<'_> {
                 && numbers.iter().all(|number| number.is_finite())
         };
         if !self.arrivals.iter().all(is_arrival) {
-            return Err(refused("a slider arrived that is not there"));
+            return Err(refused("an arrival refers to a slider that does not exist"));
         }
         let is_release = |(at, gone): (usize, &ReleaseEvent)| {
             let earlier = &self.let_go[..at];
@@ -153,7 +153,7 @@ impl Content<'_> {
                 && earlier.iter().all(|other| other.release != gone.release)
         };
         if !self.let_go.iter().enumerate().all(is_release) {
-            return Err(refused("something has let go that is not there"));
+            return Err(refused("a release refers to an object that does not exist"));
         }
         Ok(())
     }
@@ -166,30 +166,34 @@ impl Content<'_> {
         let now = simulation.time();
         let last = self.samples.last().map(|row| row.measures.time);
         if last != Some(now) || now / simulation.clock.grid.dt() >= MOST_COUNTED as f64 {
-            return Err(refused("its time is not that of the last row of its history"));
+            return Err(refused("its time differs from that of the last history row"));
         }
         let rows = self.samples.len();
         simulation.progress.last_step = self.samples.last().map(StepTaken::of).unwrap_or_default();
         let (samples, extra) = (self.samples.into_owned(), self.extra.into_owned());
         let history = simulation.record.history.with_rows(samples, extra);
         simulation.record.history =
-            history.ok_or_else(|| refused("the rows of its history are torn"))?;
+            history.ok_or_else(|| refused("history rows are incomplete"))?;
         let (times, numbers) = (self.times.into_owned(), self.numbers.into_owned());
         let kept =
             simulation.record.trajectory.with_configurations(rows, self.every, times, numbers);
-        simulation.record.trajectory = kept.ok_or_else(|| refused("its trajectory is torn"))?;
+        simulation.record.trajectory =
+            kept.ok_or_else(|| refused("its trajectory is incomplete"))?;
         simulation.clock.under_way = match self.under_way {
             None => None,
             Some(parts) => {
                 let halving = StepRetry::from_parts(now, parts);
-                Some(halving.ok_or_else(|| refused("the step under way makes no sense"))?)
+                Some(
+                    halving
+                        .ok_or_else(|| refused("the data of the step in progress are invalid"))?,
+                )
             }
         };
         let bounds = simulation.adaptive.as_ref().map(|adaptive| adaptive.controller);
         if self.pace.is_some() != bounds.is_some()
             || bounds.zip(self.pace).is_some_and(|(bounds, pace)| !bounds.allows(&pace))
         {
-            return Err(refused("the size of its next step makes no sense"));
+            return Err(refused("the size of its next step is invalid"));
         }
         simulation.clock.pace = self.pace;
         simulation.clock.grid.lay(&self.cuts, now);

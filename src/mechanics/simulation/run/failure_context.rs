@@ -43,7 +43,7 @@ impl Simulation {
         bodies.filter(move |(index, body)| !body.points.is_empty() && inertia(*index) == 0.0).map(
             |(_, body)| {
                 format!(
-                    "body '{}' has no inertia: a force off its centre would turn it at once, in no time; give it an inertia",
+                    "body '{}' has no rotary inertia, but a force acts off its centre; give it an inertia",
                     body.name
                 )
             },
@@ -55,7 +55,7 @@ impl Simulation {
         let damping = if goes_back { self.model.most_damping() } else { None };
         damping.into_iter().map(|(name, _)| {
             format!(
-                "fourth_order goes back in time within a step, where '{name}' drives instead of resisting, and where it is strong there may be no way back: take energy_momentum"
+                "the method fourth_order has a backward substep, in which the damping of '{name}' adds energy and may prevent a solution; use energy_momentum"
             )
         })
     }
@@ -70,12 +70,12 @@ impl Simulation {
             let name = &beam.name;
             let compressed = (least < COMPRESSED).then(|| {
                 format!(
-                    "the axis of beam '{name}' is compressed to {} % of its length as drawn, where its tangent x' has hardly a direction",
+                    "the axis of beam '{name}' is compressed to {} % of its initial length, where the direction of its tangent is ill-defined",
                     short(100.0 * least)
                 )
             });
             let stretched = (most > STRETCHED).then(|| {
-                format!("the axis of beam '{name}' is stretched to {} times its length as drawn", short(most))
+                format!("the axis of beam '{name}' is stretched to {} times its initial length", short(most))
             });
             compressed.into_iter().chain(stretched)
         })
@@ -93,13 +93,13 @@ impl Simulation {
             let left = smaller(place, 1.0 - place);
             let pressed = (pressed > PRESSED).then(|| {
                 format!(
-                    "slider '{name}' presses on beam '{master}' with {} times its shear stiffness GA, which folds the axis",
+                    "the contact force of slider '{name}' on beam '{master}' is {} times its shear stiffness GA, which folds the axis; reduce the force or increase GA",
                     short(pressed)
                 )
             });
             let hovers = (slider.rule == SlidingRule::Kinked && left < HOVERS).then(|| {
                 format!(
-                    "slider '{name}' hovers at {} of the length of beam '{master}' before its end, where the kink under its force is squeezed",
+                    "slider '{name}' is at a distance of {} of the length of beam '{master}' from its end, too close for the kinked rule; use the rule conserving()",
                     short(left)
                 )
             });

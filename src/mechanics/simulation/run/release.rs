@@ -37,7 +37,7 @@ impl Simulation {
         if self.has_let_go(release) {
             return Ok(());
         }
-        self.lose_derivatives("something lets go");
+        self.lose_derivatives("a joint, spring or support is released");
         let before = self.holds_released(&self.progress.let_go);
         self.model.let_go(&self.scene, &before, hold)?;
         let gone = ReleaseEvent { release, time: self.time() };

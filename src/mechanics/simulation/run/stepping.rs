@@ -35,7 +35,7 @@ impl Simulation {
     /// Error of a slider with too many arrivals in one step.
     pub(super) fn rattles(&self) -> SimulationError {
         let arrival = self.progress.arrivals.last().map_or_else(
-            || format!("a slider is about to arrive after t = {}", self.time()),
+            || format!("a slider is about to reach an end of its beam after t = {}", self.time()),
             |last| self.describe(last),
         );
         SimulationError::Rattles { arrival, most: MOST_ARRIVALS }
@@ -51,7 +51,7 @@ impl Simulation {
             let mut stepped = self.step_or_keep_kinks(interval);
             if let Err(StepError::Overshoot { overshoot, iterations, .. }) = stepped {
                 self.progress.count_try(iterations);
-                self.lose_derivatives("a slider arrives at an end of its way or leaves a stop");
+                self.lose_derivatives("a slider reaches an end of its beam or leaves a stop");
                 match self.land(interval, overshoot) {
                     Ok(landing) => {
                         self.model.let_kinks_follow();
@@ -108,7 +108,7 @@ impl Simulation {
         };
         if self.stepper.sensitivities.is_some() && self.model.has_kept_kinks() {
             // The perturbed runs may use the other law.
-            self.lose_derivatives("a kink under a slider was kept as it is");
+            self.lose_derivatives("the kink under a slider is not adapted to the contact force");
         }
         stepped
     }

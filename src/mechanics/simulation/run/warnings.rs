@@ -246,13 +246,13 @@ impl Simulation {
     pub(super) fn explain_resolution(&self) -> Vec<SystemFeature> {
         let resolution = self.model.resolution();
         let mut how = format!(
-            "{} % of the kinetic energy in vibration that steps do not follow; sections turn by at most {} rad a step",
+            "{} % of the kinetic energy in vibration that steps do not resolve; sections rotate by at most {} rad per step",
             short(100.0 * resolution.unresolved_share()),
             short(resolution.rotation())
         );
         for (index, slider) in self.model.slider_names().enumerate().take(SLIDERS) {
             how += &format!(
-                "; '{slider}' passes at most {} spans",
+                "; slider '{slider}' crosses at most {} spans per step",
                 short(self.model.most_spans(index))
             );
         }

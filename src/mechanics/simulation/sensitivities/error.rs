@@ -7,32 +7,36 @@ use crate::integrators::StepError;
 pub enum DerivativeError {
     /// Variable steps.
     #[error(
-        "derivatives by parameters need steps of a fixed size, and a tolerance gives steps that jump when a parameter changes"
+        "derivatives with respect to parameters need a fixed step size, but the steps are adaptive"
     )]
     Adaptive,
     /// Method without derivatives.
     #[error(
-        "derivatives by parameters are found with energy_momentum and fourth_order, not with {method}"
+        "derivatives with respect to parameters are available with energy_momentum and fourth_order, not with {method}"
     )]
     Method {
         /// Name of the method.
         method: &'static str,
     },
     /// Scene with a controller.
-    #[error("'{name}' is steered by a controller, whose answers have no derivatives by parameters")]
+    #[error(
+        "'{name}' has a controller, whose output has no derivatives with respect to parameters"
+    )]
     Steered {
         /// Name of the controlled load or drive.
         name: String,
     },
     /// Recorded mean of a joint force, which is accumulated along the run.
-    #[error("'{sensor}' is the mean over a step, which has no derivatives by parameters")]
+    #[error(
+        "'{sensor}' is a mean over a step, which has no derivatives with respect to parameters"
+    )]
     Mean {
         /// Name of the column.
         sensor: String,
     },
     /// Parameter that changes the structure of the scene.
     #[error(
-        "the scene at '{parameter}' plus or minus {distance:e} has another number of unknowns or sliders: only numbers of a scene may depend on a parameter"
+        "the number of unknowns or sliders changes when '{parameter}' changes by {distance:e}: only numerical values of a scene may depend on a parameter"
     )]
     Form {
         /// Name of the parameter.
@@ -42,7 +46,7 @@ pub enum DerivativeError {
     },
     /// Parameter that shifts times of jumps or kinks of loads.
     #[error(
-        "times at which something jumps, bends or lets go depend on '{parameter}', where derivatives jump: give times that do not"
+        "times of jumps, kinks or releases depend on '{parameter}', so that derivatives are discontinuous; give times that do not depend on it"
     )]
     Times {
         /// Name of the parameter.
@@ -50,7 +54,7 @@ pub enum DerivativeError {
     },
     /// Event at a time that depends on parameters.
     #[error(
-        "there are no derivatives from t = {time} on: {event}, at a time that depends on the parameters, where derivatives jump"
+        "there are no derivatives after t = {time}: {event}, at a time that depends on the parameters, where derivatives are discontinuous"
     )]
     Event {
         /// Time of the event [time].
@@ -60,14 +64,16 @@ pub enum DerivativeError {
     },
     /// Run that was changed other than by steps.
     #[error(
-        "there are no derivatives after {way}: they are found with the steps of the run itself"
+        "there are no derivatives after {way}: they are computed during the steps of an uninterrupted run"
     )]
     Way {
         /// Description of the change.
         way: &'static str,
     },
     /// Perturbed step that was not solved.
-    #[error("there are no derivatives from t = {time} on: beside the run {source}")]
+    #[error(
+        "there are no derivatives after t = {time}: with a slightly changed parameter {source}"
+    )]
     NoStep {
         /// End of the last step with derivatives [time].
         time: f64,
@@ -75,6 +81,6 @@ pub enum DerivativeError {
         source: Box<StepError>,
     },
     /// Run that was started without derivatives.
-    #[error("the simulation was started without this parameter")]
+    #[error("the simulation was started without derivatives with respect to this parameter")]
     None,
 }

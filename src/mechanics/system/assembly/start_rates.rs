@@ -4,7 +4,7 @@ use super::{Assembly, Numbering};
 use crate::beams::{BodyDynamics, BodyIndex, Station};
 use crate::geometry::{Vec2, cross, larger, perpendicular};
 use crate::system::elements::AssemblyContext;
-use crate::system::errors::written;
+use crate::system::errors::{rounded, written};
 use crate::system::{Scene, StartMotion, StationVelocity, SystemError, Turning};
 
 /// Largest difference of tied start velocities, relative to the velocities of the beam.
@@ -16,10 +16,10 @@ const SAME_START: f64 = 1e-6;
 /// Names of the components in messages.
 const COMPONENTS: [&str; 3] = ["velocity along x", "velocity along y", "spin"];
 
-const GROUND: &str = "the ground there does not move";
+const GROUND: &str = "the ground is at rest there";
 
 fn given_there(rate: f64) -> String {
-    format!("its motion is given there, and begins with {rate}")
+    format!("its motion is prescribed there and begins with {}", rounded(rate))
 }
 
 /// Rate of each unknown with the body that has set it, and the requested rates of single nodes.
@@ -76,7 +76,11 @@ impl SharedRates<'_> {
 
 impl RequestedRate<'_> {
     fn told(&self, scene: &Scene) -> String {
-        format!("{}, joined there, is given {}", scene.name_of_body(self.at), self.rate)
+        format!(
+            "{}, joined there, has the start velocity {}",
+            scene.name_of_body(self.at),
+            rounded(self.rate)
+        )
     }
 }
 
@@ -129,7 +133,7 @@ impl Assembly<'_> {
                     body: self.scene.name_of_body(&joint.station),
                     place: "inclined roller (velocity across it)".to_owned(),
                     velocity: across,
-                    other: format!("it moves along {} only", written(along)),
+                    other: format!("the roller allows motion along {} only", written(along)),
                 });
             }
         }
@@ -189,7 +193,7 @@ impl Assembly<'_> {
                 }
                 if let Some(other) = shared.take(at, index, rate, size) {
                     let other = other.map_or(GROUND.to_owned(), |(other, rate)| {
-                        format!("{}, joined there, has {rate}", self.name_of(other))
+                        format!("{}, joined there, has {}", self.name_of(other), rounded(rate))
                     });
                     return Err(SystemError::StartVelocity {
                         body: self.name_of(index),

@@ -45,13 +45,11 @@ impl fmt::Display for NegativeDamping {
         match self {
             Self::At { rate, force } => write!(
                 f,
-                "at the rate {rate} its damping gives the force {force}, which drives what it should damp; give a force with the sign of the rate, 0 at \
-                 rest"
+                "at the rate {rate} its damping force is {force} and adds energy; give a force with the sign of the rate, and 0 at rest"
             ),
             Self::Beyond { end, from } => write!(
                 f,
-                "beyond the rate {end}, with which its damping ends, that goes on straight and falls, so that from {from} on it drives what it should \
-                 damp; let it end where it does not fall: a table with two points of one force, a function over such rates"
+                "its damping law is extrapolated linearly beyond its last rate {end}, where it decreases, and adds energy from the rate {from} on; end the table with two points of equal force, or give the function over a range of rates at whose ends it does not decrease"
             ),
         }
     }
@@ -175,7 +173,7 @@ impl DampingLaw {
         match self {
             Self::Linear(0.0) => None,
             Self::Linear(constant) => Some(format!("damping {constant}")),
-            Self::Curve(curve) => Some(format!("damping by {} over the rate", curve.describe())),
+            Self::Curve(curve) => Some(format!("damping: {} of the rate", curve.describe())),
         }
     }
 }

@@ -206,9 +206,9 @@ impl InternalForce for DragForces {
         let points = crate::system::errors::plural(self.points.len(), "point");
         let Medium { law, wind } = &self.surroundings;
         let blowing = match self.blows() {
-            true => format!(", in a wind of ({}, {})", wind.x, wind.y),
+            true => format!(", wind ({}, {})", wind.x, wind.y),
             false => String::new(),
         };
-        format!("{} at {points}{blowing}; its forces are unknowns of their own", law.describe())
+        format!("{} at {points}{blowing}; its forces are additional unknowns", law.describe())
     }
 }

@@ -174,7 +174,7 @@ impl AppliedLoad {
         }
         let of_method = |method: &Method| {
             let calls: usize = method.stages().iter().map(values_at).sum();
-            format!("{} calls a step with {}", functions * calls, method.entry().name)
+            format!("{} calls per step with {}", functions * calls, method.entry().name)
         };
         format!(": {}", methods.iter().map(of_method).collect::<Vec<_>>().join(", "))
     }
@@ -294,7 +294,7 @@ impl ExternalForce for AppliedLoad {
         let action = match &self.action {
             Action::Dead(_) => "dead".to_owned(),
             Action::Follower(at) => {
-                format!("follower of {}, part of the tangent", plural(at.len(), "section"))
+                format!("follower load at {}, included in the tangent", plural(at.len(), "section"))
             }
         };
         let (schedule, calls) = (self.schedule.describe(), self.calls(methods));

@@ -200,8 +200,7 @@ impl InternalForce for DampedMaterial {
     fn explain(&self) -> String {
         let Relaxation { axial, shear, bending } = self.relaxation;
         format!(
-            "Kelvin–Voigt, relaxation times: axial {axial}, shear {shear}, bending {bending}; forces of rates at the points of the \
-             section forces, unknowns of their own outside the matrix"
+            "Kelvin–Voigt, relaxation times: axial {axial}, shear {shear}, bending {bending}; viscous forces at the quadrature points, eliminated from the matrix"
         )
     }
 }

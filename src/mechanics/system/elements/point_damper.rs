@@ -327,9 +327,9 @@ impl InternalForce for PointDamper {
 
     fn explain(&self) -> String {
         if self.released.is_some() {
-            return "has let go: no force".to_owned();
+            return "released: no force".to_owned();
         }
         let law = self.law.describe().unwrap_or_default();
-        format!("{law}; its force is an unknown of its own, outside the matrix")
+        format!("{law}; its force is eliminated from the matrix")
     }
 }

@@ -31,7 +31,7 @@ impl ElementDef for PointMass {
         let is_light = *mass == 0.0 && *rotary_inertia > 0.0;
         if !(mass.is_finite() && (*mass > 0.0 || is_light)) {
             let allowed = match station.turns() && *mass == 0.0 {
-                true => "positive where the inertia is zero [mass]",
+                true => "positive if the inertia is zero [mass]",
                 false => "a positive finite number [mass]",
             };
             return refused("mass", *mass, allowed);

@@ -89,7 +89,7 @@ impl ElementDef for Spring {
             if let Anchor::Ground(at) = anchor
                 && let Some(wrong) = at.iter().find(|value| !value.is_finite())
             {
-                return refused("place on the ground", *wrong, "a finite number [length]");
+                return refused("point on the ground", *wrong, "a finite number [length]");
             }
         }
         self.expect_movement(setting)?;
@@ -128,7 +128,7 @@ impl ElementDef for Spring {
                 self.check_finite("table", points)?;
             }
             None if !self.damping.acts() => {
-                return refused("damping", 0.0, "a positive number where there is no stiffness");
+                return refused("damping", 0.0, "a positive number if there is no stiffness");
             }
             None => (),
         }
@@ -235,7 +235,7 @@ impl Spring {
             return Err(refused(points.len() as f64, "at least two points"));
         }
         match falling_behind(points) {
-            Some(index) => Err(refused(points[index].0, "rates that rise from point to point")),
+            Some(index) => Err(refused(points[index].0, "rates that increase from point to point")),
             None => Ok(()),
         }
     }
@@ -260,7 +260,7 @@ impl Spring {
         if self.stations().next().is_none()
             && let [from, .., to] = self.anchors()
         {
-            return idle([from, to], "where nothing moves");
+            return idle([from, to], "which are both on the ground");
         }
         let bodies = || {
             self.anchors().iter().map(|anchor| match anchor {

@@ -369,10 +369,10 @@ impl InternalForce for SpringDamper {
 
     fn explain(&self) -> String {
         if self.released.is_some() {
-            return "has let go: no force".to_owned();
+            return "released: no force".to_owned();
         }
         let law = self.words.clone();
         let parts: Vec<String> = law.into_iter().chain(self.damping.describe()).collect();
-        format!("{}; its force is an unknown of its own, outside the matrix", parts.join(", "))
+        format!("{}; its force is eliminated from the matrix", parts.join(", "))
     }
 }

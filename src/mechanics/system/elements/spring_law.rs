@@ -211,13 +211,13 @@ impl SpringLaw {
     pub fn describe(&self) -> String {
         match self {
             Self::Linear { stiffness, natural } => {
-                format!("stiffness {stiffness}, at ease at {natural}")
+                format!("stiffness {stiffness}, natural length {natural}")
             }
             Self::Table { points } => format!("a table of {} points", points.len()),
             Self::Sampled { points, error } => {
                 let (count, first, last) = (points.len(), points[0].0, points[points.len() - 1].0);
                 format!(
-                    "a function asked at {count} points from {first} to {last}, off by {error:.1e} between them and straight beyond"
+                    "a function sampled at {count} points from {first} to {last}, interpolation error {error:.1e}, linear beyond"
                 )
             }
         }

@@ -60,6 +60,6 @@ impl ExternalForce for Weight {
 
     fn explain(&self, _methods: &[Method]) -> String {
         let (x, y) = (self.gravity.x, self.gravity.y);
-        format!("({x}, {y}): a constant weight, and a potential energy")
+        format!("({x}, {y}): constant weight with a potential energy")
     }
 }

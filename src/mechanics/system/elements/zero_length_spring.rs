@@ -198,7 +198,7 @@ impl InternalForce for ZeroLengthSpring {
         let damper = self.damper.as_ref().map(|damper| format!("; {}", damper.explain()));
         let by = match self.along.len() {
             1 => "",
-            _ => "by components, as it has no length at ease: ",
+            _ => "by components, because its natural length is 0: ",
         };
         format!("{by}{}{}", self.along[0].explain(), damper.unwrap_or_default())
     }

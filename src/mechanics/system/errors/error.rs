@@ -1,6 +1,6 @@
 //! Errors of the description of a scene.
 
-use super::{SliderError, TrackError};
+use super::{SliderError, TrackError, rounded};
 use crate::beams::BeamError;
 use crate::geometry::GeometryError;
 use crate::loads::LoadError;
@@ -15,7 +15,7 @@ pub enum SystemError {
         scene: String,
     },
     /// Name that is empty or cannot be read or typed.
-    #[error("{name:?} is no name for a {kind}: {why}; use letters, numbers and spaces")]
+    #[error("{name:?} cannot be the name of a {kind}: {why}; use letters, digits and spaces")]
     Unnamed {
         /// Kind of the object.
         kind: &'static str,
@@ -35,7 +35,7 @@ pub enum SystemError {
         name: String,
     },
     /// Station outside its beam.
-    #[error("station {station} is outside [0, {length}] of beam '{beam}'")]
+    #[error("station {station} is outside the length of beam '{beam}', [0, {}]", rounded(*length))]
     StationOutside {
         /// Name of the beam.
         beam: String,
@@ -53,7 +53,7 @@ pub enum SystemError {
         why: &'static str,
     },
     /// Unknown point of a rigid body.
-    #[error("body '{body}' has no point '{point}'; it has {}", if known.is_empty() { "none but its centre" } else { known })]
+    #[error("body '{body}' has no point '{point}'; it has {}", if known.is_empty() { "only its centre" } else { known })]
     NoPoint {
         /// Name of the rigid body.
         body: String,
@@ -64,7 +64,7 @@ pub enum SystemError {
     },
     /// Rigid bodies with redundant restraints.
     #[error(
-        "body '{body}' is held more often than it can move: joints of its points ask for the same twice, and their forces are not determined; remove one of them, or let a beam take the place of a body"
+        "body '{body}' is statically overdetermined: joints at its points restrain the same movement twice, and their forces are undetermined; remove one of the joints, or replace a body by a beam"
     )]
     HeldTwice {
         /// Name of a rigid body whose constraint forces are undetermined.
@@ -72,22 +72,22 @@ pub enum SystemError {
     },
     /// Rigid body without inertia and without restraint of its angle.
     #[error(
-        "body '{body}' has no inertia, and nothing holds its angle or acts on it beside its centre, so that nothing determines how it turns"
+        "body '{body}' has no rotary inertia, and no joint or force outside its centre determines its rotation"
     )]
     Inertialess {
         /// Name of the body.
         body: String,
     },
     /// Rigid body without mass and without restraint.
-    #[error(
-        "body '{body}' has no mass, and nothing holds it, so that nothing determines how it moves"
-    )]
+    #[error("body '{body}' has no mass and no joint, so that its motion is undetermined")]
     Massless {
         /// Name of the body.
         body: String,
     },
     /// Start velocity of a single point of a rigid body.
-    #[error("{object}: the points of a body move with it")]
+    #[error(
+        "{object}: a point of a rigid body has no start velocity of its own; set that of the body"
+    )]
     PointAlone {
         /// Description of the start velocity.
         object: String,
@@ -99,7 +99,7 @@ pub enum SystemError {
         body: String,
     },
     /// Forces at a time at which they are undetermined.
-    #[error("forces and accelerations at t = {time} cannot be had: {reason}")]
+    #[error("forces and accelerations at t = {time} are undetermined: {reason}")]
     NoInstant {
         /// The time [time].
         time: f64,
@@ -115,7 +115,7 @@ pub enum SystemError {
         why: String,
     },
     /// Quantity that is recorded already.
-    #[error("'{name}' is a column of the history already; give this one another name")]
+    #[error("the history already has a column '{name}'; give this one another name")]
     DuplicateSensor {
         /// Name of the column.
         name: String,
@@ -130,7 +130,7 @@ pub enum SystemError {
     },
     /// Spring without effect.
     #[error(
-        "{spring}: it would act from {from} to {to}, {why}, and can do nothing; give one of both another place"
+        "{spring}: it acts from {from} to {to}, {why}, so that it has no effect; move one of its ends"
     )]
     IdleSpring {
         /// Description of the spring.
@@ -144,7 +144,7 @@ pub enum SystemError {
     },
     /// Table of a spring whose elongations do not increase.
     #[error(
-        "{object}: the elongation at index {index} of its table is {elongation}, and the one before is {before}: they must rise from point to point"
+        "{object}: the elongation at index {index} of its table is {elongation}, but the previous one is {before}; elongations must increase"
     )]
     TableOrder {
         /// Description of the spring.
@@ -158,7 +158,7 @@ pub enum SystemError {
     },
     /// Joint whose partners do not meet.
     #[error(
-        "{joint}: its stations at {from} and {to} are {gap} apart; they must lie at the same place when the scene starts: move one of them"
+        "{joint}: its stations at {from} and {to} are {} apart, but must be at the same place at the start; move one of them", rounded(*gap)
     )]
     OpenJoint {
         /// Name of the joint.
@@ -190,7 +190,7 @@ pub enum SystemError {
     },
     /// Support of a component that a drive prescribes.
     #[error(
-        "the {component} of {place} is given by '{drive}' already: it cannot be held besides; give or hold each movement once"
+        "the {component} of {place} is already prescribed by '{drive}' and cannot also be fixed; prescribe or fix each component once"
     )]
     HeldAndDriven {
         /// Prescribed component.
@@ -202,7 +202,7 @@ pub enum SystemError {
     },
     /// Prescribed motion of a component that is supported or prescribed already.
     #[error(
-        "{drive}: the {component} of {place} is {how} already; give or hold each movement once"
+        "{drive}: the {component} of {place} is already {how}; prescribe or fix each component once"
     )]
     AlreadyDriven {
         /// Name of the rejected drive.
@@ -211,12 +211,12 @@ pub enum SystemError {
         component: &'static str,
         /// Description of the place.
         place: String,
-        /// The word `held` or `given`.
+        /// The word `fixed` or `prescribed`, or another reason.
         how: &'static str,
     },
     /// Prescribed motion that does not start at its station.
     #[error(
-        "{drive}: its {component} is {value} at t = 0, but a given motion is counted from the place as drawn and begins with 0"
+        "{drive}: its {component} is {value} at t = 0, but must be 0: a prescribed motion is relative to the initial position"
     )]
     DriveStart {
         /// Name of the drive.
@@ -228,7 +228,7 @@ pub enum SystemError {
     },
     /// Prescribed motion that jumps.
     #[error(
-        "{drive}: its {component} jumps by {jump} at t = {time}, but a given motion has to be continuous"
+        "{drive}: its {component} jumps by {} at t = {time}, but a prescribed motion must be continuous", rounded(*jump)
     )]
     DriveJump {
         /// Name of the drive.
@@ -249,20 +249,22 @@ pub enum SystemError {
         source: LoadError,
     },
     /// Object that is released twice.
-    #[error("'{name}' lets go already; it can do so once: remove one of the two releases")]
+    #[error("'{name}' already has a release; remove one of the two releases")]
     ReleasedTwice {
         /// Name of the object.
         name: String,
     },
     /// Scene without free movements.
-    #[error("the scene '{scene}' has nothing that can move: every unknown is held by a support")]
+    #[error(
+        "the scene '{scene}' has no free degree of freedom: all are fixed by supports or prescribed; remove a support"
+    )]
     NothingMoves {
         /// Name of the scene.
         scene: String,
     },
     /// Start velocities that contradict each other.
     #[error(
-        "{body} starts with a velocity of {velocity} at its {place}, but {other}; give it a start velocity that fits"
+        "{body} has the start velocity {} at its {place}, but {other}; give it a compatible start velocity", rounded(*velocity)
     )]
     StartVelocity {
         /// Description of the body.
@@ -275,7 +277,7 @@ pub enum SystemError {
         other: String,
     },
     /// Joint, load, inertia or spin that would rotate a particle.
-    #[error("{object}: a particle does not turn")]
+    #[error("{object}: a particle has no rotation")]
     ParticleTurned {
         /// Description of the object.
         object: String,
@@ -301,7 +303,7 @@ pub enum SystemError {
         allowed: &'static str,
     },
     /// Stored part of a scene that refers to a missing object.
-    #[error("{object} is on {kind} number {index}, but the scene has only {count}")]
+    #[error("{object} refers to {kind} number {index} (from 0), but the scene has only {count}")]
     Missing {
         /// Description of the part.
         object: &'static str,

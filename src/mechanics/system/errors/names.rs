@@ -58,10 +58,12 @@ pub fn refusal(name: &str) -> Option<&'static str> {
         return Some("it has more than 100 characters");
     }
     if name.starts_with(FORMULA) {
-        return Some("a spreadsheet would take a table with it for a formula");
+        return Some(
+            "it begins with a character by which spreadsheets recognise a formula (=, +, -, @)",
+        );
     }
     if name.chars().any(is_hidden) {
-        return Some("it has characters that cannot be seen or told from others");
+        return Some("it has invisible or ambiguous characters");
     }
     if !is_nfc(name) {
         return Some(
@@ -71,7 +73,7 @@ pub fn refusal(name: &str) -> Option<&'static str> {
     let mut words = name.split(|letter: char| !letter.is_alphabetic());
     words
         .any(mixes_alphabets)
-        .then_some("a word of it has letters of two alphabets that look alike")
+        .then_some("one of its words mixes letters of two alphabets that look alike")
 }
 
 /// Checks the name of something of a scene, or of what is made of one.

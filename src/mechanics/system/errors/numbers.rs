@@ -5,9 +5,9 @@ use crate::geometry::Vec2;
 /// Largest number of objects listed in a message.
 pub const MOST: usize = 6;
 
-/// Formats a number with at most seven digits.
+/// Formats a number with at most six digits.
 pub fn rounded(number: f64) -> String {
-    let rounded: f64 = format!("{number:.6e}").parse().unwrap_or(number);
+    let rounded: f64 = format!("{number:.5e}").parse().unwrap_or(number);
     rounded.to_string()
 }
 
@@ -36,8 +36,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn places_are_told_in_seven_digits() {
-        assert_eq!(rounded(std::f64::consts::FRAC_PI_2), "1.570796");
+    fn places_have_at_most_six_digits() {
+        assert_eq!(rounded(std::f64::consts::FRAC_PI_2), "1.5708");
         assert_eq!(
             (rounded(2.800_000_000_000_000_3), rounded(-0.25)),
             ("2.8".into(), "-0.25".into())

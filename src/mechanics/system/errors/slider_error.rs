@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use super::rounded;
+
 /// Descriptions of the parts of a slider.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SliderParts {
@@ -38,12 +40,13 @@ impl fmt::Display for Approach {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::On { place, guide } => {
-                write!(f, "it lies on that {guide} at {place} of its length")
+                write!(f, "it lies on that {guide} at {} of its length", rounded(*place))
             }
             Self::Apart { place, guide, distance } => {
                 write!(
                     f,
-                    "the {guide} comes no nearer than {distance:.3e}, at {place} of its length"
+                    "the nearest point of the {guide} is {distance:.3e} away, at {} of its length",
+                    rounded(*place)
                 )
             }
         }
@@ -55,7 +58,7 @@ impl fmt::Display for Approach {
 pub enum SliderError {
     /// Slave that is a part of its master.
     #[error(
-        "slider '{}': {} is on the {} itself; a beam cannot slide on itself, choose another beam",
+        "slider '{}': {} is a part of the {}; a beam cannot slide on itself, choose another beam",
         _0.slider, _0.slave, _0.guide
     )]
     OnItself(SliderParts),
@@ -84,12 +87,12 @@ pub enum SliderError {
     Twice(SliderParts),
     /// Slave that is also joined to its master.
     #[error(
-        "slider '{}': {} is also joined to the {}, on which it then cannot slide; remove the joint or the slider",
+        "slider '{}': {} is also joined to the {} and cannot slide on it; remove the joint or the slider",
         _0.slider, _0.slave, _0.guide
     )]
     Tied(SliderParts),
     /// Slider on a track with a rule for single beams.
-    #[error("slider '{}': the {rule} rule is for one beam: at the seams of the {} {why}", parts.slider, parts.guide)]
+    #[error("slider '{}': the {rule} rule is available for single beams only: at the seams of the {} {why}", parts.slider, parts.guide)]
     RuleOfOneBeam {
         /// Description of the slider.
         parts: SliderParts,
@@ -99,7 +102,7 @@ pub enum SliderError {
         why: &'static str,
     },
     /// Coefficient of restitution outside its range.
-    #[error("slider '{slider}': a restitution of {restitution} is outside [0, 1]")]
+    #[error("slider '{slider}': restitution is {restitution}, but must be from 0 to 1")]
     Restitution {
         /// Name of the slider.
         slider: String,
@@ -108,7 +111,7 @@ pub enum SliderError {
     },
     /// Start velocities across the master.
     #[error(
-        "slider '{slider}': at the start its point moves across its beam with a speed of {speed}"
+        "slider '{slider}': at the start its point moves across its beam with a velocity of {}", rounded(*speed)
     )]
     LeavesMaster {
         /// Name of the slider.
@@ -118,13 +121,13 @@ pub enum SliderError {
     },
     /// Slider between places that are both supported.
     #[error(
-        "slider '{}': {} and its place on the {} are both held already, so that the contact force is not determined; remove the slider or a support",
+        "slider '{}': {} and its place on the {} are both fixed, so that the contact force is undetermined; remove the slider or a support",
         _0.slider, _0.slave, _0.guide
     )]
     HeldBesides(SliderParts),
     /// Sliders with undetermined contact forces.
     #[error(
-        "the sliders '{sliders}' hold each other: their contact forces are not determined; remove one of them, or a support"
+        "the sliders '{sliders}' restrain the same movement: their contact forces are undetermined; remove one of them, or a support"
     )]
     Overdetermined {
         /// Names of the sliders.

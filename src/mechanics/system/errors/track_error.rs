@@ -10,9 +10,7 @@ pub enum TrackError {
         track: String,
     },
     /// Track that contains a beam twice.
-    #[error(
-        "track '{track}': beam '{beam}' is in it twice; a track leads along each of its beams once"
-    )]
+    #[error("track '{track}': beam '{beam}' occurs twice; list each beam once")]
     Again {
         /// Name of the track.
         track: String,
@@ -21,7 +19,7 @@ pub enum TrackError {
     },
     /// Track with a gap between consecutive beams.
     #[error(
-        "track '{track}': beam '{before}' leads to {here}, where beam '{next}' neither starts nor ends: its ends are at {start} and {end}"
+        "track '{track}': beam '{before}' ends at {here}, but the next beam '{next}' has its ends at {start} and {end}; consecutive beams must meet"
     )]
     Apart {
         /// Name of the track.
@@ -39,7 +37,7 @@ pub enum TrackError {
     },
     /// Closed track with a gap between its last and first beams.
     #[error(
-        "track '{track}' is closed, but it leads to {here}, {gap:.3e} from {start}, where it begins"
+        "track '{track}' is declared closed, but it ends at {here}, {gap:.3e} from its start {start}"
     )]
     Open {
         /// Name of the track.
@@ -52,7 +50,7 @@ pub enum TrackError {
         gap: f64,
     },
     /// Consecutive beams of a track that touch but are not joined.
-    #[error("track '{track}': {one} and {other} are both at {here}, but not joined")]
+    #[error("track '{track}': {one} and {other} are both at {here}, but are not joined")]
     Loose {
         /// Name of the track.
         track: String,

@@ -113,15 +113,15 @@ impl System {
         let numbers = &state.numbers;
         let own = self.state();
         if numbers.len() != own.numbers.len() || state.sliders.len() != own.sliders.len() {
-            return Err(refused("it has more or fewer numbers"));
+            return Err(refused("it has a different number of values"));
         }
         if !numbers.iter().all(|number| number.is_finite()) {
-            return Err(refused("a number of it is not finite"));
+            return Err(refused("it has a value that is not finite"));
         }
         // The numbers of the sliders are last.
         let of_sliders = &numbers[numbers.len() - self.sliders.saved()..];
         if !self.sliders.fit(of_sliders) {
-            return Err(refused("a slider is beside its beam"));
+            return Err(refused("a slider is outside its beam"));
         }
         self.restore(state);
         Ok(())

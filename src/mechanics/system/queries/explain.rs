@@ -37,8 +37,11 @@ impl SystemFeature {
 
     /// Returns the feature of the time steps: their size, and the times at which they are cut.
     pub fn steps(size: &str, cuts: &[f64]) -> Self {
-        let cut = in_words(cuts).map(|times| format!("cut ahead at t = {times}"));
-        Self::used("steps", format!("{size}, {}", cut.unwrap_or("no cuts ahead".to_owned())))
+        let cut = in_words(cuts).map(|times| format!("steps will end at t = {times}"));
+        Self::used(
+            "steps",
+            format!("{size}, {}", cut.unwrap_or("no prescribed ends of steps".to_owned())),
+        )
     }
 
     /// Returns an omitted feature.
@@ -77,22 +80,25 @@ impl System {
     }
 
     fn explain_matrix(&self) -> SystemFeature {
-        let how =
-            format!("{} movements, half-bandwidth {}", self.movements(), self.half_bandwidth());
+        let how = format!(
+            "{} degrees of freedom, half-bandwidth {}",
+            self.movements(),
+            self.half_bandwidth()
+        );
         let how = match 2 * self.links().count() {
             0 => how,
-            forces => format!("{how}; {forces} of rigid links among them, in the band"),
+            forces => format!("{how}, including {forces} forces of rigid links"),
         };
         let how = match self.links().rollers().count() {
             0 => how,
-            forces => format!("{how}; {forces} of inclined rollers among them, in the band"),
+            forces => format!("{how}, including {forces} forces of inclined rollers"),
         };
         let how = match self.constraint_shape().width {
             0 => how,
             width if self.constraint_blocks().is_some() => {
-                format!("{how}; {width} of contacts, eliminated where they are")
+                format!("{how}; {width} contact unknowns, eliminated locally")
             }
-            width => format!("{how}; {width} of contacts, in the border"),
+            width => format!("{how}; {width} contact unknowns, in the border of the matrix"),
         };
         SystemFeature::used("unknowns", how)
     }
@@ -105,9 +111,9 @@ impl System {
         let points = self.links().count();
         let how = match (scene.rigid_bodies.len(), points) {
             (0, _) => return None,
-            (count, 0) => format!("{count}, which are held at their centres: no rigid links"),
+            (count, 0) => format!("{count}, connected at their centres only: no rigid links"),
             (count, points) => format!(
-                "{count} with {}: a force with two components holds each, and keeps energy and momenta",
+                "{count} with {}, each with a constraint force of two components; conserves energy and momenta",
                 plural(points, "rigid link")
             ),
         };
@@ -134,7 +140,7 @@ impl System {
             let taper = match beam.section {
                 SectionVariation::Uniform(_) => "",
                 SectionVariation::Numbers(_) | SectionVariation::Dimensions(_) => {
-                    "; a taper: each point has a section of its own"
+                    "; tapered: each point has its own section"
                 }
             };
             SystemFeature::used(format!("beam '{}'", beam.name), format!("{how}{taper}"))
@@ -150,7 +156,7 @@ impl System {
             }
             _ => scene.beams.iter().enumerate().map(beam).collect(),
         };
-        let inertia = "rho_I of every section: rotations have an inertia of their own";
+        let inertia = "rho_I of every section";
         parts.push(SystemFeature::used("rotary inertia", inertia));
         parts
     }
@@ -167,14 +173,16 @@ impl System {
         let between = |joint: &&Joint| joint.partner != Partner::Ground;
         let kinds = counted(self.holding(scene).filter(between));
         if kinds.is_empty() {
-            return SystemFeature::left_out("joints", "no movement is shared");
+            return SystemFeature::left_out("joints", "no coupled movements");
         }
         let all: usize = self.bodies().iter().map(|body| 3 * body.degrees_of_freedom.len()).sum();
         let shared = all - self.supports().count() - self.movements();
         let saved = plural(shared, "unknown");
         SystemFeature::used(
             "joints",
-            format!("{kinds}: tied movements are one, {saved} less; no multipliers"),
+            format!(
+                "{kinds}: joined movements share unknowns, which removes {saved}; no multipliers"
+            ),
         )
     }
 
@@ -182,7 +190,7 @@ impl System {
         let on_ground = |joint: &&Joint| joint.partner == Partner::Ground;
         let kinds = counted(self.holding(scene).filter(on_ground));
         if kinds.is_empty() {
-            return SystemFeature::left_out("supports", "everything is free: no reactions");
+            return SystemFeature::left_out("supports", "no supports and no reactions");
         }
         let first_rigid = scene.first_rigid_body();
         let of_particles = |body: usize| (scene.beams.len()..first_rigid).contains(&body);
@@ -193,12 +201,14 @@ impl System {
         let across = match self.links().rollers().count() {
             0 => String::new(),
             forces => {
-                format!("; {} across inclined rollers are unknowns", plural(forces, "force"))
+                format!("; {} of inclined rollers are unknowns", plural(forces, "force"))
             }
         };
         SystemFeature::used(
             "supports",
-            format!("{kinds}: {held} held and no unknowns{across}; reactions are measured"),
+            format!(
+                "{kinds}: {held} fixed and removed from the unknowns{across}; reactions are recorded"
+            ),
         )
     }
 
@@ -206,7 +216,7 @@ impl System {
         let width = self.constraint_shape().width;
         if width == 0 {
             let saved =
-                "the matrix is a plain band: no border, no contact forces, no search for ends";
+                "plain band matrix: no border, no contact forces, no detection of beam ends";
             return SystemFeature::left_out("sliders", saved);
         }
         let used = SLIDING_RULES.iter().filter_map(|entry| {
@@ -219,11 +229,11 @@ impl System {
             Some(blocks) => {
                 let free = blocks.own.iter().filter(|own| !own.is_empty()).count();
                 let all = blocks.own.len();
-                format!("{all} blocks beside the band, {free} with their slaves")
+                format!("{all} blocks beside the band, {free} including the sliding body")
             }
         };
         let on_tracks = scene.sliders.iter().any(|slider| slider.track.is_some());
-        let seams = if on_tracks { ", steps are cut at seams of tracks" } else { "" };
+        let seams = if on_tracks { ", steps end at seams of tracks" } else { "" };
         let may_kink = |slider: &Slider| {
             let basis = self.meshes()[slider.master].basis();
             let is_smooth = basis.breaks().len() == 2 || basis.continuity() > 0;
@@ -231,18 +241,18 @@ impl System {
         };
         let choice = match scene.sliders.iter().any(may_kink) {
             true => {
-                "; the conserving rule is of first order in the length of spans, the kinked one of second to third"
+                "; the conserving rule is of first order in the span length, the kinked rule of second to third order"
             }
             false => "",
         };
-        let how = format!("{rules}: {solved}; ends of their beams are watched{seams}{choice}");
+        let how = format!("{rules}: {solved}; arrivals at beam ends are detected{seams}{choice}");
         SystemFeature::used("sliders", how)
     }
 
     fn explain_gravity(&self, methods: &[Method]) -> SystemFeature {
         match self.elements().weight() {
             Some(weight) => SystemFeature::used(weight.name(), weight.explain(methods)),
-            None => SystemFeature::left_out("gravity", "no weight; the potential energy stays 0"),
+            None => SystemFeature::left_out("gravity", "no weight and no potential energy"),
         }
     }
 
@@ -252,12 +262,12 @@ impl System {
             |load: &dyn ExternalForce| SystemFeature::used(load.name(), load.explain(methods));
         let mut parts: Vec<SystemFeature> = all.clone().take(MOST).map(one).collect();
         if parts.is_empty() {
-            return vec![SystemFeature::left_out("loads", "no schedules, no work")];
+            return vec![SystemFeature::left_out("loads", "no external forces")];
         }
         let rest = all.skip(MOST).map(|load| load.functions()).collect::<Vec<_>>();
         if !rest.is_empty() {
             let scripts = plural(rest.iter().sum(), "function");
-            let how = format!("{} more, {scripts} of scripts among them", rest.len());
+            let how = format!("{} more, including {scripts} of scripts", rest.len());
             parts.push(SystemFeature::used("loads", how));
         }
         parts
@@ -270,7 +280,7 @@ impl System {
         if parts.is_empty() {
             return vec![SystemFeature::left_out(
                 "springs",
-                "nothing beside the beams stores energy, nothing damps",
+                "no stored energy and no damping outside the beams",
             )];
         }
         let rest = all.skip(MOST).count();
@@ -282,9 +292,9 @@ impl System {
 
     fn explain_angles(&self) -> SystemFeature {
         match self.bodies().followed_sections() + self.elements().followed_sections() {
-            0 => SystemFeature::left_out("followed angles", "no section is followed"),
+            0 => SystemFeature::left_out("followed angles", "no section angle is tracked"),
             count => {
-                let how = "ends of beams, stations, and where loads turn";
+                let how = "ends of beams, stations, and places of follower loads";
                 SystemFeature::used(
                     "followed angles",
                     format!("{}: {how}", plural(count, "section")),
@@ -300,11 +310,11 @@ fn explain_drive(scene: &Scene, drive: &Drive) -> SystemFeature {
     let functions: usize = drive.schedules().map(|schedule| schedule.functions()).sum();
     let calls = match functions {
         0 => String::new(),
-        count => format!("; {} calls of functions in a step, or a part of one", 5 * count),
+        count => format!("; {} function calls per step or substep", 5 * count),
     };
     let beats = drive.schedules().filter_map(|schedule| schedule.beat());
-    let asked: String = beats.map(|beat| format!(", asked {beat}")).collect();
-    let given = "given and no unknown, exact in place";
+    let asked: String = beats.map(|beat| format!(", sampled {beat}")).collect();
+    let given = "prescribed and removed from the unknowns";
     let how = format!("{} of {place}: {given}{calls}{asked}", names.join(", "));
     SystemFeature::used(format!("{} '{}'", drive.kind.name(), drive.name), how)
 }
@@ -315,7 +325,7 @@ fn explain_releases(scene: &Scene) -> Option<SystemFeature> {
         match release.trigger {
             Trigger::Time(time) => format!("'{name}' at t = {time}"),
             Trigger::Outside => {
-                format!("'{name}' when a function says so, asked before every step")
+                format!("'{name}' when a function returns true, evaluated before every step")
             }
         }
     });
@@ -330,26 +340,26 @@ fn explain_start(scene: &Scene) -> SystemFeature {
     let is_projected =
         scene.sliders.iter().any(|slider| slider.velocities == StartVelocities::Project);
     let how = match (beams_rest && nodes_rest, is_projected) {
-        (_, true) => "made to fit the sliders, by solving once with the mass matrix",
+        (_, true) => "projected onto the slider constraints with the mass matrix",
         (true, false) => {
             return SystemFeature::left_out("start velocities", "everything starts at rest");
         }
         (false, false) if scene.sliders.is_empty() => "as given",
-        (false, false) => "as given; checked to fit the sliders",
+        (false, false) => "as given; checked for compatibility with the sliders",
     };
     SystemFeature::used("start velocities", how)
 }
 
 fn explain_particles(scene: &Scene) -> SystemFeature {
     match scene.particles.len() {
-        0 => SystemFeature::left_out("particles", "every unknown belongs to a beam"),
-        count => SystemFeature::used("particles", format!("{count}, which do not turn")),
+        0 => SystemFeature::left_out("particles", "every unknown belongs to a beam or body"),
+        count => SystemFeature::used("particles", format!("{count}, without rotation")),
     }
 }
 
 fn explain_masses(scene: &Scene) -> SystemFeature {
     match scene.masses().count().saturating_sub(scene.particles.len() + scene.rigid_bodies.len()) {
-        0 => SystemFeature::left_out("point masses", "the mass matrix is that of the bodies"),
+        0 => SystemFeature::left_out("point masses", "no masses added to beams or bodies"),
         count => {
             let turning = scene.masses().filter(|mass| mass.rotary_inertia > 0.0).count();
             let how = format!("{count}, {turning} with rotary inertia; part of the mass matrix");

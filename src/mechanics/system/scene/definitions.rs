@@ -110,9 +110,9 @@ impl RigidBodyDefinition {
     pub fn outline_refused(&self) -> Option<&'static str> {
         match self.outline.len() {
             0 => None,
-            1 | 2 => Some("a polygon has three corners or more"),
+            1 | 2 => Some("it needs at least three corners"),
             _ if self.links().next().is_none() => Some(
-                "pictures see by a point off its centre how it is turned, and it has none; give it one",
+                "its rotation is known from a point off the centre, and it has none; give it such a point",
             ),
             _ => None,
         }

@@ -57,7 +57,7 @@ impl Scene {
             finite(&object, "point", place.as_slice())?;
             check_name("point", name)?;
             if name == CENTRE && *place != Vec2::zeros() {
-                let (kind, why) = ("point", "the centre of mass of a body is called so");
+                let (kind, why) = ("point", "this is the name of the centre of mass");
                 return Err(SystemError::Unnamed { kind, name: name.clone(), why });
             }
             if body.points[..at].iter().any(|(other, _)| other == name) {

@@ -293,24 +293,24 @@ impl Scene {
         let Some(((_, rest), object)) = longest else {
             if let Some(other) = others.find(|known| of(known).is_some()) {
                 return Err(refused(format!(
-                    "springs, such as '{other}', have their columns in every history without being recorded"
+                    "springs such as '{other}' have columns in every history and need no recording"
                 )));
             }
             if let Some(drive) = self.drives.iter().find(|drive| of(&drive.name).is_some()) {
                 return Err(refused(format!(
-                    "drives, such as '{}', have their columns in every history without being recorded",
+                    "drives such as '{}' have columns in every history and need no recording",
                     drive.name
                 )));
             }
             return Err(refused(
-                "it must begin with the name of a beam, a particle, a body, a slider or a joint (hinge1, clamp1, rigid1) that the scene has by now".to_owned(),
+                "it must begin with the name of a beam, particle, body, slider or joint (hinge1, clamp1, rigid1) of the scene".to_owned(),
             ));
         };
         let find = |known: &'static [Quantity], rest: &str| {
             let wanted = rest.strip_prefix('.').unwrap_or_default();
             known.iter().find(|quantity| quantity.name == wanted).copied().ok_or_else(|| {
                 let names: Vec<&str> = known.iter().map(|quantity| quantity.name).collect();
-                refused(format!("its last part is one of {}", names.join(", ")))
+                refused(format!("its last part must be one of {}", names.join(", ")))
             })
         };
         match object {
@@ -318,7 +318,7 @@ impl Scene {
             Object::Slider(at) => match find(OF_SLIDERS, rest) {
                 Ok(quantity) => Ok(Probe::Slider(at, quantity)),
                 Err(_) => Err(refused(format!(
-                    "place, speed and force of slider '{}' in the last step are in every history without being recorded; more there is of {}",
+                    "position, speed and force of slider '{}' have columns in every history and need no recording; its other quantities are {}",
                     self.sliders[at].name,
                     OF_SLIDERS.iter().map(|quantity| quantity.name).collect::<Vec<_>>().join(", ")
                 ))),
@@ -373,7 +373,7 @@ impl Scene {
                     return known.map(|known| Probe::Body(BodyIndex::Beam(at), *known)).ok_or_else(|| {
                         let names: Vec<&str> = OF_BODIES.iter().map(|quantity| quantity.name).collect();
                         refused(format!(
-                            "of a beam as a whole there are {}; of a place {beam}.start.x, {beam}.end.x, {beam}[s].x and their like",
+                            "a whole beam has {}; its places have {beam}.start.x, {beam}.end.x, {beam}[s].x and so on",
                             names.join(", ")
                         ))
                     });

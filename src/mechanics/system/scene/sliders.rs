@@ -16,10 +16,10 @@ const CLOSED: f64 = 1e-6;
 fn at_seams(rule: SlidingRule) -> Option<&'static str> {
     match rule {
         SlidingRule::Conserving | SlidingRule::Exact => None,
-        SlidingRule::Kinked => {
-            Some("the kink of its axis has no room, and its energy would be a wall there")
-        }
-        SlidingRule::Relaxed => Some("no step closes the gap that it leaves to both beams"),
+        SlidingRule::Kinked => Some(
+            "there is no space for the kink of the axis, and its energy would reflect the slider",
+        ),
+        SlidingRule::Relaxed => Some("the gap to both beams cannot be closed"),
     }
 }
 

@@ -90,7 +90,7 @@ pub fn check_ties(scene: &Scene) -> Result<(), SystemError> {
             if !ties.tie(node(place), partner.map_or(0, node)) {
                 let ground = ties.root(node(place)) == 0;
                 let how = match (ground, joint.kind) {
-                    (true, _) => "held by the ground",
+                    (true, _) => "fixed to the ground",
                     (false, JointKind::Hinge) => "joined to the other station",
                     (false, _) => "joined to the other station in this component",
                 };
@@ -110,11 +110,11 @@ pub fn check_ties(scene: &Scene) -> Result<(), SystemError> {
         for (component, _) in drive.motions() {
             let root = ties.root(1 + 3 * place + component as usize);
             let how = if given.contains(&root) {
-                Some("given")
+                Some("prescribed")
             } else if root == 0 {
-                Some("held")
+                Some("fixed")
             } else if on_rollers.iter().any(|held| held.contains(&root)) {
-                Some("tied to the other component by an inclined roller")
+                Some("coupled to the other component by an inclined roller")
             } else {
                 None
             };
@@ -147,11 +147,11 @@ fn check_rollers(
             *at == roots && cross(*other, along).abs() < PARALLEL
         };
         let how = if roots == [0; 2] {
-            Some("held by the ground")
+            Some("fixed to the ground")
         } else if others.iter().any(is_parallel) {
-            Some("held across that direction")
+            Some("restrained across that direction")
         } else if others.iter().filter(|(at, _)| *at == roots).count() > 1 {
-            Some("held by two rollers")
+            Some("restrained by two rollers")
         } else {
             None
         };
