@@ -30,7 +30,7 @@ fn without_a_name_there_is_an_overview() {
 #[test]
 fn a_name_shows_its_page_without_colours_in_a_pipe() {
     let page = shown(&docs(&["simulation.run_to"]));
-    assert!(page.starts_with("simulation.run_to(t)\nSteps until a time"), "{page}");
+    assert!(page.starts_with("simulation.run_to(t)\nTakes steps until a time"), "{page}");
     assert!(page.contains("\nExample\n    "), "{page}");
     assert!(!page.contains('\u{1b}'), "{page}");
 }

@@ -192,7 +192,7 @@ fn a_load_cannot_use_the_simulation_that_it_is_called_by() {
     let output = run(&script, &[]);
     expect(
         &output,
-        &["step: simulation 'a' is in the middle of a step", "function of its argument"],
+        &["step: simulation 'a' is in the middle of a step", "a load is a function of time"],
     );
 }
 

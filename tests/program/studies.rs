@@ -277,7 +277,7 @@ fn all_cells_that_did_not_finish_are_listed_in_a_line_each() {
     let output = withy(&["run"], &file).output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));
     let text = printed(&output);
-    let (_, list) = text.split_once("12 of 15 cells did not come to their end").unwrap();
+    let (_, list) = text.split_once("12 of 15 cells did not finish").unwrap();
     assert!(list.contains("map.csv"), "{list}");
     let lines: Vec<&str> = list.lines().filter(|line| line.starts_with("size ")).collect();
     assert_eq!(lines.len(), 12, "{list}");

@@ -168,7 +168,7 @@ fn parts_are_joined_to_the_bytes_of_one_machine() {
 
     fs::create_dir(folder.path().join("d")).unwrap();
     fs::copy(&kept, file.with_file_name("d").join("flights.2-of-3.part")).unwrap();
-    refused(&["a", "b", "c", "d"], "part 2 of 3 of the study 'flights' is there twice");
+    refused(&["a", "b", "c", "d"], "part 2 of 3 of the study 'flights' exists twice");
     let text = fs::read_to_string(&file).unwrap();
     fs::write(&file, text.replace("sim.run_to(1)", "sim.run_to(2)")).unwrap();
     refused(&["a", "b", "c"], "is not a part of this study");
