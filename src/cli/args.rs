@@ -17,15 +17,15 @@ use crate::script::state::parts::StudyPart;
 #[derive(Parser)]
 #[command(version, args_conflicts_with_subcommands = true, after_help = EXIT_CODES)]
 pub struct CliArguments {
-    /// What to do.
+    /// Command.
     #[command(subcommand)]
     pub command: Option<CliCommand>,
-    /// How a session goes, where there is no command.
+    /// Options of a session without a command.
     #[command(flatten)]
     pub session: SessionOptions,
 }
 
-/// What withy can do.
+/// Commands of withy.
 #[derive(Subcommand)]
 pub enum CliCommand {
     /// Runs a script.
@@ -57,7 +57,7 @@ pub enum CliCommand {
 pub struct ReplOptions {
     /// Script that is evaluated first, as if it had been typed.
     pub file: Option<PathBuf>,
-    /// How the session goes.
+    /// Options of the session.
     #[command(flatten)]
     pub session: SessionOptions,
 }
@@ -80,7 +80,7 @@ pub struct SessionOptions {
     /// Draws with ASCII characters only.
     #[arg(long)]
     pub ascii: bool,
-    /// What the session may use; time and steps are those of one input.
+    /// Limits of the session; time and steps apply to each input.
     #[command(flatten)]
     pub limits: LimitOptions,
 }
@@ -117,7 +117,7 @@ pub struct RunOptions {
     /// Hides the progress bar and the closing lines; printed text and errors are still shown.
     #[arg(long, short)]
     pub quiet: bool,
-    /// What the script may use.
+    /// Limits of the script.
     #[command(flatten)]
     pub limits: LimitOptions,
 }
@@ -145,7 +145,7 @@ pub struct StudyOptions {
     /// Hides the progress bar and the closing lines; printed text and errors are still shown.
     #[arg(long, short)]
     pub quiet: bool,
-    /// What the script may use.
+    /// Limits of the script.
     #[command(flatten)]
     pub limits: LimitOptions,
 }
@@ -155,7 +155,7 @@ pub struct StudyOptions {
 pub struct CheckOptions {
     /// Script, a .rhai file.
     pub file: PathBuf,
-    /// What the script may use.
+    /// Limits of the script.
     #[command(flatten)]
     pub limits: LimitOptions,
 }

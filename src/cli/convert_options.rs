@@ -20,12 +20,12 @@ pub struct ConvertOptions {
     /// Hides the progress bar and the closing lines; errors are still shown.
     #[arg(long, short)]
     pub quiet: bool,
-    /// What the conversion may use.
+    /// Limits of the conversion.
     #[command(flatten)]
     pub limits: LimitOptions,
 }
 
-/// What a saved simulation can become.
+/// Output format of a conversion.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum ConvertTarget {
     /// Frames for ParaView: NAME.pvd and NAME/NAME_0001.vtu …; repeats the run if velocities and section forces are not stored.

@@ -15,7 +15,7 @@ pub struct LearnOptions {
     pub action: Option<LearnAction>,
 }
 
-/// What `withy learn` can do.
+/// Actions of `withy learn`.
 #[derive(Subcommand)]
 pub enum LearnAction {
     /// Lists all exercises and those passed.
@@ -29,7 +29,7 @@ pub enum LearnAction {
         /// Shows the result of each exercise.
         #[arg(long, conflicts_with = "name")]
         all: bool,
-        /// What an attempt may use.
+        /// Limits of an attempt.
         #[command(flatten)]
         limits: LimitOptions,
     },
@@ -54,7 +54,7 @@ pub enum LearnAction {
     /// and PageDown scroll, q quit. Without a terminal it writes lines.
     #[command(verbatim_doc_comment)]
     Watch {
-        /// What an attempt may use.
+        /// Limits of an attempt.
         #[command(flatten)]
         limits: LimitOptions,
     },
@@ -71,7 +71,7 @@ pub enum LearnAction {
         /// Number of attempts judged at the same time; by default the number of cores.
         #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
         jobs: Option<u16>,
-        /// What each attempt may use.
+        /// Limits of each attempt.
         #[command(flatten)]
         limits: LimitOptions,
     },
@@ -80,7 +80,7 @@ pub enum LearnAction {
     Try {
         /// Exercise.
         name: String,
-        /// What the attempt may use.
+        /// Limits of the attempt.
         #[command(flatten)]
         limits: LimitOptions,
     },
@@ -93,7 +93,7 @@ pub enum LearnAction {
         file: PathBuf,
         /// Exercise.
         name: String,
-        /// What the attempt may use.
+        /// Limits of the attempt.
         #[command(flatten)]
         limits: LimitOptions,
     },

@@ -10,7 +10,7 @@ use crate::script::state::limits::{
     DEEPEST, DEFAULT_DEPTH, DEFAULT_FILES, DEFAULT_MEGABYTES, DEFAULT_MEGABYTES_WRITTEN, Limits,
 };
 
-/// What a script may use.
+/// Limits of a script.
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Limits")]
 pub struct LimitOptions {

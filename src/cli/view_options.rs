@@ -23,7 +23,7 @@ pub struct ViewOptions {
     /// Hides the progress bar and the closing lines; printed text and errors are still shown.
     #[arg(long, short)]
     pub quiet: bool,
-    /// What the script may use.
+    /// Limits of the script.
     #[command(flatten)]
     pub limits: LimitOptions,
 }

@@ -60,7 +60,7 @@ impl Footprint {
     pub fn change(&self, session: &Session) -> Option<String> {
         let moved = self.simulations.iter().find(|(handle, was)| place(handle) != *was);
         if let Some((handle, _)) = moved {
-            return Some(format!("moves simulation '{}'", handle.name()));
+            return Some(format!("advances simulation '{}'", handle.name()));
         }
         if let Some((scene, _)) = self.scenes.iter().find(|(scene, was)| content(scene) != *was) {
             return Some(format!("changes scene '{}'", scene.scene().borrow().name));
@@ -69,7 +69,7 @@ impl Footprint {
             return Some("writes files".into());
         }
         let shared = self.shared.iter().any(|(value, was)| format!("{value:?}") != *was);
-        shared.then(|| "changes a variable that functions share".into())
+        shared.then(|| "changes a variable shared by functions".into())
     }
 }
 

@@ -359,9 +359,9 @@ fn what_has_effects_is_timed_once_and_that_is_told() {
     let mut prompt = Prompt::spinning();
     prompt.ask("let n = 0; let count = || n += 1;");
     for (input, why) in [
-        ("sim.step()", "it moves simulation 'spin'"),
-        ("sim.back()", "it moves simulation 'spin'"),
-        ("sim.at(9, |s| ())", "it moves simulation 'spin'"),
+        ("sim.step()", "it advances simulation 'spin'"),
+        ("sim.back()", "it advances simulation 'spin'"),
+        ("sim.at(9, |s| ())", "it advances simulation 'spin'"),
         ("scene.force(rod.end, [1, 0])", "it changes scene 'spin'"),
         ("[scene].map(|s| s.gravity([0, -1]))", "it changes scene 'spin'"),
         ("sim.plot_history([\"energy\"], \"energies.svg\")", "it writes files"),

@@ -128,7 +128,7 @@ impl<'a> EventLoop<'a> {
             if report.outcome != AttemptOutcome::Interrupted {
                 let has_passed = report.outcome == AttemptOutcome::Passed;
                 if let Err(error) = self.workbook.note(self.state.exercise, has_passed) {
-                    self.state.notice = Some(format!("not noted: {error}"));
+                    self.state.notice = Some(format!("the result was not recorded: {error}"));
                 }
             }
             self.state.tell(report);
@@ -171,7 +171,7 @@ impl<'a> EventLoop<'a> {
                 self.state.progress.note_hint(exercise);
             }
             Ok(Advice::Solution(_)) => self.state.hints = exercise.judge().hints.len(),
-            Err(error) => self.state.notice = Some(format!("not noted: {error}")),
+            Err(error) => self.state.notice = Some(format!("the result was not recorded: {error}")),
         }
     }
 }

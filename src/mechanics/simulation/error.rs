@@ -142,7 +142,7 @@ pub enum SimulationError {
         ending: String,
     },
     /// Slider that bounces too often within one step.
-    #[error("{arrival}: {most} times within one step")]
+    #[error("{arrival}, the last of {most} arrivals within one step")]
     Rattles {
         /// Description of the last arrival.
         arrival: String,

@@ -31,13 +31,13 @@ impl Simulation {
         let numbers = self.record.history.columns().count() + self.record.trajectory.stride();
         let rows = self.record.history.samples().len();
         let how = format!(
-            "{}: {rows} rows of {numbers} numbers so far",
+            "{}: {rows} rows with {numbers} values each so far",
             self.record.recording.describe()
         );
         match self.record.recording {
             Recording::Nothing => SystemFeature::left_out(
                 "recording",
-                "no rows between the ends of a run; energies are measured when asked for",
+                "only the ends of a run; energies are computed on request",
             ),
             Recording::Every(_) => SystemFeature::used("recording", how),
         }
@@ -46,13 +46,10 @@ impl Simulation {
     fn explain_snapshots(&self) -> SystemFeature {
         let (kept, bytes) = self.snapshots_kept();
         match self.snapshot_limit() {
-            0 => SystemFeature::left_out(
-                "snapshots",
-                "no states to go back to, and no copies of them",
-            ),
+            0 => SystemFeature::left_out("snapshots", "no stored states, and no stepping back"),
             limit => {
                 let (used, most) = (bytes as f64 / 1e6, limit as f64 / 1e6);
-                let how = format!("{kept} states in {used:.1} of {most} MB; one is copied a step");
+                let how = format!("{kept} snapshots in {used:.1} of {most} MB; one per step");
                 SystemFeature::used("snapshots", how)
             }
         }
@@ -62,15 +59,13 @@ impl Simulation {
     fn explain_tries(&self) -> SystemFeature {
         let WorkCounts { rejected, retries, .. } = self.counts();
         match &self.adaptive {
-            None => SystemFeature::left_out(
-                "error control",
-                "steps are as long as is said, and halved where they fail",
-            ),
+            None => {
+                SystemFeature::left_out("error control", "fixed step size; failed steps are halved")
+            }
             Some(adaptive) => {
                 let StepController { first, smallest, .. } = adaptive.controller;
                 let how = format!(
-                    "each step is two of the method, compared with one as long as both: 3 solves for 2; the first is {first:.3e}, \
-                     none below {smallest:.1e}; rejected {rejected}, failed {retries} so far"
+                    "step doubling: two steps are compared with one of double length (3 solves instead of 2); first step {first:.3e}, smallest {smallest:.1e}; rejected {rejected}, failed {retries} so far"
                 );
                 SystemFeature::used("error control", how)
             }

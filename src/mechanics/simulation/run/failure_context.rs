@@ -43,7 +43,7 @@ impl Simulation {
         bodies.filter(move |(index, body)| !body.points.is_empty() && inertia(*index) == 0.0).map(
             |(_, body)| {
                 format!(
-                    "body '{}' has no rotary inertia, but a force acts off its centre; give it an inertia",
+                    "body '{}' has no rotary inertia, which forces off its centre require; give it an inertia",
                     body.name
                 )
             },
