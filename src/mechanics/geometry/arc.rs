@@ -114,9 +114,9 @@ mod tests {
             refusal(1.0, 0.0, 7.0),
             "arc: the angle between start and end is 7 rad, but at most 2π is allowed in either direction"
         );
-        assert!(refusal(f64::NAN, 0.0, 1.0).starts_with("radius of the arc: NaN"));
-        assert!(refusal(1.0, 0.0, f64::INFINITY).starts_with("end angle of the arc: inf"));
-        assert!(refusal(1e308, 0.0, 6.0).starts_with("length of the arc: inf"));
+        assert!(refusal(f64::NAN, 0.0, 1.0).starts_with("radius of the arc is NaN"));
+        assert!(refusal(1.0, 0.0, f64::INFINITY).starts_with("end angle of the arc is inf"));
+        assert!(refusal(1e308, 0.0, 6.0).starts_with("length of the arc is inf"));
         assert!(CircularArc::new(Vec2::zeros(), 1.0, 0.1, 0.1 - TAU).is_ok());
     }
 }
