@@ -244,7 +244,7 @@ mod tests {
         let values = (0..3).map(|row| (0..1000).map(|x| f64::from(x + 1000 * row)).collect());
         let axes = (axis("x", &middles), axis("y", &[1.0, 2.0, 3.0]));
         let mut map = LevelMap::new("", "", axes, values.collect());
-        assert_eq!(map.captions, ["each drawn cell is the mean of 7 × 1"]);
+        assert_eq!(map.captions, ["each drawn cell is the mean of 7 × 1 cells"]);
         let ends = map.x.drawn_ends();
         assert_eq!((map.values[1].len(), ends.len()), (143, 144));
         assert_eq!((ends[0], ends[1], ends[143]), (-0.5, 6.5, 999.5));

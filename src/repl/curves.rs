@@ -229,9 +229,9 @@ mod tests {
     fn a_curve_has_a_summary() {
         let points = vec![(0.0, 2.0), (0.1, -1.0), (0.2, 1.5)];
         let curve = |over| PlotCurve { name: "f".into(), over, points: points.clone() };
-        let told = "f: 2 at the start, least -1, most 2, now 1.5 (3 states)";
+        let told = "f: 2 at the start, minimum -1, maximum 2, now 1.5 (3 states)";
         assert_eq!(summary(&curve(CurveAbscissa::Time)), told);
-        let told = "f: 2 at the first, least -1, most 2, 1.5 at the last (3 points)";
+        let told = "f: 2 at the first, minimum -1, maximum 2, 1.5 at the last (3 points)";
         assert_eq!(summary(&curve(CurveAbscissa::Index)), told);
     }
 }

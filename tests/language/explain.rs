@@ -116,7 +116,7 @@ fn a_slider_has_a_border_and_a_support_has_reactions() {
     assert!(used(&parts, "sliders").contains("1 conserving: a border of 5 columns"));
     assert!(used(&parts, "unknowns").contains("5 contact unknowns, in the border of the matrix"));
     assert_eq!(model.unknowns(), 20);
-    assert!(used(&parts, "supports").contains("1 clamp: 3 movements held"));
+    assert!(used(&parts, "supports").contains("1 clamp: 3 movements fixed"));
     // The rotation of the particle is held too, but by no support.
     assert_eq!(model.degrees_of_freedom() - model.unknowns() - 5, 4);
     assert_eq!(used(&parts, "particles"), "1, without rotation");

@@ -109,7 +109,7 @@ fn an_expression_is_drawn_in_all_states_and_the_simulation_stays() {
     prompt.ask("sim.step(0)");
     let before = prompt.ask("`${sim.t} ${sim.steps} ${sim.energy} ${sim.history.rows}`");
     let (reply, told) = prompt.ask_both(":plot sim.position(rod.end).x");
-    assert!(reply.starts_with("sim.position(rod.end).x: 2 at the start, least "), "{reply}");
+    assert!(reply.starts_with("sim.position(rod.end).x: 2 at the start, minimum "), "{reply}");
     assert!(reply.contains("(11 states)"), "{reply}");
     let now: f64 = path.last().unwrap().parse().unwrap();
     assert!(reply.contains(&format!("now {:.5}", now)[..9]), "{reply} {now}");
@@ -125,7 +125,7 @@ fn the_history_is_in_each_state_what_it_was() {
     let mut prompt = Prompt::spinning();
     prompt.ask(":step 4");
     let rows = prompt.ask(":plot sim.history.rows");
-    assert!(rows.contains("1 at the start, least 1, most 5, now 5 (5 states)"), "{rows}");
+    assert!(rows.contains("1 at the start, minimum 1, maximum 5, now 5 (5 states)"), "{rows}");
     // By another name, and by a function.
     prompt.ask("let other = sim; fn tip() { latest_simulation().t }");
     for same in [
@@ -136,7 +136,10 @@ fn the_history_is_in_each_state_what_it_was() {
         "[sim].map(|s| s.t)[0]",
     ] {
         let reply = prompt.ask(&format!(":plot {same}"));
-        assert!(reply.contains("0 at the start, least 0, most 0.4, now 0.4"), "{same}: {reply}");
+        assert!(
+            reply.contains("0 at the start, minimum 0, maximum 0.4, now 0.4"),
+            "{same}: {reply}"
+        );
     }
 }
 
@@ -170,11 +173,11 @@ fn arrays_are_drawn_as_they_are_without_any_simulation() {
     let of = |prompt: &mut Prompt, text: &str| prompt.ask(&format!(":plot {text}"));
     let squares = of(&mut prompt, "[0, 1, 2, 3].map(|x| x ^ 2)");
     assert!(
-        squares.ends_with("0 at the first, least 0, most 9, 9 at the last (4 points)\n"),
+        squares.ends_with("0 at the first, minimum 0, maximum 9, 9 at the last (4 points)\n"),
         "{squares}"
     );
     prompt.ask("let x = [1, 2]; let y = [3, 4];");
-    assert!(of(&mut prompt, "[x, y]").contains("3 at the first, least 3, most 4"));
+    assert!(of(&mut prompt, "[x, y]").contains("3 at the first, minimum 3, maximum 4"));
     assert_eq!(of(&mut prompt, "x, y").lines().count(), 2);
     assert!(of(&mut prompt, "[vec(0, 1), vec(1, 5)]").contains("most 5"));
     let told = prompt.refusal(":plot x, [x, y]");
@@ -214,7 +217,7 @@ fn what_cannot_be_drawn_is_refused_with_what_to_do() {
         ("[]", "empty array", "array of numbers"),
         ("let a = 1;", "has no value", "expression"),
         ("sim.t, [1, 2]", "over the index of an array", "one after the other"),
-        ("if sim.t < 0.15 { \"a\" } else { 1 }", "cannot be drawn at t = 0.1", "at all times"),
+        ("if sim.t < 0.15 { \"a\" } else { 1 }", "cannot be plotted at t = 0.1", "at all times"),
         ("1 / if sim.t < 0.15 { throw \"early\" } else { 1 }", "fails at t = 0.1", ""),
     ] {
         let told = prompt.refusal(&format!(":plot {text}"));
@@ -365,7 +368,7 @@ fn what_has_effects_is_timed_once_and_that_is_told() {
         ("scene.force(rod.end, [1, 0])", "it changes scene 'spin'"),
         ("[scene].map(|s| s.gravity([0, -1]))", "it changes scene 'spin'"),
         ("sim.plot_history([\"energy\"], \"energies.svg\")", "it writes files"),
-        ("count.call()", "it changes a variable that functions share"),
+        ("count.call()", "it changes a variable shared by functions"),
         (":step", "it is a command"),
     ] {
         let reply = prompt.ask(&format!(":time {input}"));

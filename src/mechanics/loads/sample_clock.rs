@@ -129,7 +129,10 @@ mod tests {
         assert_eq!(beat.next(0.0, 1e-12), 0.01);
         assert!((beat.next(0.03, 1e-12) - 0.035).abs() < 1e-15);
         assert_eq!(beat.to_string(), "every 0.01, with a delay of 0.025");
-        assert_eq!(SampleClock::new(1e300, 2e-6).unwrap().to_string(), "every 1e300, 2e-6 later");
+        assert_eq!(
+            SampleClock::new(1e300, 2e-6).unwrap().to_string(),
+            "every 1e300, with a delay of 2e-6"
+        );
     }
 
     #[test]

@@ -80,7 +80,7 @@ pub fn in_language(shell: &Shell, name: &str) -> String {
 fn variable(shell: &Shell, name: &str, value: &Dynamic) -> NameInfo {
     let session = shell.session();
     let kind = match (name, session.variables().is_constant(name)) {
-        (ANSWER, Some(false)) => "value of the last input that had one",
+        (ANSWER, Some(false)) => "the value of the last input that had one",
         (_, Some(true)) => "a constant",
         _ => "a variable",
     };

@@ -35,7 +35,7 @@ pub const TABLE: BindingTable = BindingTable {
     .example(
         "sim.run_to(1);\ncheck(sim.notes.is_empty());\n\
          let coarse = scene.start(#{ dt: 1, notes: \"keep\" });\ncoarse.run_to(4);\n\
-         check(coarse.notes.len() == 1 && coarse.notes[0].contains(\"rad in a step\"));",
+         check(coarse.notes.len() == 1 && coarse.notes[0].contains(\"rad per step\"));",
     )
     .see(&["start", "explain", "run_to"])],
 };
