@@ -212,9 +212,9 @@ fn a_scene_is_refused_in_which_a_movement_is_given_or_held_twice() {
         scene.add_drive(drive).unwrap_err()
     };
     let told = refused(&mut scene, Component::X);
-    assert!(matches!(&told, SystemError::AlreadyDriven { how: "held", .. }), "{told}");
+    assert!(matches!(&told, SystemError::AlreadyDriven { how: "fixed", .. }), "{told}");
     let told = refused(&mut scene, Component::Rotation);
-    assert!(matches!(&told, SystemError::AlreadyDriven { how: "given", .. }), "{told}");
+    assert!(matches!(&told, SystemError::AlreadyDriven { how: "prescribed", .. }), "{told}");
     let hold = JointKind::Support(Components::Rotation);
     let told = scene.join(hold, start, Partner::Ground).unwrap_err();
     assert!(matches!(&told, SystemError::HeldAndDriven { .. }), "{told}");

@@ -66,7 +66,7 @@ fn a_simulation_survives_a_restart() {
     let home = tempfile::tempdir().unwrap();
     let (outcome, told) = run_in(home.path(), RunMode::Run, FIRST);
     assert_good(&outcome);
-    assert!(told.contains("without the functions that wait for a time (1)"), "{told}");
+    assert!(told.contains("without its pending functions of sim.at (1)"), "{told}");
     assert_eq!(outcome.files, [home.path().join("half.withy")]);
     let file = std::fs::read(home.path().join("half.withy")).unwrap();
     for _ in 0..2 {
@@ -91,7 +91,7 @@ fn a_check_loads_what_an_earlier_run_or_the_script_itself_saves_and_writes_nothi
     let refused = message(&run_in(&out, RunMode::DryBuild, SECOND).0);
     assert!(
         refused.contains("no file \"half.withy\"")
-            && refused.contains("run the script that writes it first"),
+            && refused.contains("first run the script that writes it"),
         "{refused}"
     );
     assert_good(&run_in(&out, RunMode::Run, FIRST).0);
@@ -116,9 +116,9 @@ fn files_that_are_not_whole_or_not_ours_are_refused_with_a_reason() {
     let mut damaged = file.clone();
     damaged[file.len() / 2] ^= 16;
     let cases: [(&[u8], &str); 5] = [
-        (&file[..file.len() / 2], "ends too early"),
-        (b"time,energy\n", "no simulation"),
-        (b"", "no simulation"),
+        (&file[..file.len() / 2], "the file is truncated"),
+        (b"time,energy\n", "not a restart file"),
+        (b"", "not a restart file"),
         (&newer, &next),
         (&damaged, "damaged: its checksum"),
     ];
