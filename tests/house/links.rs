@@ -94,7 +94,7 @@ fn with_contents(text: &str) -> String {
             && line.contains("](#")
     };
     let lines: Vec<&str> = text.lines().collect();
-    let first = lines.iter().position(|line| is_entry(line)).expect("a table of contents");
+    let first = lines.iter().position(is_entry).expect("a table of contents");
     let behind = lines[first..].iter().position(|line| !is_entry(line)).unwrap() + first;
     let sections = prose(text).into_iter().filter_map(|line| line.strip_prefix("## "));
     let entries = sections.map(|section| {
