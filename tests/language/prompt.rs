@@ -179,7 +179,7 @@ fn arrays_are_drawn_as_they_are_without_any_simulation() {
     prompt.ask("let x = [1, 2]; let y = [3, 4];");
     assert!(of(&mut prompt, "[x, y]").contains("3 at the first, minimum 3, maximum 4"));
     assert_eq!(of(&mut prompt, "x, y").lines().count(), 2);
-    assert!(of(&mut prompt, "[vec(0, 1), vec(1, 5)]").contains("most 5"));
+    assert!(of(&mut prompt, "[vec(0, 1), vec(1, 5)]").contains("maximum 5"));
     let told = prompt.refusal(":plot x, [x, y]");
     assert!(
         told.contains("the index of an array") && told.contains("one after the other"),
