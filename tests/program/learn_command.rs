@@ -176,7 +176,7 @@ fn a_reset_keeps_the_attempt_and_says_where() {
     let kept = file.with_extension("old");
     assert!(
         text.contains(&format!(
-            "kept as withy-exercises/{}/{}.old",
+            "saved as withy-exercises/{}/{}.old",
             EXERCISES[0].track, EXERCISES[0].name
         )),
         "{text}"
