@@ -49,7 +49,7 @@ pub enum ParsedCsvError {
     },
 }
 
-/// The largest number of a cell: its square is finite.
+/// Largest allowed number of a cell, so that its square is finite.
 const LARGEST: f64 = 1e150;
 
 /// A table of texts with named columns.

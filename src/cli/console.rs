@@ -19,7 +19,7 @@ pub(super) fn tell(text: &str) {
     tell_drawn(&printable(text));
 }
 
-/// The same of a text that may have colours of this program.
+/// Prints to standard error; the colour sequences of this program are kept.
 pub(super) fn tell_drawn(text: &str) {
     notice(stderr().write_all(printable_in_colours(text).as_bytes()));
 }

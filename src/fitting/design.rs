@@ -10,7 +10,7 @@ use super::SearchRange;
 const FIRST_STEP: f64 = 0.1;
 /// Tolerance of constraints, relative to their size.
 const MET: f64 = 1e-6;
-/// A parameter without a bound has run off when it is so many of its sizes away from zero.
+/// Distance from zero, in sizes of a parameter, beyond which an unbounded parameter counts as diverged.
 const FARTHEST: f64 = 1e15;
 /// Penalty of a failed run, added to the worst objective.
 pub(super) const PENALTY: f64 = 10.0;
@@ -46,9 +46,9 @@ pub struct Designed {
     pub rating: Rating,
     /// True if all constraints are met.
     pub is_feasible: bool,
-    /// Whether the search came to its end before the most runs were made, and no parameter ran off.
+    /// True if the search converged within the number of runs and no parameter diverged.
     pub is_settled: bool,
-    /// The parameter without a bound that ran off, for the function gets less and less there.
+    /// Index of an unbounded parameter that diverged, because the objective decreases without limit.
     pub runaway: Option<usize>,
     /// Number of calls.
     pub runs: usize,
@@ -186,7 +186,7 @@ impl Design {
         Scaled { start, bounds }
     }
 
-    /// The first parameter that is beyond all its sizes, on a side where it has no bound.
+    /// Index of the first parameter that diverged on an unbounded side.
     pub(super) fn runaway(&self, parameters: &[f64]) -> Option<usize> {
         self.ranges.iter().zip(parameters).position(|(range, x)| {
             let bound = if *x < 0.0 { range.low } else { range.high };

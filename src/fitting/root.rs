@@ -20,9 +20,9 @@ pub enum RootError<E> {
     SameSign(f64, f64),
     /// The function is not finite; argument and value.
     NotFinite(f64, f64),
-    /// The sign changes at a place, where the values are larger than at both ends, as at a pole: the value there.
+    /// The sign changes at a pole, where values exceed those at both ends; argument and value.
     Pole(f64, f64),
-    /// The search was not at its end after the most calls: the best place, and the value there.
+    /// The search did not converge within the number of calls; best argument and its value.
     Unfinished(f64, f64),
     /// The function failed.
     Function(E),

@@ -32,7 +32,7 @@ impl CsvTable {
         self
     }
 
-    /// The table with every so manieth row and the last one, if it has more than about so many numbers; a comment tells of it.
+    /// Keeps every n-th row and the last one so that about `numbers` numbers remain. A comment line states n.
     #[must_use]
     pub fn thinned(mut self, numbers: usize) -> Self {
         let rows = self.columns.iter().map(|(_, values)| values.len()).max().unwrap_or(0);
@@ -88,7 +88,7 @@ impl CsvTable {
     }
 }
 
-/// The text of a cell, with an apostrophe before it where a spreadsheet would take it for a formula. Numbers stay as they are.
+/// Text of a cell. An apostrophe precedes texts that spreadsheets would evaluate as formulas; numbers do not change.
 pub fn csv_cell(text: &str) -> Cow<'_, str> {
     let is_formula = text.starts_with(['=', '+', '-', '@', '\t', '\r']);
     match is_formula && text.parse::<f64>().is_err() {
@@ -97,7 +97,7 @@ pub fn csv_cell(text: &str) -> Cow<'_, str> {
     }
 }
 
-/// A line above a table. A spreadsheet cuts it into cells as it does the rows.
+/// Comment line above a table. Spreadsheets split it into cells like a row, so each part is made safe.
 pub(super) fn comment_line(text: &str) -> String {
     const CUTS: [char; 3] = [',', ';', '\t'];
     let mut line = "#".to_owned();

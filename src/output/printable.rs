@@ -1,11 +1,11 @@
-//! Text that is safe to write to a terminal, whoever wrote it.
+//! Replacement of characters of untrusted text that control a terminal or are invisible.
 
 use std::borrow::Cow;
 
-/// The sign that stands where a character was that must not reach a terminal.
+/// Replacement for characters that must not reach a terminal.
 const REPLACEMENT: char = '\u{fffd}';
 
-/// The text with a replacement sign for every character that a terminal obeys or hides: control characters such as the beginning of an escape
+/// Replaces control characters (such as the start of an escape sequence), bidirectional and zero-width characters.
 /// Line breaks and tabs are kept, and the number of characters does not change.
 pub fn printable(text: &str) -> Cow<'_, str> {
     let is_harmful = |(at, letter): (usize, char)| is_harmful(letter) && !is_line_break(text, at);
@@ -16,7 +16,7 @@ pub fn printable(text: &str) -> Cow<'_, str> {
     Cow::Owned(text.char_indices().map(safe).collect())
 }
 
-/// The same for a text with colours: sequences of the form `ESC[1;31m` stay.
+/// Like [`printable`], but keeps colour sequences of the form `ESC[1;31m`.
 pub fn printable_in_colours(text: &str) -> Cow<'_, str> {
     let mut pieces = text.split("\x1b[");
     let Some(first) = pieces.next().filter(|first| first.len() < text.len()) else {
@@ -33,7 +33,7 @@ pub fn printable_in_colours(text: &str) -> Cow<'_, str> {
     Cow::Owned(safe)
 }
 
-/// The text on one line, safe for a terminal: line breaks and tabs become blanks.
+/// Like [`printable`], on one line: line breaks and tabs become blanks.
 pub fn printable_line(text: &str) -> String {
     printable(&text.replace(['\n', '\r', '\t'], " ")).into_owned()
 }
@@ -48,7 +48,6 @@ fn is_harmful(letter: char) -> bool {
     }
 }
 
-/// Whether the character at a place is the first of a line break of two.
 fn is_line_break(text: &str, at: usize) -> bool {
     text[at..].starts_with("\r\n")
 }

@@ -1,4 +1,4 @@
-//! Files that are on the disk as a whole or not at all, and those that are kept by another name.
+//! Atomic and durable writing of files, and renaming of foreign files before they would be replaced.
 
 use std::ffi::{OsStr, OsString};
 use std::fs;
@@ -10,13 +10,13 @@ use std::time::Duration;
 use super::folder::Folder;
 use super::reading;
 
-/// So many names are tried for a file that is not complete yet.
+/// Number of names that are tried for a temporary file.
 pub(super) const TRIES: usize = 100;
 
-/// A file that is not complete and was not changed for so long is abandoned, if nobody holds its lock: it has none in its first moment.
+/// Age from which an unlocked temporary file counts as abandoned. A new file is unlocked for a moment.
 const ABANDONED: Duration = Duration::from_secs(60);
 
-/// A file that is complete and on the disk, under a hidden name. It is removed unless it is [placed](Self::place).
+/// Complete file under a temporary name. Dropping it removes the file unless it was [placed](Self::place).
 #[derive(Debug)]
 pub struct Prepared {
     folder: Folder,
@@ -25,7 +25,7 @@ pub struct Prepared {
 }
 
 impl Prepared {
-    /// Gives the file its name, which lasts through a loss of power. What has the name is replaced.
+    /// Renames the file to its final name, durably. An existing file of that name is replaced.
     ///
     /// # Errors
     /// Fails when it cannot be renamed; nothing has changed then.
@@ -37,25 +37,25 @@ impl Prepared {
 
 impl Drop for Prepared {
     fn drop(&mut self) {
-        // Once it is placed there is nothing to remove.
+        // After `place` the temporary name does not exist.
         let _ = self.folder.0.remove_file(&self.partial);
     }
 }
 
 impl Folder {
-    /// Writes a file below this folder: whole, and lasting through a loss of power, or not at all. What has its name is replaced,
-    /// not followed, if it is a file or a link; folders on the way are made.
+    /// Writes a file below this folder atomically and durably. An existing file or link is replaced, not followed; missing parent
+    /// folders are created.
     ///
     /// # Errors
-    /// Fails when it cannot be written, or a folder, a pipe or a device has its name; nothing has changed then.
+    /// Fails if writing fails, or the name is that of a folder, a pipe or a device; nothing has changed then.
     pub fn write_whole(&self, name: &Path, bytes: &[u8]) -> io::Result<()> {
         self.prepare(name, |file| file.write_all(bytes))?.place()
     }
 
-    /// Writes a file piece by piece, whatever `write` puts into it, and gives it its name later: until then what has that name stays.
+    /// Writes the content of `write` to a temporary file. [`Prepared::place`] then replaces an existing file of that name.
     ///
     /// # Errors
-    /// As of [`write_whole`](Self::write_whole); also those of `write`.
+    /// Fails like [`write_whole`](Self::write_whole), or with an error of `write`.
     pub fn prepare(
         &self,
         name: &Path,
@@ -68,14 +68,14 @@ impl Folder {
             reading::expect_ordinary(about.is_file())?;
         }
         let (mut file, partial) = folder.create_partial(name)?;
-        // From here on it is removed when something goes wrong.
+        // Dropping `prepared` removes the file if a later call fails.
         let prepared = Prepared { folder, partial, name: name.to_owned() };
         write(&mut file)?;
         file.sync_all()?;
         Ok(prepared)
     }
 
-    /// A new hidden file beside `name`, with a lock as long as it is open.
+    /// Creates a hidden file beside `name` that is locked while it is open.
     fn create_partial(&self, name: &OsStr) -> io::Result<(fs::File, OsString)> {
         static COUNTER: AtomicU64 = AtomicU64::new(0);
         let mut tries = TRIES;
@@ -87,7 +87,7 @@ impl Folder {
             partial.push(format!(".{}-{count}.part", std::process::id()));
             match self.create_here(&partial) {
                 Ok(file) => {
-                    // Where there are no locks, nothing counts as abandoned.
+                    // On file systems without locks no file counts as abandoned.
                     let _ = file.try_lock();
                     return Ok((file, partial));
                 }
@@ -97,7 +97,7 @@ impl Folder {
         }
     }
 
-    /// Removes what was left of files beside `name` that were never complete, because the program that wrote them was killed.
+    /// Removes temporary files beside `name` that killed programs have left.
     pub fn remove_abandoned(&self, name: &Path) {
         let Ok((folder, _)) = self.parent_of(name, Self::enter) else { return };
         for entry in folder.entries().unwrap_or_default() {
@@ -107,13 +107,13 @@ impl Folder {
             };
             let name = Path::new(&entry.name);
             if is_partial(&entry.name) && is_old() && folder.is_let_go(name).unwrap_or(false) {
-                // Whoever else has removed it has done the same.
+                // Another process may have removed it already.
                 let _ = folder.remove(name);
             }
         }
     }
 
-    /// Gives a file below this folder a new name, which nothing else may have.
+    /// Renames a file below this folder to the first unused name of `free`.
     ///
     /// # Errors
     /// Fails when it cannot be renamed.
@@ -122,7 +122,7 @@ impl Folder {
         for number in 1..TRIES * TRIES {
             let new = free(number);
             let Some(kept) = new.file_name() else { break };
-            // Made first, so that nobody's file is replaced.
+            // Reserves the name first, so that no file is replaced.
             match folder.create_here(kept) {
                 Ok(_) => {
                     folder.0.rename(own, &folder.0, kept)?;
@@ -136,7 +136,7 @@ impl Folder {
         Err(io::Error::new(ErrorKind::AlreadyExists, "no unused file name was found for the copy"))
     }
 
-    /// Gives a file that was kept by another name its own name back, unless something else has it by now.
+    /// Renames a file that was kept under another name back, unless its name is in use again.
     ///
     /// # Errors
     /// Fails when it cannot be renamed.
@@ -150,7 +150,7 @@ impl Folder {
     }
 }
 
-/// Whether a name is that of a file that was not complete: `.NAME.PROCESS-COUNT.part`.
+/// Returns true for names of temporary files: `.NAME.PROCESS-COUNT.part`.
 fn is_partial(name: &OsStr) -> bool {
     let middle = || name.to_str()?.strip_prefix('.')?.strip_suffix(".part")?.rsplit_once('.');
     let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());

@@ -78,12 +78,12 @@ impl<W: Write> Write for ChecksumWriter<W> {
     }
 }
 
-/// Checksums and lengths of the files that this program has written into a folder, by name: of each the last two, for a new content is noted before
-/// it takes the place of the old one.
+/// Checksums and lengths of the files that this program has written into a folder, by name. The last two contents of each file are kept, because a
+/// new content is noted before it replaces the old one.
 #[derive(Debug, Default)]
 pub struct WrittenFiles {
     files: BTreeMap<String, [Option<FileChecksum>; 2]>,
-    /// Whether the last line of the file was cut off.
+    /// True if the last line of the record file is incomplete.
     is_torn: bool,
 }
 
@@ -101,7 +101,7 @@ impl WrittenFiles {
         record
     }
 
-    /// Whether there is nothing of this name in the folder, or a file just as this program has written it. Another run may have noted it meanwhile.
+    /// Returns true if the name is unused or its file is unchanged since this program wrote it. Rereads the record if another run may have changed it.
     pub fn may_replace(&mut self, folder: &Folder, name: &str) -> bool {
         let path = Path::new(name);
         if !folder.has(path) {
@@ -125,7 +125,7 @@ impl WrittenFiles {
         }
     }
 
-    /// Notes, and writes down at once, that this program is about to give a file of the folder this name.
+    /// Records the content of a file before the file is placed. The record is written at once.
     ///
     /// # Errors
     /// Fails if the record cannot be written.
@@ -143,7 +143,7 @@ impl WrittenFiles {
     }
 }
 
-/// `checksum length name`; the last two lines of a name hold.
+/// Parses a line `checksum length name`. The last two lines of a name are valid.
 fn entry(line: &str) -> Option<(String, FileChecksum)> {
     let (checksum, rest) = line.split_once(' ')?;
     let (length, name) = rest.split_once(' ')?;
@@ -185,7 +185,7 @@ mod tests {
                 assert!(WrittenFiles::of(&folder).may_replace(&folder, "a"));
             }
         }
-        // A line that was cut off ends with the next one.
+        // The next entry terminates an incomplete line.
         folder.append(Path::new(FILE)).unwrap().write_all(b"0123").unwrap();
         let mut record = WrittenFiles::of(&folder);
         record.note(&folder, "a", FileChecksum::of_bytes(b"three")).unwrap();

@@ -138,7 +138,7 @@ impl Location {
         format!("at {}:{}:{}, in a long line: {there} …", self.program.name, self.line, self.column)
     }
 
-    /// The place as a range of bytes of a text with the characters of the script, each of them as long as it likes.
+    /// Byte range of the position in a text with the same number of characters as the script, but other lengths in bytes.
     fn bytes_in(&self, text: &str) -> Range<usize> {
         let bytes = self.bytes();
         let characters = |end: usize| self.program.text[..end].chars().count();

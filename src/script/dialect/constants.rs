@@ -16,7 +16,7 @@ pub fn install(engine: &mut Engine, catalog: &Catalog) {
     let values: HashMap<&str, Dynamic> =
         all.map(|constant| (constant.name, constant.value.into())).collect();
     engine.on_var(move |name, place, context| {
-        // A place is that of a variable which the parser has seen, counted from the last one.
+        // The index of a variable that the parser has resolved, counted from the last one.
         let own = match place.checked_sub(1) {
             Some(place) => context.scope().iter_raw().nth(place).map(|(_, _, value)| value),
             None => context.scope().get(name),

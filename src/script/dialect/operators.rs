@@ -62,7 +62,7 @@ pub fn written(operator: &str) -> &str {
     }
 }
 
-/// Registers a comparison of numbers by their order; those that are not numbers have none.
+/// Registers a comparison of numbers; NaN has no order.
 fn register_comparison(engine: &mut Engine, symbol: &str, holds: fn(Option<Ordering>) -> bool) {
     // Registered under the engine's name too, because arrays use it to compare and search elements.
     for name in [symbol.to_owned(), format!("{OWN}{symbol}")] {
@@ -73,9 +73,9 @@ fn register_comparison(engine: &mut Engine, symbol: &str, holds: fn(Option<Order
     }
 }
 
-/// The order of a whole number and a number: exact, although not every whole number is one of double precision.
+/// Exact order of a whole number and a floating-point number.
 fn order(whole: INT, x: f64) -> Option<Ordering> {
-    /// The least number of double precision that is larger than all whole ones.
+    /// Smallest double that exceeds all whole numbers, 2^63.
     const BEYOND: f64 = 9_223_372_036_854_775_808.0;
     if x >= BEYOND {
         return Some(Ordering::Less);
@@ -83,7 +83,7 @@ fn order(whole: INT, x: f64) -> Option<Ordering> {
     if x < -BEYOND {
         return Some(Ordering::Greater);
     }
-    // What is not a number compares with nothing.
+    // NaN has no order.
     let rest = (x - x.trunc()).partial_cmp(&0.0)?.reverse();
     Some(whole.cmp(&(x.trunc() as INT)).then(rest))
 }

@@ -1,14 +1,13 @@
-//! The largest texts, arrays and maps of a script.
+//! Limits on the size of texts, arrays and maps of a script.
 //!
-//! Rhai's own limits count all that is in an array again for every call of one of its methods. Here the length of a variable is looked at where the
-//! variable is used, and functions that make much of little know how much before they do. What grows inside of something else is held by the
-//! limit of memory.
+//! Rhai's own limits count all nested elements in every call of a method, so appending would be quadratic. Here the length of a variable is checked
+//! when the variable is used, and functions that create large values check the size first. Growth of nested values is stopped by the limit of memory.
 
 use rhai::{Array, Dynamic, Engine, EvalAltResult, INT, ImmutableString, Map, Position};
 
 use crate::script::messages::error::EngineResult;
 
-/// The longest text [bytes].
+/// Longest allowed text [bytes].
 pub const LONGEST_TEXT: usize = 16 << 20;
 const LARGEST_ARRAY: usize = 10_000_000;
 const LARGEST_MAP: usize = 1_000_000;
@@ -17,17 +16,17 @@ const TEXT: &str = "Length of string";
 const ARRAY: &str = "Size of array/BLOB";
 const MAP: &str = "Size of object map";
 
-/// Registers the functions that lengthen a text or an array at once, in the place of Rhai's own.
+/// Replaces Rhai's functions that lengthen a text or an array in one call.
 pub fn install(engine: &mut Engine) {
     engine.register_fn("pad", pad_array);
     engine.register_fn("pad", pad_text::<char>);
     engine.register_fn("pad", pad_text::<ImmutableString>);
 }
 
-/// Checks that a value of a variable is not too large to be used.
+/// Checks the size of the value of a variable.
 ///
 /// # Errors
-/// Fails when its text or its number of elements is longer than a script may make one.
+/// Fails if the text or the number of elements exceeds its limit.
 pub fn check(value: &Dynamic) -> EngineResult<()> {
     if let Some(text) = value.read_lock::<ImmutableString>() {
         expect(text.len() <= LONGEST_TEXT, TEXT)
@@ -40,7 +39,7 @@ pub fn check(value: &Dynamic) -> EngineResult<()> {
     }
 }
 
-/// The refusal of a text that is too long.
+/// Checks the length of a text; `None` is too long.
 pub fn expect_text(bytes: Option<usize>) -> EngineResult<()> {
     expect(bytes.is_some_and(|bytes| bytes <= LONGEST_TEXT), TEXT)
 }
@@ -52,7 +51,7 @@ fn expect(is_allowed: bool, what: &str) -> EngineResult<()> {
     }
 }
 
-/// The number of elements of a value and of all that is in it.
+/// Number of elements of a value, with nested ones.
 fn elements(value: &Dynamic) -> usize {
     if let Some(array) = value.read_lock::<Array>() {
         array.iter().map(elements).fold(1, usize::saturating_add)
@@ -63,7 +62,6 @@ fn elements(value: &Dynamic) -> usize {
     }
 }
 
-/// Lengthens an array to `length` elements by copies of one.
 fn pad_array(array: &mut Array, length: INT, element: Dynamic) -> EngineResult<()> {
     let length = usize::try_from(length).unwrap_or(0);
     let more = length.saturating_sub(array.len());
@@ -75,7 +73,7 @@ fn pad_array(array: &mut Array, length: INT, element: Dynamic) -> EngineResult<(
     Ok(())
 }
 
-/// Lengthens a text to `length` characters by repetitions of another one, the last of which may be cut.
+/// Lengthens a text to `length` characters by repeating the padding; the last repetition may be cut.
 fn pad_text<P: ToString>(text: &mut ImmutableString, length: INT, padding: P) -> EngineResult<()> {
     let padding = padding.to_string();
     let length = usize::try_from(length).unwrap_or(0);

@@ -1,4 +1,4 @@
-//! Stacks that a script within its limits cannot exhaust, as far as the system has address space for them.
+//! Stack sizes of scripts and workers: large enough for the limits of the script, smaller if the address space is limited.
 
 use std::sync::Mutex;
 use std::thread;
@@ -7,8 +7,7 @@ use crate::panics::caught;
 use crate::script::diagnose::Diagnostic;
 use crate::script::state::limits::Limits;
 
-/// Does `work` on a thread with a stack that a script within these limits cannot exhaust, or a smaller one where the address space of the process is
-/// limited.
+/// Runs `work` on a thread whose stack suffices for the limits of the script, or a smaller one if the address space of the process is limited.
 ///
 /// # Errors
 /// Fails if no thread can be started, or the work panics.
@@ -19,10 +18,10 @@ pub fn on_large_stack<T: Send>(
     on_stack(script_stack(limits, room()), limits, work)
 }
 
-/// Does `work` on a thread with a stack of so many bytes, or of fewer down to the least that calls within calls need.
+/// Runs `work` on a thread with a stack of `bytes`, or less if that fails, down to the minimum for nested calls.
 ///
 /// # Errors
-/// Fails when no thread can be started, or the work panics.
+/// Fails if no thread can be started, or `work` panics.
 pub fn on_stack<T: Send>(
     mut bytes: usize,
     limits: &Limits,
@@ -49,12 +48,12 @@ pub fn on_stack<T: Send>(
     })
 }
 
-/// The number of workers beside the thread of a script, at most `most`, and the stack of each [bytes]; none where there is no address space for one.
+/// Number of workers, at most `most`, and the stack size of each [bytes]; `None` if the address space has no room for one.
 pub fn workers(limits: &Limits, most: usize) -> Option<(usize, usize)> {
     worker_stacks(limits, most, room())
 }
 
-/// The address space that the process may still take [bytes]; none where it is not limited.
+/// Remaining address space of the process [bytes]; `None` if it is not limited.
 fn room() -> Option<usize> {
     #[cfg(unix)]
     {
@@ -68,7 +67,7 @@ fn room() -> Option<usize> {
     None
 }
 
-/// The stack of a script: a quarter of the address space, if that has not room for all that the limits allow.
+/// Stack size of a script: a quarter of the remaining address space if that is too small for the limits.
 fn script_stack(limits: &Limits, room: Option<usize>) -> usize {
     let whole = limits.stack();
     match room.filter(|room| *room < whole.saturating_add(limits.address_space())) {
@@ -77,7 +76,7 @@ fn script_stack(limits: &Limits, room: Option<usize>) -> usize {
     }
 }
 
-/// The workers of a script, and the stack of each: all together half of the address space, if that has not room for all that the limits allow.
+/// Number of workers and stack size of each: together half of the remaining address space if that is too small for the limits.
 fn worker_stacks(limits: &Limits, most: usize, room: Option<usize>) -> Option<(usize, usize)> {
     let (whole, least) = (limits.stack(), limits.least_stack());
     let needed = whole.saturating_mul(most).saturating_add(limits.address_space());

@@ -35,13 +35,13 @@ pub struct EngineConfig {
     limits: Limits,
     snapshots: usize,
     refusal: &'static str,
-    /// The number of workers, and the stack of each [bytes].
+    /// Number of workers, and stack size of each [bytes].
     workers: (usize, usize),
 }
 
 impl EngineConfig {
-    /// The blueprint of the engine of a run; none where its script is not there as a whole, as at the prompt, or there is no address space for a worker. `refusal` says why a function may write no
-    /// files there.
+    /// Configuration of worker engines. `None` if the script is not available as a whole, as at the prompt, or the address space has no room for a
+    /// worker. `refusal` is the error for functions that write files.
     pub fn of(engine: &Engine, context: &Context, refusal: &'static str) -> Option<Self> {
         let catalog = Sources::of(engine).catalog()?;
         // Time and memory are supervised by the run itself for the whole process.

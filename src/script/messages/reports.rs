@@ -8,16 +8,16 @@ pub trait Reporter {
     /// Returns the entry in the report, called when the run ends for any reason.
     fn report(&self) -> serde_json::Value;
 
-    /// A name and the content of a file that keeps what would be lost when the script does not come to its end: about so many numbers of it.
+    /// Name and content of a rescue file for a script that was stopped, with about `numbers` numbers.
     fn remains(&self, numbers: usize) -> Option<(String, String)>;
 }
 
 /// Maximum number of rescue files, so that a script with thousands of simulations ends soon after an interrupt.
 const MOST_REMAINS: usize = 20;
 
-/// Of all simulations together about so many numbers are written, which takes part of a second.
+/// Approximate largest number of numbers in all rescue files together. Writing them takes part of a second.
 const MOST_NUMBERS: usize = 1_000_000;
-/// The length of a number in a file, with what separates it from the next one [bytes].
+/// Length of a number with its separator in a file [bytes].
 const LONGEST_NUMBER: u64 = 26;
 
 /// All reporters of a run.
@@ -30,8 +30,8 @@ impl Reports {
         self.0.borrow_mut().push(reporter);
     }
 
-    /// Names, each another one, and contents of the files that keep what would be lost of the first simulations of a run, in about so many bytes; and a
-    /// note where there are more.
+    /// Unique names and contents of the rescue files of the first simulations of a run, of about `bytes` in total. The second value is a note if
+    /// there are more simulations.
     pub fn remains(&self, bytes: u64) -> (Vec<(String, String)>, Option<String>) {
         let reporters = self.0.borrow();
         let numbers = usize::try_from(bytes / LONGEST_NUMBER).unwrap_or(MOST_NUMBERS);

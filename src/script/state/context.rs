@@ -187,12 +187,12 @@ impl Context {
         self.0.pipe_closed.get()
     }
 
-    /// Prints a line for the script, as far as a terminal may see it.
+    /// Prints a line for the script, without characters that control a terminal.
     pub fn print(&self, text: &str) {
         self.print_drawn(&printable(text));
     }
 
-    /// Prints a line that may have colours of this program.
+    /// Prints a line; the colour sequences of this program are kept.
     pub fn print_drawn(&self, text: &str) {
         if self.0.is_silent.get() || !self.meter().allows_to_write(text.len() as u64 + 1) {
             return;
@@ -208,7 +208,7 @@ impl Context {
         self.tell_drawn(&printable(text));
     }
 
-    /// Tells the user something that may have colours of this program.
+    /// Prints a message for the user; the colour sequences of this program are kept.
     pub fn tell_drawn(&self, text: &str) {
         if self.0.is_silent.get() {
             return;

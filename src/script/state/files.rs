@@ -22,7 +22,7 @@ pub struct OutputFolder {
     written: RefCell<Vec<PathBuf>>,
     /// Record of the files written by earlier runs, read before the first file is written.
     record: OnceCell<RefCell<WrittenFiles>>,
-    /// The folders from which what killed runs left was removed.
+    /// Folders whose abandoned temporary files were removed.
     tidied: RefCell<HashSet<Option<PathBuf>>>,
     /// Files that a dry build would have written, for reading them again.
     pretended: RefCell<HashMap<PathBuf, Vec<u8>>>,
@@ -105,7 +105,7 @@ impl OutputFolder {
             written = Some(file.imprint());
             Ok(())
         })?;
-        // Whatever happens from here on, what stands there is known or kept.
+        // If a later call fails, the existing file is recorded or kept under another name.
         let is_ours = record.may_replace(&folder, name);
         written.map_or(Ok(()), |written| record.note(&folder, name, written))?;
         let kept = match is_ours {

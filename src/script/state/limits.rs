@@ -53,12 +53,12 @@ impl Limits {
         LEAST_STACK + 2 * self.memory_or_default().min(LARGEST_FOR_VALUES)
     }
 
-    /// Address space for the stack of as many calls within calls as are allowed [bytes].
+    /// Stack size for the allowed depth of nested calls [bytes].
     pub fn least_stack(&self) -> usize {
         LEAST_STACK / DEEPEST * self.depth.clamp(DEFAULT_DEPTH, DEEPEST)
     }
 
-    /// Address space for the values of a script within these limits: what is let go is not given back at once [bytes].
+    /// Address space for the values of a script [bytes]. Freed memory is not returned at once, hence the factor.
     pub fn address_space(&self) -> usize {
         self.memory_or_default().saturating_mul(2)
     }
@@ -199,7 +199,7 @@ impl Meter {
         }
     }
 
-    /// How much may be written of what would be lost of a run that was stopped: what is left, and a twentieth of the limit [bytes].
+    /// Bytes that rescue files may still use: the remaining budget and a twentieth of the limit.
     pub fn left_for_remains(&self) -> u64 {
         let left = |limit: u64| (limit + limit / 20).saturating_sub(self.written.get());
         self.limits.written.map_or(u64::MAX, left)

@@ -55,7 +55,7 @@ impl StudyPart {
     }
 }
 
-/// Most parts that are told to be missing, one by one.
+/// Largest number of missing parts that a message lists.
 const MOST_TOLD: usize = 10;
 
 /// Files of all parts of a study in some folders, ordered by part.

@@ -12,12 +12,12 @@ use crate::script::messages::stop::Stop;
 
 const INTERVAL: Duration = Duration::from_millis(10);
 
-/// How long a run has to hear of a limit that it has passed, of its own time on the processor: a part of the time allowed, so that the limit holds
-/// within twice its figure where the machine has nothing else to do, and within these bounds.
+/// Processor time that a run may use after it has exceeded a limit, as a fraction of the time limit. On an idle machine the run then ends within twice
+/// the limit.
 const PATIENCE: f64 = 0.7;
 const LEAST_PATIENCE: Duration = Duration::from_millis(700);
 const MOST_PATIENCE: Duration = Duration::from_secs(5);
-/// So many times as long it has by the clock.
+/// Ratio of wall time to processor time until the run is ended anyway.
 const SHARE_OF_PROCESSOR: u32 = 10;
 
 /// Guard of a thread that supervises time and memory of a run; dropping it ends the thread.
@@ -63,7 +63,7 @@ impl Watchdog {
     }
 }
 
-/// A moment by the clock, and by the time that the process has had on the processor.
+/// Wall time and processor time of the process.
 #[derive(Clone, Copy)]
 struct Clocks {
     wall: Instant,
@@ -75,7 +75,7 @@ impl Clocks {
         Self { wall: Instant::now(), processor: processor_time() }
     }
 
-    /// Whether so much time of the processor has passed since, or far more by the clock.
+    /// Returns true if the processor time has passed, or a multiple of it in wall time.
     fn are_over(self, patience: Duration) -> bool {
         let wall = self.wall.elapsed();
         let had = || match (self.processor, processor_time()) {
@@ -86,7 +86,7 @@ impl Clocks {
     }
 }
 
-/// The time that all threads of the process have had on the processor, where the system tells it.
+/// Processor time of all threads of the process, if the system reports it.
 fn processor_time() -> Option<Duration> {
     #[cfg(unix)]
     {

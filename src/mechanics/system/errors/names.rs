@@ -76,7 +76,7 @@ pub fn refusal(name: &str) -> Option<&'static str> {
         .then_some("one of its words mixes letters of two alphabets that look alike")
 }
 
-/// Checks the name of something of a scene, or of what is made of one.
+/// Checks the name of a scene, of one of its objects, or of a simulation.
 ///
 /// # Errors
 /// Fails if the name has invisible characters or characters that cannot be typed.

@@ -10,7 +10,7 @@ use crate::joints::{Joint, JointKind, Partner};
 use crate::system::SystemError;
 use crate::system::errors::check_name;
 
-/// What a sensor is called in messages about its name.
+/// Kind of object in messages about the name of a sensor.
 const COLUMN: &str = "column";
 
 /// Recorded quantity.

@@ -127,7 +127,7 @@ impl TryFrom<StoredScene> for Scene {
 }
 
 impl Scene {
-    /// Adds an element from a file. A name that follows from what it belongs to is made anew.
+    /// Adds an element from a file. Names derived from other objects are created again.
     fn add_stored_element(&mut self, element: Element) -> Result<(), SystemError> {
         match element {
             Element::PointMass(mass) => self.add_mass(mass),

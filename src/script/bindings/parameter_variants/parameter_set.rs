@@ -176,7 +176,7 @@ impl ParameterSet {
         parameters.iter().map(|of| (of.name.clone(), of.distance)).collect()
     }
 
-    /// The distance of the variants of a parameter, by its number.
+    /// Distance of the variants of a parameter from its value.
     pub fn distance(&self, parameter: usize) -> Option<f64> {
         self.parameters.borrow().get(parameter).map(|of| of.distance)
     }

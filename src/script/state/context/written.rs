@@ -99,7 +99,7 @@ impl Context {
         written.path
     }
 
-    /// Writes what would be lost of a run that was stopped, if there is room for it.
+    /// Writes a rescue file of a run that was stopped, if the limit on written bytes allows it.
     pub(super) fn write_remains(&self, name: &str, content: &[u8]) -> Result<PathBuf, ScriptError> {
         let bytes = content.len() as u64;
         if self.mode() == RunMode::Run && bytes > self.meter().left_for_remains() {

@@ -69,7 +69,7 @@ pub struct BestDesign {
     pub results: Vec<(String, f64)>,
     /// True if the search converged within the number of runs.
     pub is_settled: bool,
-    /// The parameter without a bound that ran off, for the objective gets less and less there.
+    /// Name of an unbounded parameter that diverged, because the objective decreases without limit.
     pub runaway: Option<usize>,
     /// Number of calls of the function.
     pub runs: usize,
