@@ -44,7 +44,7 @@ impl CsvTable {
                 let kept = (0..values.len()).filter(|at| at.is_multiple_of(every) || is_last(*at));
                 *values = kept.map(|at| values[at]).collect();
             }
-            self.comments.push(format!("rows: every {every}th of {rows}, and the last one"));
+            self.comments.push(format!("rows: one in {every} of {rows}, and the last one"));
         }
         self
     }
@@ -91,9 +91,10 @@ impl CsvTable {
 /// Text of a cell. An apostrophe precedes texts that spreadsheets would evaluate as formulas; numbers do not change.
 pub fn csv_cell(text: &str) -> Cow<'_, str> {
     let is_formula = text.starts_with(['=', '+', '-', '@', '\t', '\r']);
-    match is_formula && text.parse::<f64>().is_err() {
-        true => Cow::Owned(format!("'{text}")),
-        false => Cow::Borrowed(text),
+    if is_formula && text.parse::<f64>().is_err() {
+        Cow::Owned(format!("'{text}"))
+    } else {
+        Cow::Borrowed(text)
     }
 }
 
@@ -165,7 +166,7 @@ mod tests {
         };
         assert_eq!(table().thinned(2000), table());
         let thin = table().thinned(200);
-        assert_eq!(thin.comments, ["rows: every 10th of 1000, and the last one"]);
+        assert_eq!(thin.comments, ["rows: one in 10 of 1000, and the last one"]);
         let (first, last) = (&thin.columns[0].1, &thin.columns[1].1);
         assert_eq!((first.len(), first[0], last[1], last[100]), (101, 0.0, 10.0, 999.0));
         assert_eq!(table().thinned(0).columns[0].1, [0.0, 999.0]);

@@ -143,7 +143,7 @@ impl FieldPicture {
     }
 }
 
-/// Directions of a number from its mark, in order of preference.
+/// Directions from a mark to its number, in order of preference.
 const AROUND: [(f64, f64); 8] = [
     (1.0, -1.0),
     (-1.0, -1.0),

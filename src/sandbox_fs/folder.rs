@@ -137,7 +137,7 @@ impl Folder {
     ///
     /// # Errors
     /// Fails if there is none, or it cannot be opened.
-    pub fn is_let_go(&self, name: &Path) -> io::Result<bool> {
+    pub fn is_unlocked(&self, name: &Path) -> io::Result<bool> {
         Ok(self.open_file(name)?.try_lock().is_ok())
     }
 

@@ -77,11 +77,11 @@ fn stale(home: &Path, own: &Path) -> io::Result<Vec<PathBuf>> {
             continue;
         };
         let is_old = || about.modified().ok()?.elapsed().ok().map(|age| age > BEGINNING);
-        let is_stale = match Folder::find(&path).and_then(|folder| folder.is_let_go(HELD.as_ref()))
-        {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => is_old().unwrap_or(false),
-            asked => asked.unwrap_or(false),
-        };
+        let is_stale =
+            match Folder::find(&path).and_then(|folder| folder.is_unlocked(HELD.as_ref())) {
+                Err(error) if error.kind() == io::ErrorKind::NotFound => is_old().unwrap_or(false),
+                asked => asked.unwrap_or(false),
+            };
         if is_stale {
             found.push(path);
         }

@@ -106,7 +106,7 @@ impl Folder {
                 age.is_some_and(|age| age > ABANDONED)
             };
             let name = Path::new(&entry.name);
-            if is_partial(&entry.name) && is_old() && folder.is_let_go(name).unwrap_or(false) {
+            if is_partial(&entry.name) && is_old() && folder.is_unlocked(name).unwrap_or(false) {
                 // Another process may have removed it already.
                 let _ = folder.remove(name);
             }
@@ -140,7 +140,7 @@ impl Folder {
     ///
     /// # Errors
     /// Fails when it cannot be renamed.
-    pub fn give_back(&self, kept: &Path, name: &Path) -> io::Result<()> {
+    pub fn restore_name(&self, kept: &Path, name: &Path) -> io::Result<()> {
         let (folder, own) = self.parent_of(name, Self::enter)?;
         let (_, kept) = self.parent_of(kept, Self::enter)?;
         match folder.0.symlink_metadata(own) {
@@ -212,11 +212,11 @@ mod tests {
         let folder = Folder::open(home.path()).unwrap();
         folder.write_whole(Path::new("a"), b"theirs").unwrap();
         let kept = folder.keep_as(Path::new("a"), |number| format!("a.{number}").into()).unwrap();
-        folder.give_back(&kept, Path::new("a")).unwrap();
+        folder.restore_name(&kept, Path::new("a")).unwrap();
         assert_eq!(fs::read(home.path().join("a")).unwrap(), b"theirs");
         let kept = folder.keep_as(Path::new("a"), |number| format!("a.{number}").into()).unwrap();
         folder.write_whole(Path::new("a"), b"new").unwrap();
-        assert!(folder.give_back(&kept, Path::new("a")).is_err());
+        assert!(folder.restore_name(&kept, Path::new("a")).is_err());
         assert_eq!(fs::read(home.path().join("a")).unwrap(), b"new");
     }
 }

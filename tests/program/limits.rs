@@ -94,7 +94,7 @@ fn what_is_kept_of_a_stopped_run_is_held_by_the_limit_of_what_is_written() {
     let output = home.run(&["--max-steps", "4000", "--max-written", "1"]);
     expect(&output, &["need more than 4000 steps"]);
     let kept = fs::read_to_string(home.0.path().join("out/a-stopped.csv")).unwrap();
-    assert!(kept.len() < 1_050_000 && kept.contains("# rows: every"), "{}", kept.len());
+    assert!(kept.len() < 1_050_000 && kept.contains("# rows: one in "), "{}", kept.len());
     let last: f64 =
         kept.lines().last().and_then(|row| row.split(',').next()).unwrap().parse().unwrap();
     assert!((last - 4.0).abs() < 1e-9, "{last}");

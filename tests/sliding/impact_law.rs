@@ -1,4 +1,4 @@
-//! The law of an impact: its impulse is that of bodies and constraints alone, at any step, and the coefficient of restitution holds.
+//! Impacts: the impulse depends on bodies and constraints only, at any step size, and the coefficient of restitution holds.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::rails::bead;
@@ -25,7 +25,7 @@ fn assert_kept(simulation: &Simulation, tolerance: f64) {
     }
 }
 
-/// A bar of 2 kg and such stiffness `EA` in which a bead of 1 kg moves with a speed of 3, in the middle.
+/// Bar of 2 kg with axial stiffness `EA`. A bead of 1 kg moves along it with speed 3 from the middle.
 fn bar_with_bead(axial: f64, mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("bar");
     let section = Section {
@@ -53,7 +53,7 @@ fn springs_and_dampers_to_the_ground_have_no_part_of_an_impulse() {
             let simulation = simulate(scene, Method::EnergyMomentum, dt, 1.0);
             let first = &simulation.arrivals()[0];
             assert_eq!(first.kind, ArrivalKind::Bounced);
-            // The bar is at rest until then: (1 + e) v m M/(m + M).
+            // The bar is at rest before the impact: impulse (1 + e) v m M/(m + M).
             let off = (first.impulse - at(4.0, 0.0)).norm();
             println!("EA = {axial:e}, {spans} spans, dt = {dt}: off by {off:e}");
             assert!(off < 1e-9, "{:?}", first.impulse);
@@ -88,14 +88,14 @@ fn a_corner_of_a_frame_on_springs_is_that_of_the_frame() {
     }
 }
 
-/// How a bar is held at the end that is not struck.
+/// Support of the bar at the end without impact.
 #[derive(Clone, Copy, PartialEq, Debug)]
 enum Foot {
     Clamped,
     Free,
 }
 
-/// A bar of mass 1 and length 1 in so many pieces, and a bead of mass 2 that strikes its end with a speed of 1.
+/// Bar of mass 1 and length 1 in several pieces. A bead of mass 2 strikes its end with speed 1.
 fn struck(foot: Foot, pieces: usize, restitution: f64, dt: f64) -> Simulation {
     let mut scene = Scene::new("struck bar");
     let section = Section {
@@ -106,7 +106,7 @@ fn struck(foot: Foot, pieces: usize, restitution: f64, dt: f64) -> Simulation {
         rotary_inertia: 1e-3,
     };
     let mesh = Mesh::bspline(12 / pieces, 3, 2).unwrap();
-    // The piece that is struck is the first.
+    // The bead strikes the first piece.
     for piece in 0..pieces {
         let ends = [piece + 1, piece].map(|at| 1.0 - at as f64 / pieces as f64);
         add_beam(&mut scene, line(at(ends[0], 0.0), at(ends[1], 0.0)), &mesh, section);
@@ -133,7 +133,7 @@ fn the_coefficient_of_restitution_holds_at_every_step() {
     for foot in [Foot::Clamped, Foot::Free] {
         for pieces in [1, 3] {
             for restitution in [0.0, 0.5, 1.0] {
-                // A wave takes 0.01 through the bar.
+                // An axial wave crosses the bar in 0.01.
                 for dt in [0.05, 0.005, 0.002, 1e-4] {
                     let simulation = struck(foot, pieces, restitution, dt);
                     let bead = simulation.scene().sliders[0].slave;

@@ -21,7 +21,7 @@ const BOUNCE: f64 = 5.0;
 /// Number of steps per period that needs no warning.
 const ENOUGH: f64 = 20.0;
 
-/// Cause of changes of rates within a step other than vibration.
+/// Cause, other than vibration, of rate changes within a step.
 #[derive(Debug, Clone, PartialEq)]
 pub enum RateChangeCause {
     /// Name of a damper, a damped material, or a drag element.

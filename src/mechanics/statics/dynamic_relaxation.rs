@@ -16,7 +16,7 @@ const STILL: f64 = 1e-13;
 /// Factor of the rate after passes with small movement.
 const EASIER: f64 = 0.2;
 
-/// Factor of the rate after failed passes, or with too large movement.
+/// Factor by which the rate changes after a failed pass or a too large movement.
 const HARDER: f64 = 4.0;
 
 /// Largest number of tries of the first pass.

@@ -53,7 +53,7 @@ impl Pencil {
     pub(super) fn memory(model: &System) -> usize {
         let order = model.order_at_rest();
         let (size, reach) = (order.count(), order.half_bandwidth() + 1);
-        // High and low parts of the stiffness, its factors, the inertia during sorting, and about two strains per movement.
+        // Memory of the stiffness in double-double arithmetic, its factors, the inertia during sorting, and about two strains per degree of freedom.
         size * reach * 8 * size_of::<f64>() + Elastic::memory(2 * size, reach)
     }
 

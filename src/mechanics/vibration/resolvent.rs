@@ -46,7 +46,7 @@ const STRONG: f64 = 1e4;
 pub(super) struct Resolvent {
     /// Shift `σ` [1/time].
     pub(super) shift: f64,
-    /// `w` and `t` of each mode, and the sign of its square.
+    /// `w = |ω|/√(σ² + ω²)`, `t = σ/√(σ² + ω²)` and the sign of `ω²` of each mode [-].
     scales: Vec<(f64, f64, f64)>,
     /// Modes whose positions are variables (restrained ones), and modes whose velocities are (those not loose).
     places: Vec<usize>,
@@ -91,7 +91,7 @@ impl Resolvent {
     /// All eigenvalues `λ/σ` in increasing order of magnitude. Those next to the shift are accurate.
     ///
     /// # Errors
-    /// Fails if the search does not end.
+    /// Fails if the search does not converge.
     pub(super) fn numbers(&self) -> Result<Vec<ComplexNumber>, VibrationError> {
         let matrix = self.matrix();
         let count = matrix.nrows();

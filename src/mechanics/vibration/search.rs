@@ -58,7 +58,7 @@ pub(super) fn is_small(unknowns: usize) -> bool {
 pub(super) fn numbers(unknowns: usize, count: usize) -> usize {
     match ModeSearch::of(unknowns, count) {
         ModeSearch::All => DENSE_COPIES * unknowns * unknowns,
-        // Basis and its copy in a restart, and pairs with their momenta, shapes and section forces.
+        // Memory of the basis, of its copy during a restart, and of the eigenpairs with momenta, shapes and section forces.
         ModeSearch::Lowest => unknowns * (2 * Lanczos::width(count) + 3 * count + 16 * STRIP_WIDTH),
     }
 }

@@ -14,7 +14,7 @@ const TICK_EVERY: (usize, usize) = (9, 4);
 const LEAST: (usize, usize) = (8, 3);
 const MOST_ROWS: usize = 3;
 const BETWEEN: usize = 3;
-/// Distance of the letters on a curve without colours, in characters.
+/// Spacing of the letters that identify a curve if the terminal has no colours, in characters.
 const LETTER_EVERY: usize = 16;
 
 impl LineChart {

@@ -99,7 +99,7 @@ mod tests {
         for of in ["array", "text", "map"] {
             for (known, _) in surroundings().catalog.built_in_members(of) {
                 let name = known.name();
-                // Properties and members of every value have other names or are defined by the engine.
+                // Properties are listed as `get name`. Members of all values are defined by the engine.
                 let is_known = has(&format!("{name}(")) || has(&format!("get {name}("));
                 assert!(is_known || known.is_of("beam"), "{of}.{name}");
             }

@@ -45,9 +45,10 @@ pub fn expect_text(bytes: Option<usize>) -> EngineResult<()> {
 }
 
 fn expect(is_allowed: bool, what: &str) -> EngineResult<()> {
-    match is_allowed {
-        true => Ok(()),
-        false => Err(EvalAltResult::ErrorDataTooLarge(what.into(), Position::NONE).into()),
+    if is_allowed {
+        Ok(())
+    } else {
+        Err(EvalAltResult::ErrorDataTooLarge(what.into(), Position::NONE).into())
     }
 }
 

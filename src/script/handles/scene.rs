@@ -43,7 +43,7 @@ struct Variants {
 /// Side variants of a scene, at parameters plus and minus a step.
 struct Beside {
     family: Rc<ParameterSet>,
-    /// In the order of the variants, from 1.
+    /// Scenes of the variants 1, 2, …, in this order.
     scenes: Vec<Rc<RefCell<Scene>>>,
 }
 

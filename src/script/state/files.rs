@@ -108,13 +108,14 @@ impl OutputFolder {
         // If a later call fails, the existing file is recorded or kept under another name.
         let is_ours = record.may_replace(&folder, name);
         written.map_or(Ok(()), |written| record.note(&folder, name, written))?;
-        let kept = match is_ours {
-            true => None,
-            false => Some(folder.keep_as(path, |number| kept_name(path, number))?),
+        let kept = if is_ours {
+            None
+        } else {
+            Some(folder.keep_as(path, |number| kept_name(path, number))?)
         };
         if let Err(error) = prepared.place() {
             return Err(match &kept {
-                Some(kept) if folder.give_back(kept, path).is_err() => {
+                Some(kept) if folder.restore_name(kept, path).is_err() => {
                     let kept = self.folder.join(kept);
                     let told = format!("{error}; what was there is kept as '{}'", kept.display());
                     io::Error::new(error.kind(), told)

@@ -12,7 +12,7 @@ use crate::beams::simd::{LANES, LaneChunk, Lanes, Vector};
 
 /// Sections of the quadrature points of neighbouring spans, by storage type. A uniform beam shares one section without lookup.
 pub(in crate::beams) trait Sections: Clone + Debug + Send + Sync {
-    /// Integral of a product of two functions: the length, and the inertia if it is not proportional to it.
+    /// Integral of a product of two shape functions, and its integral weighted with the inertia if that varies along the beam.
     type MassIntegral: MassIntegral;
     /// Section at a place between points.
     type Interpolation: Interpolation;
@@ -23,7 +23,7 @@ pub(in crate::beams) trait Sections: Clone + Debug + Send + Sync {
     /// Section of a point for `Γ`.
     fn of_force<'a>(&'a self, uniform: &'a Section, point: usize) -> &'a Section;
 
-    /// Section of a point for `κ`.
+    /// Cross section at a quadrature point of the curvature `κ`.
     fn of_moment<'a>(&'a self, uniform: &'a Section, point: usize) -> &'a Section;
 
     /// Stiffness `diag(EA, GA)` of points for `Γ` in lanes.

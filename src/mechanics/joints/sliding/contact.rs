@@ -149,7 +149,7 @@ impl Contact<'_> {
         self.sum(self.passage.change(), 1.0)
     }
 
-    /// Mean place `Σ B̄_i x̄_i` of path and step on the master [length].
+    /// Position `Σ B̄_i x̄_i` on the master, averaged over the sliding path and over the step [length].
     pub fn mean_point(&self) -> PathVector {
         let value = self.sum(self.passage.mean(), 0.5);
         PathVector { value, by_way: self.sum(self.passage.slope(), 0.5) * 0.5 }

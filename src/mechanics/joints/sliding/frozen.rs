@@ -40,7 +40,7 @@ struct FrozenInStep<const SLOPES: usize> {
     direction: DualVector<SLOPES>,
     /// Speed `v1` of the kink along the master at the end of the step [length/time].
     speed: Dual<SLOPES>,
-    /// Force `p1 = GA a1` of the jump of the tangent at the end of the step [force].
+    /// Shear force `p1 = GA a1` that belongs to the tangent jump `a1`, at the end of the step [force].
     jump: DualVector<SLOPES>,
     /// Inertia force of the kink, `(Δπ/Δt) e` [force].
     inertia: DualVector<SLOPES>,

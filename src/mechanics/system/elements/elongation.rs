@@ -168,7 +168,7 @@ impl Elongation {
         MOST_ROUNDING * f64::EPSILON * moved
     }
 
-    /// Corrects the change of the last iterate by `missing` if this is within the rounding of its movements. Returns true if it is.
+    /// Adds `missing` to the elongation change of the last iterate if it is within the rounding error of the movements. Returns true if it was added.
     pub fn settle(&mut self, missing: f64) -> bool {
         let is_rounding = missing.abs() <= self.rounding();
         self.settled = (self.change, if is_rounding { missing } else { 0.0 });
@@ -249,7 +249,7 @@ impl Elongation {
         self.moving().fold(0.0, |sum, (place, coordinates)| {
             let [x, y, spin] = bodies[place.body].at(place, rates);
             match (self.is_angle(), &self.slope[coordinates]) {
-                // The factor between angles and increments belongs to the step, not to the rate.
+                // The factor that converts increments to angles applies to increments of a step, not to rates.
                 (true, slope) => sum + slope[0].signum() * spin,
                 (false, slope) => sum + (slope[0] * x + slope[1] * y),
             }

@@ -185,7 +185,7 @@ pub enum SystemError {
     FeedingDamper {
         /// Description of the damper.
         damper: String,
-        /// Range that adds energy, and how to correct it.
+        /// Range of rates in which the law adds energy, and advice for correcting it.
         feeding: String,
     },
     /// Support of a component that a drive prescribes.

@@ -216,7 +216,7 @@ impl RigidLink {
         }
     }
 
-    /// Adds a force `λ` on point and body with an arm to a residual.
+    /// Adds the force `λ` on the point, and the opposite force with its moment on the body, to a residual.
     pub fn transmit(&self, bodies: &Bodies, force: Vec2, arm: Vec2, out: &mut [f64]) {
         let ([x, y, rotation], [point_x, point_y, _]) = self.degrees(bodies);
         out[point_x] += force.x;

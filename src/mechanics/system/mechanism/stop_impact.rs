@@ -129,7 +129,7 @@ impl System {
         }))
     }
 
-    /// Fixes the kinks under contact forces for the following steps. Returns true if this changes the law of the next step.
+    /// Holds the kinks at contact points constant in the following steps. Returns true if this changes the law of the next step.
     pub fn keep_kinks(&mut self) -> bool {
         self.sliders.keep_kinks()
     }

@@ -163,7 +163,7 @@ impl Scene {
     /// Adds a sliding joint and returns its index.
     ///
     /// # Errors
-    /// Fails if the name is taken, or if the slave is off the master, a part of it, or sliding on it already.
+    /// Fails if the name is taken, or if the slave does not lie on the master, belongs to it, or slides on it already.
     pub fn add_slider(&mut self, slider: Slider) -> Result<usize, SystemError> {
         self.check_name("slider", &slider.name)?;
         self.check_slider(&slider)?;

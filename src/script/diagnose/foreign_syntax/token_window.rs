@@ -58,7 +58,7 @@ impl<'s> TokenWindow<'s> {
         }
         let here = found - start;
         let gap = here.checked_sub(1).and_then(|last| {
-            // Positions inside unclosed strings may not increase.
+            // Inside unclosed strings, token positions are not guaranteed to increase.
             program.text.get(ends[last]..ends[last + 1])
         });
         let gap = gap.unwrap_or_default().to_owned();

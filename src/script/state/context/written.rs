@@ -103,7 +103,8 @@ impl Context {
     pub(super) fn write_remains(&self, name: &str, content: &[u8]) -> Result<PathBuf, ScriptError> {
         let bytes = content.len() as u64;
         if self.mode() == RunMode::Run && bytes > self.meter().left_for_remains() {
-            let told = format!("note: '{name}' is not written: the run may write no more");
+            let told =
+                format!("note: '{name}' was not written: the limit on written bytes is reached");
             return Err(ScriptError::new(told));
         }
         self.meter().allows_to_write(bytes);
