@@ -31,7 +31,7 @@ fn springs(count: usize) -> Scene {
         let position = Vec2::new(number as f64, 0.1 * (number % 2) as f64);
         let bead = scene.add_particle(ParticleDefinition { name, position }, 1.0).unwrap();
         if let Some(before) = before.replace(bead) {
-            let kind = SpringKind::Way([before, bead].map(Anchor::Station).to_vec());
+            let kind = SpringKind::Length([before, bead].map(Anchor::Station).to_vec());
             let law = Some(SpringLaw::Linear { stiffness: 100.0, natural: 1.0 });
             let (name, damping) = (scene.free_name("spring"), 0.0.into());
             scene.add_spring(Spring { name, kind, law, origin: Origin::Zero, damping }).unwrap();

@@ -31,17 +31,17 @@ const MOST_ROWS: f64 = 1e5;
 const SAME_STEP: f64 = 1e-9;
 
 struct CaseMonitor<'a> {
-    wait: CaseTimer,
+    timer: CaseTimer,
     steps: usize,
-    is_wanted: &'a mut dyn FnMut() -> bool,
+    should_continue: &'a mut dyn FnMut() -> bool,
     exceeded: Option<String>,
 }
 
 impl Monitor for CaseMonitor<'_> {
     fn continues(&mut self, _time: f64) -> bool {
         self.steps += 1;
-        self.exceeded = self.wait.exceeded(self.steps);
-        self.exceeded.is_none() && (self.is_wanted)()
+        self.exceeded = self.timer.exceeded(self.steps);
+        self.exceeded.is_none() && (self.should_continue)()
     }
 }
 
@@ -108,7 +108,7 @@ impl Case {
         let wait = patience.begin();
         let started = Simulation::start(self.scene.clone(), self.settings);
         let mut simulation = started.map_err(|error| match wait.exceeded(0) {
-            Some(limit) => CaseOutcome::GaveUp { time: 0.0, limit },
+            Some(limit) => CaseOutcome::LimitExceeded { time: 0.0, limit },
             None => CaseOutcome::Failed { time: 0.0, reason: error.to_string() },
         })?;
         simulation.use_threads(1);
@@ -124,17 +124,22 @@ impl Case {
         is_wanted: &mut dyn FnMut() -> bool,
         mut look: impl FnMut(&Simulation),
     ) -> CaseOutcome {
-        let mut watch = CaseMonitor { wait: patience.begin(), steps: 0, is_wanted, exceeded: None };
+        let mut watch = CaseMonitor {
+            timer: patience.begin(),
+            steps: 0,
+            should_continue: is_wanted,
+            exceeded: None,
+        };
         for stop in &self.stops {
             let run = simulation.run_to(*stop, &mut watch);
             let time = simulation.time();
             // A run stopped within a step for taking too long has not failed for another reason.
             let exceeded = match run {
                 Ok(()) => watch.exceeded.take(),
-                Err(_) => watch.exceeded.take().or_else(|| watch.wait.exceeded(watch.steps)),
+                Err(_) => watch.exceeded.take().or_else(|| watch.timer.exceeded(watch.steps)),
             };
             match (run, exceeded) {
-                (_, Some(limit)) => return CaseOutcome::GaveUp { time, limit },
+                (_, Some(limit)) => return CaseOutcome::LimitExceeded { time, limit },
                 (Err(error), None) => {
                     return CaseOutcome::Failed { time, reason: error.to_string() };
                 }

@@ -40,7 +40,9 @@ impl Ladder {
     /// Returns true if the error of a rung is usable for an order: non-zero and significant.
     pub fn tells_an_order(&self, rung: usize) -> bool {
         let deviation = self.deviations.get(rung).copied().flatten();
-        deviation.is_some_and(|of| of.distance.is_finite() && of.distance > WELL_ABOVE * of.trusted)
+        deviation.is_some_and(|of| {
+            of.distance.is_finite() && of.distance > WELL_ABOVE * of.estimated_error
+        })
     }
 
     fn point(&self, rung: usize) -> Option<(f64, f64)> {
@@ -84,7 +86,7 @@ pub struct Convergence {
     /// Length scale of position errors [length].
     pub length: f64,
     /// Reference.
-    pub truth: ReferenceSolution,
+    pub reference: ReferenceSolution,
     /// Errors by integrator and quantity.
     pub ladders: Vec<Ladder>,
     /// Failed runs: size, integrator, reason.
@@ -152,7 +154,11 @@ mod tests {
     use crate::integrators::INTEGRATORS;
 
     fn ladder(errors: &[Option<(f64, f64)>]) -> Ladder {
-        let deviation = |(distance, trusted)| Deviation { distance, trusted, is_of_own_run: false };
+        let deviation = |(distance, trusted)| Deviation {
+            distance,
+            estimated_error: trusted,
+            is_of_own_run: false,
+        };
         Ladder {
             method: Method::EnergyMomentum,
             quantity: "q".into(),

@@ -154,6 +154,6 @@ mod tests {
         assert_eq!(step_costs(&cases, RunLimits::default(), 2, &mut || false), None);
         let impatient = RunLimits { steps: 3, ..RunLimits::default() };
         let costs = step_costs(&cases, impatient, 1, &mut || true).unwrap();
-        assert!(matches!(costs[0].outcome, CaseOutcome::GaveUp { .. }), "{:?}", costs[0]);
+        assert!(matches!(costs[0].outcome, CaseOutcome::LimitExceeded { .. }), "{:?}", costs[0]);
     }
 }

@@ -9,7 +9,7 @@ use crate::geometry::Vec2;
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExternalResult {
     /// Name of the program.
-    pub peer: String,
+    pub program: String,
     /// Series of the run, such as the program with one integrator.
     pub series: String,
     /// Description of the settings.
@@ -32,7 +32,7 @@ pub enum ExternalResultError {
     Sheet(#[from] ParsedCsvError),
     /// The table cannot be compared with the reference.
     #[error(transparent)]
-    Truth(#[from] ReferenceError),
+    ReferenceMismatch(#[from] ReferenceError),
     /// A run was measured at another time than the study uses.
     #[error("its row {row} has positions at t = {measured}, but the study needs t = {}", asked.join(", "))]
     Times {
@@ -82,7 +82,7 @@ impl ExternalResult {
                     Some(format!("{word}{text}"))
                 });
                 Ok(Self {
-                    peer: cell("peer")?,
+                    program: cell("peer")?,
                     series: cell("series")?,
                     setting: described.collect::<Vec<_>>().join(", "),
                     run_time: sheet.number(row, "run_time_s")?,

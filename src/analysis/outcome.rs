@@ -15,7 +15,7 @@ pub enum CaseOutcome {
         reason: String,
     },
     /// The run exceeded the limits of a case.
-    GaveUp {
+    LimitExceeded {
         /// End of the last successful step [time].
         time: f64,
         /// Description of the exceeded limit.
@@ -39,7 +39,9 @@ impl CaseOutcome {
         match self {
             Self::Finished => "finished".to_owned(),
             Self::Failed { time, reason } => format!("failed at t = {time}: {reason}"),
-            Self::GaveUp { time, limit } => format!("stopped at t = {time} by a limit: {limit}"),
+            Self::LimitExceeded { time, limit } => {
+                format!("stopped at t = {time} by a limit: {limit}")
+            }
             Self::Panicked { message } => {
                 format!("stopped by an internal error of withy, please report it: {message}")
             }

@@ -16,7 +16,7 @@ pub struct PrecisionRow {
     /// Integrator and step size.
     pub settings: SimulationSettings,
     /// Results of the run.
-    pub trial: RunResult,
+    pub result: RunResult,
     /// Run time; `None` if the run failed.
     pub timing: Option<Timing>,
     /// Largest distance of a station from the reference, relative to the length of the study; `None` if the run failed.
@@ -31,16 +31,16 @@ impl PrecisionRow {
     /// Row of a combination.
     pub fn new(
         (mesh, settings): (String, SimulationSettings),
-        trial: RunResult,
+        result: RunResult,
         timing: Option<Timing>,
         (observables, truth, length): (&[Observable], &ReferenceSolution, f64),
     ) -> Self {
-        let is_finished = trial.outcome.is_finished();
-        let of = |index| truth.deviation(index, &trial.readings).filter(|_| is_finished);
+        let is_finished = result.outcome.is_finished();
+        let of = |index| truth.deviation(index, &result.readings).filter(|_| is_finished);
         let deviations = (0..observables.len()).map(of).collect();
-        let error = truth.of_positions(observables, &trial.readings).filter(|_| is_finished);
+        let error = truth.of_positions(observables, &result.readings).filter(|_| is_finished);
         let error = error.map(|error| error.divided_by(length));
-        Self { mesh, settings, trial, timing, error, deviations, is_on_front: false }
+        Self { mesh, settings, result, timing, error, deviations, is_on_front: false }
     }
 
     /// Run time [s] and error [-]; infinite if missing.
@@ -70,11 +70,11 @@ pub struct Precision {
     /// Observables.
     pub observables: Vec<Observable>,
     /// Reference.
-    pub truth: ReferenceSolution,
+    pub reference: ReferenceSolution,
     /// All combinations, including failed ones.
     pub rows: Vec<PrecisionRow>,
     /// Runs of other programs for comparison.
-    pub rivals: Vec<ExternalResult>,
+    pub external_results: Vec<ExternalResult>,
 }
 
 impl Precision {
@@ -115,7 +115,7 @@ impl Precision {
     /// Names of the other programs, without duplicates.
     pub fn program_names(&self) -> Vec<&str> {
         let mut peers = Vec::new();
-        for peer in self.rivals.iter().map(|rival| rival.peer.as_str()) {
+        for peer in self.external_results.iter().map(|rival| rival.program.as_str()) {
             if !peers.contains(&peer) {
                 peers.push(peer);
             }
@@ -125,7 +125,10 @@ impl Precision {
 
     /// Fastest run of another program with an error of at most `error` [-].
     pub fn cheapest_of(&self, peer: &str, error: f64) -> Option<&ExternalResult> {
-        let able = self.rivals.iter().filter(|rival| rival.peer == peer && rival.error <= error);
+        let able = self
+            .external_results
+            .iter()
+            .filter(|rival| rival.program == peer && rival.error <= error);
         able.min_by(|a, b| a.run_time.total_cmp(&b.run_time))
     }
 }
@@ -155,7 +158,7 @@ mod tests {
         };
         let rows = [(-0.1, 1), (0.25, 2), (0.125, 4), (0.25, 3)].map(row).to_vec();
         let rival = |peer: &str, run_time, error| ExternalResult {
-            peer: peer.into(),
+            program: peer.into(),
             series: peer.into(),
             setting: String::new(),
             run_time,
@@ -165,7 +168,15 @@ mod tests {
         };
         let rivals = vec![rival("P", 9.0, 1e-9), rival("P", 1.0, 0.5), rival("Q", 1.0, 0.9)];
         let (name, times, length) = ("s".into(), vec![0.5, 1.0], 2.0);
-        let mut study = Precision { name, times, length, observables, truth, rows, rivals };
+        let mut study = Precision {
+            name,
+            times,
+            length,
+            observables,
+            reference: truth,
+            rows,
+            external_results: rivals,
+        };
         study.mark_front();
         study
     }

@@ -14,7 +14,7 @@ pub struct Deviation {
     /// Distance from the reference, in the unit of the observable.
     pub distance: f64,
     /// Estimated error of the reference, in the unit of the observable; zero if unknown.
-    pub trusted: f64,
+    pub estimated_error: f64,
     /// True for a reference run. All errors are then reported as bounds, so that no result appears better only because it shares the error
     /// of the reference.
     pub is_of_own_run: bool,
@@ -23,13 +23,13 @@ pub struct Deviation {
 impl Deviation {
     /// Returns true if the distance exceeds the uncertainty.
     pub fn is_resolved(&self) -> bool {
-        self.distance > self.trusted
+        self.distance > self.estimated_error
     }
 
     /// Error of the result: a bound for a reference run, or if the distance is below the uncertainty.
     pub fn error(&self) -> f64 {
         match self.is_of_own_run || !self.is_resolved() {
-            true => self.distance + self.trusted,
+            true => self.distance + self.estimated_error,
             false => self.distance,
         }
     }
@@ -37,15 +37,19 @@ impl Deviation {
     /// The larger of two deviations; NaN counts as the largest.
     pub fn larger_deviation(self, other: Self) -> Self {
         if larger(self.distance, other.distance) == self.distance || self.distance.is_nan() {
-            Self { trusted: self.trusted.max(other.trusted), ..self }
+            Self { estimated_error: self.estimated_error.max(other.estimated_error), ..self }
         } else {
-            Self { trusted: self.trusted.max(other.trusted), ..other }
+            Self { estimated_error: self.estimated_error.max(other.estimated_error), ..other }
         }
     }
 
     /// Deviation divided by a scale.
     pub fn divided_by(self, scale: f64) -> Self {
-        Self { distance: self.distance / scale, trusted: self.trusted / scale, ..self }
+        Self {
+            distance: self.distance / scale,
+            estimated_error: self.estimated_error / scale,
+            ..self
+        }
     }
 }
 
@@ -68,7 +72,7 @@ pub enum ReferenceError {
     },
     /// The reference has two rows at a time of the study.
     #[error("lines {first} and {second} are both for t = {time}, but have different values")]
-    Twice {
+    DuplicateTime {
         /// Duplicate time [time].
         time: f64,
         /// Line of the first row.
@@ -94,7 +98,7 @@ const ROUNDING: f64 = 1e-13;
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct KnownValue {
     value: Vec2,
-    trusted: f64,
+    estimated_error: f64,
 }
 
 /// Reference of a study: values of its observables at its times.
@@ -130,7 +134,7 @@ fn row_at(sheet: &ParsedCsv, time: f64) -> Result<usize, ReferenceError> {
     match found.find(|other| sheet.texts(*other) != sheet.texts(first)) {
         Some(other) => {
             let (first, second) = (sheet.line(first), sheet.line(other));
-            Err(ReferenceError::Twice { time, first, second })
+            Err(ReferenceError::DuplicateTime { time, first, second })
         }
         None => Ok(first),
     }
@@ -163,7 +167,10 @@ fn known_of(
                 }
                 _ => either(&groups)?,
             };
-            Some(KnownValue { value: Vec2::new(number(&x)?, number(&y)?), trusted })
+            Some(KnownValue {
+                value: Vec2::new(number(&x)?, number(&y)?),
+                estimated_error: trusted,
+            })
         }
         ObservableKind::Angle(_) => {
             let column = format!("th{name}");
@@ -171,7 +178,7 @@ fn known_of(
                 return Ok(None);
             }
             let trusted = either(&[format!("d_{column}"), "d_th".to_owned()])?;
-            Some(KnownValue { value: Vec2::new(number(&column)?, 0.0), trusted })
+            Some(KnownValue { value: Vec2::new(number(&column)?, 0.0), estimated_error: trusted })
         }
         ObservableKind::Column { .. } if !sheet.has(name) => None,
         ObservableKind::Column { .. } => {
@@ -182,7 +189,10 @@ fn known_of(
             let own = std::iter::once(format!("d_{name}"));
             let columns: Vec<String> =
                 own.chain(groups.iter().map(|group| (*group).to_owned())).collect();
-            Some(KnownValue { value: Vec2::new(number(name)?, 0.0), trusted: either(&columns)? })
+            Some(KnownValue {
+                value: Vec2::new(number(name)?, 0.0),
+                estimated_error: either(&columns)?,
+            })
         }
     })
 }
@@ -221,7 +231,7 @@ impl ReferenceSolution {
     pub fn of_run(source: impl Into<String>, readings: &Readings) -> Self {
         let known = |value: &Vec2| {
             (value.x.is_finite() && value.y.is_finite())
-                .then_some(KnownValue { value: *value, trusted: 0.0 })
+                .then_some(KnownValue { value: *value, estimated_error: 0.0 })
         };
         let known = readings.iter().map(|at| at.iter().map(known).collect()).collect();
         Self { source: source.into(), is_own: true, known }
@@ -231,8 +241,10 @@ impl ReferenceSolution {
     pub fn as_far_as(mut self, coarser: &Readings) -> Self {
         for (known, other) in self.known.iter_mut().zip(coarser) {
             for (known, other) in known.iter_mut().zip(other) {
-                *known = known
-                    .map(|known| KnownValue { trusted: (*other - known.value).norm(), ..known });
+                *known = known.map(|known| KnownValue {
+                    estimated_error: (*other - known.value).norm(),
+                    ..known
+                });
             }
         }
         self
@@ -250,8 +262,8 @@ impl ReferenceSolution {
         let at = |(known, found): (&Vec<Option<KnownValue>>, &Vec<Vec2>)| {
             let known = (*known.get(observable)?)?;
             let distance = (found.get(observable)? - known.value).norm();
-            let (trusted, is_of_own_run) = (known.trusted.max(rounding), self.is_own);
-            Some(Deviation { distance, trusted, is_of_own_run })
+            let (trusted, is_of_own_run) = (known.estimated_error.max(rounding), self.is_own);
+            Some(Deviation { distance, estimated_error: trusted, is_of_own_run })
         };
         self.known.iter().zip(readings).filter_map(at).reduce(Deviation::larger_deviation)
     }
@@ -292,7 +304,7 @@ mod tests {
         let far = truth.deviation(0, &found(0.1)).unwrap().divided_by(2.0);
         assert!(far.is_resolved() && (far.error() - 0.05).abs() < 1e-12);
         assert_eq!(truth.deviation(1, &found(0.0)).unwrap().error(), 0.2);
-        assert_eq!(truth.deviation(2, &found(0.0)).unwrap().trusted, 0.1);
+        assert_eq!(truth.deviation(2, &found(0.0)).unwrap().estimated_error, 0.1);
         assert!(!truth.knows(3) && truth.deviation(3, &found(0.0)).is_none());
     }
 
@@ -356,7 +368,7 @@ mod tests {
 
     #[test]
     fn what_is_not_a_number_is_the_largest_deviation() {
-        let of = |distance| Deviation { distance, trusted: 0.0, is_of_own_run: false };
+        let of = |distance| Deviation { distance, estimated_error: 0.0, is_of_own_run: false };
         let deviations = [1.0, f64::NAN, 3.0].map(of);
         for order in [[0, 1, 2], [2, 1, 0], [1, 0, 2], [0, 2, 1]] {
             let worst = order

@@ -29,7 +29,7 @@ pub enum RowEntry {
     /// Names of the results, before the first completed row.
     Names(Vec<String>),
     /// Results of a row.
-    Found(u64, Vec<f64>),
+    Computed(u64, Vec<f64>),
     /// Reason of a failed row.
     Failed(u64, String),
 }
@@ -161,7 +161,7 @@ mod tests {
         let written = [
             RowEntry::Sweep { fingerprint: 7, rows: 3, part: (1, 1) },
             RowEntry::Names(vec!["peak".into()]),
-            RowEntry::Found(2, vec![0.5]),
+            RowEntry::Computed(2, vec![0.5]),
         ];
         let mut journal = RowJournal::append(&path, 0).unwrap();
         let bytes: u64 = written.iter().map(|entry| journal.write(entry).unwrap()).sum();

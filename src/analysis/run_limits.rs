@@ -30,24 +30,28 @@ pub fn is_past_deadline() -> bool {
 }
 
 pub(super) struct CaseTimer {
-    begun: Instant,
-    patience: RunLimits,
+    start: Instant,
+    limits: RunLimits,
     before: Option<Instant>,
 }
 
 impl RunLimits {
     pub(super) fn begin(self) -> CaseTimer {
         let begun = Instant::now();
-        CaseTimer { begun, patience: self, before: DEADLINE.replace(begun.checked_add(self.wall)) }
+        CaseTimer {
+            start: begun,
+            limits: self,
+            before: DEADLINE.replace(begun.checked_add(self.wall)),
+        }
     }
 }
 
 impl CaseTimer {
     pub(super) fn exceeded(&self, steps: usize) -> Option<String> {
-        let RunLimits { steps: most, wall } = self.patience;
+        let RunLimits { steps: most, wall } = self.limits;
         if steps > most {
             Some(format!("more than {most} steps"))
-        } else if self.begun.elapsed() > wall {
+        } else if self.start.elapsed() > wall {
             Some(format!("more than {} s", wall.as_secs_f64()))
         } else {
             None

@@ -52,7 +52,7 @@ pub(super) fn mark_in_process(
     let bounds = room.limits.for_an_attempt();
     Ok(match run_in_process(submission, file, exercise, room)? {
         ProcessReport::Line(line) => {
-            Some(read(&line).unwrap_or_else(|| (Mark::Broken, "its judge gave no result".into())))
+            Some(read(&line).unwrap_or_else(|| (Mark::Error, "its judge gave no result".into())))
         }
         ProcessReport::Nothing(status) => Some(mark_of_exit(status, &bounds)),
         ProcessReport::TooLate => Some((Mark::Stopped, too_late(&bounds))),
@@ -147,7 +147,7 @@ fn mark_of_exit(status: ExitStatus, limits: &Limits) -> (Mark, String) {
     };
     match passed {
         Some(stop) => (Mark::Stopped, stop.message_and_hint().0),
-        None => (Mark::Broken, format!("its process ended without a result: {status}")),
+        None => (Mark::Error, format!("its process ended without a result: {status}")),
     }
 }
 
@@ -198,7 +198,7 @@ pub(super) fn judge_one(
     let limits = limits.for_an_attempt();
     if let Err(error) = confine(&limits) {
         print_error(&format!("error: the limits of this process cannot be set: {error}\n"));
-        return Exit::Wrong;
+        return Exit::Failure;
     }
     let settings = RunSettings {
         limits,
@@ -207,7 +207,7 @@ pub(super) fn judge_one(
     };
     let verdict = match attempt::load(file, folder) {
         Ok(attempt) => judge(exercise, &attempt, settings),
-        Err(why) => AttemptVerdict::Broken(why),
+        Err(why) => AttemptVerdict::Error(why),
     };
     match grading::mark(verdict) {
         Some(mark) => print_line(&write(&mark)),
@@ -261,10 +261,10 @@ mod tests {
     #[test]
     fn verdicts_come_through_a_line_whatever_they_say() {
         let said = "two\nlines, \"quotes\" and \u{1b}[2J".to_owned();
-        let line = write(&(Mark::Off, said.clone()));
+        let line = write(&(Mark::WrongResult, said.clone()));
         assert!(!line.contains(['\n', '\u{1b}']));
-        assert_eq!(read(&line), Some((Mark::Off, said)));
-        let line = write(&(Mark::Broken, "x".repeat(1 << 20)));
+        assert_eq!(read(&line), Some((Mark::WrongResult, said)));
+        let line = write(&(Mark::Error, "x".repeat(1 << 20)));
         assert_eq!(read(&line).unwrap().1.len(), LONGEST_MESSAGE);
         for wrong in ["", "passed", "{}", r#"{ "result": "great", "message": "" }"#] {
             assert_eq!(read(wrong), None);

@@ -81,6 +81,6 @@ fn show(text: &str) -> Exit {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
             report_error(&Diagnostic::general(format!("cannot write to the output: {error}")))
         }
-        _ => Exit::Good,
+        _ => Exit::Success,
     }
 }

@@ -6,11 +6,11 @@ use std::process::ExitCode;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Exit {
     /// Success, or the reader of the output has closed the pipe.
-    Good = 0,
+    Success = 0,
     /// A `check` in the script failed.
     CheckFailed = 1,
     /// The script or the arguments are wrong, or output could not be written.
-    Wrong = 2,
+    Failure = 2,
     /// Interrupted by Ctrl-C.
     Interrupted = 130,
 }

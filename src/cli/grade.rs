@@ -89,7 +89,7 @@ pub fn grade(wishes: &GradeOptions) -> Result<Exit, ExerciseError> {
     }
     match trouble {
         Some(trouble) => Err(trouble),
-        None if is_whole => Ok(Exit::Good),
+        None if is_whole => Ok(Exit::Success),
         None => Ok(Exit::Interrupted),
     }
 }
@@ -128,7 +128,7 @@ impl GradedMark {
         };
         let (is_ours, (mark, message)) = match marked {
             Ok(marked) => (false, marked?),
-            Err(error) => (true, (Mark::Broken, format!("cannot start a process for it: {error}"))),
+            Err(error) => (true, (Mark::Error, format!("cannot start a process for it: {error}"))),
         };
         // The attempt may have changed while it was judged.
         let fingerprint = (!is_ours && of_attempt() == before).then_some(before);

@@ -85,7 +85,7 @@ fn welcome(workbook: &Workbook) -> Done {
     print_line(
         "\nwithy learn watch judges each file when you save it; withy learn list shows all exercises.",
     );
-    Ok(Exit::Good)
+    Ok(Exit::Success)
 }
 
 fn list(workbook: &Workbook) -> Done {
@@ -98,7 +98,7 @@ fn list(workbook: &Workbook) -> Done {
             print_line(&format!("  {mark:<6}  {:<longest$}  {}", exercise.name, exercise.title()));
         }
     }
-    Ok(Exit::Good)
+    Ok(Exit::Success)
 }
 
 fn show_next(workbook: &Workbook) -> Done {
@@ -114,7 +114,7 @@ fn show_next(workbook: &Workbook) -> Done {
              withy learn solution NAME shows a solution to compare with.",
         ),
     }
-    Ok(Exit::Good)
+    Ok(Exit::Success)
 }
 
 fn check(
@@ -143,14 +143,16 @@ fn check(
             if is_noted {
                 show_next(workbook)?;
             }
-            return Ok(Exit::Good);
+            return Ok(Exit::Success);
         }
         AttemptVerdict::Interrupted => {
             print_line("interrupted before the attempt was judged");
             return Ok(Exit::Interrupted);
         }
-        AttemptVerdict::Broken(why) | AttemptVerdict::Stopped(why) => why.render(colours()),
-        AttemptVerdict::Off(found) => found.iter().map(|found| format!("  - {found}\n")).collect(),
+        AttemptVerdict::Error(why) | AttemptVerdict::Stopped(why) => why.render(colours()),
+        AttemptVerdict::WrongResult(found) => {
+            found.iter().map(|found| format!("  - {found}\n")).collect()
+        }
     };
     print_line(&format!("{off}\nnot yet: {}", exercise.id()));
     print_line(&format!("a hint: withy learn hint {}", exercise.name));
@@ -168,7 +170,7 @@ fn note(workbook: &Workbook, exercise: &Exercise, has_passed: bool) -> bool {
 fn judge_file(workbook: &Workbook, exercise: &Exercise, settings: RunSettings) -> AttemptVerdict {
     match attempt::load(&workbook.file(exercise), workbook.folder()) {
         Ok(attempt) => judge(exercise, &attempt, settings),
-        Err(why) => AttemptVerdict::Broken(why),
+        Err(why) => AttemptVerdict::Error(why),
     }
 }
 
@@ -220,7 +222,7 @@ fn check_all(workbook: &Workbook, detail: Detail, limits: &LimitOptions) -> Done
         show_next(workbook)?;
     }
     print_line(&format!("\n{passed} of {} exercises are passed.", EXERCISES.len()));
-    Ok(if passed == EXERCISES.len() { Exit::Good } else { Exit::CheckFailed })
+    Ok(if passed == EXERCISES.len() { Exit::Success } else { Exit::CheckFailed })
 }
 
 fn solution(workbook: &Workbook, name: &str) -> Done {
@@ -240,7 +242,7 @@ fn solution(workbook: &Workbook, name: &str) -> Done {
         Colours::Ansi => print_line(&ScriptPainter::new().paint(solution)),
         Colours::None => print_line(solution),
     }
-    Ok(Exit::Good)
+    Ok(Exit::Success)
 }
 
 fn hint(workbook: &Workbook, name: Option<&str>) -> Done {
@@ -261,7 +263,7 @@ fn hint(workbook: &Workbook, name: Option<&str>) -> Done {
             print_line(solution.trim_end());
         }
     }
-    Ok(Exit::Good)
+    Ok(Exit::Success)
 }
 
 fn reset(workbook: &Workbook, name: &str) -> Done {
@@ -273,7 +275,7 @@ fn reset(workbook: &Workbook, name: &str) -> Done {
         shown(&workbook.file(exercise)),
         shown(&kept)
     ));
-    Ok(Exit::Good)
+    Ok(Exit::Success)
 }
 
 fn watch(workbook: &Workbook, limits: &LimitOptions) -> Done {
@@ -296,9 +298,9 @@ fn watch_in_lines(workbook: &Workbook, limits: &LimitOptions, flag: &Arc<AtomicB
         let exit = check(workbook, exercise, limits, flag)?;
         let next = workbook.next()?;
         if next.is_none() || flag.load(Ordering::Relaxed) {
-            return Ok(Exit::Good);
+            return Ok(Exit::Success);
         }
-        if exit == Exit::Good {
+        if exit == Exit::Success {
             print_line("");
         }
         print_line(&format!(
@@ -307,7 +309,7 @@ fn watch_in_lines(workbook: &Workbook, limits: &LimitOptions, flag: &Arc<AtomicB
         ));
         current = loop {
             if flag.load(Ordering::Relaxed) {
-                return Ok(Exit::Good);
+                return Ok(Exit::Success);
             }
             match watcher.changed() {
                 Some(exercise) => break Some(exercise),

@@ -26,7 +26,7 @@ pub fn progress(wish: ProgressPreference) -> Box<dyn Progress + Send> {
 /// A bar over the time of a simulation or the cases of a study. Short runs show none.
 #[derive(Default)]
 struct ProgressDisplay {
-    begun: Cell<Option<Instant>>,
+    start: Cell<Option<Instant>>,
     name: RefCell<String>,
     from: Cell<f64>,
     to: Cell<f64>,
@@ -50,7 +50,7 @@ impl ProgressDisplay {
 
     fn show(&self, reached: f64, message: impl FnOnce() -> String) {
         let mut shown = self.shown.borrow_mut();
-        if shown.is_none() && self.begun.get().is_none_or(|begun| begun.elapsed() < SOON) {
+        if shown.is_none() && self.start.get().is_none_or(|begun| begun.elapsed() < SOON) {
             return;
         }
         let bar = shown.get_or_insert_with(|| self.create_bar());
@@ -66,7 +66,7 @@ impl Progress for ProgressDisplay {
         self.from.set(from);
         self.to.set(to);
         *self.name.borrow_mut() = printable_line(name);
-        self.begun.set(Some(Instant::now()));
+        self.start.set(Some(Instant::now()));
     }
 
     fn report_time(&self, t: f64) {
@@ -82,7 +82,7 @@ impl Progress for ProgressDisplay {
     }
 
     fn end(&self) {
-        self.begun.set(None);
+        self.start.set(None);
         if let Some(bar) = self.shown.borrow_mut().take() {
             bar.finish_and_clear();
         }

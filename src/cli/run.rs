@@ -58,7 +58,7 @@ pub fn run(options: &RunOptions) -> Exit {
 pub fn study(options: &StudyOptions) -> Exit {
     let wish = if options.quiet { ProgressPreference::Hide } else { ProgressPreference::Show };
     let studies = StudyPreferences {
-        journal: if options.fresh { JournalPreference::Anew } else { JournalPreference::GoOn },
+        journal: if options.fresh { JournalPreference::Restart } else { JournalPreference::Resume },
         repeats: options.repeats.map(|repeats| repeats as usize),
         part: options.part,
         merge: options.merge.clone(),
@@ -122,9 +122,9 @@ pub(super) fn exit_for(outcome: &RunOutcome) -> Exit {
             print_error("interrupted: results up to this point are kept\n");
             Exit::Interrupted
         }
-        Ending::PipeClosed | Ending::Undecided => Exit::Good,
+        Ending::PipeClosed | Ending::Undecided => Exit::Success,
         Ending::Finished if !outcome.checks.failed().is_empty() => Exit::CheckFailed,
-        Ending::Finished => Exit::Good,
+        Ending::Finished => Exit::Success,
     }
 }
 
@@ -174,13 +174,13 @@ fn exit_for_part(outcome: &RunOutcome, options: &StudyOptions) -> Exit {
                     "{kept}\nnote: then the script failed, perhaps because it needs the results of all parts: {message}\n"
                 ));
             }
-            Exit::Good
+            Exit::Success
         }
         (Ending::Finished | Ending::Undecided | Ending::PipeClosed, _) => {
             if !options.quiet {
                 print_error(&format!("{kept}\n"));
             }
-            Exit::Good
+            Exit::Success
         }
     }
 }
@@ -193,7 +193,7 @@ pub(super) fn report_error(diagnostic: &Diagnostic) -> Exit {
     } else {
         Colours::None
     }));
-    Exit::Wrong
+    Exit::Failure
 }
 
 pub(super) fn show_summary(outcome: &RunOutcome) {
@@ -216,7 +216,7 @@ fn end_at(stop: Stop) {
     print_error(
         "note: a long operation could not be interrupted: files written before it are complete, all other results are lost\n",
     );
-    process::exit(Exit::Wrong as i32)
+    process::exit(Exit::Failure as i32)
 }
 
 fn check_report_path(file: &Path) -> Result<(), Diagnostic> {

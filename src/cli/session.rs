@@ -53,17 +53,17 @@ fn run(options: &ReplOptions) -> Result<Exit, Diagnostic> {
     let mut shell = Shell::new(session, screen);
     let mut outcome = match file {
         Some(file) => shell.run_program(Program::load(file)?),
-        None => CommandOutcome::Good,
+        None => CommandOutcome::Success,
     };
     if is_conversation {
-        return read_inputs(&mut shell, options).map(|()| Exit::Good);
+        return read_inputs(&mut shell, options).map(|()| Exit::Success);
     }
     for input in &options.inputs {
-        if outcome == CommandOutcome::Good {
+        if outcome == CommandOutcome::Success {
             outcome = batch::run(&mut shell, input.as_bytes());
         }
     }
-    if options.inputs.is_empty() && outcome == CommandOutcome::Good {
+    if options.inputs.is_empty() && outcome == CommandOutcome::Success {
         outcome = batch::run(&mut shell, stdin().lock());
     }
     Ok(exit_for(&shell, outcome))
@@ -98,12 +98,12 @@ fn exit_for(shell: &Shell, outcome: CommandOutcome) -> Exit {
         print_error("error: part of the output could not be written\n");
     }
     match outcome {
-        CommandOutcome::Failed => Exit::Wrong,
+        CommandOutcome::Failed => Exit::Failure,
         CommandOutcome::Interrupted => Exit::Interrupted,
-        CommandOutcome::Good | CommandOutcome::Quit if is_lost => Exit::Wrong,
-        CommandOutcome::PipeClosed => Exit::Good,
-        CommandOutcome::Good | CommandOutcome::Quit if has_failed => Exit::CheckFailed,
-        CommandOutcome::Good | CommandOutcome::Quit => Exit::Good,
+        CommandOutcome::Success | CommandOutcome::Quit if is_lost => Exit::Failure,
+        CommandOutcome::PipeClosed => Exit::Success,
+        CommandOutcome::Success | CommandOutcome::Quit if has_failed => Exit::CheckFailed,
+        CommandOutcome::Success | CommandOutcome::Quit => Exit::Success,
     }
 }
 

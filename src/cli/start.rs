@@ -26,7 +26,7 @@ pub fn main() -> ExitCode {
         None => session::start(arguments.session),
     };
     match exit {
-        Exit::Good if console::is_output_lost() => Exit::Wrong.into(),
+        Exit::Success if console::is_output_lost() => Exit::Failure.into(),
         exit => exit.into(),
     }
 }
@@ -34,5 +34,5 @@ pub fn main() -> ExitCode {
 fn print_clap_answer(answer: &clap::Error) -> Exit {
     let printed = answer.print().and_then(|()| stdout().flush());
     let is_lost = printed.is_err_and(|error| error.kind() != ErrorKind::BrokenPipe);
-    if is_lost || answer.exit_code() != 0 { Exit::Wrong } else { Exit::Good }
+    if is_lost || answer.exit_code() != 0 { Exit::Failure } else { Exit::Success }
 }

@@ -14,7 +14,7 @@ pub struct CapturedOutput {
     /// First lines.
     pub lines: Vec<String>,
     /// Number of further lines.
-    pub more: usize,
+    pub further_lines: usize,
 }
 
 /// A writer that keeps the beginning of the output and counts the rest. Clones share the buffer.
@@ -23,25 +23,28 @@ pub struct CaptureWriter(Arc<Mutex<CapturedText>>);
 
 #[derive(Default)]
 struct CapturedText {
-    kept: Vec<u8>,
-    more: usize,
+    text: Vec<u8>,
+    further_lines: usize,
 }
 
 impl CaptureWriter {
     /// Output captured so far.
     pub fn captured(&self) -> CapturedOutput {
         let heard = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let text = String::from_utf8_lossy(&heard.kept);
-        CapturedOutput { lines: text.lines().map(str::to_owned).collect(), more: heard.more }
+        let text = String::from_utf8_lossy(&heard.text);
+        CapturedOutput {
+            lines: text.lines().map(str::to_owned).collect(),
+            further_lines: heard.further_lines,
+        }
     }
 }
 
 impl Write for CaptureWriter {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         let mut heard = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let (kept, rest) = bytes.split_at(bytes.len().min(MOST - heard.kept.len()));
-        heard.kept.extend(kept);
-        heard.more += rest.iter().filter(|byte| **byte == b'\n').count();
+        let (kept, rest) = bytes.split_at(bytes.len().min(MOST - heard.text.len()));
+        heard.text.extend(kept);
+        heard.further_lines += rest.iter().filter(|byte| **byte == b'\n').count();
         Ok(bytes.len())
     }
 
@@ -62,7 +65,7 @@ mod tests {
             writer.write_all(b"1\n").unwrap();
         }
         let heard = ear.captured();
-        assert_eq!((heard.lines.len(), heard.more), (MOST / 2, MOST / 2));
+        assert_eq!((heard.lines.len(), heard.further_lines), (MOST / 2, MOST / 2));
         assert!(heard.lines.iter().all(|line| line == "1"));
     }
 }

@@ -15,13 +15,13 @@ pub enum Mark {
     /// All checks of the judge passed.
     Passed,
     /// The attempt runs, but checks of the judge failed.
-    Off,
+    WrongResult,
     /// The attempt fails or is not a text file.
-    Broken,
+    Error,
     /// A limit was exceeded.
     Stopped,
     /// The start file is unchanged.
-    Untouched,
+    Unchanged,
     /// There is no file.
     Missing,
 }
@@ -29,8 +29,14 @@ pub enum Mark {
 impl Mark {
     /// Mark of a keyword.
     pub fn of(word: &str) -> Option<Self> {
-        let all =
-            [Self::Passed, Self::Off, Self::Broken, Self::Stopped, Self::Untouched, Self::Missing];
+        let all = [
+            Self::Passed,
+            Self::WrongResult,
+            Self::Error,
+            Self::Stopped,
+            Self::Unchanged,
+            Self::Missing,
+        ];
         all.into_iter().find(|mark| mark.keyword() == word)
     }
 
@@ -38,10 +44,10 @@ impl Mark {
     pub fn keyword(self) -> &'static str {
         match self {
             Self::Passed => "passed",
-            Self::Off => "off",
-            Self::Broken => "broken",
+            Self::WrongResult => "off",
+            Self::Error => "broken",
             Self::Stopped => "stopped",
-            Self::Untouched => "untouched",
+            Self::Unchanged => "untouched",
             Self::Missing => "missing",
         }
     }
@@ -100,7 +106,7 @@ impl GradingTask {
         if submission.is_link() {
             let told = format!("the folder '{}' is a link", submission.folder.display());
             return Self::Known(
-                Mark::Broken,
+                Mark::Error,
                 format!("{told}; an attempt must be in a real folder"),
             );
         }
@@ -109,10 +115,10 @@ impl GradingTask {
         };
         match attempt::load(&path, &submission.folder) {
             Ok(attempt) if is_same(&attempt.text, exercise.start) => {
-                Self::Known(Mark::Untouched, String::new())
+                Self::Known(Mark::Unchanged, String::new())
             }
             Ok(_) => Self::Judge(path),
-            Err(why) => Self::Known(Mark::Broken, why.message),
+            Err(why) => Self::Known(Mark::Error, why.message),
         }
     }
 }
@@ -121,10 +127,10 @@ impl GradingTask {
 pub fn mark(verdict: AttemptVerdict) -> Option<(Mark, String)> {
     let (mark, message) = match verdict {
         AttemptVerdict::Passed => (Mark::Passed, String::new()),
-        AttemptVerdict::Off(found) => (Mark::Off, found.join("\n")),
-        AttemptVerdict::Broken(why) => {
+        AttemptVerdict::WrongResult(found) => (Mark::WrongResult, found.join("\n")),
+        AttemptVerdict::Error(why) => {
             let line = why.location.as_ref().map(|at| format!("line {}: ", at.line));
-            (Mark::Broken, format!("{}{}", line.unwrap_or_default(), why.message))
+            (Mark::Error, format!("{}{}", line.unwrap_or_default(), why.message))
         }
         AttemptVerdict::Stopped(why) => (Mark::Stopped, why.message),
         AttemptVerdict::Interrupted => return None,

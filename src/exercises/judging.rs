@@ -28,9 +28,9 @@ pub enum AttemptVerdict {
     /// All checks of the judge passed.
     Passed,
     /// The attempt runs, but these checks failed; messages of the judge.
-    Off(Vec<String>),
+    WrongResult(Vec<String>),
     /// The attempt fails.
-    Broken(Diagnostic),
+    Error(Diagnostic),
     /// A limit was exceeded.
     Stopped(Diagnostic),
     /// Interrupted from outside.
@@ -49,11 +49,11 @@ pub fn judge(exercise: &Exercise, attempt: &Program, settings: RunSettings) -> A
         Ok(()) => AttemptVerdict::Passed,
         Err(verdict) => verdict,
     };
-    on_large_stack(&limits, hold).unwrap_or_else(AttemptVerdict::Broken)
+    on_large_stack(&limits, hold).unwrap_or_else(AttemptVerdict::Error)
 }
 
 struct JudgingContext {
-    host: ScriptEngine,
+    engine: ScriptEngine,
     silence: SilenceSwitch,
 }
 
@@ -65,15 +65,15 @@ impl JudgingContext {
             told: silence.wrap(settings.told),
             ..settings
         };
-        let host = ScriptEngine::open(language(), settings).map_err(AttemptVerdict::Broken)?;
-        Ok(Self { host, silence })
+        let host = ScriptEngine::open(language(), settings).map_err(AttemptVerdict::Error)?;
+        Ok(Self { engine: host, silence })
     }
 
     fn run_judge(&self, exercise: &Exercise, attempt: &Program) -> Result<(), AttemptVerdict> {
         let mut scope = Scope::new();
         let held = self.run_judge_within(&mut scope, exercise, attempt);
         // Dropping the data of the attempt may take time and memory too.
-        let _limits_kept = self.host.watch().map_err(|halt| self.verdict(halt))?;
+        let _limits_kept = self.engine.watch().map_err(|halt| self.verdict(halt))?;
         drop(scope);
         held
     }
@@ -87,27 +87,28 @@ impl JudgingContext {
         let functions = self.run(attempt, scope)?.clone_functions_only();
         self.silence.begin();
         let judge = exercise.judge();
-        let mut seen = self.show(&judge.needs, scope, &functions).map_err(AttemptVerdict::Off)?;
+        let mut seen =
+            self.show(&judge.needs, scope, &functions).map_err(AttemptVerdict::WrongResult)?;
         let (made, failed) =
-            self.host.context().with_checks(|checks| (checks.made(), checks.failed().len()));
+            self.engine.context().with_checks(|checks| (checks.made(), checks.failed().len()));
         let program = Program::named(&format!("the judge of {}", exercise.id()), exercise.judge);
         self.run(&program, &mut seen).map_err(|verdict| match verdict {
-            AttemptVerdict::Broken(why) if why.blame == Blame::User => {
-                AttemptVerdict::Off(vec![format!("the judge failed: {}", why.message)])
+            AttemptVerdict::Error(why) if why.blame == Blame::User => {
+                AttemptVerdict::WrongResult(vec![format!("the judge failed: {}", why.message)])
             }
             other => other,
         })?;
-        let found = self.host.context().with_checks(|checks| {
+        let found = self.engine.context().with_checks(|checks| {
             let found = checks.failed()[failed..].iter().map(|check| check.message.clone());
             (checks.made() > made).then(|| found.collect::<Vec<_>>())
         });
         match found {
             None => {
                 let why = format!("{} made no check", program.name);
-                Err(AttemptVerdict::Broken(Diagnostic::internal_error(why)))
+                Err(AttemptVerdict::Error(Diagnostic::internal_error(why)))
             }
             Some(found) if found.is_empty() => Ok(()),
-            Some(found) => Err(AttemptVerdict::Off(found)),
+            Some(found) => Err(AttemptVerdict::WrongResult(found)),
         }
     }
 
@@ -131,7 +132,7 @@ impl JudgingContext {
             let found = match value.type_id() {
                 _ if value.is_string() => "text",
                 function if function == TypeId::of::<FnPtr>() => "function",
-                _ => self.host.engine().map_type_name(value.type_name()),
+                _ => self.engine.engine().map_type_name(value.type_name()),
             };
             match found {
                 found if found == of => {
@@ -154,8 +155,8 @@ impl JudgingContext {
     }
 
     fn run(&self, program: &Program, scope: &mut Scope<'static>) -> Result<AST, AttemptVerdict> {
-        let ran = self.host.watch().and_then(|guard| {
-            self.host.run(
+        let ran = self.engine.watch().and_then(|guard| {
+            self.engine.run(
                 &guard,
                 || program.clone(),
                 |engine| {
@@ -169,10 +170,10 @@ impl JudgingContext {
 
     fn verdict(&self, halt: Halt) -> AttemptVerdict {
         match halt {
-            Halt::Failed(why) | Halt::Undecided(why) if self.host.context().is_stopped() => {
+            Halt::Failed(why) | Halt::Undecided(why) if self.engine.context().is_stopped() => {
                 AttemptVerdict::Stopped(why)
             }
-            Halt::Failed(why) | Halt::Undecided(why) => AttemptVerdict::Broken(why),
+            Halt::Failed(why) | Halt::Undecided(why) => AttemptVerdict::Error(why),
             Halt::Interrupted | Halt::PipeClosed => AttemptVerdict::Interrupted,
         }
     }

@@ -127,9 +127,9 @@ mod tests {
         let (kink, knots) = (find("kink").unwrap(), find("knot_vector").unwrap());
         let (known, mut file) = open(&path).unwrap();
         assert_eq!(known.find(&ada, kink, "1"), None);
-        file.append(&ada, kink, (Mark::Off, "one"), Some("1")).unwrap();
+        file.append(&ada, kink, (Mark::WrongResult, "one"), Some("1")).unwrap();
         file.append(&ada, kink, (Mark::Passed, ""), Some("2")).unwrap();
-        file.append(&ada, knots, (Mark::Broken, "by us"), None).unwrap();
+        file.append(&ada, knots, (Mark::Error, "by us"), None).unwrap();
         assert!(open(&path).unwrap_err().to_string().contains("another process is writing"));
         drop(file);
         let whole = fs::read_to_string(&path).unwrap();

@@ -26,9 +26,9 @@ pub enum AttemptOutcome {
     /// All checks of the judge passed.
     Passed,
     /// The attempt runs, but these checks failed; messages of the judge.
-    Off(Vec<String>),
+    WrongResult(Vec<String>),
     /// The attempt fails.
-    Broken(AttemptError),
+    Error(AttemptError),
     /// A limit was exceeded.
     Stopped(AttemptError),
     /// Interrupted from outside.
@@ -67,10 +67,10 @@ impl From<AttemptVerdict> for AttemptOutcome {
     fn from(verdict: AttemptVerdict) -> Self {
         match verdict {
             AttemptVerdict::Passed => Self::Passed,
-            AttemptVerdict::Off(found) => {
-                Self::Off(found.iter().map(|found| shortened(found)).collect())
+            AttemptVerdict::WrongResult(found) => {
+                Self::WrongResult(found.iter().map(|found| shortened(found)).collect())
             }
-            AttemptVerdict::Broken(why) => Self::Broken(AttemptError::from(why)),
+            AttemptVerdict::Error(why) => Self::Error(AttemptError::from(why)),
             AttemptVerdict::Stopped(why) => Self::Stopped(AttemptError::from(why)),
             AttemptVerdict::Interrupted => Self::Interrupted,
         }
@@ -137,8 +137,8 @@ mod tests {
     #[test]
     fn a_report_comes_through_a_line_whatever_it_says() {
         let why = Diagnostic::general("x".repeat(1 << 20)).with_hint("two\nlines \u{1b}[2J");
-        let printed = CapturedOutput { lines: vec!["\u{7}".into()], more: 3 };
-        let report = AttemptReport { outcome: AttemptVerdict::Broken(why).into(), printed };
+        let printed = CapturedOutput { lines: vec!["\u{7}".into()], further_lines: 3 };
+        let report = AttemptReport { outcome: AttemptVerdict::Error(why).into(), printed };
         let line = serde_json::to_string(&report).unwrap();
         assert!(!line.contains(['\n', '\u{1b}']) && line.len() < 3 * LONGEST);
         assert_eq!(serde_json::from_str::<AttemptReport>(&line).unwrap(), report);

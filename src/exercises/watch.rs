@@ -17,29 +17,29 @@ pub const INTERVAL: Duration = Duration::from_millis(200);
 /// Contents of a student's attempts at the last check.
 pub struct Watcher<'a> {
     workbook: &'a Workbook,
-    seen: Vec<Seen>,
+    files: Vec<Seen>,
 }
 
 struct Seen {
     content: Option<Vec<u8>>,
     /// True if the file was empty or missing at the last check; some editors empty or move a file before writing it.
-    is_away: bool,
+    was_missing: bool,
 }
 
 impl<'a> Watcher<'a> {
     /// Reads the attempts of a workbook for the first time.
     pub fn new(workbook: &'a Workbook) -> Self {
-        let look = |exercise| Seen { content: content(workbook, exercise), is_away: false };
-        Self { workbook, seen: EXERCISES.iter().map(look).collect() }
+        let look = |exercise| Seen { content: content(workbook, exercise), was_missing: false };
+        Self { workbook, files: EXERCISES.iter().map(look).collect() }
     }
 
     /// First exercise in the order of the catalogue whose file has changed. A file that is empty or missing for one check, as during
     /// saving, has not changed.
     pub fn changed(&mut self) -> Option<&'static Exercise> {
-        EXERCISES.iter().zip(&mut self.seen).find_map(|(exercise, seen)| {
+        EXERCISES.iter().zip(&mut self.files).find_map(|(exercise, seen)| {
             let now = content(self.workbook, exercise);
             let is_away = now.as_ref().is_none_or(Vec::is_empty);
-            let was_away = std::mem::replace(&mut seen.is_away, is_away);
+            let was_away = std::mem::replace(&mut seen.was_missing, is_away);
             let is_half_saved = is_away && !was_away;
             if is_half_saved || seen.content == now {
                 return None;

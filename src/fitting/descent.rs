@@ -35,7 +35,7 @@ pub type RateWithSlopes<'r, E> = dyn FnMut(&[f64]) -> Result<SlopesOfRating, E> 
 
 struct Descent<'d, 'f, E> {
     design: &'d Design,
-    sloped: &'d mut RateWithSlopes<'f, E>,
+    rate_with_slopes: &'d mut RateWithSlopes<'f, E>,
     rate: &'d mut Rate<'f, E>,
     best: Option<(Vec<f64>, Rating)>,
     /// Last evaluated design in scaled parameters.
@@ -74,7 +74,7 @@ impl<E> Descent<'_, '_, E> {
         let x = self.design.unscaled(scaled);
         // Counted once, although a missing derivative needs a second call.
         self.runs += 1;
-        match (self.sloped)(&x).map_err(Ended::Error)? {
+        match (self.rate_with_slopes)(&x).map_err(Ended::Error)? {
             Ok(mut found) => {
                 self.gradient_runs += 1;
                 if self.gradient_runs == 1 && !self.are_true(&x, &found)? {
@@ -146,7 +146,7 @@ impl Design {
     /// continues from the best design.
     ///
     /// # Errors
-    /// First error of `sloped` and `rate`.
+    /// First error of `rate_with_slopes` and `rate`.
     pub fn solve_with<'f, E>(
         &self,
         sloped: &mut RateWithSlopes<'f, E>,
@@ -154,7 +154,7 @@ impl Design {
     ) -> Result<Option<Designed>, E> {
         let descent = RefCell::new(Descent {
             design: self,
-            sloped,
+            rate_with_slopes: sloped,
             rate,
             best: None,
             last: None,
@@ -181,7 +181,7 @@ impl Design {
             rating,
             runs,
             gradient_runs,
-            without: without.clone(),
+            derivative_free_reason: without.clone(),
         });
         if without.is_none() || runs >= self.most_runs {
             return Ok(found);
@@ -202,7 +202,7 @@ impl Design {
         Ok(more.map(|more| Designed {
             runs: runs + more.runs - asked_again,
             gradient_runs,
-            without,
+            derivative_free_reason: without,
             ..more
         }))
     }
@@ -288,7 +288,10 @@ mod tests {
             Ok(Some(product(x).rating))
         });
         let found = found.unwrap();
-        assert!(found.is_feasible && found.is_settled && found.without.is_none(), "{found:?}");
+        assert!(
+            found.is_feasible && found.is_settled && found.derivative_free_reason.is_none(),
+            "{found:?}"
+        );
         assert!((found.rating.objective + 0.5).abs() < 1e-5, "{found:?}");
         let Ok(without) = design.solve(|x| Ok::<_, Infallible>(Some(product(x).rating)));
         assert!(2 * found.runs < without.unwrap().runs, "{found:?}");
@@ -335,7 +338,7 @@ mod tests {
         );
         let found = found.unwrap();
         assert!((found.parameters[0] - 1.0).abs() < 1e-3, "{found:?}");
-        assert_eq!(found.without.as_deref(), Some("lost"));
+        assert_eq!(found.derivative_free_reason.as_deref(), Some("lost"));
         let Ok(none) =
             design.solve_with(&mut |_| Ok::<_, Infallible>(Err("no".into())), &mut |_| Ok(None));
         assert!(none.is_none());

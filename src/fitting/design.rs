@@ -55,7 +55,7 @@ pub struct Designed {
     /// Number of calls with derivatives, included in `runs`.
     pub gradient_runs: usize,
     /// Reason for a derivative-free search.
-    pub without: Option<String>,
+    pub derivative_free_reason: Option<String>,
 }
 
 pub(super) struct Scaled {
@@ -172,7 +172,7 @@ impl Design {
             rating,
             runs,
             gradient_runs: 0,
-            without: None,
+            derivative_free_reason: None,
         }))
     }
 

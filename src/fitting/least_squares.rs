@@ -37,7 +37,7 @@ pub enum TerminationReason {
     /// Converged.
     Settled,
     /// No step reduces the squares although the derivatives predict it: the noise of the runs or a discontinuity prevents further progress.
-    Stuck,
+    Stalled,
     /// Maximum number of rounds.
     Unfinished,
 }
@@ -171,11 +171,11 @@ impl LeastSquaresState {
 
 enum Round {
     /// Converged, or no further reduction is predicted.
-    Rests,
+    Converged,
     /// New derivatives are needed, or given.
-    Goes(Option<DMatrix<f64>>),
+    NeedsDerivatives(Option<DMatrix<f64>>),
     /// Fresh derivatives predict a reduction that no step achieves.
-    Sticks,
+    Stalled,
 }
 
 impl LeastSquares {
@@ -238,12 +238,12 @@ impl LeastSquares {
                 break;
             }
             match self.iterate(&mut state, least, &mut steps, &mut asking)? {
-                Round::Goes(found) => known = found,
-                Round::Sticks => {
-                    settling = TerminationReason::Stuck;
+                Round::NeedsDerivatives(found) => known = found,
+                Round::Stalled => {
+                    settling = TerminationReason::Stalled;
                     break;
                 }
-                Round::Rests => {
+                Round::Converged => {
                     settling = TerminationReason::Settled;
                     break;
                 }
@@ -286,7 +286,7 @@ impl LeastSquares {
                 let is_near = (0..start.len()).all(|at| {
                     (state.x[at] - start[at]).abs() <= NEAR * self.ranges[at].size(state.x[at])
                 });
-                return Ok(if is_near { Round::Rests } else { Round::Goes(None) });
+                return Ok(if is_near { Round::Converged } else { Round::NeedsDerivatives(None) });
             }
             let x: Vec<f64> = state.x.iter().zip(step.iter()).map(|(x, step)| x + step).collect();
             // A bound may prevent the predicted reduction; a shorter step may not reach it.
@@ -302,16 +302,16 @@ impl LeastSquares {
                 if let Some(found) = found.filter(|_| gained > 0.0) {
                     (state.x, state.residuals) = (x, found);
                 }
-                return Ok(Round::Rests);
+                return Ok(Round::Converged);
             }
             let share = gained / promised;
             let Some(found) = found.filter(|_| share > 1e-4) else {
                 if !is_fresh {
-                    return Ok(Round::Goes(None));
+                    return Ok(Round::NeedsDerivatives(None));
                 }
                 state.damping *= 10.0;
                 if state.damping > DAMPING.2 {
-                    return Ok(Round::Sticks);
+                    return Ok(Round::Stalled);
                 }
                 continue;
             };
@@ -328,10 +328,10 @@ impl LeastSquares {
             is_fresh = false;
             // Exact derivatives replace updated ones.
             if state.squares() <= least || derivatives.is_some() {
-                return Ok(Round::Goes(derivatives));
+                return Ok(Round::NeedsDerivatives(derivatives));
             }
         }
-        Ok(Round::Goes(None))
+        Ok(Round::NeedsDerivatives(None))
     }
 }
 

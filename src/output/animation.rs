@@ -42,7 +42,7 @@ impl Animation<'_> {
         let (width, height) = (self.draw)(0)?.size();
         let pixels = f64::from(width) * f64::from(height) * self.frames as f64;
         if pixels > MOST_PIXELS {
-            return Err(OutputError::ManyPixels { frames: self.frames, width, height });
+            return Err(OutputError::TooManyPixels { frames: self.frames, width, height });
         }
         let palette = self.palette()?;
         let mut bytes = Vec::new();

@@ -42,7 +42,7 @@ pub enum SeriesEmphasis {
     /// A thin line.
     Thin,
     /// A thin and pale line, drawn in the background.
-    Faint,
+    Pale,
 }
 
 /// A series of a chart: a named curve. Points that are not finite leave a gap.
@@ -88,7 +88,7 @@ impl Series {
 
     /// Draws the series thin and pale.
     pub fn pale(mut self) -> Self {
-        self.weight = SeriesEmphasis::Faint;
+        self.weight = SeriesEmphasis::Pale;
         self
     }
 
@@ -308,7 +308,7 @@ impl Panel for LineChart {
         if self.points().next().is_none() {
             frame.draw_no_data(canvas, plot);
         }
-        let faint_first = [SeriesEmphasis::Faint, SeriesEmphasis::Thin, SeriesEmphasis::Full]
+        let faint_first = [SeriesEmphasis::Pale, SeriesEmphasis::Thin, SeriesEmphasis::Full]
             .into_iter()
             .flat_map(|weight| {
                 self.series.iter().enumerate().filter(move |(_, series)| series.weight == weight)
@@ -318,7 +318,7 @@ impl Panel for LineChart {
             let (line, mark, colour) = match series.weight {
                 SeriesEmphasis::Full => (LINE, MARK, colour),
                 SeriesEmphasis::Thin => (THIN, FAINT.1, colour),
-                SeriesEmphasis::Faint => (FAINT.0, FAINT.1, tint(colour, FAINT.2)),
+                SeriesEmphasis::Pale => (FAINT.0, FAINT.1, tint(colour, FAINT.2)),
             };
             for run in frame.curve(plot, &series.points) {
                 match run.as_slice() {

@@ -27,9 +27,9 @@ pub enum DataValues {
     /// Numbers.
     Numbers(Vec<Option<f64>>),
     /// Whole numbers.
-    Whole(Vec<Option<i64>>),
+    Integers(Vec<Option<i64>>),
     /// Booleans.
-    Truths(Vec<Option<bool>>),
+    Booleans(Vec<Option<bool>>),
     /// Texts.
     Texts(Vec<Option<String>>),
 }
@@ -48,8 +48,8 @@ impl DataValues {
     pub fn length(&self) -> usize {
         match self {
             Self::Numbers(values) => values.len(),
-            Self::Whole(values) => values.len(),
-            Self::Truths(values) => values.len(),
+            Self::Integers(values) => values.len(),
+            Self::Booleans(values) => values.len(),
             Self::Texts(values) => values.len(),
         }
     }
@@ -57,8 +57,8 @@ impl DataValues {
     fn written(&self, row: usize) -> String {
         let written = match self {
             Self::Numbers(values) => values[row].map(exact),
-            Self::Whole(values) => values[row].map(|value| value.to_string()),
-            Self::Truths(values) => values[row].map(|value| value.to_string()),
+            Self::Integers(values) => values[row].map(|value| value.to_string()),
+            Self::Booleans(values) => values[row].map(|value| value.to_string()),
             Self::Texts(values) => values[row].as_deref().map(|text| csv_cell(text).into_owned()),
         };
         written.unwrap_or_default()
@@ -113,8 +113,8 @@ mod tests {
         DataTable {
             columns: vec![
                 column("t", "time", DataValues::Numbers(vec![Some(0.1), None])),
-                column("steps", "-", DataValues::Whole(vec![Some(3), Some(-1)])),
-                column("good", "", DataValues::Truths(vec![Some(true), None])),
+                column("steps", "-", DataValues::Integers(vec![Some(3), Some(-1)])),
+                column("good", "", DataValues::Booleans(vec![Some(true), None])),
                 column("told", "", DataValues::Texts(vec![Some("a, b".into()), None])),
             ],
         }
@@ -136,7 +136,7 @@ mod tests {
         let table = DataTable {
             columns: vec![
                 column("=1+1", DataValues::Texts(vec![Some("@a".into()), Some("-x".into())])),
-                column("n", DataValues::Whole(vec![Some(-1), Some(2)])),
+                column("n", DataValues::Integers(vec![Some(-1), Some(2)])),
             ],
         };
         assert_eq!(table.to_csv(TableHeading::Names).unwrap(), "'=1+1,n\n'@a,-1\n'-x,2\n");
@@ -145,7 +145,7 @@ mod tests {
     #[test]
     fn ragged_columns_are_refused() {
         let mut ragged = table();
-        ragged.columns[1].values = DataValues::Whole(vec![]);
+        ragged.columns[1].values = DataValues::Integers(vec![]);
         assert!(ragged.to_csv(TableHeading::Names).is_err());
     }
 }

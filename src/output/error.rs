@@ -76,7 +76,7 @@ pub enum OutputError {
     #[error(
         "{frames} frames of {width} by {height} pixels are too many for an animation; make fewer frames, or smaller ones"
     )]
-    ManyPixels {
+    TooManyPixels {
         /// Number of frames.
         frames: usize,
         /// Width of a frame [pixels].

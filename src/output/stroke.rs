@@ -19,7 +19,7 @@ pub enum Stroke {
     /// An unbroken line with a marker at every point, for few measured or computed points.
     Marked,
     /// Markers without a line.
-    Unjoined,
+    MarkersOnly,
 }
 
 impl Stroke {
@@ -30,7 +30,7 @@ impl Stroke {
 
     /// Returns true if every point has a marker.
     pub fn has_marks(self) -> bool {
-        matches!(self, Stroke::Marked | Stroke::Unjoined)
+        matches!(self, Stroke::Marked | Stroke::MarkersOnly)
     }
 
     /// Draws one unbroken run of a curve, given in pixels. Markers are drawn separately.
@@ -39,7 +39,7 @@ impl Stroke {
             Stroke::Solid | Stroke::Marked => {
                 return canvas.line(run.iter().copied(), width, colour);
             }
-            Stroke::Unjoined => return,
+            Stroke::MarkersOnly => return,
             Stroke::Dashed => &[7.0, 5.0],
             Stroke::Dotted => &[1.0, 5.0],
         };
@@ -62,7 +62,7 @@ mod tests {
             canvas.shapes().len()
         };
         assert_eq!((count(Stroke::Solid), count(Stroke::Dashed), count(Stroke::Dotted)), (1, 2, 4));
-        assert_eq!((count(Stroke::Marked), count(Stroke::Unjoined)), (1, 0));
+        assert_eq!((count(Stroke::Marked), count(Stroke::MarkersOnly)), (1, 0));
         assert_eq!(Stroke::of_palette_pass(4), Stroke::Dashed);
     }
 

@@ -65,13 +65,13 @@ pub fn run(shell: &mut Shell, lines: impl BufRead) -> CommandOutcome {
                     || !matches!(lines.peek(), Some(Ok(next)) if continues(next)));
         if is_complete {
             match shell.submit(&std::mem::take(&mut input)) {
-                CommandOutcome::Good => (),
+                CommandOutcome::Success => (),
                 other => return other,
             }
         }
     }
     match input.trim() {
-        "" => CommandOutcome::Good,
+        "" => CommandOutcome::Success,
         // The input is incomplete; the session reports the error.
         _ => shell.submit(&input),
     }

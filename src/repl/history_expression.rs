@@ -18,7 +18,7 @@ const DIGITS: usize = 6;
 
 pub struct Followed {
     pub points: Vec<(f64, PlotShape)>,
-    pub words: String,
+    pub text: String,
 }
 
 /// Evaluates an expression at every earlier state of a simulation that can be reproduced. The simulation itself does not move.
@@ -68,7 +68,7 @@ fn evaluate_snapshots(
     let name = subject.name();
     let span = format!("t = {} to {}", time(0), time(last));
     let words = format!("evaluated in {what} of simulation '{name}', {span}{more}");
-    Ok(Followed { points, words })
+    Ok(Followed { points, text: words })
 }
 
 /// Evaluates at the rows of the history by repeating the run; `None` if the repeated run differs.
@@ -79,7 +79,7 @@ fn evaluate_rerun(
 ) -> Result<Option<Followed>, CommandOutcome> {
     let rows = subject.simulation().history().samples().len();
     let revisit = Revisit::at_start(subject).map_err(|error| shell.report_native_error(error))?;
-    let way = PlaybackStep::Again { next: 0, rows, every: rows.div_ceil(MOST_STATES) };
+    let way = PlaybackStep::NextRow { next: 0, rows, every: rows.div_ceil(MOST_STATES) };
     let (points, other) = evaluate_at_states(shell, text, Visits::new(shell, revisit, way))?;
     if let Some(why) = other {
         shell.print_note(&format!(
@@ -93,13 +93,13 @@ fn evaluate_rerun(
         points.len(),
         subject.name(),
     );
-    Ok(Some(Followed { points, words }))
+    Ok(Some(Followed { points, text: words }))
 }
 
 enum PlaybackStep {
     Back(std::vec::IntoIter<usize>),
     /// To the next row of the history; every `every`-th row is evaluated.
-    Again {
+    NextRow {
         next: usize,
         rows: usize,
         every: usize,
@@ -116,27 +116,27 @@ enum PlaybackError {
 
 struct Visits {
     revisit: Revisit,
-    way: PlaybackStep,
+    step: PlaybackStep,
     context: Context,
-    place: (usize, f64),
+    position: (usize, f64),
     points: Vec<(f64, PlotShape)>,
-    trouble: Option<PlaybackError>,
+    error: Option<PlaybackError>,
 }
 
 impl Visits {
-    fn new(shell: &Shell, revisit: Revisit, way: PlaybackStep) -> Self {
-        let (context, place) = (shell.session().context().clone(), revisit.place());
-        Self { revisit, way, context, place, points: Vec::new(), trouble: None }
+    fn new(shell: &Shell, revisit: Revisit, step: PlaybackStep) -> Self {
+        let (context, position) = (shell.session().context().clone(), revisit.place());
+        Self { revisit, step, context, position, points: Vec::new(), error: None }
     }
 
     fn next_state(&mut self) -> Result<bool, PlaybackError> {
         self.context.proceed().map_err(PlaybackError::Refused)?;
-        match &mut self.way {
+        match &mut self.step {
             PlaybackStep::Back(steps) => match steps.next() {
                 Some(to) => self.revisit.restore_step(to).map_err(PlaybackError::Refused),
                 None => Ok(false),
             },
-            PlaybackStep::Again { next, rows, every } => loop {
+            PlaybackStep::NextRow { next, rows, every } => loop {
                 let row = *next;
                 if row >= *rows {
                     return Ok(false);
@@ -167,29 +167,29 @@ impl Visits {
 
 impl Rounds for Visits {
     fn begin(&mut self) -> bool {
-        if self.trouble.is_some() {
+        if self.error.is_some() {
             return false;
         }
         let goes_on = self.next_state().unwrap_or_else(|trouble| {
-            self.trouble = Some(trouble);
+            self.error = Some(trouble);
             false
         });
-        self.place = self.revisit.place();
+        self.position = self.revisit.place();
         goes_on
     }
 
     fn end(&mut self, value: Dynamic) {
-        if self.revisit.place() != self.place {
-            self.trouble = Some(PlaybackError::Moves);
+        if self.revisit.place() != self.position {
+            self.error = Some(PlaybackError::Moves);
         }
         match shape(&value, "something else") {
             point @ (PlotShape::Number(_) | PlotShape::Vector(_)) => {
-                self.points.push((self.place.1, point))
+                self.points.push((self.position.1, point))
             }
             PlotShape::Whole(..) => {
-                self.trouble = Some(PlaybackError::NoPoint("it is an array".into()))
+                self.error = Some(PlaybackError::NoPoint("it is an array".into()))
             }
-            PlotShape::None(why) => self.trouble = Some(PlaybackError::NoPoint(why)),
+            PlotShape::None(why) => self.error = Some(PlaybackError::NoPoint(why)),
         }
     }
 }
@@ -202,7 +202,7 @@ fn evaluate_at_states(
     mut visits: Visits,
 ) -> Result<Values, CommandOutcome> {
     let reply = shell.session_mut().evaluate_repeatedly(text, &mut visits);
-    let Visits { revisit, points, trouble, place, .. } = visits;
+    let Visits { revisit, points, error: trouble, position: place, .. } = visits;
     drop(revisit);
     let at = format!("at t = {}", significant(place.1, DIGITS));
     match (reply, trouble) {

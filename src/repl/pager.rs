@@ -13,11 +13,11 @@ pub use pages::show_pages;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PagerOutcome {
     /// The text was shown.
-    Seen,
+    Shown,
     /// Ctrl-C was pressed.
     Interrupted,
     /// The text must be printed normally, because it is short or paging is disabled.
-    NotByThis,
+    NotPaged,
 }
 
 /// A pager for long texts.
@@ -60,20 +60,20 @@ impl Pager for TerminalPager {
     fn show(&mut self, text: &str, was_interrupted: &dyn Fn() -> bool) -> PagerOutcome {
         // Keys typed ahead belong to the prompt.
         if !self.is_long(text) || keyboard::has_pending_keys() {
-            return PagerOutcome::NotByThis;
+            return PagerOutcome::NotPaged;
         }
         if let Some(name) = &self.program {
             match program::show(name, text, was_interrupted) {
-                Ok(()) => return PagerOutcome::Seen,
+                Ok(()) => return PagerOutcome::Shown,
                 Err(error) => eprintln!("note: cannot start the pager '{name}': {error}"),
             }
         }
         let Some(mut keys) = keyboard::KeyboardTerminal::open() else {
-            return PagerOutcome::NotByThis;
+            return PagerOutcome::NotPaged;
         };
         let walked = show_pages(text, self.size.1, &mut keys, was_interrupted, &mut stdout());
         // The next prompt reports a lost terminal.
-        walked.unwrap_or(PagerOutcome::Seen)
+        walked.unwrap_or(PagerOutcome::Shown)
     }
 }
 

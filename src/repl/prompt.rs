@@ -23,7 +23,7 @@ pub fn run(shell: &mut Shell, editor: &mut Editor) -> io::Result<()> {
         match editor.read(&prompt, shell.surroundings())? {
             EditorInput::Line(input) => match shell.submit(&input) {
                 CommandOutcome::Quit | CommandOutcome::PipeClosed => return Ok(()),
-                CommandOutcome::Good | CommandOutcome::Failed | CommandOutcome::Interrupted => (),
+                CommandOutcome::Success | CommandOutcome::Failed | CommandOutcome::Interrupted => {}
             },
             EditorInput::Interrupted => (),
             EditorInput::End => return Ok(()),

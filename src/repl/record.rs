@@ -19,7 +19,7 @@ enum RecordedInput {
     Statements(Source),
     Expression(Source),
     /// Statements that return early, which would end a script.
-    Returning(Source),
+    EarlyReturn(Source),
     Moved(Source),
 }
 
@@ -51,7 +51,7 @@ impl SessionRecord {
 
     /// Records an input that returns early.
     pub fn returned(&mut self, text: &str) {
-        self.entries.push(RecordedInput::Returning(text.trim().into()));
+        self.entries.push(RecordedInput::EarlyReturn(text.trim().into()));
     }
 
     /// Records how a failed statement has moved simulations since `before`; returns true if any moved.
@@ -91,7 +91,7 @@ impl SessionRecord {
                     value_text(engine, statements)
                 }
                 RecordedInput::Expression(statements) => terminated(statements),
-                RecordedInput::Returning(statements) => {
+                RecordedInput::EarlyReturn(statements) => {
                     let lines = statements.lines().map(|line| format!("\n// {line}"));
                     format!(
                         "// Not run, because of its return statement:{}",
@@ -138,7 +138,7 @@ impl SessionRecord {
 
     /// Returns true if an input returned early and is therefore not repeated.
     pub fn has_returned(&self) -> bool {
-        self.entries.iter().any(|entry| matches!(entry, RecordedInput::Returning(_)))
+        self.entries.iter().any(|entry| matches!(entry, RecordedInput::EarlyReturn(_)))
     }
 }
 
@@ -147,7 +147,7 @@ impl RecordedInput {
         match self {
             Self::Statements(text) | Self::Expression(text) => Some(text),
             // Inputs that are not repeated define no functions and do not use `ans`.
-            Self::Returning(_) => None,
+            Self::EarlyReturn(_) => None,
             Self::Moved(line) => Some(line),
         }
     }

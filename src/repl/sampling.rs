@@ -21,11 +21,11 @@ const KNOWN: f64 = 0.01;
 
 pub struct Sampling {
     clock: Rc<dyn Clock>,
-    begun: Option<Duration>,
-    round_begun: Duration,
-    taken: Vec<Duration>,
+    start: Option<Duration>,
+    round_start: Duration,
+    durations: Vec<Duration>,
     /// Number of runs at which the precision is evaluated next.
-    next_look: usize,
+    next_evaluation: usize,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -42,16 +42,16 @@ impl Sampling {
     pub fn new(clock: Rc<dyn Clock>) -> Self {
         Self {
             clock,
-            begun: None,
-            round_begun: Duration::ZERO,
-            taken: Vec::new(),
-            next_look: LEAST_RUNS,
+            start: None,
+            round_start: Duration::ZERO,
+            durations: Vec::new(),
+            next_evaluation: LEAST_RUNS,
         }
     }
 
     /// Statistics of the runs so far; `None` before the first.
     pub fn figures(&self) -> Option<Figures> {
-        let mut sorted = self.taken.clone();
+        let mut sorted = self.durations.clone();
         sorted.sort_unstable();
         let at = |quarters: usize| sorted.get((sorted.len().checked_sub(1)?) * quarters / 4);
         Some(Figures {
@@ -63,14 +63,14 @@ impl Sampling {
     }
 
     fn is_enough(&mut self, now: Duration) -> bool {
-        let spent = now.saturating_sub(self.begun.unwrap_or(now));
-        if spent >= PATIENCE || self.taken.len() >= MOST_RUNS {
+        let spent = now.saturating_sub(self.start.unwrap_or(now));
+        if spent >= PATIENCE || self.durations.len() >= MOST_RUNS {
             return true;
         }
-        if spent < LEAST_TIME || self.taken.len() < self.next_look {
+        if spent < LEAST_TIME || self.durations.len() < self.next_evaluation {
             return false;
         }
-        self.next_look += self.next_look.div_ceil(4);
+        self.next_evaluation += self.next_evaluation.div_ceil(4);
         self.figures().is_some_and(|figures| figures.error() <= KNOWN)
     }
 }
@@ -88,16 +88,16 @@ impl Figures {
 impl Rounds for Sampling {
     fn begin(&mut self) -> bool {
         let now = self.clock.now();
-        self.begun.get_or_insert(now);
+        self.start.get_or_insert(now);
         if self.is_enough(now) {
             return false;
         }
-        self.round_begun = self.clock.now();
+        self.round_start = self.clock.now();
         true
     }
 
     fn end(&mut self, _: Dynamic) {
-        self.taken.push(self.clock.now().saturating_sub(self.round_begun));
+        self.durations.push(self.clock.now().saturating_sub(self.round_start));
     }
 }
 

@@ -48,12 +48,12 @@ struct StatementCheckpoint {
     scope: Scope<'static>,
     global: GlobalRuntimeState,
     constants: BTreeMap<ImmutableString, Dynamic>,
-    whereabouts: Vec<Whereabouts>,
+    positions: Vec<Whereabouts>,
 }
 
 /// Variables, functions, constants and imports, and the script engine.
 pub struct Session {
-    host: ScriptEngine,
+    engine: ScriptEngine,
     folder: PathBuf,
     scope: Scope<'static>,
     global: GlobalRuntimeState,
@@ -73,7 +73,7 @@ impl Session {
         Ok(Self {
             scope: Scope::new(),
             global: host.engine().new_global_runtime_state(),
-            host,
+            engine: host,
             library: AST::empty(),
             transcript: Transcript::new(folder.clone()),
             record: SessionRecord::default(),
@@ -84,7 +84,7 @@ impl Session {
     /// Clears the session.
     pub fn reset(&mut self) {
         self.scope.clear();
-        self.global = self.host.engine().new_global_runtime_state();
+        self.global = self.engine.engine().new_global_runtime_state();
         self.library = AST::empty();
         self.transcript = Transcript::new(self.folder.clone());
         self.record = SessionRecord::default();
@@ -125,7 +125,7 @@ impl Session {
                 Err(reply) => {
                     self.restore(checkpoint.clone());
                     self.record_partial(&text, number, library);
-                    self.record.record_movement(&checkpoint.whereabouts);
+                    self.record.record_movement(&checkpoint.positions);
                     return reply;
                 }
             }
@@ -175,7 +175,7 @@ impl Session {
             scope: self.scope.clone(),
             global: self.global.clone(),
             constants: constants.map(|constants| constants.borrow().clone()).unwrap_or_default(),
-            whereabouts: self.simulation_positions(),
+            positions: self.simulation_positions(),
         }
     }
 
@@ -189,7 +189,7 @@ impl Session {
     }
 
     fn begin(&mut self, text: &Source, before: usize) -> Result<(AST, Watchdog), Reply> {
-        let Self { host, transcript, scope, .. } = self;
+        let Self { engine: host, transcript, scope, .. } = self;
         let reply = |halt| reply_to(halt, transcript);
         let guard = host.watch().map_err(reply)?;
         let piece = SourcePiece { name: PROMPT, text, before, scope };
@@ -205,7 +205,7 @@ impl Session {
     }
 
     fn run(&mut self, guard: &Watchdog, statements: &[Stmt]) -> Result<Dynamic, Reply> {
-        let Self { host, transcript, scope, global, .. } = self;
+        let Self { engine: host, transcript, scope, global, .. } = self;
         let whole = || transcript.to_program();
         let outcome = host.run(guard, whole, |engine| {
             // Only this deprecated call keeps imports and constants between inputs; there is no replacement.
@@ -247,17 +247,17 @@ impl Session {
 impl Session {
     /// Catalog of the language.
     pub fn catalog(&self) -> &Catalog {
-        self.host.catalog()
+        self.engine.catalog()
     }
 
     /// State shared by all calls of the session.
     pub fn context(&self) -> &Context {
-        self.host.context()
+        self.engine.context()
     }
 
     /// Script engine of the session.
     pub fn engine(&self) -> &Engine {
-        self.host.engine()
+        self.engine.engine()
     }
 
     /// Variables and constants of the session.
@@ -294,7 +294,7 @@ impl Session {
         let program = Program::named("the saved session", &script);
         match read(self.engine(), &Scope::new(), &program.text, 0) {
             Ok(_) => Ok(script),
-            Err(error) => Err(self.host.explain(&error, &program)),
+            Err(error) => Err(self.engine.explain(&error, &program)),
         }
     }
 

@@ -25,7 +25,7 @@ use crate::script::source::program::{LARGEST_SCRIPT, Program};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CommandOutcome {
     /// Success.
-    Good,
+    Success,
     /// Failure, already reported.
     Failed,
     /// Interrupted by Ctrl-C.
@@ -53,7 +53,7 @@ pub struct Shell {
     screen: ReplyTarget,
     watched: Vec<String>,
     /// Number of written files already reported to the user.
-    told_files: usize,
+    reported_files: usize,
     /// Scripts saved by this shell, by path.
     saved: HashMap<PathBuf, String>,
     clock: Rc<dyn Clock>,
@@ -67,7 +67,7 @@ impl Shell {
             session,
             screen,
             watched: Vec::new(),
-            told_files: 0,
+            reported_files: 0,
             saved: HashMap::new(),
             clock: Rc::new(Stopwatch::default()),
             pager: None,
@@ -139,7 +139,7 @@ impl Shell {
         let reply = self.session.eval(input);
         let outcome = self.print_reply(reply);
         let has_moved = self.latest().map(|latest| latest.time()) != before;
-        match outcome == CommandOutcome::Good && has_moved {
+        match outcome == CommandOutcome::Success && has_moved {
             true => self.show_watched(),
             false => outcome,
         }
@@ -171,11 +171,11 @@ impl Shell {
     /// Shows a reply.
     pub fn print_reply(&mut self, reply: Reply) -> CommandOutcome {
         let outcome = match reply {
-            Reply::Done => CommandOutcome::Good,
+            Reply::Done => CommandOutcome::Success,
             Reply::Value(value) => {
                 let shown = present(self.session.catalog(), &value, self.width());
                 self.print(&shown);
-                CommandOutcome::Good
+                CommandOutcome::Success
             }
             Reply::Failed(diagnostic) => self.report_error(&diagnostic),
             Reply::Interrupted => {
@@ -193,10 +193,10 @@ impl Shell {
 
     fn print_written_files(&mut self) {
         let written = self.session.context().output().written();
-        for file in written.iter().skip(self.told_files) {
+        for file in written.iter().skip(self.reported_files) {
             self.print_note(&format!("wrote {}", file.display()));
         }
-        self.told_files = written.len();
+        self.reported_files = written.len();
     }
 
     /// Clears the session.
@@ -228,14 +228,14 @@ impl Shell {
         let interrupt = self.session.context().interrupt_flag();
         let shown = match &mut self.pager {
             Some(pager) => pager.show(text, &|| interrupt.swap(false, Ordering::Relaxed)),
-            None => PagerOutcome::NotByThis,
+            None => PagerOutcome::NotPaged,
         };
         match shown {
-            PagerOutcome::Seen => CommandOutcome::Good,
+            PagerOutcome::Shown => CommandOutcome::Success,
             PagerOutcome::Interrupted => CommandOutcome::Interrupted,
-            PagerOutcome::NotByThis => {
+            PagerOutcome::NotPaged => {
                 self.print(text);
-                CommandOutcome::Good
+                CommandOutcome::Success
             }
         }
     }
@@ -351,11 +351,11 @@ impl Shell {
         };
         let before = self.session.simulation_positions();
         let outcome = match self.session.evaluate_preview(&input) {
-            Reply::Value(_) => CommandOutcome::Good,
+            Reply::Value(_) => CommandOutcome::Success,
             reply => self.print_reply(without_position_in(&input, reply)),
         };
         match outcome {
-            CommandOutcome::Good => {
+            CommandOutcome::Success => {
                 self.session.record_success(&input);
                 self.show_watched()
             }

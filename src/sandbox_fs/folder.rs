@@ -48,7 +48,7 @@ impl Folder {
         }
     }
 
-    /// Opens a folder like [`make`](Self::make), without creating it.
+    /// Opens a folder like [`open_or_create`](Self::open_or_create), without creating it.
     ///
     /// # Errors
     /// Fails if there is no folder at `path`, or it is a link.

@@ -37,7 +37,7 @@ impl Prepared {
 
 impl Drop for Prepared {
     fn drop(&mut self) {
-        // After `place` the temporary name does not exist.
+        // After `rename_to_final` the temporary name does not exist.
         let _ = self.folder.0.remove_file(&self.partial);
     }
 }
@@ -52,10 +52,10 @@ impl Folder {
         self.prepare(name, |file| file.write_all(bytes))?.rename_to_final()
     }
 
-    /// Writes the content of `write` to a temporary file. [`Prepared::place`] then replaces an existing file of that name.
+    /// Writes the content of `write` to a temporary file. [`Prepared::rename_to_final`] then replaces an existing file of that name.
     ///
     /// # Errors
-    /// Fails like [`write_whole`](Self::write_whole), or with an error of `write`.
+    /// Fails like [`write_atomic`](Self::write_atomic), or with an error of `write`.
     pub fn prepare(
         &self,
         name: &Path,

@@ -84,7 +84,7 @@ impl<W: Write> Write for ChecksumWriter<W> {
 pub struct WrittenFiles {
     files: BTreeMap<String, [Option<FileChecksum>; 2]>,
     /// True if the last line of the record file is incomplete.
-    is_torn: bool,
+    is_truncated: bool,
 }
 
 impl WrittenFiles {
@@ -94,7 +94,7 @@ impl WrittenFiles {
         let text = folder.read(Path::new(FILE), LARGEST).unwrap_or_default();
         let text = String::from_utf8_lossy(&text);
         let is_torn = !text.is_empty() && !text.ends_with('\n');
-        let mut record = Self { files: BTreeMap::new(), is_torn };
+        let mut record = Self { files: BTreeMap::new(), is_truncated: is_torn };
         for (name, imprint) in text.lines().filter_map(entry) {
             record.add(name, imprint);
         }
@@ -134,10 +134,10 @@ impl WrittenFiles {
         if name.contains(['\n', '\r']) || is_last {
             return Ok(());
         }
-        let end = if self.is_torn { "\n" } else { "" };
+        let end = if self.is_truncated { "\n" } else { "" };
         let line = format!("{end}{:08x} {} {name}\n", written.checksum, written.length);
         folder.append(Path::new(FILE))?.write_all(line.as_bytes())?;
-        self.is_torn = false;
+        self.is_truncated = false;
         self.add(name.into(), written);
         Ok(())
     }

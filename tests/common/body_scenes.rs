@@ -90,11 +90,11 @@ pub fn dumbbell(mesh: &Mesh) -> Scene {
     scene.add_mass(mass).unwrap();
     let ends = [point(hung, 2), point(fixed, 2)].map(Anchor::Station);
     let stretch = SpringLaw::Linear { stiffness: 4.0, natural: 3.0 };
-    spring(&mut scene, SpringKind::Way(ends.to_vec()), stretch, 0.0);
+    spring(&mut scene, SpringKind::Length(ends.to_vec()), stretch, 0.0);
     let turn = [Anchor::Station(start), Anchor::Station(point(hung, 0))];
     let twist = SpringLaw::Linear { stiffness: 2.0, natural: 0.3 };
     spring(&mut scene, SpringKind::Torsion(turn), twist, 0.0);
-    let motion = StartMotion { velocity: at(0.5, 1.0), spin: 0.9, about: Some(at(1.0, 0.0)) };
+    let motion = StartMotion { velocity: at(0.5, 1.0), spin: 0.9, centre: Some(at(1.0, 0.0)) };
     scene.beams[beam].motion = motion;
     scene.rigid_bodies.iter_mut().for_each(|body| body.motion = motion);
     scene

@@ -18,7 +18,7 @@ pub fn bushed(mesh: &Mesh) -> Scene {
     let other = add_beam(&mut scene, line(at(2.1, 1.1), at(3.6, 0.4)), mesh, rod());
     let (foot, top) = (start_of(&mut scene, one), end_of(&mut scene, one));
     let (next, tip) = (start_of(&mut scene, other), end_of(&mut scene, other));
-    let bushing = |from: Anchor, to: Anchor| SpringKind::Way(vec![from, to]);
+    let bushing = |from: Anchor, to: Anchor| SpringKind::Length(vec![from, to]);
     let law = |stiffness: f64| SpringLaw::Linear { stiffness, natural: 0.0 };
     let ground = Anchor::Ground(at(0.3, -0.2));
     spring(&mut scene, bushing(ground, Anchor::Station(foot)), law(50.0), 0.8);
@@ -28,7 +28,7 @@ pub fn bushed(mesh: &Mesh) -> Scene {
     scene.add_spring(Spring { name, kind, law: None, origin, damping: 0.7.into() }).unwrap();
     let sine = |rate: f64| Schedule::Sine { amplitude: 0.4, rate, phase: 0.0 };
     let motions =
-        [(top, PrescribedMotion::Place(sine(1.3))), (tip, PrescribedMotion::Rate(sine(0.7)))];
+        [(top, PrescribedMotion::Position(sine(1.3))), (tip, PrescribedMotion::Rate(sine(0.7)))];
     for (station, motion) in motions {
         let mut motions = [None, None, None];
         motions[Component::Rotation as usize] = Some(motion);

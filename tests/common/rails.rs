@@ -44,7 +44,7 @@ pub fn bead(scene: &mut Scene, along: f64, mass: f64, velocity: Vec2, ends: EndA
 pub fn bouncing_bead(mesh: &Mesh, mass: f64) -> Scene {
     let mut scene = rail(mesh, at(3.0, 1.0));
     let motion = &mut scene.beams[0].motion;
-    (motion.velocity, motion.spin, motion.about) = (at(0.1, -0.2), 0.3, Some(Vec2::zeros()));
+    (motion.velocity, motion.spin, motion.centre) = (at(0.1, -0.2), 0.3, Some(Vec2::zeros()));
     let place = at(3.0, 1.0).normalize() * 0.4;
     let velocity = at(0.1, -0.2) + Vec2::new(-place.y, place.x) * 0.3 + place.normalize();
     bead(&mut scene, 0.4, mass, velocity, EndAction::Bounce);

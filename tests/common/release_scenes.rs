@@ -13,7 +13,7 @@ use withy::system::{Anchor, ParticleDefinition, Scene, SpringKind, SpringLaw};
 
 /// Lets something go at a time.
 pub fn release(scene: &mut Scene, hold: Releasable, time: f64) {
-    scene.add_release(Release { hold, trigger: Trigger::Time(time) }).unwrap();
+    scene.add_release(Release { object: hold, trigger: Trigger::Time(time) }).unwrap();
 }
 
 /// A chain that is turned at its foot, with a bead at its end on a spring: the motor, the rigid joint, the spring, the bead and the foot let go one after
@@ -30,10 +30,10 @@ pub fn chain(mesh: &Mesh) -> Scene {
     scene.join(JointKind::Rigid, middle, Partner::Station(next)).unwrap();
     scene.join(JointKind::Hinge, tip, Partner::Station(bead)).unwrap();
     let turn = Schedule::Sine { amplitude: 0.3, rate: 4.0, phase: 0.0 };
-    drive(&mut scene, foot, &[(Component::Rotation, PrescribedMotion::Place(turn))]);
+    drive(&mut scene, foot, &[(Component::Rotation, PrescribedMotion::Position(turn))]);
     let ends = vec![Anchor::Ground(at(2.5, 1.0)), Anchor::Station(bead)];
     let law = SpringLaw::Linear { stiffness: 60.0, natural: 0.4 };
-    spring(&mut scene, SpringKind::Way(ends), law, 0.8);
+    spring(&mut scene, SpringKind::Length(ends), law, 0.8);
     scene.gravity = at(0.0, -3.0);
     let holds = [
         Releasable::Drive(0),

@@ -40,7 +40,7 @@ pub fn on_rollers(mesh: &Mesh) -> Scene {
         spin: None,
     });
     let middle = scene.station(beam, 1.2).unwrap();
-    let way = SpringKind::Way(vec![Anchor::Station(middle), Anchor::Station(bead)]);
+    let way = SpringKind::Length(vec![Anchor::Station(middle), Anchor::Station(bead)]);
     spring(&mut scene, way, SpringLaw::Linear { stiffness: 20.0, natural: 1.5 }, 0.4);
     let force = LoadKind::Force {
         station: point(body, 2),

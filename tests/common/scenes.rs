@@ -147,7 +147,7 @@ pub fn flying_loop(mesh: &Mesh) -> Scene {
         let axis = line(from, corners[(corner + 1) % 4]);
         let beam = add_beam(&mut scene, axis, mesh, rod());
         scene.beams[beam].motion =
-            StartMotion { velocity: at(1.0, 0.5), spin: 0.8, about: Some(Vec2::zeros()) };
+            StartMotion { velocity: at(1.0, 0.5), spin: 0.8, centre: Some(Vec2::zeros()) };
     }
     for beam in 0..4 {
         let (end, next) = (end_of(&mut scene, beam), start_of(&mut scene, (beam + 1) % 4));
@@ -189,7 +189,7 @@ pub fn flying_tree(mesh: &Mesh) -> Scene {
     let leaf = add_beam(&mut scene, line(tip, tip + at(0.4, -1.3)), mesh, rod());
     for beam in [trunk, branch, leaf] {
         scene.beams[beam].motion =
-            StartMotion { velocity: at(-0.4, 1.0), spin: 1.1, about: Some(fork) };
+            StartMotion { velocity: at(-0.4, 1.0), spin: 1.1, centre: Some(fork) };
     }
     let middle = 0.5 * scene.beams[trunk].axis.length();
     let middle = scene.station(trunk, middle).unwrap();
@@ -241,14 +241,14 @@ pub fn sprung(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("sprung");
     let one = add_beam(&mut scene, line(at(2.0, 0.4), at(0.3, 2.0)), mesh, rod());
     let other = add_beam(&mut scene, line(at(3.0, 0.5), at(4.0, 2.5)), mesh, rod());
-    scene.beams[one].motion = StartMotion { velocity: at(-0.4, 1.0), spin: 1.1, about: None };
-    scene.beams[other].motion = StartMotion { velocity: at(0.3, 0.2), spin: -0.7, about: None };
+    scene.beams[one].motion = StartMotion { velocity: at(-0.4, 1.0), spin: 1.1, centre: None };
+    scene.beams[other].motion = StartMotion { velocity: at(0.3, 0.2), spin: -0.7, centre: None };
     let inside = [(one, 0.7), (other, 1.1), (other, 2.0), (one, 1.9)];
     let places = inside.map(|(beam, along)| scene.station(beam, along).unwrap());
     let way = |scene: &Scene, stations: &[Station]| {
         let at: Vec<Vec2> = stations.iter().map(|place| scene.drawn_at(place).unwrap()).collect();
         let length = at.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
-        (SpringKind::Way(stations.iter().map(|place| Anchor::Station(*place)).collect()), length)
+        (SpringKind::Length(stations.iter().map(|place| Anchor::Station(*place)).collect()), length)
     };
     let (between, length) = way(&scene, &places[..2]);
     spring(&mut scene, between, linear(40.0, length), 0.0);
@@ -270,14 +270,14 @@ pub fn mounted(mesh: &Mesh) -> Scene {
     let (start, end) = (start_of(&mut scene, beam), end_of(&mut scene, beam));
     let inner = Anchor::Station(scene.station(beam, 0.9).unwrap());
     let foot = |x: f64, y: f64| Anchor::Ground(at(x, y));
-    let below = SpringKind::Way(vec![foot(0.4, 0.0), Anchor::Station(start)]);
+    let below = SpringKind::Length(vec![foot(0.4, 0.0), Anchor::Station(start)]);
     spring(&mut scene, below, linear(60.0, 0.8), 2.0);
-    let over = SpringKind::Way(vec![foot(3.5, 0.0), Anchor::Station(end), bead, inner]);
+    let over = SpringKind::Length(vec![foot(3.5, 0.0), Anchor::Station(end), bead, inner]);
     spring(&mut scene, over, linear(15.0, 4.0), 0.4);
     let twist = SpringKind::Torsion([foot(0.0, 0.0), inner]);
     spring(&mut scene, twist, linear(5.0, 0.0), 0.3);
     let name = scene.free_name("damper");
-    let kind = SpringKind::Way(vec![bead, Anchor::Station(start)]);
+    let kind = SpringKind::Length(vec![bead, Anchor::Station(start)]);
     scene
         .add_spring(Spring { name, kind, law: None, origin: Origin::Zero, damping: 1.5.into() })
         .unwrap();
@@ -310,7 +310,7 @@ pub fn driven(mesh: &Mesh) -> Scene {
     scene.join(JointKind::Hinge, top, Partner::Station(next)).unwrap();
     scene.join(JointKind::Support(Components::Y), tip, Partner::Ground).unwrap();
     let motions = [
-        (Component::X, PrescribedMotion::Place(sine(0.2, 2.3))),
+        (Component::X, PrescribedMotion::Position(sine(0.2, 2.3))),
         (Component::Y, PrescribedMotion::Rate(sine(0.3, 1.7))),
         (Component::Rotation, PrescribedMotion::Rate(sine(0.4, 0.9))),
     ];
@@ -329,8 +329,8 @@ pub fn damped(mesh: &Mesh) -> Scene {
     let tail = add_beam(&mut scene, line(at(3.0, 1.0), at(3.5, 2.5)), mesh, rod());
     let (end, start) = (end_of(&mut scene, bent), start_of(&mut scene, tail));
     scene.join(JointKind::Hinge, end, Partner::Station(start)).unwrap();
-    scene.beams[bent].motion = StartMotion { velocity: at(0.5, 0.2), spin: 0.0, about: None };
-    scene.beams[tail].motion = StartMotion { velocity: at(0.5, 0.2), spin: 0.0, about: None };
+    scene.beams[bent].motion = StartMotion { velocity: at(0.5, 0.2), spin: 0.0, centre: None };
+    scene.beams[tail].motion = StartMotion { velocity: at(0.5, 0.2), spin: 0.0, centre: None };
     scene.add_damping(bent, Relaxation { axial: 0.01, shear: 0.02, bending: 0.1 }).unwrap();
     scene.add_damping(tail, Relaxation { axial: 0.0, shear: 0.0, bending: 0.05 }).unwrap();
     let inner = scene.station(bent, 1.0).unwrap();
@@ -343,11 +343,11 @@ pub fn dragged(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("dragged");
     let axis = Curve::through(&[at(0.0, 0.0), at(1.0, 0.4), at(2.0, 0.2), at(3.0, 1.0)]).unwrap();
     let beam = add_beam(&mut scene, axis, mesh, rod());
-    scene.beams[beam].motion = StartMotion { velocity: at(0.5, 0.2), spin: 1.3, about: None };
+    scene.beams[beam].motion = StartMotion { velocity: at(0.5, 0.2), spin: 1.3, centre: None };
     let bead = ParticleDefinition { name: "bead".to_owned(), position: at(4.0, 1.5) };
     let bead = scene.add_particle(bead, 0.8).unwrap();
     let end = end_of(&mut scene, beam);
-    let way = SpringKind::Way(vec![Anchor::Station(end), Anchor::Station(bead)]);
+    let way = SpringKind::Length(vec![Anchor::Station(end), Anchor::Station(bead)]);
     spring(&mut scene, way, linear(30.0, 1.25_f64.sqrt()), 0.0);
     let along = |linear: f64, quadratic: f64| SpeedLaw { linear, quadratic };
     let drags = [
@@ -376,22 +376,23 @@ pub fn absorbed(mesh: &Mesh) -> Scene {
     let (start, end) = (start_of(&mut scene, one), end_of(&mut scene, one));
     let (next, tip) = (start_of(&mut scene, other), end_of(&mut scene, other));
     scene.join(JointKind::Hinge, end, Partner::Station(next)).unwrap();
-    let motion = StartMotion { velocity: at(0.5, 1.0), spin: -0.7, about: Some(at(2.0, 1.0)) };
+    let motion = StartMotion { velocity: at(0.5, 1.0), spin: -0.7, centre: Some(at(2.0, 1.0)) };
     scene.beams[one].motion = motion;
     scene.beams[other].motion = motion;
     let mut add = |kind, law, damping| {
         let (name, origin) = (scene.free_name("absorber"), Origin::AsBuilt);
         scene.add_spring(Spring { name, kind, law, origin, damping }).unwrap();
     };
-    let to_ground = SpringKind::Way(vec![Anchor::Ground(at(-1.0, -1.0)), Anchor::Station(start)]);
+    let to_ground =
+        SpringKind::Length(vec![Anchor::Ground(at(-1.0, -1.0)), Anchor::Station(start)]);
     let rising = [(-2.0, -4.0), (-1.0, -1.0), (-0.5, -0.25), (0.5, 0.25), (1.0, 1.0), (2.0, 4.0)];
     add(to_ground, None, absorber(&rising));
     let turn = SpringKind::Torsion([Anchor::Station(end), Anchor::Station(next)]);
     add(turn, Some(linear(2.0, 0.1)), absorber(&[(-0.4, -0.3), (0.4, 0.3), (1.0, 0.3)]));
-    let across = SpringKind::Way(vec![Anchor::Station(start), Anchor::Station(tip)]);
+    let across = SpringKind::Length(vec![Anchor::Station(start), Anchor::Station(tip)]);
     add(across, Some(linear(6.0, 0.2)), absorber(&[(-1.0, 0.0), (0.0, 0.0), (1.0, 1.5)]));
     // Functions, which are polygons from here on.
-    let over = SpringKind::Way(vec![
+    let over = SpringKind::Length(vec![
         Anchor::Ground(at(2.0, 3.0)),
         Anchor::Station(end),
         Anchor::Ground(at(3.0, 3.0)),
@@ -409,7 +410,7 @@ pub fn flywheels(mesh: &Mesh) -> Scene {
     let beam = add_beam(&mut scene, line(at(0.0, 1.0), at(3.0, 2.0)), mesh, rod());
     let ends = [start_of(&mut scene, beam), end_of(&mut scene, beam)];
     let joints = [JointKind::Hinge, JointKind::Rigid];
-    let motion = StartMotion { velocity: at(0.4, 0.7), spin: 0.8, about: Some(Vec2::zeros()) };
+    let motion = StartMotion { velocity: at(0.4, 0.7), spin: 0.8, centre: Some(Vec2::zeros()) };
     scene.beams[beam].motion = motion;
     for (end, kind) in ends.into_iter().zip(joints) {
         let (name, position) = (scene.free_name("body"), scene.drawn_at(&end).unwrap());

@@ -98,7 +98,7 @@ pub fn sliding_particle(mesh: &Mesh, spin: f64, rule: SlidingRule) -> Scene {
     let b = at(3.0, 1.0);
     let ab = add_beam(&mut scene, line(Vec2::zeros(), b), mesh, paper_section(1e2));
     scene.beams[ab].motion =
-        StartMotion { velocity: Vec2::zeros(), spin, about: Some(Vec2::zeros()) };
+        StartMotion { velocity: Vec2::zeros(), spin, centre: Some(Vec2::zeros()) };
     hinge_start(&mut scene, ab);
     let c = b * 0.95;
     let station = particle(&mut scene, c, 1.0);

@@ -36,7 +36,7 @@ fn bead(
     let axis = &scene.beams[master].axis;
     let xi = axis.parameter_at(along * axis.length()).unwrap();
     let (place, tangent) = (axis.point(xi).unwrap(), axis.derivative(xi, 1).unwrap().normalize());
-    let StartMotion { velocity, spin, about } = scene.beams[master].motion;
+    let StartMotion { velocity, spin, centre: about } = scene.beams[master].motion;
     let arm = about.map_or(Vec2::zeros(), |about| place - about);
     let station = particle(scene, place, mass);
     let velocity = velocity + perpendicular(arm) * spin + tangent * speed;
@@ -50,7 +50,7 @@ pub fn abacus(mesh: &Mesh, rule: SlidingRule) -> Scene {
     let mut scene = Scene::new("abacus");
     let rail = add_beam(&mut scene, line(at(0.0, 0.0), at(3.0, 1.0)), mesh, paper_section(300.0));
     scene.beams[rail].motion =
-        StartMotion { velocity: at(0.2, -0.3), spin: 0.7, about: Some(at(1.5, 0.5)) };
+        StartMotion { velocity: at(0.2, -0.3), spin: 0.7, centre: Some(at(1.5, 0.5)) };
     for (along, mass, speed) in [(0.2, 0.1, 2.0), (0.55, 0.04, -1.0), (0.8, 0.3, -1.5)] {
         bead(&mut scene, rail, along, mass, speed, rule);
     }
@@ -120,7 +120,7 @@ pub fn eyelet(mesh: &Mesh, rule: SlidingRule) -> Scene {
     let rail = add_beam(&mut scene, line(at(0.0, 0.0), at(3.0, 1.0)), mesh, paper_section(300.0));
     let place = at(3.0, 1.0) * 0.3;
     let along = at(3.0, 1.0).normalize();
-    scene.beams[rail].motion = StartMotion { velocity: along, spin: 0.9, about: Some(place) };
+    scene.beams[rail].motion = StartMotion { velocity: along, spin: 0.9, centre: Some(place) };
     let eye = particle(&mut scene, place, 1.0);
     scene.join(JointKind::Hinge, eye, Partner::Ground).unwrap();
     slide(&mut scene, eye, rail, 0.3, rule);
@@ -137,7 +137,7 @@ pub fn pinned_cross(mesh: &Mesh, rule: SlidingRule) -> Scene {
     let two = add_beam(&mut scene, other, mesh, paper_section(300.0));
     hinge_start(&mut scene, one);
     scene.beams[two].motion =
-        StartMotion { velocity: at(1.0, 0.3), spin: -0.5, about: Some(cross) };
+        StartMotion { velocity: at(1.0, 0.3), spin: -0.5, centre: Some(cross) };
     let pin = particle(&mut scene, cross, 0.05);
     slide(&mut scene, pin, one, 0.4, rule);
     slide(&mut scene, pin, two, 0.4, rule);
@@ -150,7 +150,7 @@ pub fn crowd(mesh: &Mesh, rule: SlidingRule) -> Scene {
     let end = at(3.0, 1.0);
     let rail = add_beam(&mut scene, line(at(0.0, 0.0), end), mesh, paper_section(300.0));
     scene.beams[rail].motion =
-        StartMotion { velocity: at(0.2, -0.3), spin: 0.7, about: Some(end * 0.5) };
+        StartMotion { velocity: at(0.2, -0.3), spin: 0.7, centre: Some(end * 0.5) };
     for (along, mass, speed) in
         [(0.1, 0.1, 1.0), (0.25, 0.04, -0.5), (0.4, 0.2, 0.7), (0.85, 0.3, -0.6)]
     {
@@ -183,7 +183,7 @@ pub fn triangle(mesh: &Mesh, rule: SlidingRule) -> Scene {
     };
     let mut scene = Scene::new("triangle");
     let corners = [at(0.0, 0.0), at(2.0, 0.3), at(0.8, 1.5)];
-    let motion = StartMotion { velocity: at(0.2, -0.1), spin: 0.4, about: Some(corners[0]) };
+    let motion = StartMotion { velocity: at(0.2, -0.1), spin: 0.4, centre: Some(corners[0]) };
     for [from, to] in [[0, 1], [2, 1], [2, 0]] {
         let axis = line(corners[from], corners[to]);
         let beam = add_beam(&mut scene, axis, mesh, paper_section(300.0));
@@ -212,7 +212,7 @@ pub fn eyelets(spans: usize, eyelets: usize) -> Scene {
     let mesh = Mesh::bspline(spans, 3, 2).unwrap();
     let rope = line(at(0.0, 0.0), at(3.0, 0.0));
     let rope = add_beam(&mut scene, rope, &mesh, paper_section(300.0));
-    scene.beams[rope].motion = StartMotion { velocity: at(1.0, 0.0), spin: 0.0, about: None };
+    scene.beams[rope].motion = StartMotion { velocity: at(1.0, 0.0), spin: 0.0, centre: None };
     scene.gravity = at(0.0, -9.81);
     for eyelet in 0..eyelets {
         let along = 0.8 * (eyelet as f64 + 0.5) / eyelets as f64;
@@ -249,7 +249,7 @@ pub fn necklace(spans: usize, beads: usize) -> Scene {
     let mesh = Mesh::bspline(spans, 3, 2).unwrap();
     let rail = line(at(0.0, 0.0), at(3.0, 1.0));
     let rail = add_beam(&mut scene, rail, &mesh, paper_section(300.0));
-    scene.beams[rail].motion = StartMotion { velocity: at(0.2, -0.3), spin: 0.7, about: None };
+    scene.beams[rail].motion = StartMotion { velocity: at(0.2, -0.3), spin: 0.7, centre: None };
     for number in 0..beads {
         let along = 0.1 + 0.8 * (number as f64 + 0.5) / beads as f64;
         let speed = (7.0 * number as f64).sin();

@@ -133,7 +133,7 @@ fn rail(scene: &mut Scene, temper: Temper, draw: &mut Draw) {
     let (mesh, section) = (draw.mesh(), draw.section(temper));
     let beam = add_beam(scene, axis, &mesh, section);
     let spin = temper.pace() * draw.0.next();
-    let mut motion = StartMotion { velocity: Vec2::zeros(), spin, about: Some(start) };
+    let mut motion = StartMotion { velocity: Vec2::zeros(), spin, centre: Some(start) };
     let held = draw.below(4);
     let begin = scene.station(beam, 0.0).unwrap();
     match held {
@@ -177,7 +177,7 @@ fn bead(scene: &mut Scene, master: usize, temper: Temper, draw: &mut Draw) {
     let along = draw.between((0.05, 0.95));
     let xi = axis.parameter_at(along * axis.length()).unwrap();
     let (place, tangent) = (axis.point(xi).unwrap(), axis.derivative(xi, 1).unwrap().normalize());
-    let StartMotion { velocity, spin, about } = scene.beams[master].motion;
+    let StartMotion { velocity, spin, centre: about } = scene.beams[master].motion;
     let arm = about.map_or(Vec2::zeros(), |about| place - about);
     let mass = draw.power(if temper == Temper::Wild { (-3.0, 3.0) } else { (-2.0, 1.0) });
     let station = particle(scene, place, mass);

@@ -206,7 +206,7 @@ fn names_that_nobody_could_read_are_refused_in_files_and_names_that_follow_are_m
     let mesh = Mesh::bspline(2, 3, 2).unwrap();
     let scene = || {
         let mut scene = scenes::sprung(&mesh);
-        let rest = StartMotion { velocity: Vec2::zeros(), spin: 0.0, about: None };
+        let rest = StartMotion { velocity: Vec2::zeros(), spin: 0.0, centre: None };
         scene.beams.iter_mut().for_each(|beam| beam.motion = rest);
         let station = scenes::end_of(&mut scene, 0);
         scene.join(JointKind::Hinge, station, Partner::Ground).unwrap();

@@ -20,7 +20,7 @@ fn damped(law: DampingLaw, speed: f64) -> Scene {
     let bead = ParticleDefinition { name: "bead".to_owned(), position: at(6.0, 1.0) };
     let station = scene.add_particle(bead, MASS).unwrap();
     scene.velocities.push(StationVelocity { station, velocity: at(speed, 0.0), spin: None });
-    let kind = SpringKind::Way(vec![Anchor::Ground(at(1.0, 1.0)), Anchor::Station(station)]);
+    let kind = SpringKind::Length(vec![Anchor::Ground(at(1.0, 1.0)), Anchor::Station(station)]);
     let (name, origin) = ("oil".to_owned(), Origin::Zero);
     scene.add_spring(Spring { name, kind, law: None, origin, damping: law }).unwrap();
     scene
@@ -87,7 +87,7 @@ fn what_a_law_takes_is_in_the_ledger_and_never_grows_less() {
 #[test]
 fn a_saturated_damper_brakes_with_its_force() {
     let law = absorber(&[(-1.0, -3.0), (-1e-6, -3.0), (1e-6, 3.0), (1.0, 3.0)]);
-    for entry in INTEGRATORS.iter().filter(|entry| entry.claims.energy == EnergyClaim::Kept) {
+    for entry in INTEGRATORS.iter().filter(|entry| entry.claims.energy == EnergyClaim::Conserved) {
         let dt = if entry.claims.order == 4 { 0.01 } else { 0.1 };
         let simulation = simulate(damped(law.clone(), SPEED), entry.method, dt, 1.0);
         let expected = SPEED - 0.5 * 3.0 / MASS;
@@ -107,7 +107,7 @@ fn dry_friction_stops_a_mass_after_as_many_half_swings_as_it_should() {
                 let mut scene = damped(absorber(&corners), 0.0);
                 let bead = Anchor::Station(Station::on_particle(0));
                 let law = SpringLaw::Linear { stiffness: stiffness * MASS, natural: 2.0 };
-                let kind = SpringKind::Way(vec![Anchor::Ground(at(3.0, 1.0)), bead]);
+                let kind = SpringKind::Length(vec![Anchor::Ground(at(3.0, 1.0)), bead]);
                 let mut spring = scene.springs().next().unwrap().clone();
                 spring.damping =
                     absorber(&corners.map(|(rate, force)| (rate, force * (MASS - 1.0))));
@@ -121,7 +121,7 @@ fn dry_friction_stops_a_mass_after_as_many_half_swings_as_it_should() {
                 assert!((rest - 0.05).abs() < near, "{label}: {rest}");
                 let work = simulation.counts();
                 println!("{label}: {rest} {} steps, {} retries", work.steps, work.retries);
-                if entry.claims.energy == EnergyClaim::Kept {
+                if entry.claims.energy == EnergyClaim::Conserved {
                     let drift = simulation.history().drift(Invariant::Energy);
                     assert!(drift < 1e-12, "{label}: {drift:.1e}");
                 }

@@ -40,7 +40,7 @@ fn assert_orders(
         println!("{}: {} {found:?}", entry.name, crate::common::sci(&errors));
         // Nothing is strained, so that there is nothing for late strains to damp.
         let expected = match entry.claims.energy {
-            EnergyClaim::Decays => 2.0,
+            EnergyClaim::NonIncreasing => 2.0,
             _ => f64::from(entry.claims.order),
         };
         assert!((found[1] - expected).abs() < 0.25, "{}: {errors:?} {found:?}", entry.name);
@@ -178,7 +178,7 @@ fn tumbling(quadratic: f64) -> Scene {
     let axis = Curve::arc(at(0.0, 0.0), 1.5, 0.2, 1.9).unwrap();
     let mesh = Mesh::bspline(4, 3, 2).unwrap();
     let beam = scenes::add_beam(&mut scene, axis, &mesh, scenes::rod());
-    scene.beams[beam].motion = StartMotion { velocity: at(1.0, 0.5), spin: 3.0, about: None };
+    scene.beams[beam].motion = StartMotion { velocity: at(1.0, 0.5), spin: 3.0, centre: None };
     let normal = SpeedLaw { linear: 0.2, quadratic };
     let tangent = SpeedLaw { linear: 0.05, quadratic: 0.02 * quadratic };
     let on = Dragged::Beam { beam, normal, tangent };
@@ -195,7 +195,7 @@ fn a_beam_that_tumbles_through_air_keeps_the_ledger() {
         assert_eq!(all, history.column("dissipated.air").unwrap());
         assert!(all[all.len() - 1] > 1.0, "{}", entry.name);
         let claims = [
-            (Invariant::Energy, entry.claims.energy == EnergyClaim::Kept),
+            (Invariant::Energy, entry.claims.energy == EnergyClaim::Conserved),
             (Invariant::Momentum, entry.claims.momentum),
             (Invariant::AngularMomentum, entry.claims.angular_momentum),
         ];

@@ -42,9 +42,9 @@ fn bar() -> Scene {
     let beam = add_beam(&mut scene, line(at(1.0, 0.0), at(3.0, 0.0)), &mesh, section(30.0));
     let start = Station::on_beam(beam, 0.0);
     let shaken = Schedule::Sine { amplitude: AMPLITUDE, rate: SHAKEN, phase: 0.0 };
-    let held = PrescribedMotion::Place(Schedule::constant(0.0).unwrap());
+    let held = PrescribedMotion::Position(Schedule::constant(0.0).unwrap());
     let given = [
-        (Component::X, PrescribedMotion::Place(shaken)),
+        (Component::X, PrescribedMotion::Position(shaken)),
         (Component::Y, held.clone()),
         (Component::Rotation, held),
     ];
@@ -96,7 +96,7 @@ fn towing(motion: PrescribedMotion) -> Scene {
 
 #[test]
 fn after_many_steps_a_place_is_its_function_to_rounding() {
-    let scene = towing(PrescribedMotion::Place(function(|t| (1.3 * t).sin() + 0.01 * t * t)));
+    let scene = towing(PrescribedMotion::Position(function(|t| (1.3 * t).sin() + 0.01 * t * t)));
     let simulation = simulate(scene, Method::EnergyMomentum, 1e-3, 100.0);
     assert_eq!(simulation.counts().steps, 100_000);
     let found = simulation.model().control_points().next().unwrap()[0].x;
@@ -115,7 +115,7 @@ fn turned(
     let mut scene = Scene::new("turned");
     let beam = add_beam(&mut scene, line(at(0.0, 0.0), at(length, 0.0)), mesh, section);
     scene.beams[beam].motion =
-        StartMotion { velocity: at(0.0, 0.0), spin, about: Some(at(0.0, 0.0)) };
+        StartMotion { velocity: at(0.0, 0.0), spin, centre: Some(at(0.0, 0.0)) };
     let start = scene.station(beam, 0.0).unwrap();
     scene.station(beam, length).unwrap();
     scene.join(JointKind::Hinge, start, Partner::Ground).unwrap();
@@ -133,14 +133,19 @@ fn angle(simulation: &Simulation, arc_length: f64) -> f64 {
 fn a_given_rotation_is_not_late_with_any_method() {
     let mesh = Mesh::bspline(4, 3, 2).unwrap();
     for entry in INTEGRATORS {
-        let scene =
-            turned(&mesh, section(1e4), 1.0, PrescribedMotion::Place(function(|t| 3.0 * t)), 3.0);
+        let scene = turned(
+            &mesh,
+            section(1e4),
+            1.0,
+            PrescribedMotion::Position(function(|t| 3.0 * t)),
+            3.0,
+        );
         let simulation = simulate(scene, entry.method, 0.02, 5.0);
         let (root, tip) = (angle(&simulation, 0.0), angle(&simulation, 1.0));
         // A free body would be late by ω³Δt²t/12 = 0.0045 rad.
         assert!((root - 15.0).abs() < 1e-12, "{}: {root}", entry.name);
         assert!((tip - 15.0).abs() < 5e-3, "{}: {tip}", entry.name);
-        if entry.claims.energy == EnergyClaim::Kept {
+        if entry.claims.energy == EnergyClaim::Conserved {
             assert!(simulation.history().drift(Invariant::Energy) < 1e-12, "{}", entry.name);
         }
     }
@@ -165,7 +170,7 @@ fn spin_up_has_its_published_stretch_and_the_lag_of_converged_runs() {
         mass_per_length: 1.2,
         rotary_inertia: 6e-4,
     };
-    let motion = PrescribedMotion::Place(Schedule::Function {
+    let motion = PrescribedMotion::Position(Schedule::Function {
         function: Rc::new(|t| Ok(spun_up(t))),
         breaks: vec![15.0],
     });
@@ -200,7 +205,7 @@ fn spin_up_has_its_published_stretch_and_the_lag_of_converged_runs() {
 fn a_scene_is_refused_in_which_a_movement_is_given_or_held_twice() {
     let mesh = Mesh::bspline(4, 3, 2).unwrap();
     let given =
-        || PrescribedMotion::Place(Schedule::Sine { amplitude: 1.0, rate: 1.0, phase: 0.0 });
+        || PrescribedMotion::Position(Schedule::Sine { amplitude: 1.0, rate: 1.0, phase: 0.0 });
     let mut scene = turned(&mesh, section(1e4), 1.0, given(), 0.0);
     let start = Station::on_beam(0, 0.0);
     let refused = |scene: &mut Scene, component: Component| {
@@ -212,9 +217,9 @@ fn a_scene_is_refused_in_which_a_movement_is_given_or_held_twice() {
         scene.add_drive(drive).unwrap_err()
     };
     let told = refused(&mut scene, Component::X);
-    assert!(matches!(&told, SystemError::AlreadyDriven { how: "fixed", .. }), "{told}");
+    assert!(matches!(&told, SystemError::AlreadyDriven { existing: "fixed", .. }), "{told}");
     let told = refused(&mut scene, Component::Rotation);
-    assert!(matches!(&told, SystemError::AlreadyDriven { how: "prescribed", .. }), "{told}");
+    assert!(matches!(&told, SystemError::AlreadyDriven { existing: "prescribed", .. }), "{told}");
     let hold = JointKind::Support(Components::Rotation);
     let told = scene.join(hold, start, Partner::Ground).unwrap_err();
     assert!(matches!(&told, SystemError::HeldAndDriven { .. }), "{told}");
@@ -224,7 +229,7 @@ fn a_scene_is_refused_in_which_a_movement_is_given_or_held_twice() {
 #[test]
 fn work_is_kept_by_name_and_adds_up() {
     let mesh = Mesh::bspline(4, 3, 2).unwrap();
-    let motion = PrescribedMotion::Place(function(|t| 0.3 * t * t));
+    let motion = PrescribedMotion::Position(function(|t| 0.3 * t * t));
     let mut scene = turned(&mesh, section(1e4), 1.0, motion, 0.0);
     let station = Station::on_beam(0, 1.0);
     let wind =
@@ -250,7 +255,7 @@ fn the_torque_of_a_motor_is_exact_however_far_it_turns_in_a_step() {
         drive(
             &mut scene,
             rotor,
-            &[(Component::Rotation, PrescribedMotion::Place(function(angle)))],
+            &[(Component::Rotation, PrescribedMotion::Position(function(angle)))],
         );
         let kind = SpringKind::Torsion([Anchor::Ground(at(0.0, 0.0)), Anchor::Station(rotor)]);
         let law = Some(SpringLaw::Linear { stiffness, natural: 0.0 });
@@ -295,7 +300,7 @@ pub fn swung_at(reach: f64, motion: PrescribedMotion) -> Scene {
 fn what_is_tied_to_a_drive_follows_where_its_rate_jumps() {
     let bent = || Schedule::table(vec![(0.0, 0.0), (0.5, 0.0), (1.5, 1.0)]).unwrap();
     let motions = [
-        ("angle", PrescribedMotion::Place(bent())),
+        ("angle", PrescribedMotion::Position(bent())),
         ("speed", PrescribedMotion::Rate(Schedule::pulse(0.5, 9.0).unwrap())),
     ];
     for entry in INTEGRATORS {
@@ -313,7 +318,7 @@ fn what_is_tied_to_a_drive_follows_where_its_rate_jumps() {
                 assert!((work - expected).abs() < 2e-3, "{what} {time}: {work}");
                 assert!(moments[row].abs() < 0.5, "{what} {time}: {}", moments[row]);
             }
-            if entry.claims.energy == EnergyClaim::Kept {
+            if entry.claims.energy == EnergyClaim::Conserved {
                 for (name, invariant) in Invariant::ALL {
                     let drift = history.drift(invariant);
                     assert!(drift < 1e-13, "{what} {name}: {drift}");
@@ -349,7 +354,7 @@ fn what_is_tied_to_a_controlled_drive_has_its_speed_in_every_step() {
 #[test]
 fn drives_begin_at_an_equilibrium_as_in_a_scene_that_rests() {
     let scene = || {
-        let mut scene = swung(PrescribedMotion::Place(function(|t| 0.5 * t)));
+        let mut scene = swung(PrescribedMotion::Position(function(|t| 0.5 * t)));
         scene.gravity = at(0.0, -1.0);
         scene
     };

@@ -262,7 +262,7 @@ fn a_limit_bounds_the_memory_and_forgets_the_oldest_but_the_start() {
     let end = fingerprint(&simulation);
     let refusal = simulation.back(kept).unwrap_err();
     assert!(
-        matches!(refusal, SimulationError::Forgotten { steps, .. } if steps == kept - 2),
+        matches!(refusal, SimulationError::NoSnapshot { steps, .. } if steps == kept - 2),
         "{refusal:?}"
     );
     let advice = withy::script::messages::advice::hint_for(&refusal).unwrap();

@@ -29,7 +29,7 @@ fn assert_kept(label: &str, history: &History, invariant: Invariant, tolerance: 
 fn every_claim_holds_on_every_mesh_and_scene() {
     for entry in INTEGRATORS {
         let claims = [
-            (Invariant::Energy, entry.claims.energy == EnergyClaim::Kept),
+            (Invariant::Energy, entry.claims.energy == EnergyClaim::Conserved),
             (Invariant::Momentum, entry.claims.momentum),
             (Invariant::AngularMomentum, entry.claims.angular_momentum),
             (Invariant::Gap, true),
@@ -45,7 +45,7 @@ fn every_claim_holds_on_every_mesh_and_scene() {
                     let drift = assert_kept(&label, simulation.history(), invariant, 1e-12);
                     *worst = worst.max(drift);
                 }
-                if entry.claims.energy == EnergyClaim::Decays {
+                if entry.claims.energy == EnergyClaim::NonIncreasing {
                     assert_energy_never_grows(&label, simulation.history());
                 }
             }
@@ -63,10 +63,10 @@ fn what_is_not_claimed_is_seen_to_fail() {
     for entry in INTEGRATORS {
         let simulation = simulate(scenes::spaghetti(&smooth(14), 1e4), entry.method, 0.1, 7.5);
         let drift = |invariant| simulation.history().drift(invariant);
-        if entry.claims.energy != EnergyClaim::Kept {
+        if entry.claims.energy != EnergyClaim::Conserved {
             assert!(drift(Invariant::Energy) > 1e-4, "{}", entry.name);
         }
-        if entry.claims.energy == EnergyClaim::Nothing {
+        if entry.claims.energy == EnergyClaim::Unclaimed {
             let energies = energies(simulation.history());
             assert!(energies.windows(2).any(|pair| pair[1] > pair[0] + 1e-4), "{}", entry.name);
         }
@@ -251,7 +251,7 @@ fn common_scenes_have_every_element_of_a_machine() {
         }),
         ("a motor", drives().any(|drive| drive.kind == DriveKind::Motor)),
         ("a move", drives().any(|drive| drive.kind == DriveKind::Move)),
-        ("a place", motions().any(|motion| matches!(motion, PrescribedMotion::Place(_)))),
+        ("a place", motions().any(|motion| matches!(motion, PrescribedMotion::Position(_)))),
         ("a speed", motions().any(|motion| matches!(motion, PrescribedMotion::Rate(_)))),
         ("a torque", {
             let mut loads = all.iter().flat_map(Scene::loads);

@@ -14,7 +14,7 @@ use withy::system::{
 const OF_BEAM: f64 = 1e4;
 
 fn add(scene: &mut Scene, anchors: Vec<Anchor>, law: SpringLaw) {
-    let (name, kind) = (scene.free_name("spring"), SpringKind::Way(anchors));
+    let (name, kind) = (scene.free_name("spring"), SpringKind::Length(anchors));
     let (law, origin) = (Some(law), Origin::Zero);
     scene.add_spring(Spring { name, kind, law, origin, damping: 0.0.into() }).unwrap();
 }
@@ -46,7 +46,7 @@ fn braced(law: Law, stiffness: f64, beyond: f64) -> Scene {
     let beam =
         scenes::add_beam(&mut scene, scenes::line(at(1.0, 2.0), at(4.0, 6.0)), &mesh, section);
     scene.beams[beam].motion =
-        StartMotion { velocity: at(3.0, -1.0), spin: 1.5, about: Some(at(1.0, 1.0)) };
+        StartMotion { velocity: at(3.0, -1.0), spin: 1.5, centre: Some(at(1.0, 1.0)) };
     let places = [0.0, 1.2, 3.9, 5.0].map(|s| Anchor::Station(scene.station(beam, s).unwrap()));
     add(&mut scene, vec![places[0], places[3]], law(stiffness, 5.0 - beyond));
     add(&mut scene, vec![places[1], places[2]], law(0.3 * stiffness, 2.7 - beyond));
@@ -109,7 +109,7 @@ fn every_method_keeps_what_it_claims_with_ropes_that_go_slack() {
             let simulation = simulate(scene, entry.method, 0.02, 1.5);
             let drift = |invariant| simulation.history().drift(invariant);
             let label = format!("{} {times:e}", entry.name);
-            if entry.claims.energy == EnergyClaim::Kept {
+            if entry.claims.energy == EnergyClaim::Conserved {
                 let energy = drift(Invariant::Energy);
                 assert!(energy < 1e-12, "{label}: {energy:.1e}");
             }

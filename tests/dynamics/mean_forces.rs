@@ -64,7 +64,7 @@ fn driven() -> (Scene, Station) {
     let foot = scene.joints[0].station;
     let way = |amplitude| Schedule::Sine { amplitude, rate: 2.0, phase: 0.0 };
     let given = [
-        (Component::X, PrescribedMotion::Place(way(0.2))),
+        (Component::X, PrescribedMotion::Position(way(0.2))),
         (Component::Y, PrescribedMotion::Rate(way(0.4))),
     ];
     drive(&mut scene, foot, &given);
@@ -234,5 +234,5 @@ fn a_method_without_such_a_mean_refuses() {
     let (scene, _) = two_beams(JointKind::Hinge, JointKind::Hinge);
     let method = Method::GeneralizedAlpha { rho_infinity: 0.8 };
     let refused = Simulation::start(listening(scene), settings(method, 0.02)).err().unwrap();
-    assert!(matches!(refused, SimulationError::NoMean { .. }), "{refused}");
+    assert!(matches!(refused, SimulationError::NoMeanForces { .. }), "{refused}");
 }

@@ -55,7 +55,9 @@ fn ruler() -> (Scene, f64) {
 
 fn motion(notes: &[Warning]) -> Option<(f64, f64, Option<f64>)> {
     notes.iter().find_map(|note| match note {
-        Warning::Motion { dt, share, lowest, .. } => Some((*dt, *share, *lowest)),
+        Warning::Motion { dt, unresolved_fraction: share, lowest, .. } => {
+            Some((*dt, *share, *lowest))
+        }
         _ => None,
     })
 }
@@ -199,7 +201,7 @@ fn a_slider_that_passes_more_than_a_span_in_a_step_is_told() {
     let passing = |speed: f64| simulate(ring(1e4, 1.0, -speed), Method::EnergyMomentum, 0.01, 0.02);
     let notes = passing(25.0).notes();
     let way = notes.iter().find_map(|note| match note {
-        Warning::Way { spans, slider, .. } => Some((*spans, slider.clone())),
+        Warning::SpansPerStep { spans, slider, .. } => Some((*spans, slider.clone())),
         _ => None,
     });
     let (spans, slider) = way.unwrap();

@@ -30,7 +30,7 @@ fn what_methods_keep_they_keep_over_releases() {
                 let history = simulation.history();
                 let drift = |of| history.drift(of);
                 let claims = entry.claims;
-                if claims.energy == EnergyClaim::Kept {
+                if claims.energy == EnergyClaim::Conserved {
                     assert!(
                         drift(Invariant::Energy) < 1e-11,
                         "{label}: {}",
@@ -55,7 +55,7 @@ fn what_methods_keep_they_keep_over_releases() {
 fn nothing_jumps_where_something_lets_go() {
     let scene = chain(&mesh());
     let releases: Vec<(f64, Releasable)> =
-        scene.release_times().zip(scene.releases.iter().map(|release| release.hold)).collect();
+        scene.release_times().zip(scene.releases.iter().map(|release| release.object)).collect();
     let mut simulation =
         Simulation::start(scene.clone(), settings(Method::EnergyMomentum, 0.02)).unwrap();
     let mut gone: Vec<Releasable> = Vec::new();
@@ -96,7 +96,7 @@ fn sling() -> Scene {
     // 1 - cos 1.5t: it begins at rest, as the bead does.
     let (one, wave) = (Schedule::constant(1.0), Schedule::sine(1.0, 1.5, -FRAC_PI_2));
     let turn = Schedule::combined(Operation::Sum, one.unwrap(), wave.unwrap()).unwrap();
-    let turn = PrescribedMotion::Place(turn);
+    let turn = PrescribedMotion::Position(turn);
     drive(&mut scene, point(arm, 0), &[(Component::Rotation, turn)]);
     release(&mut scene, Releasable::Joint(1), 0.6);
     release(&mut scene, Releasable::Drive(0), 0.8);
@@ -172,7 +172,7 @@ fn a_spring_that_snaps_leaves_its_energy_to_the_ledger() {
         scene
             .add_spring(Spring {
                 name: "spring".to_owned(),
-                kind: SpringKind::Way(vec![Anchor::Ground(at(0.0, 0.0)), Anchor::Station(bead)]),
+                kind: SpringKind::Length(vec![Anchor::Ground(at(0.0, 0.0)), Anchor::Station(bead)]),
                 law: Some(SpringLaw::Linear { stiffness: 8.0, natural: 1.0 }),
                 origin: Origin::Zero,
                 damping: 0.0.into(),
@@ -250,7 +250,7 @@ fn somebody_outside_says_when() {
     let start = start_of(&mut scene, beam);
     scene.join(JointKind::Hinge, start, Partner::Ground).unwrap();
     scene.gravity = at(0.0, -9.81);
-    scene.add_release(Release { hold: Releasable::Joint(0), trigger: Trigger::Outside }).unwrap();
+    scene.add_release(Release { object: Releasable::Joint(0), trigger: Trigger::Outside }).unwrap();
     let mut simulation = Simulation::start(scene, settings(Method::EnergyMomentum, 0.02)).unwrap();
     run(&mut simulation, 0.2).unwrap();
     assert!(simulation.waits_for_release(0) && simulation.releases().is_empty());
@@ -269,7 +269,7 @@ fn somebody_outside_says_when() {
 fn what_cannot_let_go_is_refused() {
     let mut scene = chain(&mesh());
     let refused = |scene: &mut Scene, hold, time| {
-        scene.add_release(Release { hold, trigger: Trigger::Time(time) }).unwrap_err()
+        scene.add_release(Release { object: hold, trigger: Trigger::Time(time) }).unwrap_err()
     };
     let told = refused(&mut scene, Releasable::Joint(0), 0.7);
     assert_eq!(told.to_string(), "'hinge1' already has a release; remove one of the two releases");

@@ -48,7 +48,7 @@ fn what_methods_do_not_claim_is_seen_to_fail() {
         let drift = |scene: Scene, invariant| {
             simulate(scene, entry.method, 0.05, 3.0).history().drift(invariant)
         };
-        if entry.claims.energy == EnergyClaim::Nothing {
+        if entry.claims.energy == EnergyClaim::Unclaimed {
             let energy = drift(body_scenes::double_pendulum(), Invariant::Energy);
             assert!(energy > 1e-4, "{}: {energy:.1e}", entry.name);
         }
@@ -57,7 +57,7 @@ fn what_methods_do_not_claim_is_seen_to_fail() {
             assert!(momentum > 1e-5, "{}: {momentum:.1e}", entry.name);
         }
         // Nothing strains a rigid body: what is damped in beams is not damped in it.
-        let decays = entry.claims.energy == EnergyClaim::Decays;
+        let decays = entry.claims.energy == EnergyClaim::NonIncreasing;
         if decays {
             let energy = drift(body_scenes::double_pendulum(), Invariant::Energy);
             assert!(energy < 1e-12, "{}: {energy:.1e}", entry.name);
@@ -221,7 +221,7 @@ fn start_velocities_must_fit_the_joints() {
     scene.rigid_bodies[0].motion.spin = 2.0;
     let error = System::assemble(&scene).err().unwrap();
     assert!(matches!(error, SystemError::StartVelocity { .. }), "{error}");
-    scene.rigid_bodies[0].motion.about = Some(Vec2::zeros());
+    scene.rigid_bodies[0].motion.centre = Some(Vec2::zeros());
     let mut model = System::assemble(&scene).unwrap();
     let energy = model.measure().energy.kinetic;
     assert!((energy - 0.5 * (0.2 + 0.64) * 4.0).abs() < 1e-14, "{energy}");
@@ -243,7 +243,7 @@ fn a_pendulum_upside_down_grows_from_the_start_and_looking_at_that_changes_nothi
     };
     scene.add_spring(spring).unwrap();
     scene.rigid_bodies[0].motion.spin = 1e-3;
-    scene.rigid_bodies[0].motion.about = Some(Vec2::zeros());
+    scene.rigid_bodies[0].motion.centre = Some(Vec2::zeros());
     let mut simulation =
         Simulation::start(scene.clone(), settings(Method::EnergyMomentum, 0.01)).unwrap();
     let growth = |simulation: &mut Simulation| {
@@ -283,7 +283,7 @@ fn a_body_in_motion_takes_the_end_of_a_beam_at_rest_along() {
         hinge(&mut scene, start, None);
         let body = add_body(&mut scene, at(4.0, 1.0), 0.0, (8.0, 1.0), &[at(0.0, 1.0)]);
         scene.rigid_bodies[body].motion =
-            StartMotion { velocity: at(-3.0, 1.0), spin: 0.5, about: None };
+            StartMotion { velocity: at(-3.0, 1.0), spin: 0.5, centre: None };
         hinge(&mut scene, end, Some(point(body, 1)));
         let velocity = StationVelocity { station: end, velocity: node, spin: None };
         scene.velocities.push(velocity);

@@ -176,7 +176,9 @@ fn a_cart_runs_down_a_slope_and_presses_on_it_by_its_weight_across() {
 #[test]
 fn a_roller_that_lets_go_leaves_a_body_to_fly() {
     let mut scene = cart(0.6);
-    scene.add_release(Release { hold: Releasable::Joint(0), trigger: Trigger::Time(1.0) }).unwrap();
+    scene
+        .add_release(Release { object: Releasable::Joint(0), trigger: Trigger::Time(1.0) })
+        .unwrap();
     let simulation = simulate(scene, Method::EnergyMomentum, 0.1, 2.0);
     let down = unit(0.6) * (-9.81 * 0.6_f64.sin());
     let expected = at(1.0, 2.0) + down * 1.5 + at(0.0, -9.81) * 0.5;
@@ -252,7 +254,7 @@ fn velocities_and_motions_across_a_roller_are_refused() {
     let refused = System::assemble(&scene).map(|_| ());
     assert!(matches!(refused, Err(SystemError::StartVelocity { .. })), "{refused:?}");
     let mut scene = cart(0.5);
-    let rest = PrescribedMotion::Place(Schedule::constant(0.0).unwrap());
+    let rest = PrescribedMotion::Position(Schedule::constant(0.0).unwrap());
     let mut motions = [None, None, None];
     motions[Component::X as usize] = Some(rest);
     let (name, kind) = ("push".to_owned(), DriveKind::Move);

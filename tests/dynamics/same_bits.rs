@@ -70,10 +70,10 @@ fn smooth(spans: usize) -> Mesh {
 /// A steel tube that spins, pushed by a schedule of sines and a table.
 fn spinning_tube() -> Scene {
     let shape = SectionShape::Tube { outer: 0.06, inner: 0.051 };
-    let solid = Solid { young: 2.1e11, poisson: 0.29, density: 7850.0, shape };
+    let solid = Solid { youngs_modulus: 2.1e11, poisson: 0.29, density: 7850.0, shape };
     let mut scene = scenes::free_beam(&smooth(5), Section::from_solid(solid).unwrap());
     let velocity = at(0.3, -0.1);
-    scene.beams[0].motion = StartMotion { velocity, spin: 1.3, about: Some(at(2.0, 0.7)) };
+    scene.beams[0].motion = StartMotion { velocity, spin: 1.3, centre: Some(at(2.0, 0.7)) };
     let station = scene.station(0, 7.0).unwrap();
     let sine = Schedule::sine(0.8, 3.0, 0.4).unwrap();
     let table = Schedule::table(vec![(0.0, 0.0), (0.2, 1.0), (0.6, -0.5)]).unwrap();

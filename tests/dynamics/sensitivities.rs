@@ -28,7 +28,7 @@ fn oscillator(stiffness: f64, mass: f64, stretch: f64) -> Scene {
     let particle = ParticleDefinition { name: "bead".to_owned(), position: at(2.0 + stretch, 0.0) };
     let bead = scene.add_particle(particle, mass).unwrap();
     let law = Some(SpringLaw::Linear { stiffness, natural: 2.0 });
-    let kind = SpringKind::Way(vec![Anchor::Ground(at(0.0, 0.0)), Anchor::Station(bead)]);
+    let kind = SpringKind::Length(vec![Anchor::Ground(at(0.0, 0.0)), Anchor::Station(bead)]);
     let name = "spring".to_owned();
     let spring = Spring { name, kind, law, origin: Origin::Zero, damping: 0.0.into() };
     scene.add_spring(spring).unwrap();
@@ -139,7 +139,10 @@ fn derivatives_of_all_scenes_are_those_of_exact_runs() {
             if is_steered(&scene) {
                 let refused = start().map(|_| ()).unwrap_err();
                 assert!(
-                    matches!(refused, SimulationError::Derivative(DerivativeError::Steered { .. })),
+                    matches!(
+                        refused,
+                        SimulationError::Derivative(DerivativeError::Controlled { .. })
+                    ),
                     "{refused}"
                 );
                 continue;
@@ -237,7 +240,7 @@ fn what_cannot_be_right_is_refused_with_a_reason() {
     run(&mut back, 0.5).unwrap();
     assert!(back.derivative(0, bead).is_ok() && back.derivative(1, bead).is_err());
     back.back(2).unwrap();
-    assert!(matches!(back.derivative(0, bead), Err(DerivativeError::Way { .. })));
+    assert!(matches!(back.derivative(0, bead), Err(DerivativeError::NotSupported { .. })));
     back.step(&mut NoMonitor).unwrap();
 }
 

@@ -33,7 +33,7 @@ fn passing(law: Option<SpringLaw>, damping: f64, velocity: Vec2) -> Scene {
     let position = anchor + DIRECTION;
     let station = scene.add_particle(ParticleDefinition { name, position }, 1.0).unwrap();
     scene.velocities.push(StationVelocity { station, velocity, spin: None });
-    let kind = SpringKind::Way(vec![Anchor::Ground(anchor), Anchor::Station(station)]);
+    let kind = SpringKind::Length(vec![Anchor::Ground(anchor), Anchor::Station(station)]);
     if law.is_none() {
         let force = DIRECTION * -3.0;
         let kind = LoadKind::Force { station, force, frame: LoadFrame::Dead };
@@ -72,7 +72,7 @@ fn a_damper_that_passes_through_its_anchor_is_met_with_the_order_of_the_method()
             println!("{:18} {} {found:.2?}", entry.name, sci(&errors));
             // Neither is a strain that could be damped.
             let expected = match entry.claims.energy {
-                EnergyClaim::Decays => 2.0,
+                EnergyClaim::NonIncreasing => 2.0,
                 _ => f64::from(entry.claims.order),
             };
             assert!((found[1] - expected).abs() < 0.25, "{}: {errors:?} {found:?}", entry.name);
@@ -111,12 +111,12 @@ fn driven_by_little(stiffness: f64, amplitude: f64) -> Scene {
     let station = point(foot, 0);
     let motion = || {
         let schedule = Schedule::Sine { amplitude, rate: 5.0, phase: 0.0 };
-        PrescribedMotion::Place(schedule)
+        PrescribedMotion::Position(schedule)
     };
     drive(&mut scene, station, &[(Component::X, motion()), (Component::Rotation, motion())]);
     let law = SpringLaw::Linear { stiffness, natural: 6.0 };
     let ends = |ground: Vec2| [Anchor::Ground(ground), Anchor::Station(station)];
-    let way = SpringKind::Way(ends(at(1.0, 2.0)).to_vec());
+    let way = SpringKind::Length(ends(at(1.0, 2.0)).to_vec());
     scene.add_spring(spring(way, Some(law), 0.0)).unwrap();
     let law = SpringLaw::Linear { stiffness, natural: FRAC_PI_2 };
     let torsion = SpringKind::Torsion(ends(at(0.0, 0.0)));

@@ -20,7 +20,7 @@ fn linear(stiffness: f64, natural: f64) -> Option<SpringLaw> {
 }
 
 fn add(scene: &mut Scene, anchors: Vec<Anchor>, law: Option<SpringLaw>, damping: f64) {
-    let (name, kind) = (scene.free_name("spring"), SpringKind::Way(anchors));
+    let (name, kind) = (scene.free_name("spring"), SpringKind::Length(anchors));
     scene
         .add_spring(Spring { name, kind, law, origin: Origin::Zero, damping: damping.into() })
         .unwrap();
@@ -137,9 +137,9 @@ fn springs_that_can_do_nothing_are_refused() {
         Spring { name, kind, law, origin: Origin::Zero, damping: 0.0.into() }
     };
     for (kind, why) in [
-        (SpringKind::Way(vec![end, end]), "which is the same place"),
-        (SpringKind::Way(vec![ground(0.0), ground(1.0)]), "which are both on the ground"),
-        (SpringKind::Way(vec![ground(0.0), end, end]), "which is the same place"),
+        (SpringKind::Length(vec![end, end]), "which is the same place"),
+        (SpringKind::Length(vec![ground(0.0), ground(1.0)]), "which are both on the ground"),
+        (SpringKind::Length(vec![ground(0.0), end, end]), "which is the same place"),
         (SpringKind::Torsion([end, end]), "which is the same place"),
         (SpringKind::Torsion([ground(0.0), ground(1.0)]), "which are both on the ground"),
     ] {
@@ -151,8 +151,8 @@ fn springs_that_can_do_nothing_are_refused() {
     }
     assert_eq!(scene.springs().count(), 0);
     // A rope over pulleys on the ground, and one that goes on to where it came from, do something.
-    scene.add_spring(spring(SpringKind::Way(vec![ground(0.0), ground(1.0), end]))).unwrap();
-    let there_and_back = SpringKind::Way(vec![end, start, end]);
+    scene.add_spring(spring(SpringKind::Length(vec![ground(0.0), ground(1.0), end]))).unwrap();
+    let there_and_back = SpringKind::Length(vec![end, start, end]);
     scene.add_spring(Spring { name: "back".to_owned(), ..spring(there_and_back) }).unwrap();
 }
 
@@ -167,13 +167,13 @@ fn what_dampers_take_is_in_the_ledger_and_grows() {
         let last = *column.last().unwrap();
         // All of it is lost in the end, and the damper says so, where energy is kept.
         let error = (last / (0.5 * 18.0 * 0.09) - 1.0).abs();
-        if entry.claims.energy == EnergyClaim::Kept {
+        if entry.claims.energy == EnergyClaim::Conserved {
             assert!(history.drift(Invariant::Energy) < 1e-14, "{}", entry.name);
             assert!(error < 2e-4, "{}: {error:.1e}", entry.name);
             assert!(column.windows(2).all(|pair| pair[1] >= pair[0]), "{}", entry.name);
         }
         // In one dimension all is linear, and what decays does so in the spring, besides.
-        if entry.claims.energy == EnergyClaim::Decays {
+        if entry.claims.energy == EnergyClaim::NonIncreasing {
             assert!(history.drift(Invariant::Energy) > 1e-6, "{}", entry.name);
         }
     }
@@ -187,7 +187,7 @@ fn braced(stiffness: f64, damping: f64) -> Scene {
     let beam =
         scenes::add_beam(&mut scene, scenes::line(at(1.0, 2.0), at(4.0, 6.0)), &mesh, section);
     scene.beams[beam].motion =
-        StartMotion { velocity: at(3.0, -1.0), spin: 1.5, about: Some(at(1.0, 1.0)) };
+        StartMotion { velocity: at(3.0, -1.0), spin: 1.5, centre: Some(at(1.0, 1.0)) };
     let places = [0.0, 1.2, 3.9, 5.0].map(|s| Anchor::Station(scene.station(beam, s).unwrap()));
     add(&mut scene, vec![places[0], places[3]], linear(stiffness, 5.0), damping);
     add(&mut scene, vec![places[1], places[2]], linear(0.3 * stiffness, 2.7), damping);
@@ -310,9 +310,9 @@ fn energy_decaying_steps_take_energy_from_stiff_springs_and_no_other_does() {
         let energies: Vec<f64> = crate::common::energies(simulation.history());
         let left = energies.last().unwrap() / energies[0];
         match entry.claims.energy {
-            EnergyClaim::Kept => assert!((left - 1.0).abs() < 1e-11, "{}", entry.name),
-            EnergyClaim::Decays => assert!(left < 0.5, "{}: {left}", entry.name),
-            EnergyClaim::Nothing => (),
+            EnergyClaim::Conserved => assert!((left - 1.0).abs() < 1e-11, "{}", entry.name),
+            EnergyClaim::NonIncreasing => assert!(left < 0.5, "{}: {left}", entry.name),
+            EnergyClaim::Unclaimed => (),
         }
     }
 }

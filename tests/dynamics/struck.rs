@@ -23,7 +23,7 @@ fn particle(scene: &mut Scene, position: Vec2, mass: f64) -> Station {
 }
 
 fn spring(scene: &mut Scene, [from, to]: [Anchor; 2], law: SpringLaw) {
-    let (name, kind) = (scene.free_name("spring"), SpringKind::Way(vec![from, to]));
+    let (name, kind) = (scene.free_name("spring"), SpringKind::Length(vec![from, to]));
     let (law, origin) = (Some(law), Origin::Zero);
     scene.add_spring(Spring { name, kind, law, origin, damping: 0.0.into() }).unwrap();
 }
@@ -206,12 +206,12 @@ fn what_a_damper_gives_back_is_told_of_the_method_that_leads_back_in_time() {
             velocity,
             spin: None,
         });
-        let kind = SpringKind::Way(vec![Anchor::Ground(at(-5.0, 0.0)), Anchor::Station(mass)]);
+        let kind = SpringKind::Length(vec![Anchor::Ground(at(-5.0, 0.0)), Anchor::Station(mass)]);
         let (name, origin) = (scene.free_name("damper"), Origin::Zero);
         let damper = Spring { name, kind, law: None, origin, damping: 10.0.into() };
         scene.add_spring(damper).unwrap();
         let run = simulate(scene, method, dt, 20.0 * dt);
-        run.notes().iter().any(|note| matches!(note, Warning::Fed { .. }))
+        run.notes().iter().any(|note| matches!(note, Warning::EnergyGain { .. }))
     };
     // The pole of its part that leads back lies at λΔt = 3.557.
     assert!(slowed(Method::FourthOrder, 0.3557));

@@ -24,7 +24,7 @@ fn thrown(mesh: &Mesh, variation: SectionVariation) -> Scene {
     let beam = scenes::add_beam(&mut scene, axis, mesh, section(1.0));
     scene.beams[beam].section = variation;
     scene.beams[beam].motion =
-        StartMotion { velocity: at(1.0, -2.0), spin: 2.0, about: Some(at(1.0, 0.0)) };
+        StartMotion { velocity: at(1.0, -2.0), spin: 2.0, centre: Some(at(1.0, 0.0)) };
     scene
 }
 

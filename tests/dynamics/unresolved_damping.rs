@@ -34,7 +34,7 @@ fn rod(beside: bool) -> Scene {
         let axis = scenes::line(at(0.0, 3.0), at(4.0, 3.0));
         let heavy = Section { mass_per_length: 100.0, ..section };
         let other = scenes::add_beam(&mut scene, axis, &mesh, heavy);
-        scene.beams[other].motion = StartMotion { velocity: at(9.0, 1.0), spin: 1.0, about: None };
+        scene.beams[other].motion = StartMotion { velocity: at(9.0, 1.0), spin: 1.0, centre: None };
     }
     scene
 }
@@ -102,9 +102,11 @@ fn a_beam_is_told_whose_own_motion_is_not_followed_whatever_moves_beside_it() {
     let told =
         |beside: bool, dt: f64| simulate(struck(beside), Method::EnergyMomentum, dt, 0.3).notes();
     let alone = told(false, 0.01);
-    let [Warning::Motion { share: of_all, .. }] = alone.as_slice() else { panic!("{alone:?}") };
+    let [Warning::Motion { unresolved_fraction: of_all, .. }] = alone.as_slice() else {
+        panic!("{alone:?}")
+    };
     let beside = told(true, 0.01);
-    let [Warning::Beam { beam, share, dt, period }] = beside.as_slice() else {
+    let [Warning::Beam { beam, unresolved_fraction: share, dt, period }] = beside.as_slice() else {
         panic!("{beside:?}")
     };
     println!("{}", beside[0]);

@@ -17,7 +17,7 @@ fn spinning() -> Scene {
     let mesh = Mesh::bspline(6, 3, 2).unwrap();
     let mut scene = scenes::free_beam(&mesh, scenes::spaghetti_section(1e4, 100.0));
     scene.beams[0].motion =
-        StartMotion { spin: 1.0, about: Some(Vec2::zeros()), ..StartMotion::default() };
+        StartMotion { spin: 1.0, centre: Some(Vec2::zeros()), ..StartMotion::default() };
     scene
 }
 

@@ -58,7 +58,7 @@ static TABLE: BindingTable = BindingTable {
         property(SPRING, "stiffness", |call| Ok(spring_of(call)?.0.borrow().stiffness.into())),
         function(
             "mesh",
-            &[either("spans", &[Kind::Whole(NumberRange::Positive), Kind::Options(MESH)])],
+            &[either("spans", &[Kind::Integer(NumberRange::Positive), Kind::Options(MESH)])],
             mesh,
         ),
         function("broken", &[], |_| panic!("out of order")),
@@ -75,7 +75,7 @@ const KEYS: &[Parameter] = &[
     options("mesh", MESH).optional(),
 ];
 const MESH: &[Parameter] = &[integer("spans").positive()];
-const PULL: Parameter = integer("times").non_negative().or(Presence::Whole(1));
+const PULL: Parameter = integer("times").non_negative().or(Presence::Integer(1));
 
 fn spring(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let options = call.options("options")?;

@@ -34,8 +34,8 @@ fn try_within(exercise: &Exercise, text: &str, limits: Limits) -> AttemptVerdict
 fn told(exercise: &Exercise, text: &str) -> String {
     match try_within(exercise, text, Limits::default()) {
         AttemptVerdict::Passed => String::new(),
-        AttemptVerdict::Off(found) => found.join("\n"),
-        AttemptVerdict::Broken(why) | AttemptVerdict::Stopped(why) => why.to_string(),
+        AttemptVerdict::WrongResult(found) => found.join("\n"),
+        AttemptVerdict::Error(why) | AttemptVerdict::Stopped(why) => why.to_string(),
         AttemptVerdict::Interrupted => panic!("{}: nobody interrupted it", exercise.id()),
     }
 }

@@ -70,12 +70,12 @@ fn usage(parts: &[SystemFeature], name: &str) -> Usage {
 fn used(parts: &[SystemFeature], name: &str) -> String {
     match usage(parts, name) {
         Usage::Used(how) => how,
-        Usage::LeftOut(saved) => panic!("'{name}' is left out: {saved}"),
+        Usage::Omitted(saved) => panic!("'{name}' is left out: {saved}"),
     }
 }
 
 fn is_left_out(parts: &[SystemFeature], name: &str) -> bool {
-    matches!(usage(parts, name), Usage::LeftOut(_))
+    matches!(usage(parts, name), Usage::Omitted(_))
 }
 
 #[test]

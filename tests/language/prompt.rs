@@ -64,7 +64,7 @@ impl Prompt {
     fn ask_both(&mut self, input: &str) -> (String, String) {
         let outcome = self.shell.submit(input);
         let (printed, told) = (self.printed.take(), self.told.take());
-        assert_eq!(outcome, CommandOutcome::Good, "{input}: {printed}{told}");
+        assert_eq!(outcome, CommandOutcome::Success, "{input}: {printed}{told}");
         (printed, told)
     }
 
@@ -514,7 +514,7 @@ impl Pager for Reader {
 
     fn show(&mut self, text: &str, _: &dyn Fn() -> bool) -> PagerOutcome {
         self.0.borrow_mut().push(text.to_owned());
-        if text.lines().count() > 40 { PagerOutcome::Interrupted } else { PagerOutcome::NotByThis }
+        if text.lines().count() > 40 { PagerOutcome::Interrupted } else { PagerOutcome::NotPaged }
     }
 }
 

@@ -60,7 +60,7 @@ impl State {
         let moved: Vec<Vec2> = (2..last).step_by(2).map(vector).collect();
         let unknowns = ContactUnknowns::of(std::array::from_fn(|k| numbers[last + k]));
         let mut passage = ContactPath::new(self.mesh.basis().clone());
-        passage.set_interval(self.from, self.from + unknowns.way);
+        passage.set_interval(self.from, self.from + unknowns.increment);
         let window = passage.first()..passage.first() + passage.end().len();
         let (before, moved) = (&self.before[window.clone()], &moved[window]);
         let kink = self.kink.as_ref().map(|(length, compliance, before)| Kink {
@@ -70,14 +70,14 @@ impl State {
             motion: KinkMotion {
                 arc: passage.along(&arc_of(&self.mesh, self.length)),
                 speed: 0.28 * self.length,
-                slowness: 0.6 / self.length.powi(2),
+                inverse_square_speed: 0.6 / self.length.powi(2),
                 duration: 1.3,
             },
         });
         let contact = Contact {
-            passage: &passage,
+            path: &passage,
             master: (before, moved),
-            slave_moved: vector(0),
+            slave_movement: vector(0),
             unknowns,
             kink,
             length: self.length,
@@ -105,7 +105,11 @@ fn states() -> Vec<State> {
                 before: (0..functions).map(|_| vector(3.0)).collect(),
                 moved: (0..functions).map(|_| vector(1.0)).collect(),
                 slave_moved: vector(1.0),
-                unknowns: ContactUnknowns { force: vector(5.0), couple: vector(2.0), way },
+                unknowns: ContactUnknowns {
+                    force: vector(5.0),
+                    couple: vector(2.0),
+                    increment: way,
+                },
                 from,
                 length: 2.5,
                 kink: kink_of(&mesh, 2.5).map(|length| (length, 0.03, vector(5.0))),
@@ -127,7 +131,7 @@ fn the_derivatives_of_every_law_are_those_of_its_equations() {
         let numbers = state.numbers();
         for (law_name, law) in LAWS {
             // The gap of the start, over a way of nothing, has no direction.
-            if law_name == "relaxed" && state.unknowns.way.abs() < 1e-3 {
+            if law_name == "relaxed" && state.unknowns.increment.abs() < 1e-3 {
                 continue;
             }
             let found = state.with(&numbers, |contact, passage| {
@@ -153,7 +157,7 @@ fn the_derivatives_of_every_law_are_those_of_its_equations() {
                 state.with(numbers, |contact, _| law.equations(contact).map(|e| e.value).to_vec())
             });
             // Second derivatives of quadratic and linear elements jump at knots: the last column sees both sides there.
-            let smooth = state.from != 0.5 && state.unknowns.way.abs() > 1e-3;
+            let smooth = state.from != 0.5 && state.unknowns.increment.abs() > 1e-3;
             let columns = if smooth { numbers.len() } else { numbers.len() - 1 };
             let label = format!("{law_name}, {}", state.name);
             let (found, expected) = (found.columns(0, columns), expected.columns(0, columns));
@@ -164,16 +168,17 @@ fn the_derivatives_of_every_law_are_those_of_its_equations() {
 
 #[test]
 fn the_derivatives_by_the_way_hold_where_it_passes_zero() {
-    for state in states().iter().filter(|state| state.unknowns.way.abs() < 1e-3) {
+    for state in states().iter().filter(|state| state.unknowns.increment.abs() < 1e-3) {
         let numbers = state.numbers();
         for (law_name, law) in LAWS.into_iter().filter(|(name, _)| *name != "relaxed") {
-            let found = state.with(&numbers, |c, _| law.equations(c).map(|e| e.by_unknowns.way));
+            let found =
+                state.with(&numbers, |c, _| law.equations(c).map(|e| e.by_unknowns.increment));
             let mut only_way = |way: &[f64]| {
                 let mut numbers = numbers.clone();
                 *numbers.last_mut().unwrap() = way[0];
                 state.with(&numbers, |contact, _| law.equations(contact).map(|e| e.value).to_vec())
             };
-            let expected = differences(&[state.unknowns.way], 2e-4, &mut only_way);
+            let expected = differences(&[state.unknowns.increment], 2e-4, &mut only_way);
             let found = DMatrix::from_column_slice(5, 1, &found);
             assert_close(&format!("{law_name}, {}", state.name), &found, &expected, 1e-8);
         }
@@ -200,7 +205,7 @@ fn what_a_contact_does_is_what_its_equations_leave() {
         state.kink = None;
         state.with(&state.numbers(), |contact, passage| {
             let (force, moment, work) = balance(&state, contact, passage);
-            let ContactUnknowns { force: lambda, couple: eta, way } = contact.unknowns;
+            let ContactUnknowns { force: lambda, couple: eta, increment: way } = contact.unknowns;
             let (tau, d) = (contact.tangent().value, contact.tangent_change().value);
             let (gap_before, gap) =
                 (-contact.start_gap(), state.slave_moved - contact.end_point().value);
@@ -304,7 +309,10 @@ fn a_contact_on_a_kinked_axis_keeps_momenta_and_energy_with_that_of_the_kink() {
             let kink = contact.kink.unwrap();
             let KinkState { jump, speed } = law.kink_at_end(contact);
             let energy = |g: f64, p: Vec2, v: f64| {
-                0.5 * g * p.norm_squared() * kink.compliance * (1.0 + kink.motion.slowness * v * v)
+                0.5 * g
+                    * p.norm_squared()
+                    * kink.compliance
+                    * (1.0 + kink.motion.inverse_square_speed * v * v)
             };
             let gained = energy(kink.along.end, jump, speed)
                 - energy(kink.along.start, kink.before, kink.motion.speed);
@@ -395,7 +403,7 @@ fn the_equations_of_a_law_have_the_units_that_they_say() {
     // Lengths twice as large: equations of lengths double, those of forces stay. Twice the force: the other way round.
     for state in states() {
         for (name, law) in LAWS {
-            if name == "relaxed" && state.unknowns.way == 0.0 {
+            if name == "relaxed" && state.unknowns.increment == 0.0 {
                 continue;
             }
             let values = |lengths: f64, forces: f64| {
@@ -408,7 +416,7 @@ fn the_equations_of_a_law_have_the_units_that_they_say() {
                     unknowns: ContactUnknowns {
                         force: state.unknowns.force * forces,
                         couple: state.unknowns.couple * forces,
-                        way: state.unknowns.way,
+                        increment: state.unknowns.increment,
                     },
                     from: state.from,
                     length: state.length * lengths,

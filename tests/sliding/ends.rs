@@ -187,7 +187,7 @@ fn a_bead_pressed_against_a_stop_rests_there_in_steps_of_any_size() {
         for dt in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
             let scene = resting(clamped_rail(&smooth(4), at(0.0, -1.0)), 30.0);
             let simulation = simulated(scene, method, dt, 20.0 * dt);
-            assert_eq!(kinds(&simulation), [ArrivalKind::Rested], "dt = {dt:e}");
+            assert_eq!(kinds(&simulation), [ArrivalKind::Held], "dt = {dt:e}");
         }
     }
 }
@@ -199,7 +199,7 @@ fn a_bead_pressed_against_a_stop_rests_there_until_it_is_lifted() {
             let scene = resting(clamped_rail(&smooth(4), at(0.0, -1.0)), 30.0);
             let mut simulation = start(scene, method, dt);
             run(&mut simulation, 0.5).unwrap();
-            assert_eq!(kinds(&simulation), [ArrivalKind::Rested]);
+            assert_eq!(kinds(&simulation), [ArrivalKind::Held]);
             assert_eq!(simulation.arrivals()[0].time, 0.0);
             assert_eq!(simulation.slider_state(0), SliderState::Held(MasterEnd::End));
             assert_eq!((position(&simulation), speed(&simulation)), (1.0, 0.0));
@@ -213,7 +213,7 @@ fn a_bead_pressed_against_a_stop_rests_there_until_it_is_lifted() {
             let error = (bead - at(0.0, expected)).norm();
             println!("dt = {dt}: lifted to y = {expected}, off by {error:.1e}");
             assert!(error < 1e-12, "{error:e}");
-            assert_eq!(kinds(&simulation), [ArrivalKind::Rested]);
+            assert_eq!(kinds(&simulation), [ArrivalKind::Held]);
             assert_kept("lifted", &simulation, ROUNDING);
         }
     }
@@ -230,7 +230,7 @@ fn a_bead_on_the_stop_of_a_hanging_beam_is_shaken_and_keeps_energy_and_momenta()
             let simulation = simulated(resting(scene, 30.0), method, 0.01, 1.0);
             let kinds = kinds(&simulation);
             println!("{} arrivals, then at ξ = {}", kinds.len(), position(&simulation));
-            assert!(kinds.contains(&ArrivalKind::Rested) && position(&simulation) < 0.9);
+            assert!(kinds.contains(&ArrivalKind::Held) && position(&simulation) < 0.9);
             assert_kept("hanging", &simulation, ROUNDING);
         }
     }

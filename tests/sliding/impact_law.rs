@@ -48,7 +48,7 @@ fn springs_and_dampers_to_the_ground_have_no_part_of_an_impulse() {
             let mut scene = bar_with_bead(axial, &mesh);
             let start = Anchor::Station(start_of(&mut scene, 0));
             let foot = Anchor::Ground(at(-1.0, 0.0));
-            spring(&mut scene, SpringKind::Way(vec![foot, start]), 50.0, 1.0, 0.3);
+            spring(&mut scene, SpringKind::Length(vec![foot, start]), 50.0, 1.0, 0.3);
             spring(&mut scene, SpringKind::Torsion([foot, start]), 20.0, 0.0, 0.1);
             let simulation = simulate(scene, Method::EnergyMomentum, dt, 1.0);
             let first = &simulation.arrivals()[0];
@@ -75,7 +75,7 @@ fn a_corner_of_a_frame_on_springs_is_that_of_the_frame() {
         let start = start_of(&mut scene, 0);
         hold(&mut scene, JointKind::Support(Components::Rotation), &[start]);
         for foot in [at(-1.0, 0.0), at(0.0, -1.0)] {
-            let kind = SpringKind::Way(vec![Anchor::Ground(foot), Anchor::Station(start)]);
+            let kind = SpringKind::Length(vec![Anchor::Ground(foot), Anchor::Station(start)]);
             spring(&mut scene, kind, 1000.0, 1.0, 0.0);
         }
         let track = track(&mut scene, &beams, TrackEnd::Open);

@@ -122,7 +122,7 @@ fn a_slider_as_fast_as_shear_waves_goes_on_with_the_kink_that_it_has_and_is_told
         for method in [Method::EnergyMomentum, Method::FourthOrder] {
             let simulation = simulate(scene.clone(), method, 0.002, 0.4);
             let fast = simulation.notes().into_iter().find_map(|note| match note {
-                Warning::Fast { speed, limit, .. } => Some((speed, limit)),
+                Warning::WaveSpeed { speed, limit, .. } => Some((speed, limit)),
                 _ => None,
             });
             println!("{speed}, {method:?}: {fast:?}");

@@ -65,13 +65,13 @@ fn shuttle(spans: usize, stiffness: f64) -> Scene {
         Section { mass_per_length: 0.5, rotary_inertia: 0.05, ..paper_section(stiffness) };
     add_beam(&mut scene, line(Vec2::zeros(), at(2.0, 0.0)), &smooth(spans), section);
     let motion = &mut scene.beams[0].motion;
-    (motion.velocity, motion.spin, motion.about) = (at(0.1, -0.2), 1.0, Some(at(1.0, 0.0)));
+    (motion.velocity, motion.spin, motion.centre) = (at(0.1, -0.2), 1.0, Some(at(1.0, 0.0)));
     bead(&mut scene, 0.35, 1.0, at(1.1, -0.5), EndAction::Stop);
     let slave = scene.sliders[0].slave;
     for end in [start_of(&mut scene, 0), end_of(&mut scene, 0)] {
         let anchors = vec![Anchor::Station(end), Anchor::Station(slave)];
         let law = SpringLaw::Linear { stiffness: 12.0, natural: 0.9 };
-        spring(&mut scene, SpringKind::Way(anchors), law, 0.0);
+        spring(&mut scene, SpringKind::Length(anchors), law, 0.0);
     }
     scene.sliders[0].rule = SlidingRule::Kinked;
     scene

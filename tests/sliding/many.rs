@@ -88,7 +88,7 @@ fn all_is_kept_with_beads_eyelets_and_rings_by_the_dozen() {
     // An eyelet of the last one comes off the ground and is a bead from then on.
     let mut loose = sliding_scenes::eyelets(20, 6);
     let (hold, trigger) = (Releasable::Joint(2), Trigger::Time(0.05));
-    loose.add_release(Release { hold, trigger }).unwrap();
+    loose.add_release(Release { object: hold, trigger }).unwrap();
     let scenes = [
         sliding_scenes::necklace(20, 60),
         sliding_scenes::eyelets(30, 20),

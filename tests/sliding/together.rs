@@ -141,7 +141,7 @@ fn a_bouncing_bead_comes_to_rest_in_the_time_of_the_series() {
                 simulation.arrivals().len(),
                 last.time
             );
-            assert_eq!(last.kind, ArrivalKind::Rested);
+            assert_eq!(last.kind, ArrivalKind::Held);
             // What is left of the series takes a few steps.
             assert!(last.time <= end + 1e-3 && last.time > end - 0.15, "{} {end}", last.time);
             assert!(simulation.arrivals().len() < 40);
@@ -173,7 +173,7 @@ fn whatever_happens_in_one_step_keeps_everything() {
             let side = LoadKind::Force { station, force: at(0.0, -3.0), frame: LoadFrame::Dead };
             scene.add_load(side, Schedule::pulse(0.36, 2.0).unwrap());
             let (hold, trigger) = (Releasable::Joint(0), Trigger::Time(0.37));
-            scene.add_release(Release { hold, trigger }).unwrap();
+            scene.add_release(Release { object: hold, trigger }).unwrap();
             let simulation = simulated(scene, method, dt, 0.9);
             assert_eq!(simulation.slider_state(1), SliderState::Released);
             assert_eq!(simulation.releases().len(), 1);

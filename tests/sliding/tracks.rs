@@ -161,7 +161,7 @@ fn a_corner_of_a_stiff_ramp_keeps_the_speed_with_every_method() {
             let simulation = simulate(scene, entry.method, 0.01, down + after);
             let found = arc_length(&simulation, slider);
             println!("{} held {held}: {:.1e}", entry.name, found - expected);
-            let tolerance = if entry.claims.energy == EnergyClaim::Kept { 2e-6 } else { 2e-3 };
+            let tolerance = if entry.claims.energy == EnergyClaim::Conserved { 2e-6 } else { 2e-3 };
             assert!((found - expected).abs() < tolerance, "{} {held}: {found}", entry.name);
             assert_eq!(simulation.arrivals().len(), 1);
         }
@@ -297,7 +297,7 @@ fn everything_at_once(order: [usize; 3]) -> Scene {
     let force = LoadKind::Force { station, force: at(0.0, 3.0), frame: LoadFrame::Dead };
     scene.add_load(force, Schedule::hold_for(0.5).unwrap());
     scene
-        .add_release(Release { hold: Releasable::Joint(joint), trigger: Trigger::Time(0.5) })
+        .add_release(Release { object: Releasable::Joint(joint), trigger: Trigger::Time(0.5) })
         .unwrap();
     scene
 }

@@ -85,7 +85,7 @@ fn a_body_that_nothing_but_its_weight_holds_hangs_and_one_that_nothing_holds_fal
     assert!((square / (0.8 * GRAVITY / 0.84) - 1.0).abs() < 1e-7, "{square}");
     free.joints.clear();
     let refused = Equilibrium::find(free, Loading::default(), &mut |_| true).err().unwrap();
-    assert!(matches!(refused, StaticsError::Loose { movements: 3, .. }), "{refused}");
+    assert!(matches!(refused, StaticsError::Unrestrained { movements: 3, .. }), "{refused}");
 }
 
 /// A slender clamped beam of length 2 with a rigid body at its tip, whose centre is `offset` beyond it.

@@ -36,7 +36,7 @@ fn rod(scene: &mut Scene, from: Vec2, to: Vec2, spans: usize) -> usize {
 /// A ring through which a rod goes, so far from its start; it moves by so much while the loads are put on.
 fn ring(scene: &mut Scene, rod: usize, place: Vec2, along: f64, by: Vec2) {
     let station = particle(scene, place, 1.0);
-    let motion = |by: f64| PrescribedMotion::Place(growing(by));
+    let motion = |by: f64| PrescribedMotion::Position(growing(by));
     drive(scene, station, &[(Component::X, motion(by.x)), (Component::Y, motion(by.y))]);
     let name = scene.free_name("ring");
     scene.add_slider(Slider { name, ..slider(station, rod, along, SlidingRule::Kinked) }).unwrap();
@@ -183,7 +183,7 @@ fn the_arm_scale_is_an_elastica() {
             ring(&mut scene, rod, along * place, 1.0 - arm + place, Vec2::zeros());
         }
         let (start, tip) = (start_of(&mut scene, rod), end_of(&mut scene, rod));
-        drive(&mut scene, tip, &[(Component::X, PrescribedMotion::Place(growing(moved)))]);
+        drive(&mut scene, tip, &[(Component::X, PrescribedMotion::Position(growing(moved)))]);
         push(&mut scene, start, at(0.0, -left));
         push(&mut scene, tip, at(0.0, -right));
         let mut rest = rests(scene, 8);
@@ -278,7 +278,7 @@ fn a_blade_in_a_sleeve_on_a_spring_is_stable_unstable_and_stable_again() {
         scene.add_slider(slider(mouth, blade, behind, SlidingRule::Kinked)).unwrap();
         let anchors = vec![Anchor::Ground(at(-1.0 - behind, 0.0)), Anchor::Station(start)];
         let law = SpringLaw::Linear { stiffness: spring_stiffness, natural: 1.0 };
-        spring(&mut scene, SpringKind::Way(anchors), law, 0.0);
+        spring(&mut scene, SpringKind::Length(anchors), law, 0.0);
         push(&mut scene, tip, at(-load, 0.0));
         rests(scene, 1).stability(&mut || true)
     };

@@ -320,7 +320,7 @@ fn shapes_are_those_of_the_inertia_and_modes_that_cannot_be_are_told() {
     let available = model.unknowns();
     for asked in [0, available + 1] {
         let error = Modes::of(&model, asked, &mut || true).unwrap_err();
-        assert_eq!(error, VibrationError::Count { asked, available });
+        assert_eq!(error, VibrationError::Count { requested: asked, available });
     }
     let mut turned = scene;
     let station = scenes::end_of(&mut turned, 0);

@@ -177,7 +177,7 @@ fn a_bar_that_turns_is_pulled_by_its_own_inertia() {
         let start = scene.station(0, 0.0).unwrap();
         scene.join(JointKind::Hinge, start, Partner::Ground).unwrap();
         scene.beams[0].motion =
-            StartMotion { spin: 0.5, about: Some(Vec2::zeros()), ..StartMotion::default() };
+            StartMotion { spin: 0.5, centre: Some(Vec2::zeros()), ..StartMotion::default() };
         // The stretch is put on suddenly: it rings until that is damped.
         let damped = Method::EnergyDecaying { chi: 1.0 };
         let mut simulation = Simulation::start(scene, settings(damped, 0.02)).unwrap();

@@ -52,7 +52,7 @@ fn a_spring_below_the_tip_shares_its_load() {
         let (mut scene, tip) = cantilever();
         // A spring that is long beside the deflection keeps its direction; at ease as drawn.
         let below = Anchor::Ground(at(2.0, -1.0));
-        let way = SpringKind::Way(vec![below, Anchor::Station(tip)]);
+        let way = SpringKind::Length(vec![below, Anchor::Station(tip)]);
         add(&mut scene, way, linear(stiffness, 1.0), 0.0);
         let always = Schedule::constant(1.0).unwrap();
         let down = 1e-4 * (3.0 * 5.0 / 8.0 + stiffness);
@@ -83,7 +83,7 @@ fn a_hanging_mass_rests_where_the_spring_holds_it_and_dampers_have_no_say() {
     let mut scene = Scene::new("scales");
     let pan = ParticleDefinition { name: "pan".to_owned(), position: at(0.0, -1.0) };
     let pan = Anchor::Station(scene.add_particle(pan, 3.0).unwrap());
-    let from = |x: f64| SpringKind::Way(vec![Anchor::Ground(at(x, 0.0)), pan]);
+    let from = |x: f64| SpringKind::Length(vec![Anchor::Ground(at(x, 0.0)), pan]);
     // Its tension holds it against swinging from the start.
     add(&mut scene, from(0.0), linear(50.0, 0.9), 7.0);
     scene.gravity = at(0.0, -9.81);
@@ -105,7 +105,7 @@ fn a_mass_between_springs_has_the_frequencies_of_their_stiffness_and_of_their_te
     let bead = ParticleDefinition { name: "bead".to_owned(), position: at(0.0, 0.0) };
     let bead = Anchor::Station(scene.add_particle(bead, 2.0).unwrap());
     for x in [-1.0, 1.0] {
-        let way = SpringKind::Way(vec![Anchor::Ground(at(x, 0.0)), bead]);
+        let way = SpringKind::Length(vec![Anchor::Ground(at(x, 0.0)), bead]);
         add(&mut scene, way, linear(40.0, 0.5), 0.0);
     }
     let found = frequencies(&System::assemble(&scene).unwrap());
@@ -121,7 +121,7 @@ fn the_lowest_frequency_of_a_beam_with_a_spring_at_its_tip_is_that_of_the_charac
     // cos β cosh β + 1 + κ (sin β cosh β - cos β sinh β)/β³ = 0, κ = k L³/EI (Blevins 1979, spring at the tip).
     for stiffness in [0.1, 10.0, 1e7] {
         let (mut scene, tip) = cantilever();
-        let way = SpringKind::Way(vec![Anchor::Ground(at(2.0, -1e4)), Anchor::Station(tip)]);
+        let way = SpringKind::Length(vec![Anchor::Ground(at(2.0, -1e4)), Anchor::Station(tip)]);
         add(&mut scene, way, linear(stiffness, 1e4), 0.0);
         let kappa = stiffness * 8.0 / 5.0;
         let equation = |b: f64| {

@@ -87,7 +87,7 @@ fn a_wedge_vibrates_as_kirchhoff_found() {
     // His wedge has a sharp tip; this one's is a thousandth of the height at the clamp, and feels shear and rotary inertia: 0.2 % less.
     let (young, density, height, length) = (1e9, 1000.0, 0.01, 1.0);
     let solid = |part: f64| Solid {
-        young,
+        youngs_modulus: young,
         poisson: 0.0,
         density,
         shape: SectionShape::Rectangle { width: 0.02, height: height * part },
@@ -108,7 +108,7 @@ fn a_tapered_bar_stretches_and_rings_as_its_area_says() {
     // A cone of a bar, area (1 - s/2)²: modes of u' with u = f/(1 - s/2), f'' + β² f = 0, f(0) = 0, (f/r)'(1) = 0, r = 1 - s/2.
     let (stiffness, mass, length) = (100.0, 2.0, 3.0);
     let solid = |radius: f64| Solid {
-        young: stiffness / std::f64::consts::PI,
+        youngs_modulus: stiffness / std::f64::consts::PI,
         poisson: 0.0,
         density: mass / std::f64::consts::PI,
         shape: SectionShape::Circle { radius },

@@ -47,8 +47,8 @@ struct EventLoop<'a> {
     workbook: &'a Workbook,
     limits: &'a LimitOptions,
     watcher: Watcher<'a>,
-    looked: Instant,
-    trial: Option<JudgeProcess>,
+    last_check: Instant,
+    judge_process: Option<JudgeProcess>,
     painter: ScriptPainter,
     solution: Vec<ScreenLine>,
     state: TuiState,
@@ -63,8 +63,8 @@ impl<'a> EventLoop<'a> {
             workbook,
             limits,
             watcher: Watcher::new(workbook),
-            looked: Instant::now(),
-            trial: None,
+            last_check: Instant::now(),
+            judge_process: None,
             solution: painter.solution(exercise),
             painter,
             state: TuiState::open(exercise, shown(&workbook.file(exercise)), workbook.progress()?),
@@ -108,8 +108,8 @@ impl<'a> EventLoop<'a> {
     }
 
     fn check_files(&mut self) {
-        if self.looked.elapsed() >= INTERVAL {
-            self.looked = Instant::now();
+        if self.last_check.elapsed() >= INTERVAL {
+            self.last_check = Instant::now();
             if let Some(exercise) = self.watcher.changed() {
                 if exercise != self.state.exercise {
                     self.select_exercise(exercise);
@@ -121,10 +121,10 @@ impl<'a> EventLoop<'a> {
                 self.state.notice = None;
             }
         }
-        let Some(trial) = &mut self.trial else { return };
+        let Some(trial) = &mut self.judge_process else { return };
         self.state.running = Some(trial.seconds());
         if let Some(report) = trial.result() {
-            self.trial = None;
+            self.judge_process = None;
             if report.outcome != AttemptOutcome::Interrupted {
                 let has_passed = report.outcome == AttemptOutcome::Passed;
                 if let Err(error) = self.workbook.record(self.state.exercise, has_passed) {
@@ -148,10 +148,10 @@ impl<'a> EventLoop<'a> {
     }
 
     fn run(&mut self) {
-        self.trial = None;
+        self.judge_process = None;
         match JudgeProcess::begin(self.state.exercise, self.limits) {
             Ok(trial) => {
-                self.trial = Some(trial);
+                self.judge_process = Some(trial);
                 self.state.running = Some(0);
             }
             Err(error) => self.state.set_report(cannot(&error)),

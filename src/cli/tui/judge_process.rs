@@ -28,8 +28,8 @@ const LONGEST: u64 = 1 << 20;
 /// A judging process; killed on drop.
 pub struct JudgeProcess {
     process: Child,
-    said: Receiver<String>,
-    begun: Instant,
+    messages: Receiver<String>,
+    start: Instant,
     limits: Limits,
 }
 
@@ -57,20 +57,20 @@ impl JudgeProcess {
         });
         let mut limits = options.limits();
         limits.time = limits.time.or(Some(PATIENCE));
-        Ok(Self { process, said, begun: Instant::now(), limits })
+        Ok(Self { process, messages: said, start: Instant::now(), limits })
     }
 
     pub fn seconds(&self) -> u64 {
-        self.begun.elapsed().as_secs()
+        self.start.elapsed().as_secs()
     }
 
     /// Result of the attempt, once it is known.
     pub fn result(&mut self) -> Option<AttemptReport> {
         let longest = self.limits.time.unwrap_or(PATIENCE) * 2 + SLACK;
-        match self.said.try_recv() {
+        match self.messages.try_recv() {
             Ok(said) => Some(self.report(&said)),
             Err(TryRecvError::Disconnected) => Some(self.report("")),
-            Err(TryRecvError::Empty) if self.begun.elapsed() > longest => {
+            Err(TryRecvError::Empty) if self.start.elapsed() > longest => {
                 Some(stopped(Stop::Time(longest), CapturedOutput::default()))
             }
             Err(TryRecvError::Empty) => None,
@@ -99,7 +99,7 @@ impl Drop for JudgeProcess {
 pub fn cannot(error: &io::Error) -> AttemptReport {
     let message = format!("cannot start a process for it: {error}");
     let why = AttemptError { message, ..AttemptError::default() };
-    AttemptReport { outcome: AttemptOutcome::Broken(why), printed: CapturedOutput::default() }
+    AttemptReport { outcome: AttemptOutcome::Error(why), printed: CapturedOutput::default() }
 }
 
 fn killed_report(status: ExitStatus, limits: &Limits) -> AttemptReport {
@@ -109,7 +109,7 @@ fn killed_report(status: ExitStatus, limits: &Limits) -> AttemptReport {
             let message = format!("its process ended without a result: {status}");
             let why = AttemptError { message, ..AttemptError::default() };
             AttemptReport {
-                outcome: AttemptOutcome::Broken(why),
+                outcome: AttemptOutcome::Error(why),
                 printed: CapturedOutput::default(),
             }
         }
@@ -158,7 +158,7 @@ pub fn try_here(workbook: &Workbook, exercise: &Exercise, options: &LimitOptions
     };
     let verdict = match attempt::load(&workbook.file(exercise), workbook.folder()) {
         Ok(attempt) => judge(exercise, &attempt, settings),
-        Err(why) => AttemptVerdict::Broken(why),
+        Err(why) => AttemptVerdict::Error(why),
     };
     let _turn = turn.lock().unwrap_or_else(PoisonError::into_inner);
     send_report(&AttemptReport { outcome: verdict.into(), printed: ear.captured() });

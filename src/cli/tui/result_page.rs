@@ -34,12 +34,12 @@ fn judged(state: &TuiState, report: &AttemptReport, columns: usize) -> Vec<Scree
                 vec![ScreenLine::of("Passed.", GOOD).and(&format!(" (run {})", state.runs), FAINT)];
             lines.extend(paragraph(&next_actions(state), "", columns, &PLAIN));
         }
-        AttemptOutcome::Off(found) => {
+        AttemptOutcome::WrongResult(found) => {
             lines = not_yet("it runs, but the result is wrong.");
             let finding = |found| paragraph(&format!("- {found}"), "  ", columns, &PLAIN);
             lines.extend(found.iter().flat_map(finding));
         }
-        AttemptOutcome::Broken(why) => {
+        AttemptOutcome::Error(why) => {
             lines = not_yet("it stops with an error.");
             lines.extend(trouble(state, why, columns));
         }
@@ -115,7 +115,7 @@ fn text_from_column(text: &str, columns: usize) -> String {
 }
 
 fn printed(state: &TuiState, printed: &CapturedOutput, columns: usize) -> Vec<ScreenLine> {
-    let CapturedOutput { lines: heard, more } = printed;
+    let CapturedOutput { lines: heard, further_lines: more } = printed;
     if heard.is_empty() {
         return Vec::new();
     }

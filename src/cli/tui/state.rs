@@ -23,7 +23,7 @@ pub struct TuiState {
     pub top: ScrollPosition,
     pub notice: Option<String>,
     /// Pending question: pressing the same key again confirms.
-    pub asked: Option<Confirmation>,
+    pub confirmation: Option<Confirmation>,
     /// Exercise number being typed in the list; 0 if none.
     pub typed: usize,
 }
@@ -89,7 +89,7 @@ impl TuiState {
             page: ScreenPage::Task,
             top: ScrollPosition::Part(TaskSection::Beginning),
             notice: None,
-            asked: None,
+            confirmation: None,
             typed: 0,
         }
     }
@@ -125,7 +125,7 @@ impl TuiState {
 
     pub fn press(&mut self, key: Key, window: ScrollWindow) -> KeyAction {
         self.notice = None;
-        let asked = self.asked.take();
+        let asked = self.confirmation.take();
         let typed = mem::take(&mut self.typed);
         match (key, self.page) {
             (Key::Letter('q') | Key::Interrupt, _) => return KeyAction::Leave,
@@ -175,7 +175,7 @@ impl TuiState {
         match asked {
             Some(Confirmation::Solution) => self.show_page(ScreenPage::Solution),
             _ => {
-                self.asked = Some(Confirmation::Solution);
+                self.confirmation = Some(Confirmation::Solution);
                 self.set_notice("there are no more hints; h again shows a solution");
             }
         }
@@ -192,7 +192,7 @@ impl TuiState {
                 return KeyAction::Open(next);
             }
             Some(_) => {
-                self.asked = Some(Confirmation::Skip);
+                self.confirmation = Some(Confirmation::Skip);
                 self.set_notice("this exercise is not passed yet; n again skips it");
             }
         }

@@ -84,13 +84,13 @@ pub(super) struct BeamAxis<'a> {
     basis: &'a Basis,
     control_points: &'a [Vec2],
     /// Speed along the parameter below which the direction is rounding.
-    standstill: f64,
+    least_speed: f64,
 }
 
 impl<'a> BeamAxis<'a> {
     pub(super) fn new(basis: &'a Basis, control_points: &'a [Vec2], length: f64) -> Self {
         let (start, end) = basis.domain();
-        Self { basis, control_points, standstill: STANDSTILL * length / (end - start) }
+        Self { basis, control_points, least_speed: STANDSTILL * length / (end - start) }
     }
 
     pub(super) fn points<const N: usize>(
@@ -102,7 +102,7 @@ impl<'a> BeamAxis<'a> {
             let values = self.basis.evaluate_in(&span, xi);
             let derivative = values.combine(1, self.control_points);
             let speed = derivative.norm();
-            if speed.is_nan() || speed <= self.standstill {
+            if speed.is_nan() || speed <= self.least_speed {
                 return Err(BeamError::NoTangent { parameter: xi });
             }
             let (mut shape, mut slope) = ([0.0; N], [0.0; N]);

@@ -48,7 +48,7 @@ impl Relaxation {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RateCollocation {
     /// Fraction of the step at which directions are taken: `(1-s)(x0, Λ0) + s (x1, Λ1)` [-].
-    pub share: f64,
+    pub fraction: f64,
     /// Factor of the change in the step [1/time].
     pub by_change: f64,
     /// Factor of the rate in the previous step [-].
@@ -92,7 +92,7 @@ struct SpanDashpots {
 pub struct Dashpots {
     order: usize,
     spans: Vec<SpanDashpots>,
-    watch: RateResolution,
+    resolution: RateResolution,
     /// Derivative of the forces of a span, row by row.
     block: Vec<f64>,
 }
@@ -139,7 +139,7 @@ impl Dashpots {
             });
         }
         let watch = RateResolution::default();
-        Ok(Self { order, spans, watch, block: vec![0.0; 9 * order * order] })
+        Ok(Self { order, spans, resolution: watch, block: vec![0.0; 9 * order * order] })
     }
 
     /// Number of control points per span.
@@ -166,7 +166,7 @@ impl Dashpots {
 
     /// Discards the rate history after a jump of the rates.
     pub fn clear_rate_history(&mut self) {
-        self.watch = RateResolution::default();
+        self.resolution = RateResolution::default();
     }
 
     /// Passes the current dashpot forces to control points. Returns the largest force and the mismatch.
@@ -235,7 +235,7 @@ impl Dashpots {
         duration: f64,
     ) -> f64 {
         let (mut sum, mut all) = (0.0, [RateMismatch::default(); 3]);
-        let share = self.watch.share(duration);
+        let share = self.resolution.share(duration);
         for SpanDashpots { first, forces, moments } in &mut self.spans {
             let moved = &moved[*first..*first + self.order];
             for dashpot in forces {
@@ -249,7 +249,7 @@ impl Dashpots {
                     .join(share.map(|share| dashpot.last_rate_mismatch(share)).unwrap_or_default());
             }
         }
-        self.watch.add(duration, all);
+        self.resolution.add(duration, all);
         sum
     }
 
@@ -257,7 +257,7 @@ impl Dashpots {
     /// last two steps.
     pub fn emit_dashpot_forces(&self, rates: &[Movement], give: &mut dyn FnMut(usize, Movement)) {
         for SpanDashpots { first, forces, moments } in &self.spans {
-            let rates = self.watch.selected(&rates[*first..*first + self.order]);
+            let rates = self.resolution.selected(&rates[*first..*first + self.order]);
             forces.iter().for_each(|dashpot| dashpot.emit_dashpot_forces(rates, *first, give));
             moments.iter().for_each(|dashpot| dashpot.emit_dashpot_forces(rates, *first, give));
         }
@@ -278,7 +278,7 @@ impl Dashpots {
     pub fn transmitted(&self, place: &SectionPlace, rates: &[Movement]) -> (Vec2, f64) {
         let of_span = |span: usize| {
             let span = &self.spans[span];
-            (span, self.watch.selected(&rates[span.first..span.first + self.order]))
+            (span, self.resolution.selected(&rates[span.first..span.first + self.order]))
         };
         let (mut force, mut moment) = (Vec2::zeros(), 0.0);
         for share in &place.force_shares {
@@ -296,7 +296,7 @@ impl Dashpots {
 
     /// Appends the state at the start of a step to `state`.
     pub fn save(&self, state: &mut Vec<f64>) {
-        self.watch.save(state);
+        self.resolution.save(state);
         for span in &self.spans {
             span.forces.iter().for_each(|dashpot| dashpot.save(state));
             span.moments.iter().for_each(|dashpot| dashpot.save(state));
@@ -305,7 +305,7 @@ impl Dashpots {
 
     /// Restores the state, in the order in which it was appended.
     pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
-        self.watch.restore(next);
+        self.resolution.restore(next);
         for span in &mut self.spans {
             span.forces.iter_mut().for_each(|dashpot| dashpot.restore(next));
             span.moments.iter_mut().for_each(|dashpot| dashpot.restore(next));

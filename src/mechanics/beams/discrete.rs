@@ -165,7 +165,7 @@ impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
         forces: &mut [Movement],
     ) -> ForceSummary {
         let Self { section, groups, parts, .. } = self;
-        let iterate = SpanInputs { section, at, moved, weight };
+        let iterate = SpanInputs { section, at, movements: moved, weight };
         let mut summaries = [ForceSummary::default(); MOST_PARTS];
         let summaries = &mut summaries[..parts.count()];
         parts.sum(groups, forces, summaries, |summary, groups, first, forces| {
@@ -189,7 +189,7 @@ impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
         tangents: &mut [BlockSink<'_>],
     ) {
         let Self { section, groups, parts, .. } = self;
-        let iterate = SpanInputs { section, at, moved, weight };
+        let iterate = SpanInputs { section, at, movements: moved, weight };
         parts.sum(groups, forces, tangents, |tangent, groups, first, forces| {
             Linearisation { iterate, forces: ForcesFrom { first, forces }, tangent }.over(groups);
         });
@@ -215,7 +215,7 @@ impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
         {
             move_compensated(point, remainder, movement);
         }
-        let advance = Advance { moved, rotations };
+        let advance = Advance { movements: moved, rotations };
         self.parts.each(&mut self.groups, |groups| advance.over(groups));
     }
 

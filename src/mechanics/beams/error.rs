@@ -6,9 +6,7 @@ use crate::geometry::GeometryError;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum BeamError {
     /// Section property that is not positive and finite.
-    #[error(
-        "section: {name} is {value}, but must be a positive finite number [{dimension}]{advice}"
-    )]
+    #[error("section: {name} is {value}, but must be a positive finite number [{dimension}]{hint}")]
     SectionValue {
         /// Name of the property.
         name: &'static str,
@@ -17,7 +15,7 @@ pub enum BeamError {
         /// Dimension, such as `force`.
         dimension: &'static str,
         /// Additional advice; may be empty.
-        advice: &'static str,
+        hint: &'static str,
     },
     /// Poisson's ratio outside its range.
     #[error("section: nu is {value}, but Poisson's ratio must lie in (-1, 0.5]")]

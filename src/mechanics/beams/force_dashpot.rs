@@ -108,8 +108,8 @@ impl ForceDashpot {
             end_rotation,
             end_stretch: end_rotation.to_section(self.gradient + by),
             change: self.change(by, at.rotations, increment),
-            rotation: self.rotation.mixed(end_rotation, at.share),
-            gradient: self.gradient + by * at.share,
+            rotation: self.rotation.mixed(end_rotation, at.fraction),
+            gradient: self.gradient + by * at.fraction,
             inverse_q: at.rotations.rate(increment),
             resistance: self.damping * at.by_change,
         }
@@ -177,7 +177,7 @@ impl ForceDashpot {
         self.distribute((now.rotation, now.gradient), wanted, first, give);
 
         // δn = A δg + b δω  and  δ(gs × n) = e·δg + f δω, the geometric terms with the force of the iterate.
-        let (end, share) = (now.end_rotation, at.share);
+        let (end, share) = (now.end_rotation, at.fraction);
         let resist = |strain: Vec2| now.rotation.to_space(now.resistance.component_mul(&strain));
         let (a1, a2) = (resist(end.to_section(Vec2::x())), resist(end.to_section(Vec2::y())));
         let b = (end.to_space(perpendicular(self.force)) * share
@@ -243,8 +243,8 @@ impl ForceDashpot {
 
     /// Strain rates at the start of the step, present or extrapolated.
     fn selected_rates(&self, told: DashpotRates<'_>) -> Vec2 {
-        let (present, carried) = (self.rate(told.present), self.carried(told.late));
-        let [axial, shear, _] = told.carried;
+        let (present, carried) = (self.rate(told.present), self.carried(told.extrapolation));
+        let [axial, shear, _] = told.is_extrapolated;
         Vec2::new(
             if axial { carried.x } else { present.x },
             if shear { carried.y } else { present.y },

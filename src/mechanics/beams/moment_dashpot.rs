@@ -178,10 +178,10 @@ impl MomentDashpot {
 
     /// Moment at given rates at the start of the step [force·length].
     pub(super) fn transmitted(&self, rates: DashpotRates<'_>) -> f64 {
-        let [_, _, is_carried] = rates.carried;
+        let [_, _, is_carried] = rates.is_extrapolated;
         self.damping
             * if is_carried {
-                self.carried(rates.late)
+                self.carried(rates.extrapolation)
             } else {
                 self.functions.interpolate(rates.present).2
             }

@@ -11,9 +11,9 @@ use super::Movement;
 pub(super) struct DashpotRates<'a> {
     pub(super) present: &'a [Movement],
     /// Extrapolation distance from the middle of the last step to its end, relative to the time between the middles of the last two steps [-].
-    pub(super) late: f64,
+    pub(super) extrapolation: f64,
     /// True if the means of the last two steps are extrapolated, for axial, shear and bending rates.
-    pub(super) carried: [bool; 3],
+    pub(super) is_extrapolated: [bool; 3],
 }
 
 /// Squared deviation of rates at the start of a step from the interpolated means of this step and the previous one, and squared difference of these
@@ -49,10 +49,10 @@ const MOST_OFF: f64 = 0.5;
 #[derive(Debug, Clone, Default)]
 pub(super) struct RateResolution {
     /// Mismatches of axial, shear and bending rates, with decreasing weight of older steps.
-    seen: [RateMismatch; 3],
+    mismatches: [RateMismatch; 3],
     /// Distance from the middle of the last step to its end, relative to the time between the middles of the last two steps; zero before there were
     /// two [-].
-    late: f64,
+    extrapolation: f64,
     /// Duration of the last step; zero before there was one [time].
     before: f64,
 }
@@ -72,29 +72,29 @@ impl RateResolution {
             *self = Self::default();
             return;
         }
-        for (all, seen) in self.seen.iter_mut().zip(seen) {
+        for (all, seen) in self.mismatches.iter_mut().zip(seen) {
             *all = RateMismatch { off: KEPT * all.off, apart: KEPT * all.apart };
             all.join(seen);
         }
-        self.late = self.share(duration).map_or(0.0, |share| 1.0 - share).max(0.0);
+        self.extrapolation = self.share(duration).map_or(0.0, |share| 1.0 - share).max(0.0);
         self.before = duration;
     }
 
     /// Selects the rates for the dashpots of a span with the given present rates.
     pub(super) fn selected<'a>(&self, present: &'a [Movement]) -> DashpotRates<'a> {
         let is_off = |seen: RateMismatch| seen.off > MOST_OFF * MOST_OFF * seen.apart;
-        let carried = self.seen.map(|seen| self.late > 0.0 && is_off(seen));
-        DashpotRates { present, late: self.late, carried }
+        let carried = self.mismatches.map(|seen| self.extrapolation > 0.0 && is_off(seen));
+        DashpotRates { present, extrapolation: self.extrapolation, is_extrapolated: carried }
     }
 
     pub(super) fn save(&self, state: &mut Vec<f64>) {
-        state.extend(self.seen.iter().flat_map(|seen| [seen.off, seen.apart]));
-        state.extend([self.late, self.before]);
+        state.extend(self.mismatches.iter().flat_map(|seen| [seen.off, seen.apart]));
+        state.extend([self.extrapolation, self.before]);
     }
 
     pub(super) fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         let seen = [(); 3].map(|()| RateMismatch { off: next(), apart: next() });
-        *self = Self { seen, late: next(), before: next() };
+        *self = Self { mismatches: seen, extrapolation: next(), before: next() };
     }
 }
 
@@ -114,7 +114,7 @@ mod tests {
                 0.1,
                 [RateMismatch::default(), seen.unwrap_or_default(), RateMismatch::default()],
             );
-            let [axial, shear, bending] = watch.selected(&[]).carried;
+            let [axial, shear, bending] = watch.selected(&[]).is_extrapolated;
             assert!(!axial && !bending);
             !shear
         });
@@ -145,11 +145,11 @@ mod tests {
         let mut watch = RateResolution::default();
         let seen = [RateMismatch { off: 1.0, apart: 0.0 }; 3];
         watch.add(0.1, seen);
-        assert_eq!(watch.selected(&[]).carried, [false; 3]);
+        assert_eq!(watch.selected(&[]).is_extrapolated, [false; 3]);
         watch.add(0.3, seen);
-        assert_eq!(watch.selected(&[]).carried, [true; 3]);
-        assert_eq!(watch.selected(&[]).late, 0.75);
+        assert_eq!(watch.selected(&[]).is_extrapolated, [true; 3]);
+        assert_eq!(watch.selected(&[]).extrapolation, 0.75);
         watch.add(f64::INFINITY, seen);
-        assert_eq!(watch.selected(&[]).carried, [false; 3]);
+        assert_eq!(watch.selected(&[]).is_extrapolated, [false; 3]);
     }
 }

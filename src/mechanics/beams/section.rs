@@ -50,7 +50,7 @@ pub enum SectionShape {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Solid {
     /// Young's modulus [force/length²].
-    pub young: f64,
+    pub youngs_modulus: f64,
     /// Poisson's ratio [-].
     pub poisson: f64,
     /// Density [mass/length³].
@@ -85,7 +85,7 @@ impl Section {
         ];
         match properties.into_iter().find(|(_, value, ..)| !is_positive(*value)) {
             Some((name, value, dimension, advice)) => {
-                Err(BeamError::SectionValue { name, value, dimension, advice })
+                Err(BeamError::SectionValue { name, value, dimension, hint: advice })
             }
             None => Ok(self),
         }
@@ -96,7 +96,7 @@ impl Section {
     /// # Errors
     /// Fails if a dimension or a material constant is out of range.
     pub fn from_solid(solid: Solid) -> Result<Self, BeamError> {
-        let Solid { young, poisson, density, shape } = solid;
+        let Solid { youngs_modulus: young, poisson, density, shape } = solid;
         let shape_values = match shape {
             SectionShape::Rectangle { width, height } => [("width", width), ("height", height)],
             SectionShape::Circle { radius } => [("radius", radius), ("radius", radius)],
@@ -104,19 +104,14 @@ impl Section {
         };
         for (name, value) in shape_values {
             if !is_positive(value) {
-                return Err(BeamError::SectionValue {
-                    name,
-                    value,
-                    dimension: "length",
-                    advice: "",
-                });
+                return Err(BeamError::SectionValue { name, value, dimension: "length", hint: "" });
             }
         }
         for (name, value, dimension) in
             [("E", young, "force/length²"), ("density", density, "mass/length³")]
         {
             if !is_positive(value) {
-                return Err(BeamError::SectionValue { name, value, dimension, advice: "" });
+                return Err(BeamError::SectionValue { name, value, dimension, hint: "" });
             }
         }
         if !(poisson > -1.0 && poisson <= 0.5) {
@@ -130,7 +125,9 @@ impl Section {
         Self::of_solid(solid).validated()
     }
 
-    pub(super) fn of_solid(Solid { young, poisson, density, shape }: Solid) -> Self {
+    pub(super) fn of_solid(
+        Solid { youngs_modulus: young, poisson, density, shape }: Solid,
+    ) -> Self {
         let (area, inertia) = (shape.area(), shape.second_moment());
         Self {
             axial_stiffness: young * area,
@@ -185,7 +182,7 @@ impl Solid {
             (shape, _) => shape,
         };
         Self {
-            young: mix(self.young, other.young),
+            youngs_modulus: mix(self.youngs_modulus, other.youngs_modulus),
             poisson: mix(self.poisson, other.poisson),
             density: mix(self.density, other.density),
             shape,
@@ -259,14 +256,14 @@ mod tests {
     #[test]
     fn a_bad_property_is_named() {
         let steel = Solid {
-            young: 210e9,
+            youngs_modulus: 210e9,
             poisson: 0.3,
             density: 7850.0,
             shape: SectionShape::Rectangle { width: 0.02, height: 0.01 },
         };
         assert!(Section::from_solid(steel).is_ok());
         let bad = [
-            Solid { young: -1.0, ..steel },
+            Solid { youngs_modulus: -1.0, ..steel },
             Solid { poisson: 0.7, ..steel },
             Solid { density: f64::NAN, ..steel },
             Solid { shape: SectionShape::Tube { outer: 1.0, inner: 1.0 }, ..steel },

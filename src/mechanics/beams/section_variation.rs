@@ -149,7 +149,7 @@ mod tests {
 
     fn wedge() -> SectionVariation {
         let solid = |height: f64| Solid {
-            young: 2.0,
+            youngs_modulus: 2.0,
             poisson: 0.3,
             density: 3.0,
             shape: SectionShape::Rectangle { width: 0.5, height },

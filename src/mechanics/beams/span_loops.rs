@@ -49,7 +49,7 @@ impl<const N: usize, S, W: SpanLoop<N, S>> WithSimd for LoopRange<'_, N, S, W> {
 pub(super) struct SpanInputs<'a> {
     pub(super) section: &'a Section,
     pub(super) at: Collocation,
-    pub(super) moved: &'a [Movement],
+    pub(super) movements: &'a [Movement],
     pub(super) weight: f64,
 }
 
@@ -75,7 +75,7 @@ pub(super) struct ForceAssembly<'a> {
 impl<const N: usize, S: Sections> SpanLoop<N, S> for ForceAssembly<'_> {
     #[inline(always)]
     fn at<V: Simd>(&mut self, simd: V, group: &mut SpanGroup<N, S>) {
-        let SpanInputs { section, at, moved, weight } = self.iterate;
+        let SpanInputs { section, at, movements: moved, weight } = self.iterate;
         let SpanGroup { spans, force_points, moment_points, sections } = group;
         let mut maxima = ForceMaxima::default();
         let (mut resultant, mut moment) = (Resultant::default(), Lanes::default());
@@ -124,7 +124,7 @@ pub(super) struct Linearisation<'a> {
 impl<const N: usize, S: Sections> SpanLoop<N, S> for Linearisation<'_> {
     #[inline(always)]
     fn at<V: Simd>(&mut self, simd: V, group: &mut SpanGroup<N, S>) {
-        let SpanInputs { section, at, moved, weight } = self.iterate;
+        let SpanInputs { section, at, movements: moved, weight } = self.iterate;
         let SpanGroup { spans, force_points, moment_points, sections } = group;
         let (mut resultant, mut tangent) = (Resultant::default(), ForceTangent::default());
         let (mut moment, mut moment_tangent) = (Lanes::default(), MomentTangent::default());
@@ -225,13 +225,13 @@ impl<const N: usize, S: Sections> SpanLoop<N, S> for ForceCorrection<'_> {
 
 #[derive(Clone, Copy)]
 pub(super) struct Advance<'a> {
-    pub(super) moved: &'a [Movement],
+    pub(super) movements: &'a [Movement],
     pub(super) rotations: RotationIncrement,
 }
 
 impl<const N: usize, S: Sections> SpanLoop<N, S> for Advance<'_> {
     #[inline(always)]
     fn at<V: Simd>(&mut self, simd: V, group: &mut SpanGroup<N, S>) {
-        group.advance(simd, self.moved, self.rotations);
+        group.advance(simd, self.movements, self.rotations);
     }
 }

@@ -32,7 +32,7 @@ pub struct SpanStiffness {
     /// Pairs of rows `p` and `q` of the geometric stiffness of section forces, in sequence [force; force·length for rotations, -].
     pub twists: Vec<f64>,
     /// Fraction of the section force of each pair that may be rounding [-].
-    pub doubts: Vec<f64>,
+    pub rounding_fractions: Vec<f64>,
 }
 
 impl SpanStiffness {
@@ -43,7 +43,7 @@ impl SpanStiffness {
         self.stiffness.clear();
         self.kinds.clear();
         self.twists.clear();
-        self.doubts.clear();
+        self.rounding_fractions.clear();
     }
 
     /// Adds a row of a strain or curvature: its derivatives with respect to x, y and rotation of each control point.
@@ -67,6 +67,6 @@ impl SpanStiffness {
     ) {
         self.twists.extend(p.as_flattened());
         self.twists.extend(q.as_flattened());
-        self.doubts.push(doubt);
+        self.rounding_fractions.push(doubt);
     }
 }

@@ -18,7 +18,7 @@ use super::{Basis, GaussRule, MAX_DEGREE, PiecewisePolynomial, Span};
 pub struct ContactPath {
     /// Shared by all copies for the same beam.
     line: Arc<PathSupport>,
-    way: PathInterval,
+    interval: PathInterval,
     /// Functions at the start of the path, in the span of departure, cached for consecutive paths with the same start.
     departing: Option<(f64, usize, FunctionRow)>,
     first: usize,
@@ -69,7 +69,7 @@ struct PathPiece {
 }
 
 impl ContactPath {
-    /// Creates a path of length zero at the start of the domain of `basis`. Memory for all paths is allocated here; [`go`](Self::go) allocates
+    /// Creates a path of length zero at the start of the domain of `basis`. Memory for all paths is allocated here; [`set_interval`](Self::set_interval) allocates
     /// nothing.
     pub fn new(basis: Basis) -> Self {
         let room = QUANTITIES * basis.functions();
@@ -79,7 +79,7 @@ impl ContactPath {
         let rule = GaussRule::legendre(basis.degree().div_ceil(2)).iter_on(0.0, 1.0).collect();
         let mut passage = Self {
             line: Arc::new(PathSupport { basis, spans, kinks, rule }),
-            way: PathInterval { from: start, to: start, departure: 0, arrival: 0 },
+            interval: PathInterval { from: start, to: start, departure: 0, arrival: 0 },
             departing: None,
             first: 0,
             length: 0,
@@ -93,13 +93,13 @@ impl ContactPath {
     ///
     /// If either is not finite, all numbers are NaN, and the window is that of the span of `from`.
     pub fn set_interval(&mut self, from: f64, to: f64) {
-        let is_there = self.length > 0 && (self.way.from, self.way.to) == (from, to);
+        let is_there = self.length > 0 && (self.interval.from, self.interval.to) == (from, to);
         if is_there {
             return;
         }
         let finite = from.is_finite() && to.is_finite();
         let way = self.interval(from, if finite { to } else { from });
-        self.way = PathInterval { from, to, ..way };
+        self.interval = PathInterval { from, to, ..way };
         let (low, high) = way.lowest_and_highest();
         self.first = self.line.spans[low].first;
         self.length = self.line.spans[high].first + self.line.basis.degree() + 1 - self.first;
@@ -165,7 +165,7 @@ impl ContactPath {
     ///
     /// Its slope may jump only where those of the basis do.
     pub fn along(&self, function: &PiecewisePolynomial) -> FunctionOnPath {
-        let way = self.way;
+        let way = self.interval;
         let [start, ..] = function.in_span(way.departure, way.from);
         let [end, slope, _] = function.in_span(way.arrival, way.to);
         let (mut difference, mut change) = (0.0, 0.0);
@@ -187,7 +187,7 @@ impl ContactPath {
 
     /// Value, first and second derivative with respect to ξ of a piecewise polynomial at the end of the path.
     pub fn at_end(&self, function: &PiecewisePolynomial) -> [f64; 3] {
-        function.in_span(self.way.arrival, self.way.to)
+        function.in_span(self.interval.arrival, self.interval.to)
     }
 
     /// Number of spans between two parameters, including fractions: for a short path its length over the width of its span.

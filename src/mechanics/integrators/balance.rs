@@ -39,8 +39,8 @@ pub(super) struct StepBalance<'a> {
     mechanism: &'a mut dyn Mechanism,
     rule: BalanceCoefficients,
     duration: f64,
-    carried: &'a [f64],
-    coasting: &'a [f64],
+    constant_residual: &'a [f64],
+    free_increments: &'a [f64],
     increments: &'a mut [f64],
     movements: usize,
 }
@@ -51,10 +51,12 @@ impl StepBalance<'_> {
     }
 
     fn begin(&mut self, deviation: &[f64], residual: &mut [f64]) {
-        for ((u, coasting), d) in self.increments.iter_mut().zip(self.coasting).zip(deviation) {
+        for ((u, coasting), d) in
+            self.increments.iter_mut().zip(self.free_increments).zip(deviation)
+        {
             *u = coasting + d;
         }
-        residual.iter_mut().zip(self.carried).for_each(|(r, carried)| *r += carried);
+        residual.iter_mut().zip(self.constant_residual).for_each(|(r, carried)| *r += carried);
         self.mechanism.add_inertia(self.inertia(), deviation, residual);
     }
 
@@ -113,11 +115,11 @@ impl Equations for StepBalance<'_> {
 pub(super) struct StepSolver {
     newton: Newton,
     /// `Δt v0`
-    coasting: Vec<f64>,
+    free_increments: Vec<f64>,
     unknowns: Vec<f64>,
     increments: Vec<f64>,
     /// Part of the residual that is independent of the increments.
-    carried: Vec<f64>,
+    constant_residual: Vec<f64>,
     rates: Vec<f64>,
     residual: Vec<f64>,
     balanced: Vec<(Stage, f64)>,
@@ -137,10 +139,10 @@ impl StepSolver {
         };
         Self {
             newton: Newton::of(tangent, tolerance),
-            coasting: vec![0.0; movements],
+            free_increments: vec![0.0; movements],
             unknowns: vec![0.0; movements + border.width],
             increments: vec![0.0; moving],
-            carried: vec![0.0; all],
+            constant_residual: vec![0.0; all],
             rates: vec![0.0; moving],
             residual: vec![0.0; all],
             balanced: Vec::with_capacity(Stage::ALL.len()),
@@ -150,15 +152,18 @@ impl StepSolver {
 
     pub(super) fn predict(&mut self, mechanism: &mut dyn Mechanism, interval: Interval) {
         let duration = interval.duration();
-        self.coasting.iter_mut().zip(mechanism.rates()).for_each(|(u, rate)| *u = duration * rate);
-        let (deviation, constraints) = self.unknowns.split_at_mut(self.coasting.len());
+        self.free_increments
+            .iter_mut()
+            .zip(mechanism.rates())
+            .for_each(|(u, rate)| *u = duration * rate);
+        let (deviation, constraints) = self.unknowns.split_at_mut(self.free_increments.len());
         let expected = mechanism.expected_rates().iter().zip(mechanism.rates());
         deviation
             .iter_mut()
             .zip(expected)
             .for_each(|(d, (expected, rate))| *d = duration * (expected - rate));
         mechanism.predict_constraints(interval, constraints);
-        self.carried.fill(0.0);
+        self.constant_residual.fill(0.0);
         self.balanced.clear();
         self.balances_rates = true;
     }
@@ -166,7 +171,7 @@ impl StepSolver {
     /// Adds a share of the forces of a stage at zero increments to the balance of the step.
     pub(super) fn carry(&mut self, mechanism: &mut dyn Mechanism, stage: Stage, share: f64) {
         self.increments.fill(0.0);
-        mechanism.add_forces(stage, &self.increments, share, &mut self.carried);
+        mechanism.add_forces(stage, &self.increments, share, &mut self.constant_residual);
         self.balanced.push((stage, share));
     }
 
@@ -176,7 +181,7 @@ impl StepSolver {
         factor: f64,
         accelerations: &[f64],
     ) {
-        mechanism.add_inertia(factor, accelerations, &mut self.carried);
+        mechanism.add_inertia(factor, accelerations, &mut self.constant_residual);
         self.balances_rates = false;
     }
 
@@ -214,10 +219,10 @@ impl StepSolver {
             mechanism,
             rule,
             duration: interval.duration(),
-            carried: &self.carried,
-            coasting: &self.coasting,
+            constant_residual: &self.constant_residual,
+            free_increments: &self.free_increments,
             increments: &mut self.increments,
-            movements: self.coasting.len(),
+            movements: self.free_increments.len(),
         };
         let solved = way(&mut self.newton, &mut balance, &mut self.unknowns, &mut self.residual);
         let report = match solved {
@@ -229,7 +234,7 @@ impl StepSolver {
                     interval,
                     source,
                     before: 0,
-                    culprit: culprit.map(Box::new),
+                    failure_source: culprit.map(Box::new),
                 });
             }
         };
@@ -242,7 +247,7 @@ impl StepSolver {
         if chord < SHORTEST_CHORD {
             return Err(StepError::Chord { interval, chord, iterations: report.iterations });
         }
-        let (_, constraints) = self.unknowns.split_at(self.coasting.len());
+        let (_, constraints) = self.unknowns.split_at(self.free_increments.len());
         match mechanism.check_constraints(constraints) {
             Ok(()) => Ok(report),
             Err(overshoot) => {
@@ -253,7 +258,7 @@ impl StepSolver {
 
     /// Copies the prescribed increments, and adds the inertia of prescribed movements to the balance of the step.
     fn take_prescribed(&mut self, mechanism: &mut dyn Mechanism, at: BalancedAt) {
-        let movements = self.coasting.len();
+        let movements = self.free_increments.len();
         let prescribed = mechanism.prescribed();
         if prescribed.width() == 0 {
             return;
@@ -265,7 +270,7 @@ impl StepSolver {
             .iter_mut()
             .zip(prescribed.balanced(at))
             .for_each(|(entry, balanced)| *entry = balanced);
-        mechanism.add_inertia(1.0, &self.rates, &mut self.carried);
+        mechanism.add_inertia(1.0, &self.rates, &mut self.constant_residual);
     }
 
     pub(super) fn correct(&mut self, mechanism: &mut dyn Mechanism, interval: Interval) {
@@ -279,12 +284,12 @@ impl StepSolver {
         mechanism: &mut dyn Mechanism,
         mut rate: impl FnMut(usize, f64, f64) -> f64,
     ) {
-        let (deviation, constraints) = self.unknowns.split_at(self.coasting.len());
+        let (deviation, constraints) = self.unknowns.split_at(self.free_increments.len());
         let known = mechanism.rates().iter().zip(deviation).enumerate();
         for (v1, (at, (v0, d))) in self.rates.iter_mut().zip(known) {
             *v1 = rate(at, *v0, *d);
         }
-        let movements = self.coasting.len();
+        let movements = self.free_increments.len();
         self.rates[movements..].copy_from_slice(&mechanism.prescribed().rates);
         let Self { increments, rates, residual, .. } = self;
         let balanced = if self.balances_rates { &*self.balanced } else { &[] };

@@ -64,7 +64,7 @@ fn at(culprit: Option<&FailureSource>) -> String {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StepError {
     /// Equations that were not solved.
-    #[error("the step of {:.3e} from t = {} failed: {source}{}", interval.duration(), interval.start, at(culprit.as_deref()))]
+    #[error("the step of {:.3e} from t = {} failed: {source}{}", interval.duration(), interval.start, at(failure_source.as_deref()))]
     Newton {
         /// Interval of the step [time].
         interval: Interval,
@@ -73,7 +73,7 @@ pub enum StepError {
         /// Newton iterations of earlier parts of the step.
         before: usize,
         /// Location of the failure, if known.
-        culprit: Option<Box<FailureSource>>,
+        failure_source: Option<Box<FailureSource>>,
     },
     /// Mean rotation of a section in the step of π or more, which is not resolved.
     #[error(
@@ -140,8 +140,8 @@ impl StepError {
 
     pub(super) fn for_whole_step(self, interval: Interval, before: usize) -> Self {
         match self {
-            Self::Newton { source, culprit, .. } => {
-                Self::Newton { interval, source, before, culprit }
+            Self::Newton { source, failure_source, .. } => {
+                Self::Newton { interval, source, before, failure_source }
             }
             Self::Rotation { rotation, iterations, .. } => {
                 Self::Rotation { interval, rotation, iterations: iterations + before }

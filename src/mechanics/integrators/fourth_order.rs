@@ -25,7 +25,7 @@ const ENDS: [f64; 7] = {
 /// J. Sci. Comput. 16 (1995) 151–168. The coefficients are original.
 #[derive(Debug, Clone)]
 pub struct FourthOrder {
-    part: EnergyMomentum,
+    substep: EnergyMomentum,
 }
 
 impl FourthOrder {
@@ -39,7 +39,7 @@ impl FourthOrder {
     pub fn new(mechanism: &mut dyn Mechanism, tolerance: Tolerance) -> Self {
         // Allocates the checkpoint outside of the steps.
         mechanism.checkpoint().save_state();
-        Self { part: EnergyMomentum::new(mechanism, tolerance) }
+        Self { substep: EnergyMomentum::new(mechanism, tolerance) }
     }
 }
 
@@ -50,7 +50,7 @@ impl Integrator for FourthOrder {
         mechanism: &mut dyn Mechanism,
         interval: Interval,
     ) -> Result<NewtonReport, StepError> {
-        in_parts(mechanism, interval, |mechanism, part| self.part.step(mechanism, part))
+        in_parts(mechanism, interval, |mechanism, part| self.substep.step(mechanism, part))
     }
 }
 

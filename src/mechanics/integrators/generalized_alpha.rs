@@ -103,7 +103,7 @@ impl GeneralizedAlpha {
             stage: Stage::End,
             weight: 1.0 - forces_before,
             // At the time of the forces, as for unknown movements.
-            prescribed: BalancedAt::Share(1.0 - forces_before),
+            prescribed: BalancedAt::Fraction(1.0 - forces_before),
         };
         let report = solver.solve(mechanism, interval, rule)?;
         let duration = interval.duration();

@@ -16,20 +16,20 @@ pub struct Interval {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum IntervalEnd {
     /// End of a part of a step. Actions at the end of a step are postponed.
-    OfPart,
+    Substep,
     /// End of a step.
-    OfStep,
+    Step,
 }
 
 impl Interval {
     /// Interval between two times [time].
     pub const fn between(start: f64, end: f64) -> Self {
-        Self { start, end, duration: end - start, ending: IntervalEnd::OfStep }
+        Self { start, end, duration: end - start, ending: IntervalEnd::Step }
     }
 
     /// Interval of an exact duration; only its end is rounded [time].
     pub fn lasting(start: f64, duration: f64) -> Self {
-        Self { start, end: start + duration, duration, ending: IntervalEnd::OfStep }
+        Self { start, end: start + duration, duration, ending: IntervalEnd::Step }
     }
 
     /// Part between two fractions of the duration [-]; backwards in time if the second is smaller.
@@ -39,7 +39,7 @@ impl Interval {
         if to == 1.0 {
             return Self { start, duration, ..*self };
         }
-        Self { start, end: self.start + to * self.duration, duration, ending: IntervalEnd::OfPart }
+        Self { start, end: self.start + to * self.duration, duration, ending: IntervalEnd::Substep }
     }
 
     /// Duration `Δt`, negative for backward intervals [time].
@@ -65,6 +65,6 @@ mod tests {
         assert_eq!((parts[0].end, parts[1].end), (parts[1].start, parts[2].start));
         assert!(parts[1].duration() < 0.0);
         let endings = parts.map(|part| part.ending());
-        assert_eq!(endings, [IntervalEnd::OfPart, IntervalEnd::OfPart, IntervalEnd::OfStep]);
+        assert_eq!(endings, [IntervalEnd::Substep, IntervalEnd::Substep, IntervalEnd::Step]);
     }
 }

@@ -18,7 +18,7 @@ pub struct PrescribedKinematics {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum BalancedAt {
     Mean,
-    Share(f64),
+    Fraction(f64),
 }
 
 impl PrescribedKinematics {
@@ -43,7 +43,7 @@ impl PrescribedKinematics {
         let all = self.mean_accelerations.iter().zip(start.iter().zip(end));
         all.map(move |(mean, (start, end))| match at {
             BalancedAt::Mean => *mean,
-            BalancedAt::Share(share) => (1.0 - share) * start + share * end,
+            BalancedAt::Fraction(share) => (1.0 - share) * start + share * end,
         })
     }
 }

@@ -34,11 +34,11 @@ pub enum Method {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EnergyClaim {
     /// Energy is conserved to rounding.
-    Kept,
+    Conserved,
     /// Energy never grows beyond rounding.
-    Decays,
+    NonIncreasing,
     /// No claim.
-    Nothing,
+    Unclaimed,
 }
 
 /// Claims of a method for nonlinear problems, with loads and supports accounted for.
@@ -58,7 +58,7 @@ impl Claims {
     /// Names of the conserved quantities.
     pub fn conserved_quantities(&self) -> impl Iterator<Item = &'static str> {
         let claims = [
-            (self.energy == EnergyClaim::Kept, "energy"),
+            (self.energy == EnergyClaim::Conserved, "energy"),
             (self.momentum, "linear momentum"),
             (self.angular_momentum, "angular momentum"),
         ];
@@ -126,7 +126,12 @@ const ENERGY_MOMENTUM: IntegratorEntry = IntegratorEntry {
     method: Method::EnergyMomentum,
     name: "energy_momentum",
     summary: "conserves energy and both momenta to rounding at any step size; the default",
-    claims: Claims { order: 2, energy: EnergyClaim::Kept, momentum: true, angular_momentum: true },
+    claims: Claims {
+        order: 2,
+        energy: EnergyClaim::Conserved,
+        momentum: true,
+        angular_momentum: true,
+    },
     parameter: None,
     source: "Stander & Stein, Eng. Comput. 13 (1996) 60-85",
 };
@@ -137,7 +142,7 @@ const TRAPEZOIDAL: IntegratorEntry = IntegratorEntry {
     summary: "Newmark's method with β = 1/4, γ = 1/2, for comparison: energy is not conserved in nonlinear problems",
     claims: Claims {
         order: 2,
-        energy: EnergyClaim::Nothing,
+        energy: EnergyClaim::Unclaimed,
         momentum: true,
         angular_momentum: false,
     },
@@ -151,7 +156,7 @@ const ENERGY_DECAYING: IntegratorEntry = IntegratorEntry {
     summary: "conserves both momenta to rounding and damps vibration: the energy never increases, at any step size",
     claims: Claims {
         order: 1,
-        energy: EnergyClaim::Decays,
+        energy: EnergyClaim::NonIncreasing,
         momentum: true,
         angular_momentum: true,
     },
@@ -171,7 +176,12 @@ const FOURTH_ORDER: IntegratorEntry = IntegratorEntry {
     method: Method::FourthOrder,
     name: "fourth_order",
     summary: "fourth order, composed of seven energy-momentum substeps: conserves energy and both momenta to rounding",
-    claims: Claims { order: 4, energy: EnergyClaim::Kept, momentum: true, angular_momentum: true },
+    claims: Claims {
+        order: 4,
+        energy: EnergyClaim::Conserved,
+        momentum: true,
+        angular_momentum: true,
+    },
     parameter: None,
     source: "composition as in McLachlan, SIAM J. Sci. Comput. 16 (1995) 151-168",
 };
@@ -182,7 +192,7 @@ const GENERALIZED_ALPHA: IntegratorEntry = IntegratorEntry {
     summary: "generalized-α method, for comparison: damps fast vibration, conserves nothing exactly",
     claims: Claims {
         order: 2,
-        energy: EnergyClaim::Nothing,
+        energy: EnergyClaim::Unclaimed,
         momentum: false,
         angular_momentum: false,
     },

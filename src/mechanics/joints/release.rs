@@ -28,7 +28,7 @@ pub enum Trigger {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Release {
     /// Object to be released.
-    pub hold: Releasable,
+    pub object: Releasable,
     /// Trigger of the release.
     pub trigger: Trigger,
 }

@@ -8,9 +8,9 @@ pub struct Track {
     /// Name in messages.
     pub name: String,
     /// Beams in the order of the track; at least one.
-    pub legs: Vec<TrackBeam>,
+    pub beams: Vec<TrackBeam>,
     /// Continuation behind the last beam.
-    pub course: TrackEnd,
+    pub end: TrackEnd,
 }
 
 /// Beam of a track.
@@ -43,7 +43,7 @@ pub enum TrackEnd {
 impl Track {
     /// Indices of the beams in the order of the track.
     pub fn beams(&self) -> impl Iterator<Item = usize> + '_ {
-        self.legs.iter().map(|leg| leg.beam)
+        self.beams.iter().map(|leg| leg.beam)
     }
 }
 

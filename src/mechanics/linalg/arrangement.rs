@@ -15,15 +15,15 @@ pub(super) struct Arrangement {
     /// Place of each unknown of the band; `NOWHERE` if it is eliminated in a block.
     pub(super) position: Vec<usize>,
     /// End of the run of consecutive places that contains each unknown of the band.
-    pub(super) runs_to: Vec<usize>,
+    pub(super) run_ends: Vec<usize>,
     /// First place of the delayed unknowns of each block; `NOWHERE` if it delays none.
     pub(super) delayed: Vec<usize>,
     pub(super) ends: Vec<usize>,
     own_ends: Vec<usize>,
     /// Number of delayed unknowns behind each unknown of the order.
-    behind: Vec<usize>,
+    delayed_after: Vec<usize>,
     /// Touched unknowns of the blocks for which the order was made.
-    made_for: Vec<usize>,
+    ordered_for: Vec<usize>,
     touched: Vec<usize>,
 }
 
@@ -32,12 +32,12 @@ impl Arrangement {
         let blocks = layout.own.len();
         let mut new = Self {
             position: vec![NOWHERE; size],
-            runs_to: vec![0; size],
+            run_ends: vec![0; size],
             delayed: vec![NOWHERE; blocks],
             ends: Vec::with_capacity(size + MOST_DELAYED * blocks),
             own_ends: Vec::with_capacity(size + MOST_DELAYED * blocks),
-            behind: vec![0; size + 1],
-            made_for: Vec::new(),
+            delayed_after: vec![0; size + 1],
+            ordered_for: Vec::new(),
             touched: Vec::new(),
             layout,
         };
@@ -57,8 +57,8 @@ impl Arrangement {
             self.touched.extend(&block.touched);
             self.touched.push(NOWHERE);
         }
-        if self.touched != self.made_for {
-            std::mem::swap(&mut self.touched, &mut self.made_for);
+        if self.touched != self.ordered_for {
+            std::mem::swap(&mut self.touched, &mut self.ordered_for);
             self.use_natural_order();
             self.number(&[]);
             let alone = work(&self.own_ends);
@@ -104,23 +104,23 @@ impl Arrangement {
     /// Inserts delayed unknowns behind the unknowns touched by their blocks, and computes the profile.
     fn number(&mut self, blocks: &[Block]) {
         let delaying = |block: &&Block| block.can_delay_unknowns() && !block.touched.is_empty();
-        self.behind.fill(0);
+        self.delayed_after.fill(0);
         let last = |block: &Block, position: &[usize]| {
             block.touched.iter().map(|&at| position[at]).max().unwrap_or(0)
         };
         for block in blocks.iter().filter(delaying) {
-            self.behind[last(block, &self.position)] += MOST_DELAYED;
+            self.delayed_after[last(block, &self.position)] += MOST_DELAYED;
         }
         // Converts counts to starts.
         let mut shift = 0;
-        for (place, behind) in self.behind.iter_mut().enumerate() {
+        for (place, behind) in self.delayed_after.iter_mut().enumerate() {
             shift += std::mem::replace(behind, place + 1 + shift);
         }
         self.delayed.fill(NOWHERE);
         let mut size = self.position.iter().filter(|&&place| place != NOWHERE).count();
         for (delayed, block) in self.delayed.iter_mut().zip(blocks) {
             if delaying(&block) {
-                let next = &mut self.behind[last(block, &self.position)];
+                let next = &mut self.delayed_after[last(block, &self.position)];
                 *delayed = *next;
                 *next += MOST_DELAYED;
                 size += MOST_DELAYED;
@@ -128,7 +128,7 @@ impl Arrangement {
         }
         // The next place starts after the delayed unknowns of the previous one.
         for position in self.position.iter_mut().filter(|position| **position != NOWHERE) {
-            *position = position.checked_sub(1).map_or(0, |before| self.behind[before]);
+            *position = position.checked_sub(1).map_or(0, |before| self.delayed_after[before]);
         }
         let mut run = self.position.len();
         for at in (0..self.position.len()).rev() {
@@ -137,7 +137,7 @@ impl Arrangement {
                 .get(at + 1)
                 .is_some_and(|next| self.position[at] != NOWHERE && *next == self.position[at] + 1);
             run = if follows { run } else { at };
-            self.runs_to[at] = run;
+            self.run_ends[at] = run;
         }
         self.own_ends.clear();
         self.own_ends.extend(0..size);

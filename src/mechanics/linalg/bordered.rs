@@ -47,7 +47,7 @@ enum BorderFactors<'a> {
     Band(BandedLu<'a>),
     TwoEnded(TwoEndedLu<'a>),
     Full(FullLu<'a>),
-    Together(TogetherLu<'a>),
+    Joint(TogetherLu<'a>),
     Local(LocalLu<'a>),
 }
 
@@ -197,7 +197,7 @@ impl BorderedMatrix {
         let factors = match (border, together) {
             (Border::Local(border), _) => BorderFactors::Local(border.factorise(band)?),
             (Border::Full(border), Some(together)) => {
-                BorderFactors::Together(together.factorise(&border.entries_with(band))?)
+                BorderFactors::Joint(together.factorise(&border.entries_with(band))?)
             }
             (Border::Full(border), None) if border.width() == 0 => match ends {
                 Some(ends) => BorderFactors::TwoEnded(ends.factorise(band)?),
@@ -218,7 +218,7 @@ impl BorderedLu<'_> {
             BorderFactors::Band(factors) => factors.solve(x),
             BorderFactors::TwoEnded(factors) => factors.solve(x),
             BorderFactors::Full(factors) => factors.solve(x),
-            BorderFactors::Together(factors) => factors.solve(x),
+            BorderFactors::Joint(factors) => factors.solve(x),
             BorderFactors::Local(factors) => factors.solve(x),
         }
     }

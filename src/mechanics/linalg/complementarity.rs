@@ -6,9 +6,9 @@ use super::{BandedMatrix, LinearError};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pairing {
     /// Equality: the response vanishes for any value of the unknown.
-    Tied,
+    Equality,
     /// Complementarity: unknown and response are nonnegative, and one of them vanishes.
-    Pushing,
+    Complementary,
 }
 
 /// Number of block exchanges without progress before single exchanges are used.
@@ -32,7 +32,7 @@ pub fn complementary(
     pairings: &[Pairing],
 ) -> Result<Vec<f64>, LinearError> {
     let count = q.len();
-    let pushes = |at: usize| pairings[at] == Pairing::Pushing;
+    let pushes = |at: usize| pairings[at] == Pairing::Complementary;
     let mut acts: Vec<bool> = (0..count).map(|at| !pushes(at) || q[at] < 0.0).collect();
     let (mut fewest, mut patience) = (usize::MAX, PATIENCE);
     loop {
@@ -87,10 +87,10 @@ mod tests {
     #[test]
     fn what_is_taken_along_by_another_is_not_pushed() {
         let matrix = [vec![2.0, 1.9], vec![1.9, 2.0]];
-        let pairings = [Pairing::Pushing; 2];
+        let pairings = [Pairing::Complementary; 2];
         // The response of the second to the first alone is sufficient.
         assert_eq!(complementary(&matrix, &[-2.0, -0.1], &pairings).unwrap(), [1.0, 0.0]);
-        let tied = [Pairing::Pushing, Pairing::Tied];
+        let tied = [Pairing::Complementary, Pairing::Equality];
         let both = complementary(&matrix, &[-2.0, -0.1], &tied).unwrap();
         assert!(both[0] > 1.0 && both[1] < 0.0, "{both:?}");
     }
@@ -103,7 +103,7 @@ mod tests {
             tied in prop::collection::vec(any::<bool>(), 7),
         ) {
             let matrix = definite(7, &entries);
-            let pairing = |tied: &bool| if *tied { Pairing::Tied } else { Pairing::Pushing };
+            let pairing = |tied: &bool| if *tied { Pairing::Equality } else { Pairing::Complementary };
             let pairings: Vec<Pairing> = tied.iter().map(pairing).collect();
             let z = complementary(&matrix, &q, &pairings).unwrap();
             let size = z.iter().fold(1.0_f64, |most, z| most.max(z.abs()));
@@ -111,8 +111,8 @@ mod tests {
                 let answer = q[at] + row.iter().zip(&z).map(|(a, z)| a * z).sum::<f64>();
                 let nothing = 1e-12 * size;
                 match pairings[at] {
-                    Pairing::Tied => prop_assert!(answer.abs() < nothing),
-                    Pairing::Pushing => {
+                    Pairing::Equality => prop_assert!(answer.abs() < nothing),
+                    Pairing::Complementary => {
                         prop_assert!(z[at] > -nothing && answer > -nothing);
                         prop_assert!(z[at].abs() < nothing || answer.abs() < nothing);
                     }

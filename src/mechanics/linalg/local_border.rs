@@ -126,7 +126,7 @@ impl LocalBorder {
 
     /// Copies the band in the order of the arrangement.
     fn copy(&mut self, band: &BandedMatrix) {
-        let Arrangement { position, runs_to, .. } = &self.arrangement;
+        let Arrangement { position, run_ends: runs_to, .. } = &self.arrangement;
         for (row, &place) in position.iter().enumerate().filter(|(_, place)| **place != NOWHERE) {
             let (first, entries) = band.row(row);
             if position[first] != NOWHERE && runs_to[first] >= first + entries.len() - 1 {

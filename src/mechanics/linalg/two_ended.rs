@@ -24,7 +24,7 @@ pub(super) struct TwoEnded {
     middle: BandedMatrix,
     right: Vec<f64>,
     /// Unknowns in and behind the middle in reverse order.
-    turned: Vec<f64>,
+    reversed: Vec<f64>,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -46,7 +46,7 @@ pub(super) struct TwoEndedLu<'a> {
     lower: Factors<'a>,
     middle: BandedLu<'a>,
     right: &'a mut [f64],
-    turned: &'a mut [f64],
+    reversed: &'a mut [f64],
 }
 
 impl BandCut {
@@ -85,7 +85,7 @@ impl TwoEnded {
             multipliers: vec![[0.0; PANEL]; reach],
             middle: BandedMatrix::zeros(middle, middle - 1),
             right: vec![0.0; middle],
-            turned: vec![0.0; cut.lower + middle],
+            reversed: vec![0.0; cut.lower + middle],
         }
     }
 
@@ -109,7 +109,7 @@ impl TwoEnded {
         &'a mut self,
         band: &'a mut BandedMatrix,
     ) -> Result<TwoEndedLu<'a>, LinearError> {
-        let Self { cut, threads, multipliers, middle, right, turned } = self;
+        let Self { cut, threads, multipliers, middle, right, reversed: turned } = self;
         let (cut, threads) = (*cut, *threads);
         let BandCut { size, reach, .. } = cut;
         let storage = band.storage_mut();
@@ -190,7 +190,7 @@ impl TwoEnded {
             lower: factors(cut.lower_rows(), cut.lower, behind..size, behind),
             middle,
             right,
-            turned,
+            reversed: turned,
         })
     }
 }
@@ -198,7 +198,7 @@ impl TwoEnded {
 impl TwoEndedLu<'_> {
     /// Replaces the right-hand side `x` by the solution of `A x = b`.
     pub(super) fn solve(&mut self, x: &mut [f64]) {
-        let Self { cut, threads, upper, lower, middle, right, turned } = self;
+        let Self { cut, threads, upper, lower, middle, right, reversed: turned } = self;
         let (cut, upper, lower) = (*cut, *upper, *lower);
         let threads = *threads;
         let before = cut.upper_rows();

@@ -32,12 +32,12 @@ pub(super) struct Jump {
     pub(super) before: f64,
     pub(super) after: f64,
     /// True for a jump, false for an infinite slope.
-    pub(super) is_whole: bool,
+    pub(super) is_jump: bool,
 }
 
 impl Jump {
     pub(super) fn refused(self) -> LoadError {
-        let Self { time, before, after, is_whole } = self;
+        let Self { time, before, after, is_jump: is_whole } = self;
         let [time, before, after] = [time, before, after].map(rounded);
         match is_whole {
             true => LoadError::Jump { time, before, after },
@@ -66,7 +66,7 @@ pub(super) fn jump_at_start(schedule: &Schedule) -> Result<Option<Jump>, LoadErr
     let noise = ROUNDINGS * f64::EPSILON * (before.abs() + after.abs());
     let is_whole = near > LEFT_OF_A_JUMP_AT_START * far;
     let is_steep = near > noise.max(f64::MIN_POSITIVE) && near > LEFT_OF_A_POWER_AT_START * far;
-    Ok(is_steep.then_some(Jump { time: 0.0, before, after, is_whole }))
+    Ok(is_steep.then_some(Jump { time: 0.0, before, after, is_jump: is_whole }))
 }
 
 /// Jump of a schedule between the times of a step with the given values; `None` if there is no sign of one.
@@ -98,7 +98,7 @@ pub(super) fn jump_between(
     let [(_, before), (time, after)] = ends;
     let left = (after - before).abs();
     let jumps = left > noise && left > LEFT_OF_A_JUMP * first;
-    Ok(jumps.then_some(Jump { time, before, after, is_whole: true }))
+    Ok(jumps.then_some(Jump { time, before, after, is_jump: true }))
 }
 
 /// Follows the half with the larger difference through several bisections.
@@ -128,7 +128,7 @@ mod tests {
     }
 
     fn at_start(function: impl Fn(f64) -> f64 + 'static) -> Option<bool> {
-        jump_at_start(&of(function)).unwrap().map(|jump| jump.is_whole)
+        jump_at_start(&of(function)).unwrap().map(|jump| jump.is_jump)
     }
 
     fn in_step(function: impl Fn(f64) -> f64 + 'static, from: f64, to: f64) -> Option<Jump> {
@@ -159,7 +159,7 @@ mod tests {
             let step = move |t: f64| t + if t > place { 0.5 } else { 0.0 };
             for (from, to) in [(0.1, 0.2), (0.2, 0.1)] {
                 let found = in_step(step, from, to).unwrap();
-                assert!((found.time - place).abs() < 1e-8 && found.is_whole, "{place}: {found:?}");
+                assert!((found.time - place).abs() < 1e-8 && found.is_jump, "{place}: {found:?}");
                 assert!(((found.after - found.before).abs() - 0.5).abs() < 1e-8);
             }
         }

@@ -52,7 +52,7 @@ pub enum LoadError {
     },
     /// Combination of too many schedules.
     #[error("a schedule has {parts} parts, but at most {most} can be combined")]
-    ManyParts {
+    TooManyParts {
         /// Number of parts.
         parts: usize,
         /// Largest number of parts.

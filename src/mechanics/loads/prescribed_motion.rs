@@ -10,7 +10,7 @@ use crate::geometry::larger;
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub enum PrescribedMotion {
     /// Displacement from the start as a function of time [length, rad].
-    Place(Schedule),
+    Position(Schedule),
     /// Rate as a function of time [length/time, rad/time].
     Rate(Schedule),
 }
@@ -19,7 +19,7 @@ pub enum PrescribedMotion {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MotionInStep {
     /// Increment in the step [length, rad].
-    pub moved: f64,
+    pub increment: f64,
     /// Right limit of the rate at the start of the step [length/time, rad/time].
     pub first_rate: f64,
     /// Rounding error of that rate [length/time, rad/time].
@@ -67,7 +67,7 @@ impl PrescribedMotion {
     /// Function of time that defines the motion.
     pub fn schedule(&self) -> &Schedule {
         match self {
-            Self::Place(schedule) | Self::Rate(schedule) => schedule,
+            Self::Position(schedule) | Self::Rate(schedule) => schedule,
         }
     }
 
@@ -80,7 +80,7 @@ impl PrescribedMotion {
     /// Fails if the function fails, a value is not finite, or a displacement jumps or has an infinite rate.
     pub fn over(&self, start: f64, end: f64, duration: f64) -> Result<MotionInStep, LoadError> {
         match self {
-            Self::Place(schedule) => {
+            Self::Position(schedule) => {
                 let values = values_in(schedule, start, end)?;
                 if let Some(jump) = jump_between(schedule, &nodes(start, end), &values)? {
                     return Err(jump.refused());
@@ -88,7 +88,7 @@ impl PrescribedMotion {
                 let scale = 2.0 / duration;
                 let backwards = reversed(values);
                 Ok(MotionInStep {
-                    moved: values[4] - values[0],
+                    increment: values[4] - values[0],
                     first_rate: -scale * sum(&RATE_AT_END, &backwards),
                     rounding: ROUNDINGS * scale.abs() * f64::EPSILON * size_of(&values),
                     rate: scale * sum(&RATE_AT_END, &values),
@@ -115,7 +115,13 @@ impl PrescribedMotion {
                 // A jump of the rate within the step is a kink of the motion. The rate after it then replaces that at the start.
                 let first_rate = jump.map_or(first, |_| last);
                 let rounding = ROUNDINGS * f64::EPSILON * size_of(&[first, middle, last]);
-                Ok(MotionInStep { moved, first_rate, rounding, rate: last, accelerations })
+                Ok(MotionInStep {
+                    increment: moved,
+                    first_rate,
+                    rounding,
+                    rate: last,
+                    accelerations,
+                })
             }
         }
     }
@@ -136,7 +142,7 @@ impl PrescribedMotion {
             return Ok(None);
         }
         let (after, rounding) = match self {
-            Self::Place(_) => {
+            Self::Position(_) => {
                 let step = self.over(start, end, end - start)?;
                 (step.first_rate, step.rounding)
             }
@@ -152,7 +158,7 @@ impl PrescribedMotion {
     /// The jump; also fails if the function fails or a value is not finite.
     pub fn check_start(&self) -> Result<(), LoadError> {
         match jump_at_start(self.schedule())? {
-            Some(jump) if matches!(self, Self::Place(_)) || jump.is_whole => Err(jump.refused()),
+            Some(jump) if matches!(self, Self::Position(_)) || jump.is_jump => Err(jump.refused()),
             _ => Ok(()),
         }
     }
@@ -167,7 +173,7 @@ impl PrescribedMotion {
     pub fn beginning(&self, time: f64) -> Result<MotionAtStart, LoadError> {
         let spans = (0..SPANS).scan(1.0, |span, _| Some(std::mem::replace(span, *span * SHRINKS)));
         match self {
-            Self::Place(schedule) => {
+            Self::Position(schedule) => {
                 let mut found = MotionAtStart::default();
                 let (mut least, mut last) = ([f64::INFINITY; 2], None::<[f64; 2]>);
                 let mut failed = None;
@@ -265,7 +271,8 @@ mod tests {
 
     #[test]
     fn a_polynomial_of_degree_four_has_its_rates_and_accelerations() {
-        let place = PrescribedMotion::Place(of(|t| t + 2.0 * t * t - t.powi(3) + 0.5 * t.powi(4)));
+        let place =
+            PrescribedMotion::Position(of(|t| t + 2.0 * t * t - t.powi(3) + 0.5 * t.powi(4)));
         let (rate, bent) = (
             |t: f64| 1.0 + 4.0 * t - 3.0 * t * t + 2.0 * t.powi(3),
             |t: f64| 4.0 - 6.0 * t + 6.0 * t * t,
@@ -278,7 +285,7 @@ mod tests {
             let given =
                 PrescribedMotion::Rate(of(|t| 1.0 + 4.0 * t - 3.0 * t * t + 2.0 * t.powi(3)));
             let same = given.over(start, end, end - start).unwrap();
-            assert!((same.moved - piece.moved).abs() < 1e-14, "{same:?}");
+            assert!((same.increment - piece.increment).abs() < 1e-14, "{same:?}");
         }
     }
 
@@ -286,7 +293,7 @@ mod tests {
     fn a_motion_begins_as_its_function_does_whatever_its_time_scale() {
         for scale in [1e-6, 1e-3, 1.0, 1e3] {
             let function = move |t: f64| Ok((3.0 * t / scale).sin() + (t / scale).powi(2));
-            let place = PrescribedMotion::Place(Schedule::Function {
+            let place = PrescribedMotion::Position(Schedule::Function {
                 function: Rc::new(function),
                 breaks: vec![],
             });
@@ -294,15 +301,14 @@ mod tests {
             assert!((rate * scale - 3.0).abs() < 1e-9, "{scale}: {rate}");
             assert!((acceleration * scale * scale - 2.0).abs() < 1e-4, "{scale}: {acceleration}");
         }
-        let soon =
-            PrescribedMotion::Place(of(
-                |t| if t < 1e-3 { (t * 4e3).sin() } else { (4.0_f64).sin() },
-            ));
+        let soon = PrescribedMotion::Position(of(|t| {
+            if t < 1e-3 { (t * 4e3).sin() } else { (4.0_f64).sin() }
+        }));
         assert!((soon.beginning(0.0).unwrap().rate - 4e3).abs() < 1e-5);
         // A run that starts later begins with the values at its start time.
         assert_eq!(soon.beginning(2.0).unwrap(), MotionAtStart::default());
-        let square = PrescribedMotion::Place(of(|t| t * t));
+        let square = PrescribedMotion::Position(of(|t| t * t));
         assert!((square.beginning(1.5).unwrap().rate - 3.0).abs() < 1e-9);
-        assert!(PrescribedMotion::Place(of(|_| f64::NAN)).beginning(0.0).is_err());
+        assert!(PrescribedMotion::Position(of(|_| f64::NAN)).beginning(0.0).is_err());
     }
 }

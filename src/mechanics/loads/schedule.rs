@@ -56,11 +56,11 @@ pub enum Schedule {
     /// Command of a controller that is sampled at every step: a value that the caller sets at the start of the step, constant within it.
     Sampled(Rc<Cell<f64>>),
     /// Command of a digital controller: a value that the caller sets when the command starts to act, constant until the next one.
-    Clocked {
+    DigitalController {
         /// Cell of the value.
         value: Rc<Cell<f64>>,
         /// Clock of the controller.
-        beat: SampleClock,
+        clock: SampleClock,
     },
     /// Sum or product of two schedules.
     Combined {
@@ -208,7 +208,7 @@ impl Schedule {
     pub fn combined(operation: Operation, a: Self, b: Self) -> Result<Self, LoadError> {
         let size = a.size().saturating_add(b.size());
         if size > MOST_PARTS {
-            return Err(LoadError::ManyParts { parts: size, most: MOST_PARTS });
+            return Err(LoadError::TooManyParts { parts: size, most: MOST_PARTS });
         }
         Ok(Self::Combined { operation, parts: Rc::new((a, b)), size })
     }
@@ -216,7 +216,7 @@ impl Schedule {
     /// Number of script functions in the schedule. [`value`](Self::value) calls each of them once.
     pub fn functions(&self) -> usize {
         match self {
-            Self::Function { .. } | Self::Sampled(_) | Self::Clocked { .. } => 1,
+            Self::Function { .. } | Self::Sampled(_) | Self::DigitalController { .. } => 1,
             Self::Combined { parts, .. } => parts.0.functions() + parts.1.functions(),
             _ => 0,
         }
@@ -225,7 +225,7 @@ impl Schedule {
     /// Returns true if the schedule contains the command of a controller.
     pub fn is_sampled(&self) -> bool {
         match self {
-            Self::Sampled(_) | Self::Clocked { .. } => true,
+            Self::Sampled(_) | Self::DigitalController { .. } => true,
             Self::Combined { parts, .. } => parts.0.is_sampled() || parts.1.is_sampled(),
             _ => false,
         }
@@ -267,7 +267,7 @@ impl Schedule {
                 let time = if from_before { time.next_down() } else { time };
                 function(time).map_err(LoadError::Function)?
             }
-            Self::Sampled(value) | Self::Clocked { value, .. } => value.get(),
+            Self::Sampled(value) | Self::DigitalController { value, .. } => value.get(),
             Self::Combined { operation, parts, .. } => {
                 let (a, b) = (parts.0.value(time, side)?, parts.1.value(time, side)?);
                 match operation {
@@ -311,7 +311,7 @@ impl Schedule {
             Self::SmoothPulse { duration } => format!("smooth_pulse({duration})"),
             Self::Function { .. } => "schedule(|t| …)".to_owned(),
             Self::Sampled(_) => "controller |t, q| …".to_owned(),
-            Self::Clocked { beat, .. } => format!("controller |t, q| …, {beat}"),
+            Self::DigitalController { clock, .. } => format!("controller |t, q| …, {clock}"),
             Self::Combined { size, .. } if *size > 8 => format!("combination of {size} schedules"),
             Self::Combined { operation, parts, .. } => match operation {
                 Operation::Sum => format!("({} + {})", parts.0.describe(), parts.1.describe()),

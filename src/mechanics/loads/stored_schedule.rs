@@ -35,7 +35,9 @@ impl Schedule {
                 parts.1.append_terms(terms)?;
                 StoredTerm::Combine(*operation)
             }
-            Self::Function { .. } | Self::Sampled(_) | Self::Clocked { .. } => return None,
+            Self::Function { .. } | Self::Sampled(_) | Self::DigitalController { .. } => {
+                return None;
+            }
         };
         terms.push(term);
         Some(())
@@ -56,7 +58,7 @@ impl TryFrom<Vec<StoredTerm>> for Schedule {
 
     fn try_from(terms: Vec<StoredTerm>) -> Result<Self, LoadError> {
         if terms.len() > 2 * MOST_PARTS {
-            return Err(LoadError::ManyParts { parts: terms.len() / 2, most: MOST_PARTS });
+            return Err(LoadError::TooManyParts { parts: terms.len() / 2, most: MOST_PARTS });
         }
         let mut made: Vec<Self> = Vec::new();
         for term in terms {
@@ -107,7 +109,7 @@ mod tests {
         assert_eq!(refused(vec![]), LoadError::StoredTerms);
         assert_eq!(refused(vec![one.clone(), one.clone()]), LoadError::StoredTerms);
         assert_eq!(refused(vec![one.clone(), sum.clone()]), LoadError::StoredTerms);
-        assert!(matches!(refused(vec![one; 3000]), LoadError::ManyParts { .. }));
+        assert!(matches!(refused(vec![one; 3000]), LoadError::TooManyParts { .. }));
         assert!(matches!(refused(vec![StoredTerm::Table(vec![])]), LoadError::ShortTable { .. }));
         let function = Schedule::Function { function: Rc::new(Ok), breaks: vec![] };
         let both = Schedule::combined(Operation::Sum, function, Schedule::Constant(1.0)).unwrap();

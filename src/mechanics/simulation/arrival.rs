@@ -13,7 +13,7 @@ pub enum ArrivalKind {
     /// The slider bounced.
     Bounced,
     /// The slider is held at the stop.
-    Rested,
+    Held,
     /// The slider was released.
     Released,
     /// The slider passed a seam of its track.
@@ -41,7 +41,7 @@ impl ArrivalKind {
         match self {
             Self::Stopped => "stopped",
             Self::Bounced => "bounced",
-            Self::Rested => "rested",
+            Self::Held => "rested",
             Self::Released => "released",
             Self::Passed => "passed",
         }
@@ -56,7 +56,7 @@ impl Arrival {
         let did = match self.kind {
             ArrivalKind::Stopped => "reached",
             ArrivalKind::Bounced => "bounced off",
-            ArrivalKind::Rested => "came to rest against",
+            ArrivalKind::Held => "came to rest against",
             ArrivalKind::Released => "was released at",
             ArrivalKind::Passed => "passed",
         };

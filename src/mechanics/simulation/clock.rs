@@ -9,19 +9,19 @@ use super::step_retry::StepRetry;
 pub(super) struct StepClock {
     pub(super) grid: TimeGrid,
     /// Size of the next step, for variable steps.
-    pub(super) pace: Option<StepSizeState>,
-    pub(super) under_way: Option<StepRetry>,
+    pub(super) step_size: Option<StepSizeState>,
+    pub(super) retry: Option<StepRetry>,
     /// End time of the present run; infinite for single steps [time].
     pub(super) goal: f64,
 }
 
 impl StepClock {
-    pub(super) fn new(grid: TimeGrid, pace: Option<StepSizeState>) -> Self {
-        Self { grid, pace, under_way: None, goal: f64::INFINITY }
+    pub(super) fn new(grid: TimeGrid, step_size: Option<StepSizeState>) -> Self {
+        Self { grid, step_size, retry: None, goal: f64::INFINITY }
     }
 
     /// Planned size of the next step [time].
     pub(super) fn dt(&self) -> f64 {
-        self.pace.map_or(self.grid.dt(), |pace| pace.wish)
+        self.step_size.map_or(self.grid.dt(), |pace| pace.unconstrained_size)
     }
 }

@@ -76,7 +76,7 @@ pub(super) fn extra_columns(scene: &Scene) -> Vec<ExtraColumn> {
     let of_spring = |spring: &Spring| {
         let (name, kind) = (&spring.name, &spring.kind);
         let (measure, length, force) = match kind {
-            SpringKind::Way(_) => ("length", "length", "force"),
+            SpringKind::Length(_) => ("length", "length", "force"),
             SpringKind::Torsion(_) => ("angle", "rad", "force·length"),
         };
         let of_ledger =

@@ -42,7 +42,7 @@ pub(super) struct StepController {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct StepSizeState {
     /// Size of the next step if no event shortens it [time].
-    pub(super) wish: f64,
+    pub(super) unconstrained_size: f64,
     /// Error of the last uncut step, relative to the allowed one [-]; `None` if unknown.
     pub(super) error: Option<f64>,
     /// Number of rejected or failed tries of the next step.
@@ -59,20 +59,23 @@ pub(super) struct TriedStep {
 
 impl StepController {
     pub(super) fn start(&self) -> StepSizeState {
-        StepSizeState { wish: self.first, error: None, tries: 0 }
+        StepSizeState { unconstrained_size: self.first, error: None, tries: 0 }
     }
 
     /// Returns true if the next step may be as short as the state requests.
     pub(super) fn allows(&self, pace: &StepSizeState) -> bool {
         let is_error = pace.error.is_none_or(|error| error >= LEAST_ERROR && error.is_finite());
-        (self.smallest..=self.largest).contains(&pace.wish)
-            && pace.wish.is_finite()
+        (self.smallest..=self.largest).contains(&pace.unconstrained_size)
+            && pace.unconstrained_size.is_finite()
             && is_error
             && pace.tries < usize::MAX / 2
     }
 
     pub(super) fn restart(&self, pace: &mut StepSizeState) {
-        *pace = StepSizeState { wish: pace.wish.min(self.first), ..self.start() };
+        *pace = StepSizeState {
+            unconstrained_size: pace.unconstrained_size.min(self.first),
+            ..self.start()
+        };
     }
 
     pub(super) fn accept(&self, pace: &mut StepSizeState, trial: TriedStep) {
@@ -84,14 +87,19 @@ impl StepController {
         // A size that has just failed is not repeated immediately.
         let most = if pace.tries > 0 { 1.0 } else { MOST_GROWTH };
         let wish = trial.duration * growth.clamp(LEAST_GROWTH, most);
-        *pace = StepSizeState { wish: self.bounded(wish), error: Some(error), tries: 0 };
+        *pace =
+            StepSizeState { unconstrained_size: self.bounded(wish), error: Some(error), tries: 0 };
     }
 
     /// Updates the state after an accepted, shortened step. It may increase the step size but not decrease it.
     pub(super) fn accept_cut(&self, pace: &mut StepSizeState, trial: TriedStep) {
         let mut alone = StepSizeState { error: None, ..*pace };
         self.accept(&mut alone, trial);
-        *pace = StepSizeState { wish: alone.wish.max(pace.wish), error: pace.error, tries: 0 };
+        *pace = StepSizeState {
+            unconstrained_size: alone.unconstrained_size.max(pace.unconstrained_size),
+            error: pace.error,
+            tries: 0,
+        };
     }
 
     /// Updates the state after a step with too large an error.
@@ -115,7 +123,7 @@ impl StepController {
     fn shorten(&self, pace: &mut StepSizeState, duration: f64, part: f64) {
         pace.tries += 1;
         // The end of a step, and so its duration, may overflow.
-        pace.wish = self.bounded(duration.min(pace.wish) * part);
+        pace.unconstrained_size = self.bounded(duration.min(pace.unconstrained_size) * part);
     }
 
     fn bounded(&self, wish: f64) -> f64 {
@@ -132,10 +140,10 @@ mod tests {
 
     /// Accepted sizes up to t = 1 for an error of `(size/right)³`.
     fn sizes(first: f64, right: impl Fn(usize) -> f64) -> (Vec<f64>, usize) {
-        let mut pace = StepSizeState { wish: first, ..CONTROLLER.start() };
+        let mut pace = StepSizeState { unconstrained_size: first, ..CONTROLLER.start() };
         let (mut sizes, mut rejected) = (Vec::new(), 0);
         while sizes.len() < 30 {
-            let duration = pace.wish;
+            let duration = pace.unconstrained_size;
             let trial = TriedStep { duration, error: (duration / right(sizes.len())).powi(3) };
             if trial.error <= 1.0 {
                 CONTROLLER.accept(&mut pace, trial);
@@ -166,41 +174,41 @@ mod tests {
 
     #[test]
     fn a_cut_step_changes_nothing_unless_the_wish_was_too_small() {
-        let mut pace = StepSizeState { wish: 1.0, error: Some(0.5), tries: 0 };
+        let mut pace = StepSizeState { unconstrained_size: 1.0, error: Some(0.5), tries: 0 };
         let before = pace;
         CONTROLLER.accept_cut(&mut pace, TriedStep { duration: 1e-2, error: 1e-9 });
         assert_eq!(pace, before);
         CONTROLLER.accept_cut(&mut pace, TriedStep { duration: 0.9, error: 1e-3 });
-        assert!(pace.wish > 4.0 && pace.error == before.error);
+        assert!(pace.unconstrained_size > 4.0 && pace.error == before.error);
     }
 
     #[test]
     fn what_fails_is_halved_until_it_is_the_smallest() {
         let mut pace = CONTROLLER.start();
         CONTROLLER.fail(&mut pace, 0.1);
-        assert_eq!((pace.wish, pace.tries), (0.05, 1));
+        assert_eq!((pace.unconstrained_size, pace.tries), (0.05, 1));
         CONTROLLER.accept(&mut pace, TriedStep { duration: 0.05, error: 1e-6 });
-        assert_eq!((pace.wish, pace.tries), (0.05, 0), "it does not grow at once");
+        assert_eq!((pace.unconstrained_size, pace.tries), (0.05, 0), "it does not grow at once");
         CONTROLLER.reject(&mut pace, TriedStep { duration: 2e-3, error: f64::NAN });
-        assert_eq!(pace.wish, 1e-3);
+        assert_eq!(pace.unconstrained_size, 1e-3);
     }
 
     #[test]
     fn a_step_beyond_all_numbers_is_shortened_too() {
-        let mut pace = StepSizeState { wish: 4.0, error: None, tries: 0 };
+        let mut pace = StepSizeState { unconstrained_size: 4.0, error: None, tries: 0 };
         CONTROLLER.fail(&mut pace, f64::INFINITY);
-        assert_eq!(pace.wish, 2.0);
+        assert_eq!(pace.unconstrained_size, 2.0);
         CONTROLLER.reject(&mut pace, TriedStep { duration: f64::INFINITY, error: f64::NAN });
-        assert_eq!(pace.wish, 0.4);
+        assert_eq!(pace.unconstrained_size, 0.4);
     }
 
     #[test]
     fn after_a_jump_steps_begin_as_at_the_start() {
-        let mut pace = StepSizeState { wish: 3.0, error: Some(0.5), tries: 2 };
+        let mut pace = StepSizeState { unconstrained_size: 3.0, error: Some(0.5), tries: 2 };
         CONTROLLER.restart(&mut pace);
         assert_eq!(pace, CONTROLLER.start());
-        pace.wish = 0.01;
+        pace.unconstrained_size = 0.01;
         CONTROLLER.restart(&mut pace);
-        assert_eq!(pace.wish, 0.01);
+        assert_eq!(pace.unconstrained_size, 0.01);
     }
 }

@@ -23,7 +23,7 @@ pub enum SimulationError {
     #[error(
         "'{sensor}' is a mean force over a step, which the method {method} does not provide; record the instantaneous force, or use energy_momentum"
     )]
-    NoMean {
+    NoMeanForces {
         /// Name of the column.
         sensor: String,
         /// Name of the method.
@@ -33,7 +33,7 @@ pub enum SimulationError {
     #[error(
         "a controller with a sampling period of {period:e} would be sampled more than {most} times in a step of dt = {dt:e}"
     )]
-    ManySamples {
+    TooManySamples {
         /// Sampling period of the controller [time].
         period: f64,
         /// Step size [time].
@@ -43,15 +43,15 @@ pub enum SimulationError {
     },
     /// Equilibrium that holds a drive at a position different from its function.
     #[error(
-        "the equilibrium has the prescribed motion '{drive}' at {}, but its function gives {} at t = {time}: the motion would jump", rounded(*rests), rounded(*wanted)
+        "the equilibrium has the prescribed motion '{drive}' at {}, but its function gives {} at t = {time}: the motion would jump", rounded(*rest_position), rounded(*function_value)
     )]
-    BeginsElsewhere {
+    StartMismatch {
         /// Name of the drive.
         drive: String,
         /// Position in the equilibrium [length, rad].
-        rests: f64,
+        rest_position: f64,
         /// Value of the function [length, rad].
-        wanted: f64,
+        function_value: f64,
         /// Time of that value [time].
         time: f64,
     },
@@ -65,7 +65,7 @@ pub enum SimulationError {
     },
     /// No step of any size was solved.
     #[error(
-        "no step from t = {} converges, down to dt/{divisions} (dt = {dt:e}): {source}{plight}", rounded(*time)
+        "no step from t = {} converges, down to dt/{divisions} (dt = {dt:e}): {source}{conditions}", rounded(*time)
     )]
     Step {
         /// End of the last successful step [time].
@@ -77,7 +77,7 @@ pub enum SimulationError {
         /// Reason of the last failure.
         source: Box<StepError>,
         /// Extreme conditions before the step, appended to the message; may be empty.
-        plight: String,
+        conditions: String,
     },
     /// Tolerance that requires too small steps.
     #[error(
@@ -97,7 +97,7 @@ pub enum SimulationError {
     },
     /// No variable step down to the smallest one was solved.
     #[error(
-        "no step from t = {} converges, down to the smallest allowed one, {smallest:e} (dt = {dt:e}): {source}{plight}", rounded(*time)
+        "no step from t = {} converges, down to the smallest allowed one, {smallest:e} (dt = {dt:e}): {source}{conditions}", rounded(*time)
     )]
     Smallest {
         /// End of the last successful step [time].
@@ -109,13 +109,13 @@ pub enum SimulationError {
         /// Reason of the last failure.
         source: Box<StepError>,
         /// Extreme conditions before the step, appended to the message; may be empty.
-        plight: String,
+        conditions: String,
     },
     /// No step that ends at the arrival of a slider was found.
     #[error(
-        "slider '{slider}' reaches the {end} of its beam shortly after t = {}, but no step that ends there converges, down to dt/{divisions} (dt = {dt:e}); use a smaller dt or a finer mesh{plight}", rounded(*time)
+        "slider '{slider}' reaches the {end} of its beam shortly after t = {}, but no step that ends there converges, down to dt/{divisions} (dt = {dt:e}); use a smaller dt or a finer mesh{conditions}", rounded(*time)
     )]
-    Landing {
+    EventLocation {
         /// Name of the slider.
         slider: String,
         /// End of its master: `start` or `end`.
@@ -127,7 +127,7 @@ pub enum SimulationError {
         /// Largest number of parts into which the step was divided.
         divisions: u64,
         /// Extreme conditions before the step, appended to the message; may be empty.
-        plight: String,
+        conditions: String,
     },
     /// Load without a finite value, or slider too fast for its rule. Smaller steps do not help.
     #[error("{source}")]
@@ -143,27 +143,27 @@ pub enum SimulationError {
     },
     /// Slider that bounces too often within one step.
     #[error("{arrival}, the last of {most} arrivals within one step")]
-    Rattles {
+    TooManyArrivals {
         /// Description of the last arrival.
         arrival: String,
         /// Number of arrivals within one step.
         most: usize,
     },
     /// Rewind by more steps than were taken.
-    #[error("cannot go back {steps} steps: only {taken} were taken")]
-    FewerSteps {
+    #[error("cannot go back {steps} steps: only {steps_taken} were taken")]
+    TooFewSteps {
         /// Requested number of steps.
         steps: usize,
         /// Number of steps taken.
-        taken: usize,
+        steps_taken: usize,
     },
     /// Rewind to a time outside the run.
-    #[error("cannot go back to t = {time}: the simulation covers t = {} to {}", rounded(*begun), rounded(*now))]
-    NotBehind {
+    #[error("cannot go back to t = {time}: the simulation covers t = {} to {}", rounded(*start), rounded(*now))]
+    OutsideRun {
         /// Requested time [time].
         time: f64,
         /// Start of the run [time].
-        begun: f64,
+        start: f64,
         /// Present time [time].
         now: f64,
     },
@@ -188,7 +188,7 @@ pub enum SimulationError {
     #[error(
         "cannot go back to {target}: within the memory limit of {limit} MB only snapshots of the last {steps} steps (from t = {}) and of t = {} are stored", rounded(*oldest), rounded(*first)
     )]
-    Forgotten {
+    NoSnapshot {
         /// Description of the requested state.
         target: String,
         /// Number of steps that can be undone.

@@ -15,9 +15,9 @@ use crate::system::{Placement, System, SystemState};
 #[derive(Default)]
 pub(super) struct StepDoubling {
     start: SystemState,
-    whole: Placement,
+    whole_step: Placement,
     halves: Placement,
-    blows: CornerCrossings,
+    corner_crossings: CornerCrossings,
     /// Length scale of position errors [length].
     length: f64,
     /// Allowed error times `2^p - 1` [-].
@@ -27,22 +27,22 @@ pub(super) struct StepDoubling {
 pub(super) struct DoubledStep {
     /// Total work of the half steps and the whole step.
     pub(super) report: NewtonReport,
-    pub(super) trial: TriedStep,
+    pub(super) tried_step: TriedStep,
     /// Error of positions alone, relative to the allowed one [-].
-    of_places: f64,
+    position_error: f64,
 }
 
 impl DoubledStep {
     /// Returns the step with the error of positions only. It is used for the smallest step, where an unresolved impact is no reason for rejection.
     pub(super) fn judged_by_places(self) -> Self {
-        let trial = TriedStep { error: self.of_places, ..self.trial };
-        Self { trial, ..self }
+        let trial = TriedStep { error: self.position_error, ..self.tried_step };
+        Self { tried_step: trial, ..self }
     }
 
     /// Returns the step after a repeated second half, with the total work and an additional error relative to the allowed one.
     pub(super) fn resampled(self, report: NewtonReport, error: f64) -> Self {
-        let trial = TriedStep { error: larger(self.trial.error, error), ..self.trial };
-        Self { report, trial, of_places: larger(self.of_places, error) }
+        let trial = TriedStep { error: larger(self.tried_step.error, error), ..self.tried_step };
+        Self { report, tried_step: trial, position_error: larger(self.position_error, error) }
     }
 }
 
@@ -69,26 +69,26 @@ impl StepDoubling {
         let Interval { start, end, .. } = interval;
         let middle = start + 0.5 * interval.duration();
         model.write_state(&mut self.start);
-        self.blows.record_start(model);
+        self.corner_crossings.record_start(model);
         let mut report = take(integrator, model, interval, NewtonReport::default())?;
-        model.write_placement(&mut self.whole);
-        self.blows.record_whole_step(model);
+        model.write_placement(&mut self.whole_step);
+        self.corner_crossings.record_whole_step(model);
         model.restore(&self.start);
         report =
             self.take_or_restore(integrator, model, Interval::between(start, middle), report)?;
-        self.blows.record_middle(model);
+        self.corner_crossings.record_middle(model);
         if let Some(between) = between {
             model.write_state(between);
         }
         report = self.take_or_restore(integrator, model, Interval::between(middle, end), report)?;
         model.write_placement(&mut self.halves);
-        self.blows.record_half_steps(model);
-        let distance = self.whole.distance(&self.halves);
+        self.corner_crossings.record_half_steps(model);
+        let distance = self.whole_step.distance(&self.halves);
         let apart = larger(distance.length / self.length, distance.angle);
         let (of_places, duration) = (apart / self.allowed, interval.duration());
-        let of_blows = self.blows.difference(duration, self.length) / self.allowed;
+        let of_blows = self.corner_crossings.difference(duration, self.length) / self.allowed;
         let trial = TriedStep { duration, error: larger(of_places, of_blows) };
-        Ok(DoubledStep { report, trial, of_places })
+        Ok(DoubledStep { report, tried_step: trial, position_error: of_places })
     }
 
     /// Takes a step after successful ones. On failure, the model is restored to the start of the first one.

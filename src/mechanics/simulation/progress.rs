@@ -54,7 +54,7 @@ pub(super) struct RunProgress {
     pub(super) last_step: StepTaken,
     pub(super) arrivals: Vec<Arrival>,
     /// Releases in their order, shared with snapshots.
-    pub(super) let_go: Rc<[ReleaseEvent]>,
+    pub(super) releases: Rc<[ReleaseEvent]>,
 }
 
 impl RunProgress {

@@ -15,8 +15,8 @@ pub(super) struct RunRecord {
     pub(super) trajectory: Trajectory,
     pub(super) recording: Recording,
     /// Number of permanent rows. A further row belongs to the present.
-    pub(super) rows_kept: usize,
-    sensing: SensorReader,
+    pub(super) permanent_rows: usize,
+    reader: SensorReader,
 }
 
 impl RunRecord {
@@ -32,10 +32,10 @@ impl RunRecord {
             history: History::new(scales(scene, model), columns),
             trajectory: Trajectory::new(2 * points),
             recording: Recording::default(),
-            rows_kept: 0,
-            sensing: SensorReader::of(scene, model)?,
+            permanent_rows: 0,
+            reader: SensorReader::of(scene, model)?,
         };
-        if record.sensing.need_mean_forces() {
+        if record.reader.need_mean_forces() {
             model.sum_up_impulses();
         }
         record.store_row(model, StepTaken::default());
@@ -51,7 +51,7 @@ impl RunRecord {
         scene: &Scene,
         model: &System,
     ) -> Result<(), SystemError> {
-        self.sensing = SensorReader::of(scene, model)?;
+        self.reader = SensorReader::of(scene, model)?;
         Ok(())
     }
 
@@ -63,7 +63,7 @@ impl RunRecord {
 
     pub(super) fn store_row(&mut self, model: &mut System, last_step: StepTaken) {
         self.add_row(model, last_step);
-        self.rows_kept = self.history.samples().len();
+        self.permanent_rows = self.history.samples().len();
     }
 
     /// Adds a temporary row for the present state, unless it has one.
@@ -75,16 +75,16 @@ impl RunRecord {
     }
 
     fn add_row(&mut self, model: &mut System, last_step: StepTaken) {
-        self.truncate(self.rows_kept);
+        self.truncate(self.permanent_rows);
         let StepTaken { dt, newton_iterations, retries } = last_step;
         let sample = Sample { measures: model.measure(), dt, newton_iterations, retries };
-        let sensed = self.sensing.read(model);
+        let sensed = self.reader.read(model);
         self.history.push(sample, extra_values(model).chain(sensed.iter().copied()));
         self.trajectory.push(model.time(), coordinates(model));
     }
 
     pub(super) fn truncate(&mut self, rows: usize) {
-        self.rows_kept = rows;
+        self.permanent_rows = rows;
         self.history.truncate(rows);
         self.trajectory.truncate(rows);
     }

@@ -25,7 +25,7 @@ pub(super) struct Resampling {
     middle: SystemState,
     held: Placement,
     resampled: Placement,
-    under_way: Option<HalfStep>,
+    half_step: Option<HalfStep>,
 }
 
 /// Step that is paused in its middle to sample controllers.
@@ -49,7 +49,7 @@ impl Resampling {
             middle: SystemState::default(),
             held: Placement::default(),
             resampled: Placement::default(),
-            under_way: None,
+            half_step: None,
         })
     }
 
@@ -58,7 +58,7 @@ impl Resampling {
     }
 
     pub(super) fn is_paused(&self) -> bool {
-        self.under_way.is_some()
+        self.half_step.is_some()
     }
 
     /// Restores the middle of a completed step and pauses there.
@@ -70,7 +70,7 @@ impl Resampling {
     ) {
         model.write_placement(&mut self.held);
         model.restore(&self.middle);
-        self.under_way = Some(HalfStep { plan, doubled });
+        self.half_step = Some(HalfStep { plan, doubled });
     }
 
     /// Repeats the second half of a paused step with new controller values. The larger of both errors counts.
@@ -81,7 +81,7 @@ impl Resampling {
         model: &mut System,
         order: f64,
     ) -> Option<(StepPlan, Result<DoubledStep, FailedStep>)> {
-        let HalfStep { plan, doubled } = self.under_way.take()?;
+        let HalfStep { plan, doubled } = self.half_step.take()?;
         let half = Interval::between(model.time(), plan.interval.end);
         let taken = doubling.take_or_restore(integrator, model, half, doubled.report);
         let taken = taken.map(|report| {
@@ -96,6 +96,6 @@ impl Resampling {
 
     /// Discards a paused step. Returns true if there was one.
     pub(super) fn abandon(&mut self) -> bool {
-        self.under_way.take().is_some()
+        self.half_step.take().is_some()
     }
 }

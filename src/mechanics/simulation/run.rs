@@ -71,7 +71,7 @@ pub struct Simulation {
     progress: RunProgress,
     record: RunRecord,
     snapshots: Snapshots,
-    drawn: InitialGeometry,
+    initial_geometry: InitialGeometry,
 }
 
 impl Simulation {
@@ -98,7 +98,12 @@ impl Simulation {
         let time = elsewhere(0.0).map_or(0.0, |_| larger(rest.loading().time, 0.0));
         if let Some((drive, [rests, wanted])) = elsewhere(time) {
             let drive = drive.to_owned();
-            return Err(SimulationError::BeginsElsewhere { drive, rests, wanted, time });
+            return Err(SimulationError::StartMismatch {
+                drive,
+                rest_position: rests,
+                function_value: wanted,
+                time,
+            });
         }
         let model = System::assemble_at_rest(&scene, &rest.model().state(), time)?;
         Self::of(scene, model, settings)
@@ -126,7 +131,7 @@ impl Simulation {
         let beats = || scene.schedules().filter_map(|(_, schedule)| schedule.sample_clock());
         if let Some(beat) = beats().find(|beat| beat.period() * MOST_SAMPLES < first) {
             let (period, most) = (beat.period(), MOST_SAMPLES);
-            return Err(SimulationError::ManySamples { period, dt: first, most });
+            return Err(SimulationError::TooManySamples { period, dt: first, most });
         }
         let grid = grid.with_beats(beats());
         let pace = adaptive.as_ref().map(|adaptive| adaptive.controller.start());
@@ -134,7 +139,7 @@ impl Simulation {
             && let Some(sensor) = scene.sensors.iter().find(|sensor| sensor.is_of_step())
         {
             let (sensor, method) = (sensor.name.clone(), settings.method.entry().name);
-            return Err(SimulationError::NoMean { sensor, method });
+            return Err(SimulationError::NoMeanForces { sensor, method });
         }
         Ok(Self {
             record: RunRecord::new(&scene, &mut model)?,
@@ -146,7 +151,7 @@ impl Simulation {
             adaptive,
             progress: RunProgress::default(),
             snapshots: Snapshots::default(),
-            drawn: InitialGeometry::default(),
+            initial_geometry: InitialGeometry::default(),
         })
     }
 
@@ -331,7 +336,7 @@ impl Simulation {
         };
         // An interrupted step continues later with the same size.
         if !matches!(stepped, Err(SimulationError::Interrupted { .. })) {
-            self.clock.under_way = None;
+            self.clock.retry = None;
         }
         self.clock.grid.mark_reached(self.time());
         self.progress.counts.wall += begun.elapsed();
@@ -344,7 +349,7 @@ impl Simulation {
         monitor: &mut dyn Monitor,
     ) -> Result<(), SimulationError> {
         let end = self.clock.grid.next(self.time(), limit);
-        let begun_before = self.clock.under_way.filter(|halving| halving.end() == end);
+        let begun_before = self.clock.retry.filter(|halving| halving.end() == end);
         let way = Interval::between(self.time(), end);
         self.cover_with_arrivals(begun_before.unwrap_or_else(|| StepRetry::new(way)), monitor)
     }

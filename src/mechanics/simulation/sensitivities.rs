@@ -47,12 +47,12 @@ pub struct DerivativeCounts {
 /// Derivatives of a run. The state `s` of a step solves `R(s₁; s₀, p) = 0`, so its derivative solves `∂R/∂s₁ s₁' = -∂R/∂s₀ s₀' - ∂R/∂p` with the
 /// factorised matrix of the step. The right-hand side is the difference of two balances, at `p ± δ` from the states `s₀ ± δ s₀'`.
 pub(super) struct Sensitivities {
-    company: SharedFactorStepper,
+    stepper: SharedFactorStepper,
     parameters: Vec<PerturbedRuns>,
     /// State of the run at the start of the present step.
     start: SystemState,
     counts: DerivativeCounts,
-    lost: Option<DerivativeError>,
+    end_reason: Option<DerivativeError>,
 }
 
 impl Sensitivities {
@@ -70,7 +70,7 @@ impl Sensitivities {
         }
         let steered = run.scene().schedules().find(|(_, schedule)| schedule.is_sampled());
         if let Some(name) = steered.map(|(name, _)| name.to_owned()) {
-            return Err(DerivativeError::Steered { name }.into());
+            return Err(DerivativeError::Controlled { name }.into());
         }
         if let Some(sensor) = run.scene().sensors.iter().find(|sensor| sensor.is_of_step()) {
             return Err(DerivativeError::Mean { sensor: sensor.name.clone() }.into());
@@ -81,7 +81,13 @@ impl Sensitivities {
         let start = run.model().state();
         let twins = |variation| PerturbedRuns::start(run, variation, &start);
         let parameters = variations.into_iter().map(twins).collect::<Result<_, _>>()?;
-        Ok(Self { company, parameters, start, counts: DerivativeCounts::default(), lost: None })
+        Ok(Self {
+            stepper: company,
+            parameters,
+            start,
+            counts: DerivativeCounts::default(),
+            end_reason: None,
+        })
     }
 
     /// Takes a step of the run and its perturbed runs.
@@ -94,7 +100,7 @@ impl Sensitivities {
         integrator: &mut dyn Integrator,
         interval: Interval,
     ) -> Result<NewtonReport, StepError> {
-        if self.lost.is_some() {
+        if self.end_reason.is_some() {
             return integrator.step(model, interval);
         }
         model.write_state(&mut self.start);
@@ -105,7 +111,7 @@ impl Sensitivities {
         let mut companions: Vec<&mut dyn Mechanism> =
             models.map(|model| model as &mut dyn Mechanism).collect();
         let SharedFactorWork { leader, companions } =
-            self.company.step(model, &mut companions, interval)?;
+            self.stepper.step(model, &mut companions, interval)?;
         match companions {
             Ok(work) => {
                 self.counts.solves += work.corrections + work.iterations;
@@ -114,7 +120,7 @@ impl Sensitivities {
             }
             Err(source) => {
                 let time = interval.start;
-                self.lost = Some(DerivativeError::NoStep { time, source: Box::new(source) });
+                self.end_reason = Some(DerivativeError::NoStep { time, source: Box::new(source) });
             }
         }
         Ok(leader)
@@ -154,14 +160,14 @@ impl Sensitivities {
     }
 
     fn each(&mut self, what: impl FnMut(&mut Simulation)) {
-        if self.lost.is_none() {
+        if self.end_reason.is_none() {
             self.parameters.iter_mut().flat_map(PerturbedRuns::runs).for_each(what);
         }
     }
 
     /// Stops the computation of derivatives. An earlier reason is kept.
     pub(super) fn disable(&mut self, reason: DerivativeError) {
-        let _: &mut DerivativeError = self.lost.get_or_insert(reason);
+        let _: &mut DerivativeError = self.end_reason.get_or_insert(reason);
     }
 }
 
@@ -185,7 +191,7 @@ impl Sensitivities {
         parameter: usize,
         side: PerturbedSide,
     ) -> Result<&Simulation, DerivativeError> {
-        match &self.lost {
+        match &self.end_reason {
             Some(reason) => Err(reason.clone()),
             None => {
                 let twins = self.parameters.get(parameter).ok_or(DerivativeError::None)?;
@@ -203,7 +209,7 @@ impl Sensitivities {
         parameter: usize,
         side: PerturbedSide,
     ) -> Result<&Simulation, DerivativeError> {
-        match &self.lost {
+        match &self.end_reason {
             None | Some(DerivativeError::Event { .. } | DerivativeError::NoStep { .. }) => {
                 let twins = self.parameters.get(parameter).ok_or(DerivativeError::None)?;
                 Ok(twins.run(side))
@@ -217,7 +223,7 @@ impl Sensitivities {
         parameter: usize,
         side: PerturbedSide,
     ) -> Result<&mut Simulation, DerivativeError> {
-        match &self.lost {
+        match &self.end_reason {
             Some(reason) => Err(reason.clone()),
             None => {
                 let twins = self.parameters.get_mut(parameter).ok_or(DerivativeError::None)?;

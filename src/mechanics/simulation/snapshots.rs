@@ -19,12 +19,12 @@ pub(super) struct Snapshot {
     pub(super) rows: usize,
     pub(super) last_step: StepTaken,
     pub(super) arrivals: usize,
-    pub(super) let_go: Rc<[ReleaseEvent]>,
+    pub(super) releases: Rc<[ReleaseEvent]>,
     pub(super) counts: WorkCounts,
     pub(super) passed: u64,
-    pub(super) under_way: Option<StepRetry>,
+    pub(super) retry: Option<StepRetry>,
     /// Size of the next step, for variable steps.
-    pub(super) pace: Option<StepSizeState>,
+    pub(super) step_size: Option<StepSizeState>,
 }
 
 impl Snapshot {
@@ -149,11 +149,11 @@ mod tests {
             rows: 1,
             last_step: StepTaken::default(),
             arrivals: 0,
-            let_go: Rc::default(),
+            releases: Rc::default(),
             counts: WorkCounts { steps, ..WorkCounts::default() },
             passed: 0,
-            under_way: None,
-            pace: None,
+            retry: None,
+            step_size: None,
         }
     }
 

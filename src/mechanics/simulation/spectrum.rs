@@ -54,7 +54,7 @@ pub enum SpectrumError {
     },
     /// Too few rows.
     #[error("a spectrum needs at least {FEWEST} rows, there are {rows}")]
-    Few {
+    TooFewRows {
         /// Number of rows.
         rows: usize,
     },
@@ -80,7 +80,7 @@ impl TimeSeries {
     pub fn spectrum(&self, most: usize) -> Result<Vec<SpectrumPeak>, SpectrumError> {
         let count = self.values.len();
         if count < FEWEST {
-            return Err(SpectrumError::Few { rows: count });
+            return Err(SpectrumError::TooFewRows { rows: count });
         }
         if let Some(at) = self.values.iter().position(|value| !value.is_finite()) {
             return Err(SpectrumError::NoNumber { time: self.times[at] });
@@ -221,7 +221,7 @@ mod tests {
     #[test]
     fn uneven_few_and_lost_rows_are_refused() {
         let mut of = sampled(40, 0.1, |t| t);
-        assert_eq!(sampled(9, 0.1, |t| t).spectrum(1), Err(SpectrumError::Few { rows: 9 }));
+        assert_eq!(sampled(9, 0.1, |t| t).spectrum(1), Err(SpectrumError::TooFewRows { rows: 9 }));
         of.values[3] = f64::NAN;
         assert!(matches!(of.spectrum(1), Err(SpectrumError::NoNumber { .. })));
         of.values[3] = 0.0;

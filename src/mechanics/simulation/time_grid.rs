@@ -21,7 +21,7 @@ pub struct TimeGrid {
     slack: f64,
     /// In increasing order.
     cuts: Vec<f64>,
-    beats: Vec<SampleClock>,
+    clocks: Vec<SampleClock>,
     passed: u64,
 }
 
@@ -29,7 +29,7 @@ impl TimeGrid {
     /// Creates a grid from `start` with steps of `dt` [time]; `cuts` may be unsorted.
     pub fn new(start: f64, dt: f64, cuts: Vec<f64>) -> Self {
         let slack = SAME * dt;
-        Self { start, dt, slack, cuts: Vec::new(), beats: Vec::new(), passed: 0 }.with_cuts(cuts)
+        Self { start, dt, slack, cuts: Vec::new(), clocks: Vec::new(), passed: 0 }.with_cuts(cuts)
     }
 
     /// Creates a grid of cuts only, for variable steps that start with the size `first` [time].
@@ -39,7 +39,7 @@ impl TimeGrid {
 
     /// Adds cuts at the samples and actions of digital controllers.
     pub fn with_beats(self, beats: impl Iterator<Item = SampleClock>) -> Self {
-        Self { beats: beats.collect(), ..self }
+        Self { clocks: beats.collect(), ..self }
     }
 
     fn with_cuts(self, mut cuts: Vec<f64>) -> Self {
@@ -90,7 +90,7 @@ impl TimeGrid {
         let grid = self.point(self.points_up_to(now) + 1);
         let cut = self.cuts[self.cuts.partition_point(|cut| self.has_reached(now, *cut))..].first();
         let slack = self.slack(now);
-        let beat = self.beats.iter().map(|beat| beat.next(now, slack)).min_by(f64::total_cmp);
+        let beat = self.clocks.iter().map(|beat| beat.next(now, slack)).min_by(f64::total_cmp);
         // Cuts come last, because a schedule must be evaluated at its own time.
         [Some(limit), beat, cut.copied()].into_iter().flatten().fold(grid, |end, candidate| {
             if candidate > now && self.has_reached(end, candidate) { candidate } else { end }

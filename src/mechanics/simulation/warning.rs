@@ -51,13 +51,13 @@ pub enum Warning {
         /// Step size [time].
         dt: f64,
         /// Unresolved fraction of the kinetic energy [-].
-        share: f64,
+        unresolved_fraction: f64,
         /// Mean period of the accelerated motion [time].
         period: f64,
         /// Lowest period of the scene as drawn, if known [time].
         lowest: Option<f64>,
         /// Possible causes other than vibration.
-        suspects: Vec<RateChangeCause>,
+        causes: Vec<RateChangeCause>,
         /// Name of a method that would damp the vibration; `None` if it is in use, or would have no effect.
         damping: Option<&'static str>,
     },
@@ -68,7 +68,7 @@ pub enum Warning {
         /// Step size [time].
         dt: f64,
         /// Unresolved fraction of its kinetic energy [-].
-        share: f64,
+        unresolved_fraction: f64,
         /// Mean period of its accelerated motion [time].
         period: f64,
     },
@@ -87,7 +87,7 @@ pub enum Warning {
         angle: f64,
     },
     /// Slider that passes many spans in a step.
-    Way {
+    SpansPerStep {
         /// Name of the slider.
         slider: String,
         /// Step size [time].
@@ -96,7 +96,7 @@ pub enum Warning {
         spans: f64,
     },
     /// Slider on a kinked axis that moves almost as fast as the waves of its master.
-    Fast {
+    WaveSpeed {
         /// Name of the slider.
         slider: String,
         /// Largest recorded speed along the master [length/time].
@@ -112,7 +112,7 @@ pub enum Warning {
         stiffest: Option<(String, f64)>,
     },
     /// Dissipative element that added energy in a step.
-    Fed {
+    EnergyGain {
         /// Time at the end of the step [time].
         time: f64,
         /// Length of the step [time].
@@ -125,7 +125,7 @@ pub enum Warning {
         /// Name of the drive.
         drive: String,
         /// Step of the kink, and the rates before and after it.
-        bend: MotionCurvature,
+        curvature: MotionCurvature,
     },
     /// Spring with a contact that lasted too few steps.
     Contact {
@@ -143,7 +143,7 @@ pub enum Warning {
         /// Step size [time].
         dt: f64,
         /// Ratio of step size to impact duration [-].
-        blows: f64,
+        steps_per_impact: f64,
     },
 }
 
@@ -151,15 +151,16 @@ impl Warning {
     /// Severity; comparable between warnings of the same kind only.
     fn measure(&self) -> f64 {
         match self {
-            Self::Motion { share, .. } | Self::Beam { share, .. } => *share,
+            Self::Motion { unresolved_fraction: share, .. }
+            | Self::Beam { unresolved_fraction: share, .. } => *share,
             Self::Uneven { shortest, longest } => longest / shortest,
             Self::Rotation { angle, .. } => *angle,
-            Self::Way { spans, .. } => *spans,
-            Self::Fast { speed, .. } => *speed,
-            Self::Bounce { blows, .. } => *blows,
+            Self::SpansPerStep { spans, .. } => *spans,
+            Self::WaveSpeed { speed, .. } => *speed,
+            Self::Bounce { steps_per_impact: blows, .. } => *blows,
             Self::Drift { drift, .. } => *drift,
-            Self::Fed { energy, .. } => *energy,
-            Self::Bend { bend, .. } => bend.size(),
+            Self::EnergyGain { energy, .. } => *energy,
+            Self::Bend { curvature: bend, .. } => bend.size(),
             Self::Contact { bounce, .. } => bounce.force,
         }
     }
@@ -171,10 +172,10 @@ impl Warning {
             | Self::Uneven { .. }
             | Self::Rotation { .. }
             | Self::Drift { .. }
-            | Self::Fed { .. } => None,
-            Self::Way { slider, .. } | Self::Fast { slider, .. } | Self::Bounce { slider, .. } => {
-                Some(slider)
-            }
+            | Self::EnergyGain { .. } => None,
+            Self::SpansPerStep { slider, .. }
+            | Self::WaveSpeed { slider, .. }
+            | Self::Bounce { slider, .. } => Some(slider),
             Self::Beam { beam, .. } => Some(beam),
             Self::Bend { drive, .. } => Some(drive),
             Self::Contact { spring, .. } => Some(spring),
@@ -194,7 +195,9 @@ impl Warning {
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Motion { dt, share, period, suspects, .. } if !suspects.is_empty() => {
+            Self::Motion { dt, unresolved_fraction: share, period, causes: suspects, .. }
+                if !suspects.is_empty() =>
+            {
                 let others: Vec<String> = suspects.iter().map(RateChangeCause::to_string).collect();
                 write!(
                     f,
@@ -207,7 +210,7 @@ impl fmt::Display for Warning {
                     short(period / ENOUGH)
                 )
             }
-            Self::Motion { dt, share, period, lowest, damping, .. } => {
+            Self::Motion { dt, unresolved_fraction: share, period, lowest, damping, .. } => {
                 write!(
                     f,
                     "steps are too long for the motion: {} % of the kinetic energy is in vibration that they do not resolve. dt = {} is ",
@@ -238,7 +241,7 @@ impl fmt::Display for Warning {
                     None => Ok(()),
                 }
             }
-            Self::Beam { beam, dt, share, period } => write!(
+            Self::Beam { beam, dt, unresolved_fraction: share, period } => write!(
                 f,
                 "steps are too long for the motion of beam '{beam}', whose material is damped: {} % of its kinetic energy changes within a step, which does not resolve it. dt = {} is {} times the period of the change ({}); use dt below {}. Until then velocities and forces of the beam alternate from step to step: average them over two steps",
                 short(100.0 * share),
@@ -255,7 +258,7 @@ impl fmt::Display for Warning {
                 short(TAU / angle),
                 short(dt * LARGEST_ROTATION / angle)
             ),
-            Self::Way { slider, dt, spans } => write!(
+            Self::SpansPerStep { slider, dt, spans } => write!(
                 f,
                 "slider '{slider}' crosses up to {} spans of its beam per step (dt = {}), and the contact force is averaged over them; use dt below {}, or longer spans",
                 short(*spans),
@@ -268,7 +271,7 @@ impl fmt::Display for Warning {
                 short(*shortest),
                 short(*longest)
             ),
-            Self::Fast { slider, speed, limit } => write!(
+            Self::WaveSpeed { slider, speed, limit } => write!(
                 f,
                 "slider '{slider}' moves along its beam at up to {}, close to the speed of shear waves. Above {} the kink of the axis is not adapted to the contact force, and the contact is only first-order accurate in the span length; refine the mesh",
                 short(*speed),
@@ -289,20 +292,22 @@ impl fmt::Display for Warning {
                     None => write!(f, " Check the stiffnesses, masses and units"),
                 }
             }
-            Self::Fed { time, dt, energy } => write!(
+            Self::EnergyGain { time, dt, energy } => write!(
                 f,
                 "dampers added an energy of {} in the step (dt = {}) that ends at t = {}: the method fourth_order has a backward substep, in which motion with a decay rate near 3.557/dt grows. Use another dt, or the method energy_momentum",
                 short(*energy),
                 short(*dt),
                 short(*time)
             ),
-            Self::Bend { drive, bend: MotionCurvature { time, rates: [before, after] } } => write!(
-                f,
-                "the prescribed motion '{drive}' has a kink near t = {}: its rate changes from {} to {} within one step, which assumes a smooth motion. Declare the times of kinks in its schedule, so that steps end there, or use a smooth schedule such as smooth_step of std/schedules",
-                short(*time),
-                short(*before),
-                short(*after)
-            ),
+            Self::Bend { drive, curvature: MotionCurvature { time, rates: [before, after] } } => {
+                write!(
+                    f,
+                    "the prescribed motion '{drive}' has a kink near t = {}: its rate changes from {} to {} within one step, which assumes a smooth motion. Declare the times of kinks in its schedule, so that steps end there, or use a smooth schedule such as smooth_step of std/schedules",
+                    short(*time),
+                    short(*before),
+                    short(*after)
+                )
+            }
             Self::Contact { spring, tolerance, bounce: ShortBounce { steps, force, duration } } => {
                 let dt = duration / steps;
                 write!(
@@ -321,7 +326,7 @@ impl fmt::Display for Warning {
                     }
                 }
             }
-            Self::Bounce { slider, dt, blows } => write!(
+            Self::Bounce { slider, dt, steps_per_impact: blows } => write!(
                 f,
                 "slider '{slider}' bounced off an elastic beam with dt = {}, which is {} times the longest duration of such an impact ({}): the beam was treated as rigid. Use dt below {} to resolve the waves, or give the slider a restitution",
                 short(*dt),
@@ -349,12 +354,16 @@ mod tests {
 
     #[test]
     fn what_was_told_is_told_again_when_it_is_new_or_twice_as_bad() {
-        let way = |slider: &str, spans| Warning::Way { slider: slider.to_owned(), dt: 1.0, spans };
+        let way = |slider: &str, spans| Warning::SpansPerStep {
+            slider: slider.to_owned(),
+            dt: 1.0,
+            spans,
+        };
         let told = [way("ring", 2.0)];
         assert!(!way("ring", 3.9).is_new_or_worse(&told));
         assert!(way("ring", 4.0).is_new_or_worse(&told));
         assert!(way("bead", 1.1).is_new_or_worse(&told));
-        let bounce = Warning::Bounce { slider: "ring".to_owned(), dt: 1.0, blows: 1.1 };
+        let bounce = Warning::Bounce { slider: "ring".to_owned(), dt: 1.0, steps_per_impact: 1.1 };
         assert!(bounce.is_new_or_worse(&told) && bounce.is_new_or_worse(&[]));
     }
 

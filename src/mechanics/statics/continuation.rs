@@ -50,7 +50,7 @@ pub(super) struct Continuation<'s> {
 
 struct PathDirection {
     movements: Vec<f64>,
-    falls: usize,
+    unstable_directions: usize,
 }
 
 impl PathDirection {
@@ -59,7 +59,7 @@ impl PathDirection {
     fn is_aligned_with(&self, next: &Self, metric: &[f64]) -> bool {
         let ways = metric.iter().zip(&self.movements).zip(&next.movements);
         let along: f64 = ways.map(|((weight, before), now)| weight * before * now).sum();
-        along >= 0.0 && next.falls == self.falls
+        along >= 0.0 && next.unstable_directions == self.unstable_directions
     }
 }
 
@@ -78,7 +78,7 @@ impl<'s> Continuation<'s> {
             newton: Newton::of(tangent(&model, 0), loading.tolerance),
             unknowns: vec![0.0; all],
             residual: vec![0.0; model.degrees_of_freedom()],
-            heading: PathDirection { movements: vec![0.0; all], falls: 0 },
+            heading: PathDirection { movements: vec![0.0; all], unstable_directions: 0 },
             model,
             path,
         }
@@ -108,7 +108,7 @@ impl<'s> Continuation<'s> {
             InitialSupport::Itself => self.solve_for_factor(factor, MOST_HALVINGS, goes_on),
             InitialSupport::Loads(movements) => {
                 self.find_equilibrium(factor, movements, goes_on)?;
-                self.heading.falls = self.unstable_directions();
+                self.heading.unstable_directions = self.unstable_directions();
                 Ok(())
             }
         }
@@ -147,12 +147,12 @@ impl<'s> Continuation<'s> {
         goes_on: &mut dyn FnMut(f64) -> bool,
     ) -> Result<f64, StaticsError> {
         let (from, goal) = (self.path.load_factor(), self.loading.factor);
-        let mut miss = StepFailure::Far;
+        let mut miss = StepFailure::FarSolution;
         for _ in 0..=MOST_HALVINGS {
             self.query_monitor(goes_on)?;
             match trial.find(&mut self.model, self.length, from, distance, self.scene) {
                 Ok(_) if norm(&self.metric, trial.movements()) > FAR * distance => {
-                    miss = StepFailure::Far
+                    miss = StepFailure::FarSolution
                 }
                 Ok(_) if (from < goal) != (trial.factor() < goal) => {
                     return self.solve_for_factor(goal, MOST_HALVINGS, goes_on).map(|()| distance);
@@ -186,7 +186,7 @@ impl<'s> Continuation<'s> {
         let factors = [before.load_factor, last.load_factor, factor];
         let vertex = vertex(factors, [last.distance, distance])?;
         let is_beyond = (vertex.load_factor < goal) != (last.load_factor < goal);
-        is_beyond.then_some(vertex.way - last.distance)
+        is_beyond.then_some(vertex.distance - last.distance)
     }
 
     /// Solves for a load factor, with halved steps if nothing is found or the result does not continue the path.
@@ -219,7 +219,8 @@ impl<'s> Continuation<'s> {
             return true;
         }
         let falls = self.unstable_directions();
-        let heading = PathDirection { movements: self.unknowns.clone(), falls };
+        let heading =
+            PathDirection { movements: self.unknowns.clone(), unstable_directions: falls };
         let goes_on = halvings == 0 || self.heading.is_aligned_with(&heading, &self.metric);
         if goes_on {
             self.heading = heading;
@@ -244,7 +245,7 @@ impl<'s> Continuation<'s> {
     /// Solves for an equilibrium near the last one. Returns the number of iterations.
     fn find(&mut self, factor: f64) -> Result<usize, StepFailure> {
         let found = match self.balance_from(factor, 0.0) {
-            Ok(_) if self.distance_moved() > self.farthest(factor) => Err(StepFailure::Far),
+            Ok(_) if self.distance_moved() > self.farthest(factor) => Err(StepFailure::FarSolution),
             found => found,
         };
         if found.is_err() {
@@ -275,7 +276,7 @@ impl<'s> Continuation<'s> {
                 return Ok(iterations);
             }
         }
-        Err(StepFailure::Far)
+        Err(StepFailure::FarSolution)
     }
 
     /// Restores the last equilibrium after a failed search.
@@ -327,7 +328,9 @@ impl<'s> Continuation<'s> {
             Control::ArcLength(_) if points >= LEAST_PATH => {
                 StaticsError::PathLost { scene, points, reached, reason }
             }
-            Control::ArcLength(_) | Control::Load => StaticsError::Lost { scene, reached, reason },
+            Control::ArcLength(_) | Control::Load => {
+                StaticsError::NoEquilibrium { scene, reached, reason }
+            }
         }
     }
 }
@@ -339,7 +342,7 @@ pub(super) fn update_stop_contacts(
     unknowns: &[f64],
     factor: f64,
 ) -> Result<bool, StepFailure> {
-    let leaves = |(slider, end): (usize, MasterEnd)| StepFailure::Leaves {
+    let leaves = |(slider, end): (usize, MasterEnd)| StepFailure::LeavesMaster {
         slider: scene.sliders[slider].name.clone(),
         end: end.name(),
     };

@@ -44,7 +44,7 @@ impl Continuation<'_> {
         goes_on: &mut dyn FnMut(f64) -> bool,
     ) -> Result<(), StaticsError> {
         let mut rate = self.first_rate(factor, goes_on)?;
-        let (mut way, mut iterations, mut leaves, mut miss) = (0.0, 0, 0, StepFailure::Far);
+        let (mut way, mut iterations, mut leaves, mut miss) = (0.0, 0, 0, StepFailure::FarSolution);
         for _ in 0..MOST_PASSES {
             self.query_monitor(goes_on)?;
             let before = self.model.state();
@@ -61,7 +61,7 @@ impl Continuation<'_> {
                                 self.append_point(factor, way, iterations + work);
                                 return Ok(());
                             }
-                            found => miss = found.err().unwrap_or(StepFailure::Far),
+                            found => miss = found.err().unwrap_or(StepFailure::FarSolution),
                         }
                         self.model.restore(&near);
                     }
@@ -72,14 +72,14 @@ impl Continuation<'_> {
                     }
                 }
                 found => {
-                    miss = found.err().unwrap_or(StepFailure::Far);
-                    leaves += usize::from(matches!(miss, StepFailure::Leaves { .. }));
+                    miss = found.err().unwrap_or(StepFailure::FarSolution);
+                    leaves += usize::from(matches!(miss, StepFailure::LeavesMaster { .. }));
                     self.model.restore(&before);
                     rate *= HARDER;
                 }
             }
             if way > NOWHERE {
-                miss = StepFailure::Endless;
+                miss = StepFailure::Mechanism;
                 break;
             }
             if leaves > MOST_LEAVES {
@@ -88,7 +88,7 @@ impl Continuation<'_> {
         }
         self.restore_last();
         let (scene, reason) = (self.scene.name.clone(), Box::new(miss));
-        Err(StaticsError::Loose { scene, movements, reason })
+        Err(StaticsError::Unrestrained { scene, movements, reason })
     }
 
     /// Rate [1/time²] with which the first pass reduces the energy and moves the scene by a small distance.

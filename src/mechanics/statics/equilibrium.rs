@@ -22,7 +22,7 @@ pub enum Stability {
     /// Some small disturbance grows.
     Unstable,
     /// Undecided because of rounding: stiffnesses differ too much.
-    Hidden,
+    BelowRounding,
     /// Undecided because of a follower load, which has no potential.
     Follower,
 }
@@ -142,7 +142,7 @@ impl Equilibrium {
         }
         match self.modes(1, goes_on).as_ref().map(Modes::all) {
             Ok([lowest]) if lowest.square > 0.0 => Stability::Stable,
-            Ok([lowest]) if lowest.square == 0.0 => Stability::Hidden,
+            Ok([lowest]) if lowest.square == 0.0 => Stability::BelowRounding,
             _ => Stability::Unstable,
         }
     }
@@ -201,7 +201,7 @@ fn check_needs_no_time(scene: &Scene) -> Result<(), StaticsError> {
     let load = scene.loads().find(|load| load.schedule.is_sampled());
     match drive.or(load.map(|load| (load.title.as_ref().unwrap_or(&load.name), InTime::Controller)))
     {
-        Some((name, by)) => Err(StaticsError::InTime { name: name.clone(), by }),
+        Some((name, by)) => Err(StaticsError::TimeDependent { name: name.clone(), by }),
         None => Ok(()),
     }
 }
@@ -228,7 +228,7 @@ fn prepare(scene: &Scene, loading: &Loading) -> Result<System, StaticsError> {
     let time = loading.time;
     match (is_unloaded(&mut model), loading.control) {
         (true, _) => Err(StaticsError::NoLoad { time }),
-        (false, Control::ArcLength(_)) => Err(StaticsError::NothingGrows { time }),
+        (false, Control::ArcLength(_)) => Err(StaticsError::NoScaledLoad { time }),
         (false, Control::Load) => Ok(model),
     }
 }

@@ -46,7 +46,7 @@ pub enum StaticsError {
     },
     /// Path of given length for a scene with initial strains only, which no load factor scales.
     #[error("no load acts at t = {time}: only prestress acts, and arc-length control needs a load")]
-    NothingGrows {
+    NoScaledLoad {
         /// Time of the loading [time].
         time: f64,
     },
@@ -54,7 +54,7 @@ pub enum StaticsError {
     #[error(
         "'{name}' is given by {by}, which is undefined in an equilibrium, where no time passes"
     )]
-    InTime {
+    TimeDependent {
         /// Name of the drive or load.
         name: String,
         /// Kind of the specification.
@@ -82,7 +82,7 @@ pub enum StaticsError {
     #[error(
         "scene '{scene}' is not restrained: {movements} of its degrees of freedom have no stiffness as drawn, and no equilibrium was found: {reason}"
     )]
-    Loose {
+    Unrestrained {
         /// Name of the scene.
         scene: String,
         /// Number of unrestrained movements.
@@ -92,7 +92,7 @@ pub enum StaticsError {
     },
     /// No equilibrium near the last one.
     #[error("no equilibrium of scene '{scene}' was found beyond load factor {}: {reason}", rounded(*reached))]
-    Lost {
+    NoEquilibrium {
         /// Name of the scene.
         scene: String,
         /// Last load factor with an equilibrium [-].
@@ -130,13 +130,13 @@ pub enum StepFailure {
     Newton(#[from] NewtonError),
     /// The solution is far from the last equilibrium.
     #[error("the next equilibrium is far from the last one (limit point, snap-through)")]
-    Far,
+    FarSolution,
     /// Endless movement of an unrestrained scene.
     #[error("the motion under the loads does not end (a mechanism or a missing support)")]
-    Endless,
+    Mechanism,
     /// Slider that would leave its master.
     #[error("slider '{slider}' would leave its beam at its {end}")]
-    Leaves {
+    LeavesMaster {
         /// Name of the slider.
         slider: String,
         /// End of its master, such as `start`.

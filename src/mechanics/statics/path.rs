@@ -64,7 +64,7 @@ impl EquilibriumPath {
 /// Turning point of the load factor between three equilibria.
 pub(super) struct LoadTurningPoint {
     /// Distance from the first of the three points, in the metric of the path.
-    pub(super) way: f64,
+    pub(super) distance: f64,
     pub(super) load_factor: f64,
 }
 
@@ -76,7 +76,7 @@ pub(super) fn vertex(
     let curvature = (fall - rise) / (before + after);
     let at = 0.5 * (before - rise / curvature);
     let load_factor = first + rise * at + curvature * at * (at - before);
-    (rise * fall < 0.0).then_some(LoadTurningPoint { way: at, load_factor })
+    (rise * fall < 0.0).then_some(LoadTurningPoint { distance: at, load_factor })
 }
 
 #[cfg(test)]

@@ -61,7 +61,7 @@ impl PathStep {
                 return Ok(iterations);
             }
         }
-        Err(StepFailure::Far)
+        Err(StepFailure::FarSolution)
     }
 
     pub(super) fn movements(&self) -> &[f64] {

@@ -50,7 +50,7 @@ pub struct System {
     motion: MotionState,
     exchanged: ExchangeLedger,
     step: StepMeasures,
-    kept: SystemState,
+    saved_state: SystemState,
 }
 
 impl System {
@@ -74,7 +74,7 @@ impl System {
             motion,
             exchanged: ExchangeLedger::default(),
             step: StepMeasures::new(degrees_of_freedom),
-            kept: SystemState::default(),
+            saved_state: SystemState::default(),
         }
     }
 
@@ -187,7 +187,7 @@ impl System {
     pub fn hold_at_stop(&mut self, limit: MasterLimit) {
         let slider = &mut self.sliders[limit.slider];
         slider.hold_at(limit.end);
-        slider.stop_may_pull = slider.left_at == self.motion.time;
+        slider.stop_may_pull = slider.stop_left_at == self.motion.time;
         self.motion.accelerations.mark_unknown();
     }
 

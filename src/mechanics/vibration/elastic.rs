@@ -21,7 +21,7 @@ pub(super) struct Elastic {
     /// Rows of each span: strains, then pairs `p` and `q`.
     rows: Vec<f64>,
     stiffness: Vec<f64>,
-    doubts: Vec<f64>,
+    rounding_fractions: Vec<f64>,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -37,14 +37,14 @@ pub(super) struct Shapes {
     /// Section forces `n`, a row each.
     forces: Vec<FourVectors>,
     /// Mismatches `m`.
-    missing: Vec<FourVectors>,
+    mismatches: Vec<FourVectors>,
     /// Internal forces of each shape, `Bᵀ (n + k m) + K_g x` [force, force·length].
-    pub(super) resisting: Vec<FourVectors>,
+    pub(super) internal_forces: Vec<FourVectors>,
 }
 
 impl Shapes {
     pub(super) fn scale(&mut self, factors: &FourVectors) {
-        let Self { movements, forces, missing, resisting } = self;
+        let Self { movements, forces, mismatches: missing, internal_forces: resisting } = self;
         for row in movements.iter_mut().chain(forces).chain(missing).chain(resisting) {
             row.iter_mut().zip(factors).for_each(|(entry, factor)| *entry *= factor);
         }
@@ -54,7 +54,7 @@ impl Shapes {
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Energies {
     /// Twice the energy of each shape, `Σ n²/k + xᵀ K_g x`.
-    pub(super) whole: FourVectors,
+    pub(super) double_energy: FourVectors,
     /// Twice the energy of the last correction of each shape.
     pub(super) correction: FourVectors,
 }
@@ -62,13 +62,13 @@ pub(super) struct Energies {
 impl Elastic {
     /// Adds the rows of a span, restricted to the `size` unknowns of the scene.
     pub(super) fn add(&mut self, size: usize, degrees: &[usize], span: &SpanStiffness) {
-        let (strains, twists) = (span.stiffness.len(), span.doubts.len());
+        let (strains, twists) = (span.stiffness.len(), span.rounding_fractions.len());
         self.spans.push(StrainRows { width: degrees.len(), strains, twists });
         self.unknowns.extend(degrees.iter().map(|&at| at.min(size) as u32));
         self.rows.extend(&span.strains);
         self.rows.extend(&span.twists);
         self.stiffness.extend(&span.stiffness);
-        self.doubts.extend(&span.doubts);
+        self.rounding_fractions.extend(&span.rounding_fractions);
     }
 
     pub(super) fn strains(&self) -> usize {
@@ -84,7 +84,12 @@ impl Elastic {
     pub(super) fn room(&self, length: usize) -> Shapes {
         let rows = vec![[0.0; STRIP_WIDTH]; self.strains()];
         let vector = vec![[0.0; STRIP_WIDTH]; length];
-        Shapes { forces: rows.clone(), missing: rows, resisting: vector.clone(), movements: vector }
+        Shapes {
+            forces: rows.clone(),
+            mismatches: rows,
+            internal_forces: vector.clone(),
+            movements: vector,
+        }
     }
 
     /// Sets four mode shapes from their displacements, with the section forces of their strains. Returns their energies.
@@ -92,7 +97,7 @@ impl Elastic {
         // Corrects zero shapes by the whole movements.
         shapes.movements.fill([0.0; STRIP_WIDTH]);
         shapes.forces.fill([0.0; STRIP_WIDTH]);
-        shapes.missing.fill([0.0; STRIP_WIDTH]);
+        shapes.mismatches.fill([0.0; STRIP_WIDTH]);
         self.correct(shapes, movements)
     }
 
@@ -182,7 +187,7 @@ impl WithSimd for ShapeCorrection<'_> {
         for (x, by) in shapes.movements.iter_mut().zip(by) {
             x.iter_mut().zip(by).for_each(|(x, by)| *x += by);
         }
-        shapes.resisting.fill([0.0; STRIP_WIDTH]);
+        shapes.internal_forces.fill([0.0; STRIP_WIDTH]);
         let mut energies = Energies::default();
         // The widths of spans of degree 1 to 3 are compile-time constants.
         elastic.each_span(|span| match span.unknowns.len() {
@@ -199,7 +204,7 @@ impl WithSimd for ShapeCorrection<'_> {
 fn correct_span<const WIDTH: usize>(
     elastic: &Elastic,
     &ElasticSpan { unknowns, rows, pairs, strain, .. }: &ElasticSpan<'_>,
-    Shapes { movements, forces, missing, resisting }: &mut Shapes,
+    Shapes { movements, forces, mismatches: missing, internal_forces: resisting }: &mut Shapes,
     by: &VectorStrip,
     energies: &mut Energies,
 ) {
@@ -219,7 +224,7 @@ fn correct_span<const WIDTH: usize>(
             let strain = force[lane] * flexibility;
             missing[lane] = now[lane] - strain;
             whole[lane] = force[lane] + stiffness * missing[lane];
-            energies.whole[lane] += force[lane] * strain;
+            energies.double_energy[lane] += force[lane] * strain;
             energies.correction[lane] += change * change * flexibility;
         }
         spread(row, &whole, &mut out);
@@ -229,7 +234,7 @@ fn correct_span<const WIDTH: usize>(
         let (along_p, along_q) = (along(p, &x), along(q, &x));
         let (by_p, by_q) = (along(p, &by), along(q, &by));
         for lane in 0..STRIP_WIDTH {
-            energies.whole[lane] += 2.0 * along_p[lane] * along_q[lane];
+            energies.double_energy[lane] += 2.0 * along_p[lane] * along_q[lane];
             energies.correction[lane] += 2.0 * by_p[lane] * by_q[lane];
         }
         spread(p, &along_q, &mut out);
@@ -270,7 +275,7 @@ impl WithSimd for Rounding<'_> {
             }
             for (at, pair) in pairs.chunks_exact(2 * width).enumerate() {
                 let (p, q) = pair.split_at(width);
-                let part = f64::EPSILON + elastic.doubts[twist + at];
+                let part = f64::EPSILON + elastic.rounding_fractions[twist + at];
                 for ((sum, p), q) in sums.iter_mut().zip(sizes(p, &x)).zip(sizes(q, &x)) {
                     *sum += 2.0 * part * p * q;
                 }

@@ -11,10 +11,10 @@ fn range(available: usize) -> String {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum VibrationError {
     /// Number of modes outside its range.
-    #[error("{asked} modes requested, but the scene has {available}, one per degree of freedom with inertia{}", range(*available))]
+    #[error("{requested} modes requested, but the scene has {available}, one per degree of freedom with inertia{}", range(*available))]
     Count {
         /// Requested number of modes.
-        asked: usize,
+        requested: usize,
         /// Number of modes of the scene.
         available: usize,
     },
@@ -30,7 +30,7 @@ pub enum VibrationError {
     #[error(
         "the modes did not converge in {restarts} restarts of the Lanczos method; request a few more or fewer modes, or use a coarser mesh"
     )]
-    Unsettled {
+    NotConverged {
         /// Number of restarts.
         restarts: usize,
     },
@@ -56,7 +56,7 @@ pub enum VibrationError {
     #[error(
         "mode {modes} (from 0) is inaccurate because of rounding: its residual is {residual:.1e}, but at most 1e-6 is allowed; request at most {modes} modes, use a coarser mesh, or reduce the largest stiffness or increase the smallest inertia"
     )]
-    Hidden {
+    BelowRounding {
         /// Number of modes below the first lost one.
         modes: usize,
         /// Residual of the first lost mode [-].

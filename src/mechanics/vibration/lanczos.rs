@@ -108,7 +108,7 @@ impl<'a> Lanczos<'a> {
                 }
             }
         }
-        Err(VibrationError::Unsettled { restarts: MOST_RESTARTS })
+        Err(VibrationError::NotConverged { restarts: MOST_RESTARTS })
     }
 
     /// Continues with the found pairs and new random vectors, because there may be more equal modes than vectors in a block.

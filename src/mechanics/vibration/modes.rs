@@ -83,7 +83,7 @@ impl Modes {
         }
         let pencil = Pencil::of(model)?;
         if count == 0 || count > pencil.finite {
-            return Err(VibrationError::Count { asked: count, available: pencil.finite });
+            return Err(VibrationError::Count { requested: count, available: pencil.finite });
         }
         let mut modes = lowest(&pencil, count, goes_on)?;
         for mode in &mut modes {

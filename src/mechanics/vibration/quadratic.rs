@@ -93,7 +93,7 @@ impl Quadratic {
         }
         let available = zeros + told;
         if count == 0 || count > available {
-            return Err(VibrationError::Count { asked: count, available });
+            return Err(VibrationError::Count { requested: count, available });
         }
         let moving = seen.iter().flat_map(|(resolvent, numbers)| {
             numbers.iter().map(|at| resolvent.corrected(*at) * resolvent.shift)

@@ -111,7 +111,7 @@ impl OtherPairs<'_> {
         let energies = self.pencil.elastic.begin(&self.strips[at], shapes);
         let mut imbalance = self.momenta[at].clone();
         let kinetic = self.kinetic(shapes, &imbalance);
-        let squares = squares_of(&energies.whole, &kinetic);
+        let squares = squares_of(&energies.double_energy, &kinetic);
         subtract_restoring(&mut imbalance, &squares, shapes);
         let of_others = self.remove_other_pairs(&mut imbalance, &squares);
         let residuals = std::array::from_fn(|lane| {
@@ -181,7 +181,7 @@ impl OtherPairs<'_> {
                 let change = energies.correction[lane] + shift * changed[lane] + of_others[lane];
                 residuals[lane] = (change.abs() / (squares[lane] + shift)).sqrt();
             }
-            squares = squares_of(&energies.whole, &kinetic);
+            squares = squares_of(&energies.double_energy, &kinetic);
             let scale = scale_of(&kinetic);
             shapes.scale(&scale);
             for row in &mut momenta {
@@ -238,7 +238,7 @@ impl OtherPairs<'_> {
 
 /// `r ← ω² r - Bᵀ (n + k m) - K_g x`
 fn subtract_restoring(r: &mut [FourVectors], squares: &FourVectors, shapes: &Shapes) {
-    for (r, resisting) in r.iter_mut().zip(&shapes.resisting) {
+    for (r, resisting) in r.iter_mut().zip(&shapes.internal_forces) {
         for ((r, resisting), square) in r.iter_mut().zip(resisting).zip(squares) {
             *r = square * *r - resisting;
         }

@@ -105,7 +105,7 @@ fn with_shift(
             let pairs = all_pairs(pencil, factors, goes_on)?;
             let available = pairs.values.len();
             if available < count {
-                return Err(VibrationError::Count { asked: count, available });
+                return Err(VibrationError::Count { requested: count, available });
             }
             assess(pencil, shift, &pairs, count, goes_on)?
         }
@@ -166,6 +166,6 @@ fn accept(modes: Vec<Mode>) -> Result<Vec<Mode>, VibrationError> {
     let bad = |mode: &Mode| !(mode.residual <= LARGEST_RESIDUAL && mode.square.is_finite());
     match modes.iter().position(bad) {
         None => Ok(modes),
-        Some(at) => Err(VibrationError::Hidden { modes: at, residual: modes[at].residual }),
+        Some(at) => Err(VibrationError::BelowRounding { modes: at, residual: modes[at].residual }),
     }
 }

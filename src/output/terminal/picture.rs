@@ -51,7 +51,7 @@ pub struct ConfigurationPicture {
     title: String,
     time: Option<f64>,
     lines: Vec<Vec<Point>>,
-    ghost: Vec<Vec<Point>>,
+    reference_beams: Vec<Vec<Point>>,
     marks: Vec<(PictureMark, Point)>,
     limits: AxisLimits,
 }
@@ -83,7 +83,7 @@ impl ConfigurationPicture {
 
     /// Adds a beam in a reference configuration: dotted, and dimmer if there are colours.
     pub fn reference_beam(mut self, points: Vec<Point>) -> Self {
-        self.ghost.push(points);
+        self.reference_beams.push(points);
         self
     }
 
@@ -110,7 +110,8 @@ impl ConfigurationPicture {
         let style = style.sized(style.width, rows + 2 * border);
         let mut sheet = CharacterGrid::new(&style);
         let mut dots = Dots::new(columns, rows);
-        let traces = [(&self.ghost, Trace::Dotted, true), (&self.lines, Trace::Solid, false)];
+        let traces =
+            [(&self.reference_beams, Trace::Dotted, true), (&self.lines, Trace::Solid, false)];
         for (lines, trace, is_ghost) in traces {
             for (index, line) in lines.iter().enumerate() {
                 let ink =
@@ -143,7 +144,7 @@ impl ConfigurationPicture {
 
     fn window(&self, columns: usize, rows: usize) -> Option<(usize, PlaneWindow)> {
         let points = || {
-            let lines = self.lines.iter().chain(&self.ghost).flatten().copied();
+            let lines = self.lines.iter().chain(&self.reference_beams).flatten().copied();
             let all = lines.chain(self.marks.iter().map(|(_, at)| *at));
             all.filter(|(x, y)| x.is_finite() && y.is_finite())
         };

@@ -42,7 +42,7 @@ pub fn variables(shell: &mut Shell, _: &str) -> CommandOutcome {
     let rows: Vec<_> = of_variables.chain(of_functions).chain(of_modules).collect();
     if rows.is_empty() {
         shell.print("there are no variables yet");
-        return CommandOutcome::Good;
+        return CommandOutcome::Success;
     }
     let room = match shell.screen() {
         ReplyTarget::Terminal(style) => {
@@ -68,7 +68,7 @@ pub fn variables(shell: &mut Shell, _: &str) -> CommandOutcome {
         table.row([name, of, value].map(Cell::Text));
     }
     shell.print(table.to_string().trim_end());
-    CommandOutcome::Good
+    CommandOutcome::Success
 }
 
 enum ShownVariable<'a> {
@@ -85,7 +85,7 @@ pub fn view(shell: &mut Shell, operand: &str) -> CommandOutcome {
     // Quotes and backslashes would end the string literal below; no file name needs them.
     let name: String = file.chars().filter(|letter| !matches!(letter, '"' | '\\')).collect();
     let outcome = shell.call_latest(&format!("write_viewer(\"{name}\")"));
-    if outcome == CommandOutcome::Good {
+    if outcome == CommandOutcome::Success {
         let page = shell.session().context().output().folder().join(&name);
         shell.print(&format!("open {} in a browser to see it", page.display()));
     }
@@ -197,7 +197,7 @@ pub(super) fn draw(
     match drawn {
         Ok(text) => {
             shell.print(text.trim_end());
-            CommandOutcome::Good
+            CommandOutcome::Success
         }
         Err(error) => shell.report_native_error(error),
     }

@@ -85,7 +85,7 @@ fn plot_columns(shell: &mut Shell, columns: &[String]) -> CommandOutcome {
         ReplyTarget::Pipe if columns == ["drift"] => Ok(plots::drift_summary(simulation.history())),
         ReplyTarget::Pipe => column_summaries(simulation.history(), columns),
     });
-    if outcome == CommandOutcome::Good {
+    if outcome == CommandOutcome::Success {
         print_single_state_note(shell);
     }
     outcome
@@ -148,7 +148,7 @@ fn plot_curves(shell: &mut Shell, found: Vec<PlotPart>, options: Option<Map>) ->
         }
     }
     let Some(first) = curves.first().map(|curve: &PlotCurve| curve.over) else {
-        return CommandOutcome::Good;
+        return CommandOutcome::Success;
     };
     if let Some(empty) = curves.iter().find(|curve| !curve.has_points()) {
         let told = format!("'{}' has no finite value", empty.name);
@@ -181,7 +181,7 @@ fn plot_curves(shell: &mut Shell, found: Vec<PlotPart>, options: Option<Map>) ->
     }
     said.iter().for_each(|words| shell.print_note(words));
     print_single_state_note(shell);
-    CommandOutcome::Good
+    CommandOutcome::Success
 }
 
 type PlotData = Result<(Vec<PlotCurve>, Option<String>), CommandOutcome>;
@@ -254,7 +254,7 @@ fn expression(shell: &mut Shell, text: &str) -> PlotData {
             ))
     };
     let Some(subject) = subject else { return Err(alone(shell)) };
-    let Followed { points, words } = evaluate_history(shell, &subject, text)?;
+    let Followed { points, text: words } = evaluate_history(shell, &subject, text)?;
     let asks = mentions(shell, text).next().is_some();
     let is_flat = points.windows(2).all(|pair| pair[0].1 == pair[1].1);
     if is_flat && !asks && points.len() > 1 {

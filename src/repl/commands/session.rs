@@ -43,7 +43,7 @@ pub fn save(shell: &mut Shell, operand: &str) -> CommandOutcome {
     }
     shell.record_saved(path, script);
     shell.print(&format!("saved to {operand}"));
-    CommandOutcome::Good
+    CommandOutcome::Success
 }
 
 pub fn load(shell: &mut Shell, operand: &str) -> CommandOutcome {
@@ -60,7 +60,7 @@ pub fn load(shell: &mut Shell, operand: &str) -> CommandOutcome {
 
 pub fn reset(shell: &mut Shell, _: &str) -> CommandOutcome {
     shell.reset();
-    CommandOutcome::Good
+    CommandOutcome::Success
 }
 
 pub fn quit(_: &mut Shell, _: &str) -> CommandOutcome {

@@ -15,10 +15,10 @@ pub fn step(shell: &mut Shell, operand: &str) -> CommandOutcome {
     if !shell.is_watching() {
         return move_latest(shell, &format!("step({count})"));
     }
-    let mut outcome = CommandOutcome::Good;
+    let mut outcome = CommandOutcome::Success;
     for _ in 0..count {
         outcome = shell.call_latest_and_watch("step()");
-        if outcome != CommandOutcome::Good {
+        if outcome != CommandOutcome::Success {
             break;
         }
     }
@@ -33,8 +33,8 @@ pub fn run(shell: &mut Shell, operand: &str) -> CommandOutcome {
     if !shell.is_watching() || !end.is_finite() || shell.next_stop(end).is_none() {
         return move_latest(shell, &format!("run_to({})", format_number(end)));
     }
-    let mut outcome = CommandOutcome::Good;
-    while let (CommandOutcome::Good, Some(next)) = (outcome, shell.next_stop(end)) {
+    let mut outcome = CommandOutcome::Success;
+    while let (CommandOutcome::Success, Some(next)) = (outcome, shell.next_stop(end)) {
         outcome = shell.call_latest_and_watch(&format!("run_to({})", format_number(next)));
     }
     outcome
@@ -50,14 +50,14 @@ pub fn back(shell: &mut Shell, operand: &str) -> CommandOutcome {
 pub fn watch(shell: &mut Shell, operand: &str) -> CommandOutcome {
     if operand.is_empty() {
         shell.clear_watched();
-        return CommandOutcome::Good;
+        return CommandOutcome::Success;
     }
     shell.watch(operand)
 }
 
 fn move_latest(shell: &mut Shell, call: &str) -> CommandOutcome {
     let outcome = shell.call_latest(call);
-    if outcome == CommandOutcome::Good {
+    if outcome == CommandOutcome::Success {
         match shell.is_watching() {
             true => return shell.show_watched(),
             false => shell.print_position(),

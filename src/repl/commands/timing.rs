@@ -23,7 +23,7 @@ pub fn time(shell: &mut Shell, operand: &str) -> CommandOutcome {
     if let Some(earlier) = earlier.filter(|_| !shell.has_latest_simulation()) {
         shell.session().context().set_latest_simulation(earlier);
     }
-    if outcome != CommandOutcome::Good {
+    if outcome != CommandOutcome::Success {
         return outcome;
     }
     let change = match operand.starts_with([':', '?']) {
@@ -36,7 +36,7 @@ pub fn time(shell: &mut Shell, operand: &str) -> CommandOutcome {
         None if took >= LONGEST => shell.print(&once("it takes more than a second")),
         None => return repeat(shell, operand, took),
     }
-    CommandOutcome::Good
+    CommandOutcome::Success
 }
 
 fn repeat(shell: &mut Shell, operand: &str, first: Duration) -> CommandOutcome {
@@ -65,7 +65,7 @@ fn repeat(shell: &mut Shell, operand: &str, first: Duration) -> CommandOutcome {
         shell.print_note(&format!("note: when repeated, it {change}"));
     }
     match outcome {
-        Ok(()) | Err(Reply::Failed(_)) => CommandOutcome::Good,
+        Ok(()) | Err(Reply::Failed(_)) => CommandOutcome::Success,
         Err(stopped) => shell.print_reply(stopped),
     }
 }

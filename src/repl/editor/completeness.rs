@@ -67,7 +67,7 @@ const HEADS: &[&str] =
     &["fn", "if", "else", "while", "until", "for", "loop", "switch", "do", "try", "catch"];
 
 enum ParseOutcome {
-    GoOn,
+    Incomplete,
     Final(Completeness),
 }
 
@@ -78,7 +78,7 @@ struct BracketLevel<'t> {
     /// Keyword whose block this level is.
     owner: Option<&'t str>,
     /// Keyword that still needs its block.
-    waiting: Option<&'t str>,
+    keyword: Option<&'t str>,
     /// Keyword whose block was closed last.
     closed: Option<&'t str>,
     /// True between the bars of a closure such as `|x, y| x + y`.
@@ -91,7 +91,7 @@ struct InputReader<'t> {
     level: BracketLevel<'t>,
     line: usize,
     /// True if the last token requires a continuation.
-    goes_on: bool,
+    is_incomplete: bool,
     /// True if the last token ends a value, so that a bar after it is an operator.
     is_value: bool,
     /// True inside a string literal or comment, where indentation must not be added.
@@ -102,7 +102,7 @@ impl<'t> InputReader<'t> {
     fn read(&mut self, token: &Token, text: &'t str) -> ParseOutcome {
         let written = token.of(text);
         if token.is_significant() {
-            (self.goes_on, self.is_literal) = (false, false);
+            (self.is_incomplete, self.is_literal) = (false, false);
         }
         let just_closed = match token.is_significant() {
             true => self.level.closed.take(),
@@ -131,9 +131,9 @@ impl<'t> InputReader<'t> {
                 if written == ":" && self.level.bracket != Some(Bracket::Map) {
                     return ParseOutcome::Final(Complete);
                 }
-                self.goes_on = GO_ON.contains(&written);
+                self.is_incomplete = GO_ON.contains(&written);
                 if matches!(written, ";" | "=>") {
-                    self.level.waiting = None;
+                    self.level.keyword = None;
                 }
             }
             TokenKind::Space
@@ -143,11 +143,11 @@ impl<'t> InputReader<'t> {
             | TokenKind::Number => (),
         }
         if token.is_significant() {
-            self.is_value =
-                !matches!(token.kind, TokenKind::Symbol | TokenKind::Open(_)) && !self.goes_on;
+            self.is_value = !matches!(token.kind, TokenKind::Symbol | TokenKind::Open(_))
+                && !self.is_incomplete;
         }
         self.line += written.matches('\n').count();
-        ParseOutcome::GoOn
+        ParseOutcome::Incomplete
     }
 
     /// A string literal continues on the next line only after a backslash.
@@ -159,14 +159,14 @@ impl<'t> InputReader<'t> {
     fn read_word(&mut self, word: &'t str, just_closed: Option<&str>) {
         let ends_do = just_closed == Some("do") && matches!(word, "while" | "until");
         if HEADS.contains(&word) && !ends_do {
-            self.level.waiting = Some(word);
+            self.level.keyword = Some(word);
         }
-        self.goes_on = ends_do || INTRODUCE.contains(&word);
+        self.is_incomplete = ends_do || INTRODUCE.contains(&word);
     }
 
     fn open(&mut self, bracket: Bracket) {
         let owner = match bracket {
-            Bracket::Curly => self.level.waiting.take(),
+            Bracket::Curly => self.level.keyword.take(),
             _ => None,
         };
         let level = BracketLevel {
@@ -189,13 +189,13 @@ impl<'t> InputReader<'t> {
             return Open(0);
         }
         let lacks_partner = matches!(self.level.closed, Some("do" | "try"));
-        let waits = self.goes_on
+        let waits = self.is_incomplete
             || lacks_partner
             || self.level.is_between_bars
-            || self.level.waiting.is_some();
+            || self.level.keyword.is_some();
         if self.level.bracket.is_none() {
             // The continuation of `fn f()` or `try { }` is not indented; that of an expression is.
-            return if waits { Open(usize::from(self.goes_on)) } else { Complete };
+            return if waits { Open(usize::from(self.is_incomplete)) } else { Complete };
         }
         // Brackets opened in the same line indent once.
         let levels = self.outer.iter().skip(1).chain(std::iter::once(&self.level));

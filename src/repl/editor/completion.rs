@@ -66,8 +66,9 @@ fn complete_language(
     let before = |back: usize| count.checked_sub(back).map_or("", |index| input.written(index));
     let candidates = match before(1) {
         "." | "?." => {
-            let of =
-                count.checked_sub(2).and_then(|end| Types { input: &input, surroundings }.of(end));
+            let of = count
+                .checked_sub(2)
+                .and_then(|end| Types { input: &input, context: surroundings }.of(end));
             let variable =
                 surroundings.variable(before(2)).filter(|_| !matches!(before(3), "." | "?."));
             members(of, variable, typed, surroundings)

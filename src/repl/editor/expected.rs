@@ -25,7 +25,7 @@ pub struct ActiveCall {
 
 impl<'a, 't> Expected<'a, 't> {
     pub fn new(input: &'a Input<'t>, surroundings: &'a CompletionContext) -> Self {
-        Self { types: Types { input, surroundings }, levels: input.levels() }
+        Self { types: Types { input, context: surroundings }, levels: input.levels() }
     }
 
     /// Innermost open bracket before the cursor.
@@ -52,7 +52,7 @@ impl<'a, 't> Expected<'a, 't> {
         if map.bracket != Bracket::Map || call.bracket != Bracket::Round {
             return &[];
         }
-        let modules = &self.types.surroundings.modules;
+        let modules = &self.types.context.modules;
         let of = self.types.input.callee(call.opener).and_then(|callee| {
             let module =
                 modules.iter().find(|module| Some(module.alias.as_str()) == callee.module)?;
@@ -76,7 +76,7 @@ impl<'a, 't> Expected<'a, 't> {
             return Vec::new();
         }
         let receiver = callee.receiver.map(|end| self.types.of(end));
-        let rows = self.types.surroundings.catalog.named(callee.name);
+        let rows = self.types.context.catalog.named(callee.name);
         let fitting = rows.filter_map(|row| match (row.form, &receiver) {
             (CallSyntax::Function, None) => Some(ActiveCall { row, before_dot: 0 }),
             (CallSyntax::Function, Some(_)) => Some(ActiveCall { row, before_dot: 1 }),
@@ -100,7 +100,7 @@ impl<'a, 't> Expected<'a, 't> {
             (Some(Some(kind)), Some(_)) => kind.type_name().is_some_and(|of| form.is_of(of)),
             _ => false,
         };
-        let known = self.types.surroundings.catalog.built_ins_named(callee.name);
+        let known = self.types.context.catalog.built_ins_named(callee.name);
         let forms = known.flat_map(|known| known.written().map(move |form| (known, form)));
         forms.filter(|(_, form)| form.ending != NameSuffix::Property && fits(form)).collect()
     }

@@ -10,29 +10,29 @@ const COMMAND: HighlightStyle = HighlightStyle("1");
 /// Names of a session with their colours; built once per prompt.
 pub struct SessionNames {
     language: highlight::Vocabulary,
-    surroundings: CompletionContext,
+    context: CompletionContext,
 }
 
 impl SessionNames {
     /// Vocabulary of a session.
-    pub fn of(surroundings: CompletionContext) -> Self {
-        let mut language = highlight::Vocabulary::of_language(&surroundings.catalog);
-        for function in &surroundings.functions {
+    pub fn of(context: CompletionContext) -> Self {
+        let mut language = highlight::Vocabulary::of_language(&context.catalog);
+        for function in &context.functions {
             language.add_function(&function.name);
         }
-        for variable in &surroundings.variables {
+        for variable in &context.variables {
             language.add_variable(&variable.name, &variable.of);
         }
-        for module in &surroundings.modules {
+        for module in &context.modules {
             let functions = module.functions.iter().map(|function| function.name.as_str());
             language.add_module(&module.alias, functions);
         }
-        Self { language, surroundings }
+        Self { language, context }
     }
 
     /// Session that the names belong to.
     pub fn surroundings(&self) -> &CompletionContext {
-        &self.surroundings
+        &self.context
     }
 }
 

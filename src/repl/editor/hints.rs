@@ -142,7 +142,7 @@ fn describe(parameter: &Parameter) -> String {
     let default = match parameter.presence {
         Presence::Required | Presence::Optional => None,
         Presence::Number(x) => Some(format_number(x)),
-        Presence::Whole(n) => Some(n.to_string()),
+        Presence::Integer(n) => Some(n.to_string()),
         Presence::Text(text) => Some(format!("\"{text}\"")),
         Presence::Boolean(truth) => Some(truth.to_string()),
     };

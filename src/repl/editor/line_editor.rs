@@ -78,19 +78,24 @@ pub struct Editor {
     history: Option<PathBuf>,
     colours: Colours,
     entries: Entries,
-    note: Option<String>,
+    history_problem: Option<String>,
 }
 
 impl Editor {
-    /// A line editor on this terminal. An unreadable history is reported by [`Self::take_note`] and not used.
+    /// A line editor on this terminal. An unreadable history is reported by [`Self::take_history_problem`] and not used.
     ///
     /// # Errors
     /// Fails if the terminal cannot be used.
     pub fn new(options: EditorOptions) -> io::Result<Self> {
         let lines = rustyline::Editor::with_config(configuration(&options)?).map_err(into_io)?;
         let entries = Entries::default();
-        let mut editor =
-            Self { lines, history: options.history, colours: options.colours, entries, note: None };
+        let mut editor = Self {
+            lines,
+            history: options.history,
+            colours: options.colours,
+            entries,
+            history_problem: None,
+        };
         keys::bind(&mut editor.lines, &editor.entries);
         editor.recall();
         Ok(editor)
@@ -133,7 +138,7 @@ impl Editor {
 
     /// Returns a problem with the history, once.
     pub fn take_history_problem(&mut self) -> Option<String> {
-        self.note.take()
+        self.history_problem.take()
     }
 
     fn recall(&mut self) {
@@ -170,7 +175,7 @@ impl Editor {
 
     fn disable_history(&mut self, what: &str, file: &Path, error: &ReadlineError) {
         self.history = None;
-        self.note = Some(format!(
+        self.history_problem = Some(format!(
             "note: cannot {what} the history file '{}': {error}; the inputs of this session are not stored (WITHY_HISTORY=FILE selects another file)",
             file.display()
         ));

@@ -17,7 +17,7 @@ const DEEPEST: usize = 16;
 #[derive(Clone, Copy)]
 pub struct Types<'a, 't> {
     pub input: &'a Input<'t>,
-    pub surroundings: &'a CompletionContext,
+    pub context: &'a CompletionContext,
 }
 
 struct TypedValue {
@@ -29,7 +29,7 @@ struct TypedValue {
 pub fn type_before(text: &str, surroundings: &CompletionContext) -> Option<ValueKind> {
     let input = Input::before(text, text.len());
     let last = input.tokens.len().checked_sub(1)?;
-    Types { input: &input, surroundings }.of(last)
+    Types { input: &input, context: surroundings }.of(last)
 }
 
 enum TypeStep<'t> {
@@ -132,8 +132,8 @@ impl<'t> Types<'_, 't> {
         if let Some(declared) = self.declared(name, at, depth) {
             return declared;
         }
-        let catalog = &self.surroundings.catalog;
-        match self.surroundings.variable(name) {
+        let catalog = &self.context.catalog;
+        match self.context.variable(name) {
             Some(variable) => catalog.kind_named(&variable.of),
             None => catalog.constants().any(|known| known == name).then_some(ValueKind::Number),
         }
@@ -157,10 +157,10 @@ impl<'t> Types<'_, 't> {
     }
 
     fn called(&self, name: &str) -> Option<ValueKind> {
-        if self.surroundings.functions.iter().any(|function| function.name == name) {
+        if self.context.functions.iter().any(|function| function.name == name) {
             return None;
         }
-        let catalog = &self.surroundings.catalog;
+        let catalog = &self.context.catalog;
         let mut rows = catalog.named(name).filter(|row| matches!(row.form, CallSyntax::Function));
         let mut built_ins = catalog.built_ins_named(name);
         let row = rows.next().map(|row| row.returns);
@@ -174,7 +174,7 @@ impl<'t> Types<'_, 't> {
             TypeStep::Call(name) => (*name, true),
         };
         let of = of.type_name()?;
-        let catalog = &self.surroundings.catalog;
+        let catalog = &self.context.catalog;
         let members = catalog.members(of).into_iter();
         let mut matching = members
             .filter(|row| row.name == name && matches!(row.form, CallSyntax::Method(_)) == is_call);

@@ -101,7 +101,7 @@ pub fn show_pages(
             writeln!(out, "{line}")?;
         }
         if pages.is_at_end() {
-            return Ok(PagerOutcome::Seen);
+            return Ok(PagerOutcome::Shown);
         }
         let percent = 100 * pages.shown.end / pages.lines.len();
         write!(out, "-- {percent} % -- {note}")?;
@@ -116,7 +116,7 @@ pub fn show_pages(
         note = KEYS.to_owned();
         new = match (wish, searched) {
             (Err(end), _) => return Ok(end),
-            (Ok(PagerAction::Leave), _) => return Ok(PagerOutcome::Seen),
+            (Ok(PagerAction::Leave), _) => return Ok(PagerOutcome::Shown),
             (Ok(_), None) => return Ok(PagerOutcome::Interrupted),
             (Ok(PagerAction::Search | PagerAction::SearchOn), _) if !pages.word.is_empty() => {
                 pages.search().unwrap_or_else(|| {
@@ -232,21 +232,21 @@ mod tests {
 
     #[test]
     fn pages_go_on_and_back_and_end_with_the_text() {
-        assert_eq!(walked("q"), ("012".into(), PagerOutcome::Seen));
-        assert_eq!(walked("   q"), ("0123456789".into(), PagerOutcome::Seen));
-        assert_eq!(walked(" \rbq"), ("0123456123".into(), PagerOutcome::Seen));
-        assert_eq!(walked("\x1b[B\x1b[Aq"), ("0123012".into(), PagerOutcome::Seen));
-        assert_eq!(walked("G"), ("012789".into(), PagerOutcome::Seen));
-        assert_eq!(walked(""), ("012".into(), PagerOutcome::Seen));
-        assert_eq!(walked("xq"), ("012".into(), PagerOutcome::Seen));
+        assert_eq!(walked("q"), ("012".into(), PagerOutcome::Shown));
+        assert_eq!(walked("   q"), ("0123456789".into(), PagerOutcome::Shown));
+        assert_eq!(walked(" \rbq"), ("0123456123".into(), PagerOutcome::Shown));
+        assert_eq!(walked("\x1b[B\x1b[Aq"), ("0123012".into(), PagerOutcome::Shown));
+        assert_eq!(walked("G"), ("012789".into(), PagerOutcome::Shown));
+        assert_eq!(walked(""), ("012".into(), PagerOutcome::Shown));
+        assert_eq!(walked("xq"), ("012".into(), PagerOutcome::Shown));
     }
 
     #[test]
     fn a_word_is_found_in_what_can_be_read() {
-        assert_eq!(walked("/LINE 4\rq"), ("012456".into(), PagerOutcome::Seen));
-        assert_eq!(walked("/line\rnnq"), ("012123234345".into(), PagerOutcome::Seen));
-        assert_eq!(walked("/1m\rq"), ("012".into(), PagerOutcome::Seen), "colours are no letters");
-        assert_eq!(walked("/5x\x7f\rq"), ("012567".into(), PagerOutcome::Seen));
+        assert_eq!(walked("/LINE 4\rq"), ("012456".into(), PagerOutcome::Shown));
+        assert_eq!(walked("/line\rnnq"), ("012123234345".into(), PagerOutcome::Shown));
+        assert_eq!(walked("/1m\rq"), ("012".into(), PagerOutcome::Shown), "colours are no letters");
+        assert_eq!(walked("/5x\x7f\rq"), ("012567".into(), PagerOutcome::Shown));
     }
 
     #[test]

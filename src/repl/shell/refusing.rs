@@ -26,7 +26,9 @@ impl Shell {
                 }
                 other => self.report_error(&Diagnostic::general(other.to_string())),
             },
-            ScriptError::Bug(message) => self.report_error(&Diagnostic::internal_error(message)),
+            ScriptError::Internal(message) => {
+                self.report_error(&Diagnostic::internal_error(message))
+            }
         }
     }
 }

@@ -62,6 +62,6 @@ impl Shell {
         if !self.watched.is_empty() {
             self.print(&parts.join("   "));
         }
-        CommandOutcome::Good
+        CommandOutcome::Success
     }
 }

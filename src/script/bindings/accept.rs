@@ -47,9 +47,9 @@ type Conversion = Result<Result<Dynamic, Dynamic>, ScriptError>;
 
 fn convert(engine: &Engine, owner: &str, kind: &Kind, value: Dynamic) -> Conversion {
     let accepted = match kind {
-        Kind::Anything => Some(value.clone()),
+        Kind::Any => Some(value.clone()),
         Kind::Number(range) => as_number(&value).filter(|x| range.contains(*x)).map(Dynamic::from),
-        Kind::Whole(range) => {
+        Kind::Integer(range) => {
             as_integer(&value).filter(|n| range.contains(*n as f64)).map(Dynamic::from)
         }
         Kind::Numeric => as_number(&value).is_some().then(|| value.clone()),

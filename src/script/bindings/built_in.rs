@@ -25,7 +25,7 @@ pub struct BuiltIn {
     /// Runnable example.
     pub example: &'static str,
     /// Related names.
-    pub see: &'static [&'static str],
+    pub related: &'static [&'static str],
 }
 
 /// A parsed notation of a function of Rhai.
@@ -62,7 +62,7 @@ pub const fn built_in(
     summary: &'static str,
     example: &'static str,
 ) -> BuiltIn {
-    BuiltIn { forms, returns: Returns::NOTHING, summary, doc: "", example, see: &[] }
+    BuiltIn { forms, returns: Returns::NOTHING, summary, doc: "", example, related: &[] }
 }
 
 impl BuiltIn {
@@ -80,7 +80,7 @@ impl BuiltIn {
 
     /// Sets related names.
     pub const fn with_related(mut self, see: &'static [&'static str]) -> Self {
-        self.see = see;
+        self.related = see;
         self
     }
 

@@ -7,9 +7,9 @@ use crate::script::messages::nouns::with_article;
 /// Alternative sets of keys of an option map, each with a meaning for its reader.
 pub struct KeySets<T: 'static> {
     /// Description of the sets in messages.
-    pub told: &'static str,
+    pub description: &'static str,
     /// Keys that are allowed with every set.
-    pub besides: &'static [&'static str],
+    pub always_allowed: &'static [&'static str],
     /// Sets of keys; if it is unclear which one is meant, the first applies.
     pub sets: &'static [KeySet<T>],
 }
@@ -19,7 +19,7 @@ pub struct KeySet<T> {
     /// Meaning for the reader of the map.
     pub meaning: T,
     /// Description of the set, following `given by`.
-    pub told: &'static str,
+    pub description: &'static str,
     /// Keys of the set, in the order in which missing ones are reported.
     pub keys: &'static [&'static str],
     /// Key and text value that select this set.
@@ -37,12 +37,12 @@ impl<T: Copy> KeySets<T> {
         };
         let odd: Vec<&str> = options
             .present_names()
-            .filter(|key| !meant.keys.contains(key) && !self.besides.contains(key))
+            .filter(|key| !meant.keys.contains(key) && !self.always_allowed.contains(key))
             .collect();
         match odd.first() {
             Some(first) => Err(self.mixture(owner, meant, &odd).at(CallPart::Key((*first).into()))),
             None => match meant.keys.iter().find(|key| !options.has(key)) {
-                Some(missing) => Err(options.missing(owner, missing, self.told)),
+                Some(missing) => Err(options.missing(owner, missing, self.description)),
                 None => Ok(meant.meaning),
             },
         }
@@ -67,13 +67,13 @@ impl<T: Copy> KeySets<T> {
         ScriptError::new(format!(
             "{owner}: {} {belong} to {whole} given by {}",
             listed(&quoted),
-            meant.told
+            meant.description
         ))
         .hint(format!(
             "leave {} out: it takes {} alone; {}",
             listed(odd),
             listed(meant.keys),
-            self.told
+            self.description
         ))
     }
 }

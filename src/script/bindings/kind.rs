@@ -53,7 +53,7 @@ pub struct Type {
     show: fn(&Dynamic) -> Option<String>,
     details: fn(&Dynamic) -> Option<Details>,
     busy: fn(&Dynamic) -> Option<String>,
-    meant: fn(&Dynamic) -> Option<Dynamic>,
+    convert: fn(&Dynamic) -> Option<Dynamic>,
 }
 
 impl Type {
@@ -67,7 +67,7 @@ impl Type {
             show: |value| value.read_lock::<T>().map(|held| held.show()),
             details: |value| value.read_lock::<T>().map(|held| held.details()),
             busy: |value| value.read_lock::<T>().and_then(|value| value.is_busy()),
-            meant: |value| T::meant_by(value).map(Dynamic::from),
+            convert: |value| T::meant_by(value).map(Dynamic::from),
         }
     }
 
@@ -88,7 +88,7 @@ impl Type {
 
     /// Returns the value if it is of this type, or its implicit conversion.
     pub fn accept(&self, value: &Dynamic) -> Option<Dynamic> {
-        if value.type_id() == self.id() { Some(value.clone()) } else { (self.meant)(value) }
+        if value.type_id() == self.id() { Some(value.clone()) } else { (self.convert)(value) }
     }
 
     /// Printed form of a value of this type.
@@ -130,7 +130,7 @@ pub enum Kind {
     /// Any number, including infinity and NaN; integers stay integers.
     Numeric,
     /// An integer; a number without a fractional part, such as `3.0`, is accepted.
-    Whole(NumberRange),
+    Integer(NumberRange),
     /// A text.
     Text,
     /// A text that can be read in tables and typed.
@@ -156,7 +156,7 @@ pub enum Kind {
     /// A value of one of these kinds, tried in order.
     Either(&'static [Kind]),
     /// Any value.
-    Anything,
+    Any,
 }
 
 /// Allowed range of a number.
@@ -201,7 +201,7 @@ impl Kind {
     /// Returns true if numbers must be integers.
     pub fn is_of_whole_numbers(&self) -> bool {
         match self {
-            Self::Whole(_) => true,
+            Self::Integer(_) => true,
             Self::Either(kinds) => {
                 let of_any = |kind: &Self| matches!(kind, Self::Number(_) | Self::Numeric);
                 kinds.iter().any(Self::is_of_whole_numbers) && !kinds.iter().any(of_any)
@@ -213,7 +213,7 @@ impl Kind {
     /// Returns true if values of this type may be accepted.
     pub fn takes(&self, type_name: &str) -> bool {
         match self {
-            Self::Number(_) | Self::Whole(_) | Self::Numeric => {
+            Self::Number(_) | Self::Integer(_) | Self::Numeric => {
                 matches!(type_name, "number" | "whole number")
             }
             Self::Text | Self::Name | Self::Choice(_) => type_name == "text",
@@ -224,7 +224,7 @@ impl Kind {
             Self::Options(_) => type_name == "map",
             Self::Object(of) => of.name() == type_name,
             Self::Either(kinds) => kinds.iter().any(|kind| kind.takes(type_name)),
-            Self::Anything => true,
+            Self::Any => true,
         }
     }
 }
@@ -233,7 +233,7 @@ impl fmt::Display for Kind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Number(range) => f.write_str(&range.phrase("number")),
-            Self::Whole(range) => f.write_str(&range.phrase("whole number")),
+            Self::Integer(range) => f.write_str(&range.phrase("whole number")),
             Self::Numeric => f.write_str("a number"),
             Self::Text | Self::Name => f.write_str("a text"),
             Self::Choice(allowed) => {
@@ -252,7 +252,7 @@ impl fmt::Display for Kind {
                 let words: Vec<_> = kinds.iter().map(Kind::to_string).collect();
                 f.write_str(&words.join(" or "))
             }
-            Self::Anything => f.write_str("a value"),
+            Self::Any => f.write_str("a value"),
         }
     }
 }

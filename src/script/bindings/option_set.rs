@@ -123,7 +123,7 @@ mod tests {
     option_set! {
         struct GeneratedFields {
             width: f64 = number("width").or(Presence::Number(2.0)),
-            count: usize = integer("count").or(Presence::Whole(3)),
+            count: usize = integer("count").or(Presence::Integer(3)),
             title: Option<String> = text("title").optional(),
         }
     }
@@ -140,7 +140,7 @@ mod tests {
             GeneratedFields::of(&Options::defaults(GeneratedFields::KEYS)).expect("the defaults");
         assert_eq!((drawn.width, drawn.count, drawn.title), (2.0, 3, None));
         let wrong = FieldError::of(&Options::defaults(FieldError::KEYS)).map(|wrong| wrong.width);
-        assert!(matches!(wrong, Err(ScriptError::Bug(_))), "{wrong:?}");
+        assert!(matches!(wrong, Err(ScriptError::Internal(_))), "{wrong:?}");
     }
 
     #[test]

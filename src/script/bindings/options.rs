@@ -43,7 +43,9 @@ impl Options {
             return Err(unknown_key(owner, keys, unknown));
         }
         let is_alone = |key: &&Parameter| {
-            map.contains_key(key.name) && !key.beside.is_empty() && !map.contains_key(key.beside)
+            map.contains_key(key.name)
+                && !key.required_key.is_empty()
+                && !map.contains_key(key.required_key)
         };
         if let Some(key) = keys.iter().find(is_alone) {
             return Err(alone(owner, keys, key));
@@ -94,7 +96,7 @@ fn missing(owner: &str, name: &str, what_to_add: &str) -> ScriptError {
 }
 
 fn alone(owner: &str, keys: &[Parameter], key: &Parameter) -> ScriptError {
-    let Parameter { name, beside, .. } = key;
+    let Parameter { name, required_key: beside, .. } = key;
     let other = keys.iter().find(|other| other.name == *beside);
     let other = other.map_or_else(|| (*beside).to_owned(), expected_key_text);
     ScriptError::new(format!("{owner}: the option '{name}' requires the option '{beside}'"))

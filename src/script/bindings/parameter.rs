@@ -18,7 +18,7 @@ pub struct Parameter {
     /// Requirement and default.
     pub presence: Presence,
     /// Key of the same map that must be given too; may be empty.
-    pub beside: &'static str,
+    pub required_key: &'static str,
 }
 
 /// Requirement and default of a parameter.
@@ -31,14 +31,14 @@ pub enum Presence {
     /// Optional with a default number.
     Number(f64),
     /// Optional with a default integer.
-    Whole(i64),
+    Integer(i64),
     /// Optional with a default text.
     Text(&'static str),
     /// Optional with a default boolean.
     Boolean(bool),
 }
 
-/// Parameter of a number; finite unless [`Parameter::any_number`] is called.
+/// Parameter of a number; finite unless [`Parameter::allow_non_finite`] is called.
 pub const fn number(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Number(NumberRange::Finite))
 }
@@ -50,7 +50,7 @@ pub const fn numeric(name: &'static str) -> Parameter {
 
 /// Parameter of an integer.
 pub const fn integer(name: &'static str) -> Parameter {
-    Parameter::new(name, Kind::Whole(NumberRange::Finite))
+    Parameter::new(name, Kind::Integer(NumberRange::Finite))
 }
 
 /// Parameter of a text.
@@ -115,12 +115,12 @@ pub const fn either(name: &'static str, kinds: &'static [Kind]) -> Parameter {
 
 /// Parameter of any value.
 pub const fn of_any_type(name: &'static str) -> Parameter {
-    Parameter::new(name, Kind::Anything)
+    Parameter::new(name, Kind::Any)
 }
 
 impl Parameter {
     const fn new(name: &'static str, kind: Kind) -> Self {
-        Self { name, kind, unit: "", doc: "", presence: Presence::Required, beside: "" }
+        Self { name, kind, unit: "", doc: "", presence: Presence::Required, required_key: "" }
     }
 
     /// Restricts the number to be positive.
@@ -146,7 +146,7 @@ impl Parameter {
     const fn within(mut self, range: NumberRange) -> Self {
         self.kind = match self.kind {
             Kind::Number(_) => Kind::Number(range),
-            Kind::Whole(_) => Kind::Whole(range),
+            Kind::Integer(_) => Kind::Integer(range),
             other => other,
         };
         self
@@ -178,7 +178,7 @@ impl Parameter {
 
     /// Requires another key of the same map.
     pub const fn requires_key(mut self, other: &'static str) -> Self {
-        self.beside = other;
+        self.required_key = other;
         self
     }
 
@@ -192,7 +192,7 @@ impl Parameter {
         match self.presence {
             Presence::Required | Presence::Optional => None,
             Presence::Number(x) => Some(x.into()),
-            Presence::Whole(n) => Some(n.into()),
+            Presence::Integer(n) => Some(n.into()),
             Presence::Text(text) => Some(text.into()),
             Presence::Boolean(truth) => Some(truth.into()),
         }

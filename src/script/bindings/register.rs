@@ -107,14 +107,14 @@ fn combinations(parameters: &[Parameter]) -> Vec<Vec<TypeId>> {
 fn exact_types(kind: &Kind) -> Vec<TypeId> {
     match kind {
         Kind::Number(_) | Kind::Numeric => vec![TypeId::of::<f64>(), TypeId::of::<INT>()],
-        Kind::Whole(_) => vec![TypeId::of::<INT>()],
+        Kind::Integer(_) => vec![TypeId::of::<INT>()],
         Kind::Text | Kind::Name | Kind::Choice(_) => vec![TypeId::of::<ImmutableString>()],
         Kind::Boolean => vec![TypeId::of::<bool>()],
         Kind::Point => vec![TypeId::of::<Vec2>(), TypeId::of::<Array>()],
         Kind::Array | Kind::Numbers | Kind::Points => vec![TypeId::of::<Array>()],
         Kind::Object(of) => vec![of.id()],
         Kind::Either(kinds) => kinds.iter().flat_map(exact_types).collect(),
-        Kind::Function | Kind::Options(_) | Kind::Anything => vec![],
+        Kind::Function | Kind::Options(_) | Kind::Any => vec![],
     }
 }
 

@@ -11,13 +11,13 @@ pub enum ValueKind {
     /// No value.
     Nothing,
     /// A value of any kind.
-    Anything,
+    Any,
     /// A number, integer or not.
     Number,
     /// An integer.
-    Whole,
+    Integer,
     /// `true` or `false`.
-    Truth,
+    Boolean,
     /// A text.
     Text,
     /// A single character.
@@ -40,8 +40,8 @@ pub enum ValueKind {
 
 const PLAIN: &[ValueKind] = &[
     ValueKind::Number,
-    ValueKind::Whole,
-    ValueKind::Truth,
+    ValueKind::Integer,
+    ValueKind::Boolean,
     ValueKind::Text,
     ValueKind::Character,
     ValueKind::Function,
@@ -53,7 +53,7 @@ const PLAIN: &[ValueKind] = &[
 
 impl ValueKind {
     /// Array of values of any kind.
-    pub const ARRAY: Self = Self::Array(&Self::Anything);
+    pub const ARRAY: Self = Self::Array(&Self::Any);
 
     /// Kind of a built-in type by its name.
     pub fn plain(name: &str) -> Option<Self> {
@@ -63,10 +63,10 @@ impl ValueKind {
     /// Type name in scripts; `None` if several types are possible.
     pub const fn type_name(&self) -> Option<&'static str> {
         Some(match self {
-            Self::Nothing | Self::Anything | Self::OneOf(_) => return None,
+            Self::Nothing | Self::Any | Self::OneOf(_) => return None,
             Self::Number => "number",
-            Self::Whole => "whole number",
-            Self::Truth => "truth value",
+            Self::Integer => "whole number",
+            Self::Boolean => "truth value",
             Self::Text => "text",
             Self::Character => "character",
             Self::Function => "function",
@@ -98,7 +98,7 @@ impl ValueKind {
 impl fmt::Display for ValueKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (self, self.type_name()) {
-            (Self::Truth, _) => f.write_str("true or false"),
+            (Self::Boolean, _) => f.write_str("true or false"),
             (Self::Array(of), _) => match of.type_name() {
                 Some(of) => write!(f, "an array of {of}s"),
                 None => f.write_str("an array"),
@@ -122,22 +122,22 @@ pub struct Returns {
     /// Dimension, such as `force`; `-` for a pure number where others have one; empty if not applicable.
     unit: &'static str,
     /// Description that replaces that of the kind; may be empty.
-    words: &'static str,
+    description: &'static str,
     /// Text after the description, including a leading blank or comma.
-    note: &'static str,
+    remark: &'static str,
 }
 
 impl Returns {
     /// No value.
     pub const NOTHING: Self = Self::of(ValueKind::Nothing);
     /// A value of any kind.
-    pub const ANYTHING: Self = Self::of(ValueKind::Anything);
+    pub const ANYTHING: Self = Self::of(ValueKind::Any);
     /// A number.
     pub const NUMBER: Self = Self::of(ValueKind::Number);
     /// An integer.
-    pub const WHOLE: Self = Self::of(ValueKind::Whole);
+    pub const WHOLE: Self = Self::of(ValueKind::Integer);
     /// `true` or `false`.
-    pub const TRUTH: Self = Self::of(ValueKind::Truth);
+    pub const TRUTH: Self = Self::of(ValueKind::Boolean);
     /// A text.
     pub const TEXT: Self = Self::of(ValueKind::Text);
     /// A single character.
@@ -153,11 +153,11 @@ impl Returns {
     /// An array of numbers.
     pub const NUMBERS: Self = Self::array_of(&ValueKind::Number);
     /// A value of any kind, or nothing.
-    pub const ANYTHING_OR_NOTHING: Self = Self::one_of(&[ValueKind::Anything, ValueKind::Nothing]);
+    pub const ANYTHING_OR_NOTHING: Self = Self::one_of(&[ValueKind::Any, ValueKind::Nothing]);
 
     /// A value of this kind.
     pub const fn of(kind: ValueKind) -> Self {
-        Self { kind, unit: "", words: "", note: "" }
+        Self { kind, unit: "", description: "", remark: "" }
     }
 
     /// A value of a native type.
@@ -183,13 +183,13 @@ impl Returns {
 
     /// Replaces the description of the kind: `an angle from -PI to PI`.
     pub const fn with_description(mut self, words: &'static str) -> Self {
-        self.words = words;
+        self.description = words;
         self
     }
 
     /// Adds text after kind and dimension, including a leading blank or comma.
     pub const fn with_remark(mut self, note: &'static str) -> Self {
-        self.note = note;
+        self.remark = note;
         self
     }
 
@@ -202,7 +202,7 @@ impl Returns {
 /// Description: `a vector [force]`, `a number, whole if x is`; empty for nothing.
 impl fmt::Display for Returns {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match (self.is_nothing(), self.words) {
+        match (self.is_nothing(), self.description) {
             (true, _) => return Ok(()),
             (false, "") => write!(f, "{}", self.kind)?,
             (false, words) => f.write_str(words)?,
@@ -210,7 +210,7 @@ impl fmt::Display for Returns {
         if !self.unit.is_empty() {
             write!(f, " [{}]", self.unit)?;
         }
-        f.write_str(self.note)
+        f.write_str(self.remark)
     }
 }
 

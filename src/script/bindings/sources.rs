@@ -20,7 +20,7 @@ pub const FOLDER: &str = "std/";
 #[derive(Clone, Default)]
 pub struct Sources {
     functions: Rc<RefCell<HashMap<String, HashSet<String>>>>,
-    entered_at: Rc<Cell<Option<usize>>>,
+    line: Rc<Cell<Option<usize>>>,
     imported: Rc<RefCell<BTreeMap<String, u32>>>,
     catalog: Option<Rc<Catalog>>,
     reader: TokenReader,
@@ -28,13 +28,13 @@ pub struct Sources {
 
 /// Guard for the duration of a call into the library.
 pub struct LibraryCallGuard {
-    entered_at: Rc<Cell<Option<usize>>>,
+    line: Rc<Cell<Option<usize>>>,
     before: Option<usize>,
 }
 
 impl Drop for LibraryCallGuard {
     fn drop(&mut self) {
-        self.entered_at.set(self.before);
+        self.line.set(self.before);
     }
 }
 
@@ -111,15 +111,15 @@ impl Sources {
     /// Marks a call into the library from a line of the file `caller` until the guard is dropped. For nested library calls the outermost
     /// line counts.
     pub fn enter_library(&self, caller: Option<&str>, line: Option<usize>) -> LibraryCallGuard {
-        let before = self.entered_at.get();
+        let before = self.line.get();
         if !is_library(caller) {
-            self.entered_at.set(line);
+            self.line.set(line);
         }
-        LibraryCallGuard { entered_at: self.entered_at.clone(), before }
+        LibraryCallGuard { line: self.line.clone(), before }
     }
 
     /// Line of the call into the library, if the running code belongs to the library.
     pub fn entered_at(&self, running: Option<&str>) -> Option<usize> {
-        self.entered_at.get().filter(|_| is_library(running))
+        self.line.get().filter(|_| is_library(running))
     }
 }

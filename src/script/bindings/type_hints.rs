@@ -11,10 +11,10 @@ pub fn hint(kind: &Kind, value: &Dynamic, given: &str) -> Option<String> {
         Kind::Number(_) if is_infinite_or_nan(value) => {
             Some("an overflow or an undefined operation before this line caused this value".into())
         }
-        Kind::Whole(NumberRange::Finite) if value.is_float() => {
+        Kind::Integer(NumberRange::Finite) if value.is_float() => {
             Some("floor(x) or round(x) returns a whole number".into())
         }
-        Kind::Number(_) | Kind::Whole(_) | Kind::Numeric => of_number(value, given),
+        Kind::Number(_) | Kind::Integer(_) | Kind::Numeric => of_number(value, given),
         Kind::Choice(allowed) => {
             let text = value.as_immutable_string_ref().ok()?;
             let near = crate::script::messages::suggest::nearest(&text, allowed.iter().copied())?;

@@ -28,7 +28,7 @@ pub enum Blame {
     /// An error in the script or its use.
     User,
     /// An internal error of the program.
-    Us,
+    Program,
 }
 
 /// A part of one line of a script.
@@ -86,7 +86,7 @@ impl Diagnostic {
         diagnostic.hint = Some(
             "this is a bug in withy, not in your script; please report it with the script".into(),
         );
-        diagnostic.blame = Blame::Us;
+        diagnostic.blame = Blame::Program;
         diagnostic
     }
 

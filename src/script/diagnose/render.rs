@@ -21,7 +21,7 @@ impl Diagnostic {
     pub fn render_within(&self, colours: Colours, width: usize) -> String {
         let drawing = match self.blame {
             Blame::User => Drawing::error(),
-            Blame::Us => Drawing::bug(),
+            Blame::Program => Drawing::bug(),
         };
         let drawing = drawing.with_message(printable(&self.message)).with_notes(self.notes(width));
         let no_file = || SimpleFile::new(String::new(), String::new());

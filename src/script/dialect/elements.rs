@@ -168,7 +168,7 @@ enum CallbackArguments {
     Element,
     ElementAndIndex,
     /// No argument; the element is `this`.
-    This,
+    ElementAsThis,
 }
 
 struct ElementCallback<'a> {
@@ -191,7 +191,7 @@ impl<'a> ElementCallback<'a> {
         for given in [
             CallbackArguments::Element,
             CallbackArguments::ElementAndIndex,
-            CallbackArguments::This,
+            CallbackArguments::ElementAsThis,
         ] {
             match self.call(given, index, element) {
                 Err(error) if self.is_wrong_count(&error) => refused = refused.or(Some(error)),
@@ -219,7 +219,9 @@ impl<'a> ElementCallback<'a> {
             CallbackArguments::ElementAndIndex => {
                 self.function.call_raw(self.native, this, [copy, index])
             }
-            CallbackArguments::This => self.function.call_raw(self.native, Some(element), []),
+            CallbackArguments::ElementAsThis => {
+                self.function.call_raw(self.native, Some(element), [])
+            }
         }
     }
 

@@ -154,9 +154,9 @@ pub enum WorkerEvent<R> {
     /// Result of the job with this number.
     Done(usize, R),
     /// Timeout, for checks of interruption.
-    Nothing,
+    Timeout,
     /// No workers are left.
-    Nobody,
+    NoWorkers,
 }
 
 impl<J, R> WorkerPool<'_, J, R> {
@@ -171,7 +171,7 @@ impl<J, R> WorkerPool<'_, J, R> {
         let _ = self.jobs.send((number, job));
     }
 
-    /// Like [`hear`](Self::hear), for many queued jobs: results are collected in batches, because each wake-up costs time.
+    /// Like [`receive`](Self::receive), for many queued jobs: results are collected in batches, because each wake-up costs time.
     pub fn receive_batch(&self) -> WorkerEvent<R> {
         match self.results.try_recv() {
             Ok((number, result)) => WorkerEvent::Done(number, result),
@@ -188,9 +188,9 @@ impl<J, R> WorkerPool<'_, J, R> {
             Ok((number, result)) => WorkerEvent::Done(number, result),
             Err(mpsc::RecvTimeoutError::Timeout) => {
                 self.posts.iter().for_each(|post| post.stop_after(self.wall));
-                WorkerEvent::Nothing
+                WorkerEvent::Timeout
             }
-            Err(mpsc::RecvTimeoutError::Disconnected) => WorkerEvent::Nobody,
+            Err(mpsc::RecvTimeoutError::Disconnected) => WorkerEvent::NoWorkers,
         }
     }
 }

@@ -33,7 +33,7 @@ impl TrackHandle {
 
     /// Returns true if the end of the last beam connects to the first beam.
     pub fn is_closed(&self) -> bool {
-        self.scene.scene().borrow().tracks[self.index].course == TrackEnd::Closed
+        self.scene.scene().borrow().tracks[self.index].end == TrackEnd::Closed
     }
 
     /// Name of the track.
@@ -49,11 +49,11 @@ impl Scripted for TrackHandle {
     fn show(&self) -> String {
         let scene = self.scene.scene().borrow();
         let track = &scene.tracks[self.index];
-        let course = match track.course {
+        let course = match track.end {
             TrackEnd::Open => "track",
             TrackEnd::Closed => "closed track",
         };
-        let beams = track.legs.len();
+        let beams = track.beams.len();
         format!(
             "{course} '{}' of length {} along {beams} beam{}",
             track.name,

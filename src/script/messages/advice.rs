@@ -44,19 +44,19 @@ fn simulation_hint(error: &SimulationError) -> Option<String> {
             "give the slider the option ends: \"bounce\" or \"release\" to continue, or test \
             sim.ended before a step".into()
         }
-        SimulationError::ManySamples { .. } => {
+        SimulationError::TooManySamples { .. } => {
             "give `sample` the period of the controller, between dt/100 and 10 dt".into()
         }
-        SimulationError::NoMean { sensor, .. } => {
+        SimulationError::NoMeanForces { sensor, .. } => {
             format!("record \"{}\"", sensor.replace(".mean_", "."))
         }
-        SimulationError::BeginsElsewhere { .. } => {
+        SimulationError::StartMismatch { .. } => {
             "find the equilibrium under the full loads, load_factor: 1, at a time at which the \
             drives are there".into()
         }
-        SimulationError::Rattles { .. } => "try ends: \"release\" or \"stop\"".into(),
-        SimulationError::FewerSteps { .. } => "sim.rewind(0) goes to the start".into(),
-        SimulationError::NotBehind { .. } => {
+        SimulationError::TooManyArrivals { .. } => "try ends: \"release\" or \"stop\"".into(),
+        SimulationError::TooFewSteps { .. } => "sim.rewind(0) goes to the start".into(),
+        SimulationError::OutsideRun { .. } => {
             "give a time in between, or use sim.run_to(t) to continue".into()
         }
         SimulationError::NoSnapshots { .. } => {
@@ -66,7 +66,7 @@ fn simulation_hint(error: &SimulationError) -> Option<String> {
             "earlier states are not in a file of sim.save(…), and are not stored before \
             sim.keep_snapshots(…)".into()
         }
-        SimulationError::Forgotten { first, limit, .. } => format!(
+        SimulationError::NoSnapshot { first, limit, .. } => format!(
             "sim.rewind({first}) goes there; to store more states start with scene.start(#{{ …, \
             snapshots: {} }})",
             (4.0 * limit).ceil().max(64.0)
@@ -82,7 +82,7 @@ fn simulation_hint(error: &SimulationError) -> Option<String> {
         },
         SimulationError::Method(_)
         | SimulationError::StepSize(_)
-        | SimulationError::Landing { .. }
+        | SimulationError::EventLocation { .. }
         | SimulationError::Interrupted { .. } => return None,
     })
 }
@@ -97,41 +97,41 @@ fn statics_hint(error: &StaticsError) -> Option<String> {
             dampers act only on motion"
                 .into()
         }
-        StaticsError::InTime { by: InTime::Speed, .. } => {
+        StaticsError::TimeDependent { by: InTime::Speed, .. } => {
             "give the displacement in equilibrium: x, y or angle as a function of time that \
             begins with 0, such as angle: |t| 0.5 * t, and scene.equilibrium(#{ time: 1 })"
                 .into()
         }
-        StaticsError::InTime { .. } => {
+        StaticsError::TimeDependent { .. } => {
             "give its force or torque in equilibrium as a number, in a scene for the \
             equilibrium"
                 .into()
         }
-        StaticsError::NothingGrows { .. } | StaticsError::Driven { .. } => {
+        StaticsError::NoScaledLoad { .. } | StaticsError::Driven { .. } => {
             "leave out control: arc_length()".into()
         }
         StaticsError::PathLost { points, .. } => format!(
             "to see the path, end it with arc_length(#{{ points: {points} }}); shorter steps \
             may continue it, arc_length(#{{ longest: 0.01 }})"
         ),
-        StaticsError::Loose { reason, .. } | StaticsError::Lost { reason, .. }
-            if matches!(**reason, StepFailure::Leaves { .. }) =>
+        StaticsError::Unrestrained { reason, .. } | StaticsError::NoEquilibrium { reason, .. }
+            if matches!(**reason, StepFailure::LeavesMaster { .. }) =>
         {
             "with ends: \"stop\" it stays in contact with the end; a slider that left its beam \
             has no equilibrium"
                 .into()
         }
-        StaticsError::Loose { .. } => {
+        StaticsError::Unrestrained { .. } => {
             format!("fix it with scene.clamp(…) or scene.hinge(…), or {AT_REST}")
         }
-        StaticsError::Lost { reached: 0.0, .. } => {
+        StaticsError::NoEquilibrium { reached: 0.0, .. } => {
             "use more load_steps; a part that is prestressed in the initial scene, such as a \
             spring of another length, acts before any load: place it closer to its \
             equilibrium, or start without prestress and move its end by scene.move; for \
             snap-through use control: arc_length()"
                 .into()
         }
-        StaticsError::Lost { .. } => {
+        StaticsError::NoEquilibrium { .. } => {
             "use more load_steps; for snap-through use control: arc_length(), or stop before it \
             with load_factor"
                 .into()
@@ -159,7 +159,7 @@ fn system_hint(error: &SystemError) -> Option<String> {
             the node the velocity of the joined point of the body: scene.velocity(beam.end, \
             [vx, vy])"
         }
-        SystemError::Inertialess { .. } => {
+        SystemError::NoInertia { .. } => {
             "give the body an inertia, scene.body(#{ …, inertia: 0.1 }), or fix its angle: \
             scene.support(body.centre, #{ angle: true })"
         }
@@ -195,7 +195,7 @@ fn slider_hint(error: &SliderError) -> Option<String> {
         SliderError::Open { nearest: Approach::On { .. }, .. } => {
             "give this value for `at`, or omit `at`"
         }
-        SliderError::Open { nearest: Approach::Apart { .. }, .. } => "move one of them",
+        SliderError::Open { nearest: Approach::Distant { .. }, .. } => "move one of them",
         SliderError::LeavesMaster { .. } => {
             "start it with the velocity of the beam there plus any velocity along the beam, or \
             give the slider the option velocities: \"project\", which uses the nearest \
@@ -209,16 +209,16 @@ fn slider_hint(error: &SliderError) -> Option<String> {
 
 fn track_hint(error: &TrackError) -> Option<String> {
     let advice = match error {
-        TrackError::Apart { .. } => {
+        TrackError::Gap { .. } => {
             "give the beams in the order of the track, each in either direction"
         }
         TrackError::Open { .. } => "leave out closed: true, or add the beams that lead back",
-        TrackError::Loose { .. } => {
+        TrackError::NotJoined { .. } => {
             "join them before creating the track: scene.rigid(…) with both ends, or \
             scene.hinge(…)"
         }
         TrackError::Empty { .. } => "give at least one beam: scene.track([a, b])",
-        TrackError::Again { .. } => return None,
+        TrackError::RepeatedBeam { .. } => return None,
     };
     Some(advice.into())
 }
@@ -254,7 +254,7 @@ fn cause_of(error: &StepError) -> Option<&LoadError> {
 
 fn load_hint(error: &LoadError) -> Option<String> {
     let advice = match error {
-        LoadError::ManyParts { .. } => "write it as schedule(|t| …)",
+        LoadError::TooManyParts { .. } => "write it as schedule(|t| …)",
         LoadError::ShortTable { .. } => "write [[t, factor], …]",
         LoadError::Jump { .. } => SMOOTH,
         LoadError::InfiniteRate { .. } => SMOOTH,

@@ -18,7 +18,7 @@ pub enum ScriptError {
     /// The run was interrupted or exceeded a limit; scripts cannot catch this.
     Stopped(Stop),
     /// An internal error, which the user is asked to report.
-    Bug(String),
+    Internal(String),
     /// Error of a called script function, passed on unchanged.
     Engine(Box<EvalAltResult>),
 }
@@ -56,7 +56,7 @@ impl ScriptError {
 
     /// Creates an internal error.
     pub fn internal_error(message: impl Into<String>) -> Self {
-        Self::Bug(message.into())
+        Self::Internal(message.into())
     }
 
     /// Adds a hint.
@@ -100,7 +100,7 @@ impl ScriptError {
                 EvalAltResult::ErrorRuntime(Dynamic::from(failure), call).into()
             }
             Self::Stopped(stop) => EvalAltResult::ErrorTerminated(Dynamic::from(stop), call).into(),
-            Self::Bug(message) => EvalAltResult::ErrorSystem(message, BUG.into()).into(),
+            Self::Internal(message) => EvalAltResult::ErrorSystem(message, BUG.into()).into(),
             Self::Engine(error) => error,
         }
     }

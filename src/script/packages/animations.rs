@@ -50,8 +50,8 @@ const ANIMATION: &[Parameter] = &[
     text("title").doc("title; default: the name of the first simulation").optional(),
     number("from").unit("time").doc("time of the first frame; default: the start").optional(),
     number("to").unit("time").doc("time of the last frame; default: the present").optional(),
-    integer("frames").between(2.0, 1000.0).doc("number of frames").or(Presence::Whole(100)),
-    integer("fps").between(1.0, 60.0).doc("frames per second").or(Presence::Whole(20)),
+    integer("frames").between(2.0, 1000.0).doc("number of frames").or(Presence::Integer(100)),
+    integer("fps").between(1.0, 60.0).doc("frames per second").or(Presence::Integer(20)),
     integer("width")
         .between(200.0, 2000.0)
         .doc("width in pixels; default: 640, or 960 for several simulations")
@@ -172,10 +172,8 @@ fn reel(
         let Some(configuration) = simulation.configuration_near(*time)? else { continue };
         symbols.push(match shown {
             Visibility::Yes => placed(&simulation, configuration.time, None)?,
-            Visibility::WhereThereIsRoom => {
-                uncrowded(placed(&simulation, configuration.time, None)?)
-            }
-            Visibility::No => Vec::new(),
+            Visibility::IfFew => uncrowded(placed(&simulation, configuration.time, None)?),
+            Visibility::None => Vec::new(),
         });
         let mut snapshot = snapshot(&configuration);
         if !has_dots {

@@ -69,7 +69,7 @@ pub const TABLE: BindingTable = BindingTable {
             "for row in ladder.rows { check(row.errors.len() == 3 && row.orders.len() == 2); }",
         ),
         property(CONVERGENCE, "reference", |call| {
-            Ok(call.receiver::<ConvergenceStudy>()?.0.truth.source.clone().into())
+            Ok(call.receiver::<ConvergenceStudy>()?.0.reference.source.clone().into())
         })
         .returns(Returns::TEXT)
         .summary("Description of the reference of the errors.")
@@ -120,7 +120,7 @@ impl Scripted for ConvergenceStudy {
     }
 
     fn details(&self) -> Details {
-        vec![("reference".to_owned(), self.0.truth.source.clone())]
+        vec![("reference".to_owned(), self.0.reference.source.clone())]
     }
 }
 

@@ -161,7 +161,7 @@ fn drive(call: &mut Call) -> Result<Dynamic, ScriptError> {
                 Component::Rotation => "scene.motor(station, #{ speed: |t, q| … })".to_owned(),
                 _ => format!("{key}_speed: |t, q| …"),
             };
-            *motion = Some(PrescribedMotion::Place(place_of(call, &options, key, &rate)?));
+            *motion = Some(PrescribedMotion::Position(place_of(call, &options, key, &rate)?));
         }
     }
     for (motion, key) in motions.iter_mut().zip(SPEEDS).filter(|(_, key)| options.has(key)) {
@@ -229,7 +229,7 @@ fn motor(call: &mut Call) -> Result<Dynamic, ScriptError> {
         "angle" => add(
             call,
             DriveKind::Motor,
-            [None, None, Some(PrescribedMotion::Place(schedule))],
+            [None, None, Some(PrescribedMotion::Position(schedule))],
             &options,
         ),
         "speed" => add(

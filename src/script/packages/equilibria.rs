@@ -247,7 +247,7 @@ const CONTROL: Type = Type::of::<Control>();
 
 const AT: Parameter = object("station", STATION);
 const LOADING: &[Parameter] = &[
-    integer("load_steps").between(1.0, 100_000.0).or(Presence::Whole(10)).doc(
+    integer("load_steps").between(1.0, 100_000.0).or(Presence::Integer(10)).doc(
         "number of load steps; with arc_length() the first step applies 1/load_steps of the \
             load",
     ),
@@ -267,7 +267,7 @@ const ARC_LENGTH: &[Parameter] = &[
     ),
     integer("points")
         .between(3.0, 100_000.0)
-        .or(Presence::Whole(1000))
+        .or(Presence::Integer(1000))
         .doc("largest number of points of the path, which ends there"),
 ];
 
@@ -353,7 +353,9 @@ fn is_stable(call: &mut Call) -> Result<Dynamic, ScriptError> {
     match stability {
         Stability::Stable => Ok(true.into()),
         Stability::Unstable => Ok(false.into()),
-        Stability::Hidden => unknown("the stiffnesses differ so much that rounding errors hide it"),
+        Stability::BelowRounding => {
+            unknown("the stiffnesses differ so much that rounding errors hide it")
+        }
         Stability::Follower => unknown("a follower load acts, which has no potential"),
     }
 }

@@ -85,7 +85,7 @@ fn written(parts: &[SystemFeature]) -> Dynamic {
     for SystemFeature { name, usage } in parts {
         table.row(match usage {
             Usage::Used(how) => [name, "yes", how],
-            Usage::LeftOut(saved) => [name, "no", saved],
+            Usage::Omitted(saved) => [name, "no", saved],
         });
     }
     table.to_string().trim_end().into()

@@ -175,7 +175,7 @@ fn write_vtk(call: &mut Call) -> Result<Dynamic, ScriptError> {
         Some("shape") => true,
         wish => match write_states(call, &of, &frames, (&grids, &files))? {
             Visited::All => false,
-            Visited::Another(time) => {
+            Visited::Diverged(time) => {
                 report_diverged_rerun(call, &of, time, (MISSING, wish.is_some()))?;
                 true
             }

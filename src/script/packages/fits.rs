@@ -224,7 +224,7 @@ option_set! {
         largest: Option<String> = text("largest").doc("name of the result to maximise").optional(),
         constraints: Option<Dynamic> = of_any_type("constraints").doc("lower and upper limits of results: #{ sag: [-1e-3, 1e-3], mass: [(), 5] }").optional(),
         tolerance: f64 = number("tolerance").positive().or(Presence::Number(1e-4)).doc("accuracy of parameters, as a fraction of their ranges"),
-        most_runs: usize = integer("most_runs").positive().or(Presence::Whole(500)),
+        most_runs: usize = integer("most_runs").positive().or(Presence::Integer(500)),
         derivatives: String = choice("derivatives", &["known", "none"]).or(Presence::Text("known")).doc("\"known\": derivatives of the runs if available; \"none\": no derivatives"),
         patience: f64 = PATIENCE,
     }

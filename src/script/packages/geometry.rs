@@ -25,7 +25,7 @@ const ORDER: Parameter = integer("order")
     .doc("order of the derivative by ξ; 0 for the value itself");
 
 const TIMES: Parameter =
-    integer("times").non_negative().doc("number of insertions").or(Presence::Whole(1));
+    integer("times").non_negative().doc("number of insertions").or(Presence::Integer(1));
 
 /// Components below this fraction of a vector print as 0.
 const ROUNDING: f64 = 1e-14;

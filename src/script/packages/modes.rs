@@ -158,7 +158,7 @@ const VIBRATING: &str = "let scene = new_scene(\"example\");\n\
     let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [4, 0]), basis: bspline(8), section: s });\n\
     scene.clamp(rod.start);";
 
-pub(super) const COUNT: Parameter = integer("count").positive().or(Presence::Whole(6));
+pub(super) const COUNT: Parameter = integer("count").positive().or(Presence::Integer(6));
 
 pub const MODES: Type = Type::of::<ModesHandle>();
 

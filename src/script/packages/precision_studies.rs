@@ -93,7 +93,7 @@ pub const TABLE: BindingTable = BindingTable {
             and more accurate, the fastest first.")
         .example("check(study.front[0].on_front);")
         .with_related(&["cheapest"]),
-        of_study("reference", |call| Ok(call.receiver::<PrecisionStudy>()?.0.truth.source.clone().into()))
+        of_study("reference", |call| Ok(call.receiver::<PrecisionStudy>()?.0.reference.source.clone().into()))
             .returns(Returns::TEXT)
             .summary("Description of the reference of the errors.")
             .example("print(study.reference);"),
@@ -151,7 +151,7 @@ impl Scripted for PrecisionStudy {
 
     fn show(&self) -> String {
         let Precision { name, rows, .. } = &*self.0;
-        let finished = rows.iter().filter(|row| row.trial.outcome.is_finished()).count();
+        let finished = rows.iter().filter(|row| row.result.outcome.is_finished()).count();
         let front = self.0.front().len();
         format!(
             "study '{name}': {finished} of {} combinations finished, {front} on the front",
@@ -160,7 +160,7 @@ impl Scripted for PrecisionStudy {
     }
 
     fn details(&self) -> Details {
-        vec![("reference".to_owned(), self.0.truth.source.clone())]
+        vec![("reference".to_owned(), self.0.reference.source.clone())]
     }
 }
 

@@ -78,14 +78,14 @@ pub const TABLE: BindingTable = BindingTable {
 
 /// Descriptions of kinds; all other words are type names.
 const KINDS: &[(&str, Kind)] = &[
-    ("a value", Kind::Anything),
+    ("a value", Kind::Any),
     ("a number", Kind::Number(NumberRange::Finite)),
     ("a positive number", Kind::Number(NumberRange::Positive)),
     ("a number of zero or more", Kind::Number(NumberRange::NonNegative)),
     ("any number", Kind::Number(NumberRange::Unlimited)),
-    ("a whole number", Kind::Whole(NumberRange::Finite)),
-    ("a positive whole number", Kind::Whole(NumberRange::Positive)),
-    ("a whole number of zero or more", Kind::Whole(NumberRange::NonNegative)),
+    ("a whole number", Kind::Integer(NumberRange::Finite)),
+    ("a positive whole number", Kind::Integer(NumberRange::Positive)),
+    ("a whole number of zero or more", Kind::Integer(NumberRange::NonNegative)),
     ("a text", Kind::Text),
     ("true or false", Kind::Boolean),
     ("a point", Kind::Point),

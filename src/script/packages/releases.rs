@@ -71,13 +71,18 @@ enum ReleaseWording {
 }
 
 const SAID: KeySets<ReleaseWording> = KeySets {
-    told: "give a time `at` or a condition `when`: |q| …",
-    besides: &[],
+    description: "give a time `at` or a condition `when`: |q| …",
+    always_allowed: &[],
     sets: &[
-        KeySet { meaning: ReleaseWording::At, told: "a time", keys: &["at"], chosen_by: None },
+        KeySet {
+            meaning: ReleaseWording::At,
+            description: "a time",
+            keys: &["at"],
+            chosen_by: None,
+        },
         KeySet {
             meaning: ReleaseWording::When,
-            told: "a condition",
+            description: "a condition",
             keys: &["when"],
             chosen_by: None,
         },
@@ -97,13 +102,15 @@ fn release(call: &mut Call) -> Result<Dynamic, ScriptError> {
             (Trigger::Outside, Some(function))
         }
     };
-    handle.shared().borrow_mut().add_release(Release { hold, trigger }).map_err(|error| {
-        let place = match error {
-            SystemError::Value { .. } => CallPart::Key("at".into()),
-            _ => CallPart::Argument(0),
-        };
-        ScriptError::from(error).at(place)
-    })?;
+    handle.shared().borrow_mut().add_release(Release { object: hold, trigger }).map_err(
+        |error| {
+            let place = match error {
+                SystemError::Value { .. } => CallPart::Key("at".into()),
+                _ => CallPart::Argument(0),
+            };
+            ScriptError::from(error).at(place)
+        },
+    )?;
     if let Some(function) = condition {
         handle.store_condition(call.store(function, "the condition of a release"));
     }
@@ -154,7 +161,7 @@ fn releases(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let simulation = handle.simulation();
     let scene = simulation.scene();
     let told = simulation.releases().iter().map(|gone| {
-        let name = scene.releasable_name(scene.releases[gone.release].hold);
+        let name = scene.releasable_name(scene.releases[gone.release].object);
         let entries = [("t", Dynamic::from(gone.time)), ("name", name.into())];
         Dynamic::from(entries.into_iter().map(|(key, value)| (key.into(), value)).collect::<Map>())
     });

@@ -125,7 +125,7 @@ const FROM: Parameter = number("from");
 const TO: Parameter = number("to");
 const DEVIATION: Parameter = number("deviation").positive();
 const COUNT: Parameter = integer("count").positive();
-const SEED: Parameter = integer("seed").non_negative().or(Presence::Whole(0));
+const SEED: Parameter = integer("seed").non_negative().or(Presence::Integer(0));
 
 const fn spread(
     name: &'static str,

@@ -216,7 +216,7 @@ pub(super) fn start_motion(options: &Options) -> Result<StartMotion, ScriptError
     Ok(StartMotion {
         velocity: given("velocity")?.unwrap_or_default(),
         spin: options.optional_number("spin").unwrap_or(0.0),
-        about: given("about")?,
+        centre: given("about")?,
     })
 }
 

@@ -267,7 +267,7 @@ pub(super) fn controlled_schedule_of(
     let function = call.store(function, "the function of a controller");
     let value = scene.store_controller(function, beat);
     Ok(match beat {
-        Some(beat) => Schedule::Clocked { value, beat },
+        Some(beat) => Schedule::DigitalController { value, clock: beat },
         None => Schedule::Sampled(value),
     })
 }

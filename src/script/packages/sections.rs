@@ -110,7 +110,7 @@ pub const TABLE: BindingTable = BindingTable {
 pub const SECTION: Type = Type::of::<SectionHandle>();
 pub const MESH: Type = Type::of::<Mesh>();
 
-const COUNT: Kind = Kind::Whole(NumberRange::Positive);
+const COUNT: Kind = Kind::Integer(NumberRange::Positive);
 const SECTION_OPTIONS: Parameter = options("options", SECTION_KEYS);
 const SECTION_KEYS: &[Parameter] = &[
     number("EA").unit("force").doc("axial stiffness").optional(),
@@ -149,30 +149,30 @@ enum GivenBy {
 }
 
 const GIVEN_BY: KeySets<GivenBy> = KeySets {
-    told: "a section is given by EA, GA, EI, rho_A, rho_I, or by E, nu, density and a shape",
-    besides: &["damping"],
+    description: "a section is given by EA, GA, EI, rho_A, rho_I, or by E, nu, density and a shape",
+    always_allowed: &["damping"],
     sets: &[
         KeySet {
             meaning: GivenBy::Stiffness,
-            told: "its stiffness and inertia",
+            description: "its stiffness and inertia",
             keys: &["EA", "GA", "EI", "rho_A", "rho_I"],
             chosen_by: None,
         },
         KeySet {
             meaning: GivenBy::Rectangle,
-            told: "a material and the shape \"rectangle\"",
+            description: "a material and the shape \"rectangle\"",
             keys: &["shape", "width", "height", "E", "nu", "density"],
             chosen_by: Some(("shape", "rectangle")),
         },
         KeySet {
             meaning: GivenBy::Circle,
-            told: "a material and the shape \"circle\"",
+            description: "a material and the shape \"circle\"",
             keys: &["shape", "radius", "E", "nu", "density"],
             chosen_by: Some(("shape", "circle")),
         },
         KeySet {
             meaning: GivenBy::Tube,
-            told: "a material and the shape \"tube\"",
+            description: "a material and the shape \"tube\"",
             keys: &["shape", "outer", "inner", "E", "nu", "density"],
             chosen_by: Some(("shape", "tube")),
         },
@@ -183,7 +183,7 @@ const QUADRATURE: Parameter = either("quadrature", &[Kind::Choice(&["patch"]), C
     .or(Presence::Text("patch"));
 const BSPLINE: &[Parameter] = &[
     integer("spans").positive().doc("number of equal spans"),
-    integer("degree").positive().or(Presence::Whole(3)),
+    integer("degree").positive().or(Presence::Integer(3)),
     integer("continuity")
         .non_negative()
         .doc("number of continuous derivatives between spans; default: degree - 1")
@@ -192,7 +192,7 @@ const BSPLINE: &[Parameter] = &[
 ];
 const LAGRANGE: &[Parameter] = &[
     integer("elements").positive().doc("number of equal elements"),
-    integer("degree").between(1.0, 3.0).or(Presence::Whole(1)),
+    integer("degree").between(1.0, 3.0).or(Presence::Integer(1)),
     QUADRATURE,
 ];
 
@@ -253,7 +253,7 @@ fn section_of(options: &Options) -> Result<(Section, Option<Solid>), ScriptError
         GivenBy::Tube => SectionShape::Tube { outer: number("outer")?, inner: number("inner")? },
     };
     let (young, poisson, density) = (number("E")?, number("nu")?, number("density")?);
-    let solid = Solid { young, poisson, density, shape };
+    let solid = Solid { youngs_modulus: young, poisson, density, shape };
     Ok((Section::from_solid(solid).map_err(section_error)?, Some(solid)))
 }
 

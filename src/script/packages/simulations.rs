@@ -47,7 +47,7 @@ pub const TABLE: BindingTable = BindingTable {
                 a new one.")
             .example("let again = scene.start(#{ integrator: trapezoidal(), dt: 0.05 });\nprint(again);")
             .with_related(&["energy_momentum", "trapezoidal", "every", "step", "run_to", "back"]),
-        method(SIMULATION, "step", &[integer("count").non_negative().or(Presence::Whole(1))], |call| {
+        method(SIMULATION, "step", &[integer("count").non_negative().or(Presence::Integer(1))], |call| {
             call.receiver::<SimulationHandle>()?.advance(call, &RunTarget::Steps(call.count("count")?))?;
             Ok(Dynamic::UNIT)
         })

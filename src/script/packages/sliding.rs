@@ -352,7 +352,7 @@ fn slider_error(error: SystemError, is_placed: bool) -> ScriptError {
         }
         SystemError::Slider(error) => match **error {
             SliderError::Open { .. } if is_placed => CallPart::Key("at".into()),
-            SliderError::OnItself(_) => CallPart::Argument(1),
+            SliderError::SlaveOnMaster(_) => CallPart::Argument(1),
             _ => CallPart::Argument(0),
         },
         _ => CallPart::Argument(0),

@@ -33,7 +33,7 @@ pub(super) fn law(
 ) -> Result<ParsedLaw, ScriptError> {
     let (ease, acts) = match kind {
         SpringKind::Torsion(_) => ("angle", Acts::Both),
-        SpringKind::Way(_) => ("length", meant(&ACTS, &options.text("acts")?)),
+        SpringKind::Length(_) => ("length", meant(&ACTS, &options.text("acts")?)),
     };
     if options.has("law") {
         return sampled(call, options, ease);

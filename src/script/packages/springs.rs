@@ -42,7 +42,7 @@ pub const TABLE: BindingTable = BindingTable {
     rows: &[
         method(SCENE, "spring", &[FROM, TO, options("options", SPRING_KEYS)], |call| {
             let anchors = vec![anchor(call, "from")?, anchor(call, "to")?];
-            add_damper(call, SpringKind::Way(anchors), &call.options("options")?)
+            add_damper(call, SpringKind::Length(anchors), &call.options("options")?)
         })
         .returns(Returns::object(SPRING))
         .summary("Adds a spring, optionally with a parallel damper, between two stations or between \
@@ -65,7 +65,7 @@ pub const TABLE: BindingTable = BindingTable {
             let anchors = vec![anchor(call, "from")?, anchor(call, "to")?];
             let options = call.options("options")?;
             let law = (None, Origin::Zero);
-            add(call, SpringKind::Way(anchors), law, &options)
+            add(call, SpringKind::Length(anchors), law, &options)
         })
         .returns(Returns::object(SPRING))
         .summary("Adds a damper between two stations, or between a station and a point of the \
@@ -333,7 +333,7 @@ fn tendon(call: &mut Call) -> Result<Dynamic, ScriptError> {
             .hint("use scene.spring between two places")
             .at(CallPart::Argument(0)));
     }
-    add_damper(call, SpringKind::Way(anchors), &call.options("options")?)
+    add_damper(call, SpringKind::Length(anchors), &call.options("options")?)
 }
 
 fn torsion(call: &mut Call) -> Result<Dynamic, ScriptError> {
@@ -357,7 +357,7 @@ fn spring_error(error: SystemError) -> ScriptError {
         SystemError::Unnamed { .. } | SystemError::DuplicateName { .. } => {
             CallPart::Key("name".into())
         }
-        SystemError::FeedingDamper { .. } => CallPart::Key("damping".into()),
+        SystemError::ActiveDamper { .. } => CallPart::Key("damping".into()),
         SystemError::Value { name, .. }
             if ["length", "damping", "stiffness", "table"].contains(name) =>
         {

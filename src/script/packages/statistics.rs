@@ -49,7 +49,7 @@ pub const TABLE: BindingTable = BindingTable {
         .summary("Returns the times at which a column crosses a level, upwards or downwards.")
         .example("sim.run_to(1);\ncheck_close(sim.history.crossings(\"t\", 0.25)[0], 0.25, 1e-12);")
         .with_related(&["statistics", "spectrum"]),
-        method(HISTORY, "spectrum", &[COLUMN, integer("most").positive().or(Presence::Whole(5))], spectrum)
+        method(HISTORY, "spectrum", &[COLUMN, integer("most").positive().or(Presence::Integer(5))], spectrum)
             .returns(Returns::array_of(&ValueKind::Map))
             .summary("Returns frequency and amplitude of the strongest vibrations in a column, in \
                 descending order of amplitude.")

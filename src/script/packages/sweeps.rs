@@ -268,7 +268,7 @@ fn dry_run(call: &Call, order: SweepRequest) -> Result<FinishedSweep, ScriptErro
     RunFunction::read(call, "run", order.function)?;
     let given = order.invoked(call, 0)?;
     let (names, values) = match found(&given) {
-        RowOutcome::Found(names, values) => (names.to_vec(), values),
+        RowOutcome::Computed(names, values) => (names.to_vec(), values),
         // A simulation that was skipped may return non-numbers.
         RowOutcome::Failed(_) => (
             given

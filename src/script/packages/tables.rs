@@ -66,13 +66,13 @@ fn values(call: &Call, rows: &[Map], name: &str) -> DataValues {
     let are = |fits: fn(&Dynamic) -> bool| cells.iter().flatten().all(|cell| fits(cell));
     let of_cells = cells.iter().copied();
     if are(Dynamic::is_int) {
-        return DataValues::Whole(of_cells.map(|cell| cell?.as_int().ok()).collect());
+        return DataValues::Integers(of_cells.map(|cell| cell?.as_int().ok()).collect());
     }
     if are(|cell| as_number(cell).is_some()) {
         return DataValues::Numbers(of_cells.map(|cell| as_number(cell?)).collect());
     }
     if are(Dynamic::is_bool) {
-        return DataValues::Truths(of_cells.map(|cell| cell?.as_bool().ok()).collect());
+        return DataValues::Booleans(of_cells.map(|cell| cell?.as_bool().ok()).collect());
     }
     let text = |cell: &Dynamic| cell.clone().into_string().unwrap_or_else(|_| call.show(cell));
     DataValues::Texts(of_cells.map(|cell| cell.map(text)).collect())

@@ -18,13 +18,13 @@ pub const TABLE: BindingTable = BindingTable {
     setup: "",
     constants: &[],
     rows: &[
-        function("sci", &[X, DIGITS.or(Presence::Whole(2))], |call| write(call, format_scientific))
+        function("sci", &[X, DIGITS.or(Presence::Integer(2))], |call| write(call, format_scientific))
             .returns(Returns::TEXT)
             .summary("Formats a number with an exponent; default: two digits after the decimal \
                 point.")
             .example("check(sci(1.234e-13) == \"1.23e-13\");\ncheck(sci(1250, 1) == \"1.2e3\");")
             .with_related(&["fixed"]),
-        function("fixed", &[X, DIGITS.or(Presence::Whole(3))], |call| write(call, format_fixed))
+        function("fixed", &[X, DIGITS.or(Presence::Integer(3))], |call| write(call, format_fixed))
             .returns(Returns::TEXT)
             .summary("Formats a number with a fixed number of digits after the decimal point; \
                 default: three.")

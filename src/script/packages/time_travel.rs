@@ -21,7 +21,7 @@ pub const TABLE: BindingTable = BindingTable {
     setup: SPINNING,
     constants: &[],
     rows: &[
-        method(SIMULATION, "back", &[integer("count").non_negative().or(Presence::Whole(1))], |call| {
+        method(SIMULATION, "back", &[integer("count").non_negative().or(Presence::Integer(1))], |call| {
             rewind(call, RunTarget::Steps(call.count("count")?))
         })
         .summary("Goes back by one step or the given number of steps.")

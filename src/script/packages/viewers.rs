@@ -63,7 +63,7 @@ const VIEWER: &[Parameter] = &[
     integer("frames")
         .between(2.0, 20_000.0)
         .doc("largest number of frames, evenly spaced in time")
-        .or(Presence::Whole(1000)),
+        .or(Presence::Integer(1000)),
     array("trails")
         .doc("stations whose paths are plotted; default: free ends, if there are at most eight")
         .optional(),
@@ -150,7 +150,7 @@ fn inside(
     })?;
     match visited {
         Visited::All => Ok(taken.fields()),
-        Visited::Another(time) => {
+        Visited::Diverged(time) => {
             report_diverged_rerun(call, of, time, (MISSING, is_asked))?;
             Ok(Vec::new())
         }

@@ -48,9 +48,9 @@ pub enum Visibility {
     /// All.
     Yes,
     /// All, except kinds so numerous that they would hide the rest.
-    WhereThereIsRoom,
+    IfFew,
     /// None.
-    No,
+    None,
 }
 
 /// Content of a motion picture.
@@ -124,7 +124,7 @@ impl MotionView {
         };
         let traces = wanted.traces.iter().map(path).collect();
         let symbols = match (wanted.symbols, snapshots.last()) {
-            (Visibility::No, _) | (_, None) => Vec::new(),
+            (Visibility::None, _) | (_, None) => Vec::new(),
             (shown, Some(last)) => {
                 let all = placed(simulation, last.time, wanted.magnify)?;
                 if shown == Visibility::Yes { all } else { uncrowded(all) }

@@ -250,7 +250,7 @@ mod tests {
             rotary_inertia: 1.0,
         };
         let motion =
-            StartMotion { spin: 1.0, about: Some(Vec2::zeros()), ..StartMotion::default() };
+            StartMotion { spin: 1.0, centre: Some(Vec2::zeros()), ..StartMotion::default() };
         let axis = Curve::line(Vec2::zeros(), Vec2::new(2.0, 0.0)).unwrap();
         let mesh = Mesh::bspline(4, 3, 2).unwrap();
         let beam =

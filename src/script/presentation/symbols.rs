@@ -167,9 +167,9 @@ fn around(scene: &Scene, at: &Station) -> [Station; 3] {
 pub fn of_spring_kind(spring: &Spring) -> Symbol {
     match (&spring.kind, &spring.law) {
         (SpringKind::Torsion(_), _) => Symbol::TorsionSpring,
-        (SpringKind::Way(way), _) if way.len() > 2 => Symbol::Tendon,
-        (SpringKind::Way(_), None) => Symbol::Damper,
-        (SpringKind::Way(_), Some(_)) => Symbol::Spring,
+        (SpringKind::Length(way), _) if way.len() > 2 => Symbol::Tendon,
+        (SpringKind::Length(_), None) => Symbol::Damper,
+        (SpringKind::Length(_), Some(_)) => Symbol::Spring,
     }
 }
 

@@ -27,9 +27,9 @@ pub struct Journals {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum JournalLifetime {
     /// Removed when the script has ended.
-    UntilTheEnd,
+    Run,
     /// Kept, because it is a part to be merged.
-    Longer,
+    Persistent,
 }
 
 /// Index of a journal of a run.
@@ -46,14 +46,14 @@ impl Journals {
         path: PathBuf,
         (wish, lasting): (JournalPreference, JournalLifetime),
     ) -> Result<Option<JournalNumber>, ScriptError> {
-        if wish == JournalPreference::Without {
+        if wish == JournalPreference::None {
             return Ok(None);
         }
         let mut journal = Journal::open(path).map_err(refused)?;
-        if wish == JournalPreference::Anew {
+        if wish == JournalPreference::Restart {
             journal.clear().map_err(refused)?;
         }
-        if lasting == JournalLifetime::Longer {
+        if lasting == JournalLifetime::Persistent {
             journal.begin().map_err(refused)?;
             self.has_parts.set(true);
         }
@@ -68,7 +68,7 @@ impl Journals {
         &self,
         paths: impl IntoIterator<Item = PathBuf>,
     ) -> Result<JournalNumber, ScriptError> {
-        Ok(self.store(Journal::of_files(paths).map_err(refused)?, JournalLifetime::Longer))
+        Ok(self.store(Journal::of_files(paths).map_err(refused)?, JournalLifetime::Persistent))
     }
 
     fn store(&self, journal: Journal, lasting: JournalLifetime) -> JournalNumber {
@@ -115,13 +115,13 @@ impl Journals {
     ) -> Result<Option<RowKeeper>, ScriptError> {
         let (mut is_same, mut known) = (false, 0);
         let whole = match wish {
-            JournalPreference::Without => return Ok(None),
-            JournalPreference::Anew => 0,
-            JournalPreference::GoOn => read_rows::<io::Error>(&path, |entry| {
+            JournalPreference::None => return Ok(None),
+            JournalPreference::Restart => 0,
+            JournalPreference::Resume => read_rows::<io::Error>(&path, |entry| {
                 is_same = is_same || entry == about;
                 if is_same {
                     known +=
-                        usize::from(matches!(entry, RowEntry::Found(..) | RowEntry::Failed(..)));
+                        usize::from(matches!(entry, RowEntry::Computed(..) | RowEntry::Failed(..)));
                     recall(entry);
                 }
                 Ok(())
@@ -132,8 +132,8 @@ impl Journals {
         let opened = RowJournal::append(&path, whole);
         let journal = opened.map_err(|error| refused_rows(&path, &error))?;
         match lasting {
-            JournalLifetime::UntilTheEnd => self.of_rows.borrow_mut().push(path.clone()),
-            JournalLifetime::Longer => self.has_parts.set(true),
+            JournalLifetime::Run => self.of_rows.borrow_mut().push(path.clone()),
+            JournalLifetime::Persistent => self.has_parts.set(true),
         }
         self.kept.set(self.kept.get() + known);
         let mut keeper = RowKeeper { path, journal };
@@ -160,7 +160,7 @@ impl Journals {
             remove_rows(&path).map_err(|error| refused_rows(&path, &error))?;
         }
         let ended = self.open.take().into_iter();
-        let mut ended = ended.filter(|(_, lasting)| *lasting == JournalLifetime::UntilTheEnd);
+        let mut ended = ended.filter(|(_, lasting)| *lasting == JournalLifetime::Run);
         ended.try_for_each(|(journal, _)| journal.finish()).map_err(refused)
     }
 }
@@ -178,7 +178,7 @@ impl RowKeeper {
     /// # Errors
     /// Fails if it cannot be written.
     pub fn write(&mut self, journals: &Journals, entry: &RowEntry) -> Result<u64, ScriptError> {
-        if matches!(entry, RowEntry::Found(..) | RowEntry::Failed(..)) {
+        if matches!(entry, RowEntry::Computed(..) | RowEntry::Failed(..)) {
             journals.kept.set(journals.kept.get() + 1);
         }
         self.append(entry)
@@ -230,19 +230,18 @@ mod tests {
         let path = |name: &str| home.path().join(format!("{name}.journal"));
         let begin = |wish| {
             let journals = Journals::default();
-            let numbers = ["a", "b"].map(|name| {
-                journals.open(path(name), (wish, JournalLifetime::UntilTheEnd)).unwrap()
-            });
+            let numbers = ["a", "b"]
+                .map(|name| journals.open(path(name), (wish, JournalLifetime::Run)).unwrap());
             (journals, numbers)
         };
-        let (first, [a, b]) = begin(JournalPreference::GoOn);
+        let (first, [a, b]) = begin(JournalPreference::Resume);
         let bytes = first.write(a.unwrap(), 1, &0.5).unwrap();
         assert_eq!(bytes, std::fs::metadata(path("a")).unwrap().len());
         first.write(b.unwrap(), 1, &0.25).unwrap();
         assert_eq!(first.stored_cases(), 2);
         drop(first);
 
-        let (second, [a, b]) = begin(JournalPreference::GoOn);
+        let (second, [a, b]) = begin(JournalPreference::Resume);
         assert_eq!(second.stored_cases(), 0, "nothing of it is known to be of use yet");
         assert_eq!(second.find::<f64>(a.unwrap(), 1), Some(0.5));
         assert_eq!(second.find::<f64>(b.unwrap(), 1), Some(0.25));
@@ -251,8 +250,8 @@ mod tests {
         second.finish().unwrap();
         assert!(!path("a").exists() && !path("b").exists() && second.stored_cases() == 0);
 
-        let (third, [a, _]) = begin(JournalPreference::Anew);
+        let (third, [a, _]) = begin(JournalPreference::Restart);
         assert_eq!(third.find::<f64>(a.unwrap(), 1), None);
-        assert!(begin(JournalPreference::Without).1.iter().all(Option::is_none));
+        assert!(begin(JournalPreference::None).1.iter().all(Option::is_none));
     }
 }

@@ -67,11 +67,11 @@ pub struct StudyPreferences {
 pub enum JournalPreference {
     /// Finished cases are lost.
     #[default]
-    Without,
+    None,
     /// Finished cases are kept in the output folder and reused.
-    GoOn,
+    Resume,
     /// Finished cases are kept in the output folder; earlier ones are removed first.
-    Anew,
+    Restart,
 }
 
 impl RunSettings {

@@ -23,13 +23,13 @@ pub trait Finding: Serialize + DeserializeOwned {
 
 impl Finding for RunResult {
     fn is_final(&self) -> bool {
-        !matches!(self.outcome, CaseOutcome::GaveUp { .. })
+        !matches!(self.outcome, CaseOutcome::LimitExceeded { .. })
     }
 }
 
 impl Finding for StabilityVerdict {
     fn is_final(&self) -> bool {
-        !matches!(self.outcome, CaseOutcome::GaveUp { .. })
+        !matches!(self.outcome, CaseOutcome::LimitExceeded { .. })
     }
 }
 
@@ -80,11 +80,11 @@ impl<'c> CaseRunner<'c> {
         let path = |file: String| context.output().path_of(&file);
         let journal = match (wishes.part, wishes.merge.as_slice()) {
             (Some(part), _) => {
-                let kept = (wishes.journal, JournalLifetime::Longer);
+                let kept = (wishes.journal, JournalLifetime::Persistent);
                 context.journals().open(path(part.file(name))?, kept)?
             }
             (None, []) => {
-                let kept = (wishes.journal, JournalLifetime::UntilTheEnd);
+                let kept = (wishes.journal, JournalLifetime::Run);
                 context.journals().open(path(format!("{name}.journal"))?, kept)?
             }
             (None, _) if context.mode() == RunMode::DryBuild => None,

@@ -61,7 +61,8 @@ pub fn study(call: &Call, options: &ErrorOptions) -> Result<Convergence, ScriptE
         RefinedParameter::Mesh => format!("dt = {}", labels::step_size(&plan.all_settings()[0])),
     };
     let (name, times, length) = (plan.name, plan.times, plan.length);
-    let study = Convergence { name, refined, fixed, times, length, truth, ladders, failures };
+    let study =
+        Convergence { name, refined, fixed, times, length, reference: truth, ladders, failures };
     print_table(call.context(), &summary(&study));
     write(call, &study)?;
     Ok(study)

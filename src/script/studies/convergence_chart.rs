@@ -25,7 +25,7 @@ pub fn chart(study: &Convergence, quantity: &str) -> LineChart {
         labels::at_times(&study.times)
     ))
     .caption(study.fixed.clone())
-    .caption(format!("reference: {}", study.truth.source))
+    .caption(format!("reference: {}", study.reference.source))
     .x_label(match study.refined {
         RefinedParameter::Step => "dt",
         RefinedParameter::Mesh => "mesh size 1 / spans",
@@ -120,7 +120,8 @@ mod tests {
         for order in orders {
             errors.push(errors[errors.len() - 1] / 2_f64.powf(*order));
         }
-        let deviation = |distance| Some(Deviation { distance, trusted: 0.0, is_of_own_run: false });
+        let deviation =
+            |distance| Some(Deviation { distance, estimated_error: 0.0, is_of_own_run: false });
         Ladder {
             method: Method::default(),
             quantity: "positions".into(),

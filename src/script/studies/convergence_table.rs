@@ -24,7 +24,7 @@ pub(super) fn head(study: &Convergence) -> String {
         study.name,
         labels::at_times(&study.times),
         study.fixed,
-        study.truth.source
+        study.reference.source
     )
 }
 

@@ -73,7 +73,7 @@ mod tests {
     #[test]
     fn bounds_are_marked_where_the_reference_does_not_tell_the_digits() {
         let told = |distance, trusted, is_of_own_run| {
-            deviation(Some(Deviation { distance, trusted, is_of_own_run }))
+            deviation(Some(Deviation { distance, estimated_error: trusted, is_of_own_run }))
         };
         assert_eq!(told(3.4e-5, 1e-9, true), "3.4e-5");
         assert_eq!(told(3.4e-5, 1e-5, true), "≤ 4.4e-5");

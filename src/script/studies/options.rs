@@ -68,11 +68,11 @@ option_set! {
         integrator: Option<Method> =
             object("integrator", INTEGRATOR).doc("integrator; default: energy_momentum()").optional(),
         /// Number of steps of each run.
-        steps: usize = integer("steps").positive().or(Presence::Whole(200)).doc("number of steps of each run"),
+        steps: usize = integer("steps").positive().or(Presence::Integer(200)).doc("number of steps of each run"),
         /// Number of timed repetitions.
         repeats: usize = integer("repeats")
             .positive()
-            .or(Presence::Whole(5))
+            .or(Presence::Integer(5))
             .doc("number of timed runs; every step is recorded unless the row says otherwise"),
     }
 }
@@ -125,7 +125,7 @@ option_set! {
         rivals: Option<String> =
             text("rivals").doc("name of a table with the run times of other programs").optional(),
         /// Number of timed repetitions.
-        repeats: usize = integer("repeats").positive().or(Presence::Whole(5)).doc(
+        repeats: usize = integer("repeats").positive().or(Presence::Integer(5)).doc(
             "number of timed runs, with every step recorded; fewer if they take more than 10 s",
         ),
     }

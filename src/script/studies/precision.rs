@@ -65,8 +65,8 @@ pub fn study(
         times: plan.times.clone(),
         length: plan.length,
         observables: plan.observables().to_vec(),
-        truth,
-        rivals,
+        reference: truth,
+        external_results: rivals,
     };
     study.mark_front();
     print_table(call.context(), &table(&study));

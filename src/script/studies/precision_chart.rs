@@ -21,13 +21,13 @@ pub fn chart(study: &Precision) -> LineChart {
         study.name,
         labels::at_times(&study.times)
     ))
-    .caption(format!("reference: {}", study.truth.source))
+    .caption(format!("reference: {}", study.reference.source))
     .x_label("run time [s], set-up apart")
     .y_label("error / length")
     .x_scale(AxisScale::Logarithmic)
     .y_scale(AxisScale::Logarithmic)
     .sized(900.0, 640.0);
-    for machine in machines(&study.rivals) {
+    for machine in machines(&study.external_results) {
         chart = chart.caption(format!("rivals measured on {machine}"));
     }
     let finite = |(price, error): &(f64, f64)| price.is_finite() && error.is_finite();
@@ -55,16 +55,17 @@ pub fn chart(study: &Precision) -> LineChart {
             chart = chart.series(look(Series::new("", points)).stroke(Stroke::Marked).pale());
         }
         let best = own.filter(|row| row.is_on_front).map(PrecisionRow::cost_and_error);
-        chart = chart.series(look(Series::new(name, best.collect())).stroke(Stroke::Unjoined));
+        chart = chart.series(look(Series::new(name, best.collect())).stroke(Stroke::MarkersOnly));
     }
     let mut series: Vec<&str> = Vec::new();
-    for rival in &study.rivals {
+    for rival in &study.external_results {
         if !series.contains(&rival.series.as_str()) {
             series.push(&rival.series);
         }
     }
     for (number, name) in series.into_iter().enumerate() {
-        let own: Vec<_> = study.rivals.iter().filter(|rival| rival.series == name).collect();
+        let own: Vec<_> =
+            study.external_results.iter().filter(|rival| rival.series == name).collect();
         let points: Vec<(f64, f64)> =
             own.iter().map(|rival| (rival.run_time, rival.error)).collect();
         let is_best = crate::analysis::pareto_front(&points);
@@ -78,8 +79,8 @@ pub fn chart(study: &Precision) -> LineChart {
             points.iter().zip(is_best).filter(|(_, is_best)| *is_best).map(|(at, _)| *at).collect();
         best.sort_by(|a, b| a.0.total_cmp(&b.0));
         chart = chart
-            .series(look(points, "").stroke(Stroke::Unjoined).pale())
-            .series(look(best.clone(), name).stroke(Stroke::Unjoined))
+            .series(look(points, "").stroke(Stroke::MarkersOnly).pale())
+            .series(look(best.clone(), name).stroke(Stroke::MarkersOnly))
             .series(look(best, "").stroke(Stroke::Dashed).thin());
     }
     let front = study.front().into_iter().map(PrecisionRow::cost_and_error).collect();

@@ -20,7 +20,8 @@ pub fn comparison(study: &Precision, errors: &[f64]) -> String {
         "with",
         "times slower",
     ];
-    let mut table = TextTable::new(if study.rivals.is_empty() { &heads[..5] } else { &heads });
+    let mut table =
+        TextTable::new(if study.external_results.is_empty() { &heads[..5] } else { &heads });
     let none = || labels::number("-".to_owned());
     let number = |text: String| labels::number(text);
     let pairs = errors.iter().flat_map(|error| {
@@ -34,7 +35,7 @@ pub fn comparison(study: &Precision, errors: &[f64]) -> String {
             Some(row) => [
                 number(labels::milliseconds(row.cost_and_error().0)),
                 number(labels::deviation(row.error)),
-                number(labels::drift(row.trial.free_energy_drift)),
+                number(labels::drift(row.result.free_energy_drift)),
                 Cell::Text(with(row)),
             ],
             None => [none(), none(), none(), Cell::Text("no combination".to_owned())],
@@ -55,7 +56,7 @@ pub fn comparison(study: &Precision, errors: &[f64]) -> String {
         }
         table.row(cells);
     }
-    let machines = machines(&study.rivals);
+    let machines = machines(&study.external_results);
     let measured = match machines.as_slice() {
         [] => String::new(),
         machines => format!("\nrivals measured on {}", machines.join("; ")),

@@ -13,17 +13,18 @@ pub fn table(study: &Precision) -> String {
         "study '{}': error at {} against run time\nreference: {}",
         study.name,
         labels::at_times(&study.times),
-        study.truth.source
+        study.reference.source
     );
     for rows in study.rows.chunk_by(|row, next| row.mesh == next.mesh) {
         text += &format!("\n\n{}", table_of_mesh(rows).to_string().trim_end());
     }
-    let failed: Vec<_> = study.rows.iter().filter(|row| !row.trial.outcome.is_finished()).collect();
+    let failed: Vec<_> =
+        study.rows.iter().filter(|row| !row.result.outcome.is_finished()).collect();
     if !failed.is_empty() {
         text += &format!("\n\n{} of {} did not finish:", failed.len(), study.rows.len());
     }
     for row in failed {
-        text += &format!("\n{}: {}", with(row), row.trial.outcome.describe());
+        text += &format!("\n{}: {}", with(row), row.result.outcome.describe());
     }
     text
 }
@@ -31,7 +32,7 @@ pub fn table(study: &Precision) -> String {
 fn table_of_mesh(rows: &[PrecisionRow]) -> TextTable {
     let heads =
         ["", "integrator", "dt", "error", "run [ms]", "set-up", "steps", "iterations", "drift E"];
-    let unknowns = rows.iter().map(|row| row.trial.unknowns).max().unwrap_or(0);
+    let unknowns = rows.iter().map(|row| row.result.unknowns).max().unwrap_or(0);
     let mut table = TextTable::new(&heads).title(format!("{}: {unknowns} unknowns", rows[0].mesh));
     for row in rows {
         let time = |read: fn(&Timing) -> f64| {
@@ -45,16 +46,16 @@ fn table_of_mesh(rows: &[PrecisionRow]) -> TextTable {
             labels::number(labels::deviation(row.error)),
             time(Timing::cost),
             time(|of| of.setup.as_secs_f64()),
-            Cell::from(row.trial.steps),
-            Cell::from(row.trial.newton_iterations),
-            labels::number(labels::drift(row.trial.drifts[0])),
+            Cell::from(row.result.steps),
+            Cell::from(row.result.newton_iterations),
+            labels::number(labels::drift(row.result.drifts[0])),
         ]);
     }
     table
 }
 
 fn facts(study: &Precision, row: &PrecisionRow) -> Vec<(String, Dynamic)> {
-    let trial = &row.trial;
+    let trial = &row.result;
     let seconds = |read: fn(&Timing) -> f64| row.timing.map_or(f64::NAN, |timing| read(&timing));
     let error = |of: Option<crate::analysis::Deviation>| of.map_or(f64::NAN, |of| of.error());
     let number = |name: &str, value: f64| (name.to_owned(), Dynamic::from(value));
@@ -84,7 +85,7 @@ fn facts(study: &Precision, row: &PrecisionRow) -> Vec<(String, Dynamic)> {
         ("on_front".to_owned(), row.is_on_front.into()),
         text("outcome", trial.outcome.describe()),
     ];
-    let known = (0..study.observables.len()).filter(|index| study.truth.knows(*index));
+    let known = (0..study.observables.len()).filter(|index| study.reference.knows(*index));
     facts.extend(known.map(|index| {
         let name = format!("error of {}", study.observables[index].describe());
         number(&name, error(row.deviations.get(index).copied().flatten()))
@@ -111,7 +112,7 @@ pub fn records(study: &Precision) -> CsvRecords {
             study.name,
             labels::at_times(&study.times)
         ),
-        format!("reference: {}", study.truth.source),
+        format!("reference: {}", study.reference.source),
         format!(
             "errors relative to length {}, but those of single quantities; times in seconds",
             study.length

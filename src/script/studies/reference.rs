@@ -78,7 +78,7 @@ pub enum Reference {
     Table(String, ParsedCsv),
     /// A reference run: description, its case, and the case with twice the step, which estimates its error. The second case is missing if
     /// all runs of the study have the same time settings, so that time errors cancel.
-    OwnRun(String, Vec<Case>),
+    ReferenceRun(String, Vec<Case>),
 }
 
 /// Reads a table from the script's folder or the output folder.
@@ -212,13 +212,13 @@ impl Reference {
             expect_other_steps_if_doubled(call, &finest)?;
         }
         let coarser = (!is_common).then(|| case(doubled_step(dt)));
-        Ok(Self::OwnRun(told, [finest].into_iter().chain(coarser).collect()))
+        Ok(Self::ReferenceRun(told, [finest].into_iter().chain(coarser).collect()))
     }
 
     fn cases(&self) -> &[Case] {
         match self {
             Self::Table(..) => &[],
-            Self::OwnRun(_, cases) => cases,
+            Self::ReferenceRun(_, cases) => cases,
         }
     }
 
@@ -239,7 +239,7 @@ impl Reference {
                     },
                 )
             }
-            (Self::OwnRun(told, _), [finest, coarser @ ..]) => {
+            (Self::ReferenceRun(told, _), [finest, coarser @ ..]) => {
                 if let Some(failed) = own.iter().find(|trial| !trial.outcome.is_finished()) {
                     let why = failed.outcome.describe();
                     let hint =
@@ -250,7 +250,7 @@ impl Reference {
                 let truth = ReferenceSolution::of_run(told, &finest.readings);
                 Ok(coarser.iter().fold(truth, |truth, other| truth.as_far_as(&other.readings)))
             }
-            (Self::OwnRun(..), []) => {
+            (Self::ReferenceRun(..), []) => {
                 Err(ScriptError::internal_error("a study has lost its reference"))
             }
         }
@@ -264,7 +264,7 @@ impl Reference {
     ) -> Result<ReferenceSolution, ScriptError> {
         match self {
             Self::Table(..) => self.truth(call, plan, &[]),
-            Self::OwnRun(told, _) => {
+            Self::ReferenceRun(told, _) => {
                 let nothing = vec![vec![Vec2::zeros(); plan.observables().len()]; plan.times.len()];
                 Ok(ReferenceSolution::of_run(told, &nothing))
             }

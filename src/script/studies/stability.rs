@@ -237,7 +237,7 @@ impl StabilityMap {
         };
         match &verdict.outcome {
             CaseOutcome::Failed { time, .. } => early("failed", *time),
-            CaseOutcome::GaveUp { time, .. } => early("gave up", *time),
+            CaseOutcome::LimitExceeded { time, .. } => early("gave up", *time),
             CaseOutcome::Panicked { .. } => HeatCell { value: None, text: "panicked".into() },
             CaseOutcome::Finished => {
                 let value = Some(self.shown.of(verdict));

@@ -17,7 +17,8 @@ fn at(number: usize) -> TuiState {
 fn judged(number: usize, outcome: AttemptOutcome, printed: &[&str]) -> TuiState {
     let mut state = at(number);
     let lines = printed.iter().map(|line| (*line).to_owned()).collect();
-    state.set_report(AttemptReport { outcome, printed: CapturedOutput { lines, more: 0 } });
+    state
+        .set_report(AttemptReport { outcome, printed: CapturedOutput { lines, further_lines: 0 } });
     state
 }
 
@@ -32,7 +33,7 @@ fn broken() -> AttemptOutcome {
     };
     let message = "still to do: the second moment of area, from width and height".into();
     let help = Some("replace all of todo(…), including the quotes".into());
-    AttemptOutcome::Broken(AttemptError { message, help, place: Some(place), calls: Vec::new() })
+    AttemptOutcome::Error(AttemptError { message, help, place: Some(place), calls: Vec::new() })
 }
 
 fn lines(state: &TuiState, size: (usize, usize)) -> Vec<String> {
@@ -123,7 +124,7 @@ fn an_error_points_to_its_line() {
 
 #[test]
 fn after_a_run_the_result_is_seen_and_the_rest_can_be_reached() {
-    let found = AttemptOutcome::Off(vec!["the strip is too soft".into()]);
+    let found = AttemptOutcome::WrongResult(vec!["the strip is too soft".into()]);
     let many: Vec<String> = (0..40).map(|number| format!("number {number}")).collect();
     let many: Vec<&str> = many.iter().map(String::as_str).collect();
     let mut state = judged(4, found, &many);
@@ -155,7 +156,8 @@ fn after_a_run_the_result_is_seen_and_the_rest_can_be_reached() {
 
 #[test]
 fn hints_are_shown_when_they_are_asked_for() {
-    let mut state = judged(1, AttemptOutcome::Off(vec!["too soft".into()]), &["one", "two"]);
+    let mut state =
+        judged(1, AttemptOutcome::WrongResult(vec!["too soft".into()]), &["one", "two"]);
     let hints = state.exercise.judge().hints;
     assert!(!text(&state, (80, 24)).contains("Hint"));
     state.hints = 2;
@@ -190,7 +192,7 @@ fn passing_says_so_and_what_comes_next() {
 
 #[test]
 fn a_run_that_takes_its_time_says_so_and_a_fast_one_does_not_flicker() {
-    let mut state = judged(1, AttemptOutcome::Off(vec!["too soft".into()]), &[]);
+    let mut state = judged(1, AttemptOutcome::WrongResult(vec!["too soft".into()]), &[]);
     let before = text(&state, (80, 24));
     state.running = Some(0);
     assert_eq!(text(&state, (80, 24)), before);

@@ -53,7 +53,7 @@ fn the_solution_comes_after_passing_or_after_all_hints() {
     assert_eq!(press(&mut state, "h"), KeyAction::Hint);
     state.hints = state.exercise.judge().hints.len();
     press(&mut state, "h");
-    assert_eq!((state.page, state.asked), (ScreenPage::Task, Some(Confirmation::Solution)));
+    assert_eq!((state.page, state.confirmation), (ScreenPage::Task, Some(Confirmation::Solution)));
     press(&mut state, "h");
     assert_eq!(state.page, ScreenPage::Solution);
     let mut state = at(1);

@@ -18,7 +18,7 @@ fn linearised<const N: usize>(
     let (mut groups, mut forces) = (beam.groups.clone(), vec![[0.0; 3]; moved.len()]);
     let mut found = Vec::new();
     let mut tangent = |_: usize, entries: &[f64]| found.extend(entries.iter().map(|x| x.to_bits()));
-    let iterate = SpanInputs { section: &beam.section, at: TANGENT, moved, weight: 0.7 };
+    let iterate = SpanInputs { section: &beam.section, at: TANGENT, movements: moved, weight: 0.7 };
     let forces_from = ForcesFrom { first: 0, forces: &mut forces };
     let work = Linearisation { iterate, forces: forces_from, tangent: &mut tangent };
     arch.dispatch(LoopRange { groups: &mut groups, work });

@@ -40,7 +40,7 @@ fn balanced_moment(contact: &Contact<'_>, tangent: PathVector, swing: PathVector
             by_unknowns: ContactUnknowns {
                 force: perpendicular(swing.value) * (normal * scale),
                 couple: axis * (square * scale),
-                way: by_tangent.dot(&tangent.by_way) + by_swing.dot(&swing.by_way),
+                increment: by_tangent.dot(&tangent.by_end) + by_swing.dot(&swing.by_end),
             },
             ..Equation::new((square * couple + moment * normal) * scale, Unit::Force)
         }
@@ -55,6 +55,6 @@ fn work_free(contact: &Contact<'_>, tangent: PathVector, swing: PathVector) -> E
     equation.value += 4.0 * couple.dot(&swing.value) * scale;
     equation.by_difference = (force * 0.5 + couple) * scale;
     equation.by_unknowns.couple = swing.value * (4.0 * scale);
-    equation.by_unknowns.way += 4.0 * couple.dot(&swing.by_way) * scale;
+    equation.by_unknowns.increment += 4.0 * couple.dot(&swing.by_end) * scale;
     equation
 }

@@ -14,14 +14,14 @@ pub struct ContactUnknowns {
     /// Couple of the contact, `η`, or `χ` with a kink. The forces `Δξ D_i η`, or `D_i χ`, on the master balance the angular momentum [force].
     pub couple: Vec2,
     /// Movement `Δξ` of the slave along the parameter of the master in the step [-].
-    pub way: f64,
+    pub increment: f64,
 }
 
 /// Unit vectors of the axes [-], which extract components by dot products.
 pub(super) const AXES: [Vec2; 2] = [Vec2::new(1.0, 0.0), Vec2::new(0.0, 1.0)];
 
 const NONE: ContactUnknowns =
-    ContactUnknowns { force: Vec2::new(0.0, 0.0), couple: Vec2::new(0.0, 0.0), way: 0.0 };
+    ContactUnknowns { force: Vec2::new(0.0, 0.0), couple: Vec2::new(0.0, 0.0), increment: 0.0 };
 
 impl ContactUnknowns {
     /// Zero force, couple and sliding increment.
@@ -30,13 +30,17 @@ impl ContactUnknowns {
     }
 
     /// Unknowns from a vector: `λ` and `η` with two components each, and `Δξ`.
-    pub fn of([force_x, force_y, couple_x, couple_y, way]: [f64; CONTACT_UNKNOWNS]) -> Self {
-        Self { force: Vec2::new(force_x, force_y), couple: Vec2::new(couple_x, couple_y), way }
+    pub fn of([force_x, force_y, couple_x, couple_y, increment]: [f64; CONTACT_UNKNOWNS]) -> Self {
+        Self {
+            force: Vec2::new(force_x, force_y),
+            couple: Vec2::new(couple_x, couple_y),
+            increment,
+        }
     }
 
     /// Unknowns as a vector: `λ` and `η` with two components each, and `Δξ`.
     pub fn to_array(&self) -> [f64; CONTACT_UNKNOWNS] {
-        [self.force.x, self.force.y, self.couple.x, self.couple.y, self.way]
+        [self.force.x, self.force.y, self.couple.x, self.couple.y, self.increment]
     }
 }
 
@@ -46,7 +50,7 @@ pub struct PathVector {
     /// Place or direction [length].
     pub value: Vec2,
     /// Derivative with respect to the end `ξ1` of the path [length].
-    pub by_way: Vec2,
+    pub by_end: Vec2,
 }
 
 /// Kink of the master axis under the contact force, which the mesh does not represent: an offset `g a` across the axis with the jump `a = p/GA` of
@@ -80,7 +84,7 @@ pub struct KinkMotion {
     /// Speed `v0` at the start of the step [length/time].
     pub speed: f64,
     /// `μ ρA/GA`, the inverse square of the speed of shear waves up to the correction `μ` of the mesh [time²/length²].
-    pub slowness: f64,
+    pub inverse_square_speed: f64,
     /// Duration `Δt` of the step [time].
     pub duration: f64,
 }
@@ -92,11 +96,11 @@ pub struct KinkMotion {
 #[derive(Debug, Clone, Copy)]
 pub struct Contact<'a> {
     /// Path of the slave along the master.
-    pub passage: &'a ContactPath,
+    pub path: &'a ContactPath,
     /// Control points of the master in the window of the path, relative to the slave, and their movements in the step [length].
     pub master: (&'a [Vec2], &'a [Vec2]),
     /// Movement `Δx_s` of the slave in the step [length].
-    pub slave_moved: Vec2,
+    pub slave_movement: Vec2,
     /// Unknowns of the contact: `λ` [force], `η` [force] and `Δξ` [-].
     pub unknowns: ContactUnknowns,
     /// Kink of the master under the contact force, if the law has one.
@@ -123,68 +127,68 @@ impl Contact<'_> {
 
     /// Gap between master and slave at the start of the step, `Σ B_i(ξ0) x_i0` relative to the slave [length].
     pub fn start_gap(&self) -> Vec2 {
-        self.sum(self.passage.start(), 0.0)
+        self.sum(self.path.start(), 0.0)
     }
 
     /// Mean tangent `Σ D_i x_i0` of the path on the master at the start of the step [length].
     pub fn start_tangent(&self) -> PathVector {
-        let value = self.sum(self.passage.difference(), 0.0);
-        PathVector { value, by_way: self.sum(self.passage.change(), 0.0) }
+        let value = self.sum(self.path.difference(), 0.0);
+        PathVector { value, by_end: self.sum(self.path.change(), 0.0) }
     }
 
     /// Place `Σ B_i(ξ1) x_i1` on the master at the end of path and step [length].
     #[inline]
     pub fn end_point(&self) -> PathVector {
-        let value = self.sum(self.passage.end(), 1.0);
-        PathVector { value, by_way: self.sum(self.passage.slope(), 1.0) }
+        let value = self.sum(self.path.end(), 1.0);
+        PathVector { value, by_end: self.sum(self.path.slope(), 1.0) }
     }
 
     /// Outward push of the slave at the end of the step: `λ·x'(ξ1)` times the sign of `dξ` towards an end [force·length].
     pub fn outward_push(&self, outward: f64) -> f64 {
-        self.unknowns.force.dot(&self.end_point().by_way) * outward
+        self.unknowns.force.dot(&self.end_point().by_end) * outward
     }
 
     /// Sum `Σ ∂D_i/∂ξ1 x_i1` at the end of the step: half the second derivative for a path of length zero [length].
     pub(super) fn end_bend(&self) -> Vec2 {
-        self.sum(self.passage.change(), 1.0)
+        self.sum(self.path.change(), 1.0)
     }
 
     /// Position `Σ B̄_i x̄_i` on the master, averaged over the sliding path and over the step [length].
     pub fn mean_point(&self) -> PathVector {
-        let value = self.sum(self.passage.mean(), 0.5);
-        PathVector { value, by_way: self.sum(self.passage.slope(), 0.5) * 0.5 }
+        let value = self.sum(self.path.mean(), 0.5);
+        PathVector { value, by_end: self.sum(self.path.slope(), 0.5) * 0.5 }
     }
 
     /// Mean tangent `τ = Σ D_i x̄_i` of the path in the mean configuration of the master [length].
     #[inline]
     pub fn tangent(&self) -> PathVector {
-        let value = self.sum(self.passage.difference(), 0.5);
-        PathVector { value, by_way: self.sum(self.passage.change(), 0.5) }
+        let value = self.sum(self.path.difference(), 0.5);
+        PathVector { value, by_end: self.sum(self.path.change(), 0.5) }
     }
 
     /// Swing `d = ¼ Σ D_i Δx_i` of the master along the path: a quarter of the change of its tangent [length].
     #[inline]
     pub fn tangent_change(&self) -> PathVector {
-        let value = self.movement(self.passage.difference()) * 0.25;
-        PathVector { value, by_way: self.movement(self.passage.change()) * 0.25 }
+        let value = self.movement(self.path.difference()) * 0.25;
+        PathVector { value, by_end: self.movement(self.path.change()) * 0.25 }
     }
 
     /// First control point of the master in the window of the path.
     pub fn first(&self) -> usize {
-        self.passage.first()
+        self.path.first()
     }
 
     /// Factor of the couple in the forces on the master: the sliding increment `Δξ`, or one with a kink, because the offset of the slave is a moment
     /// arm for paths of any length.
     fn couple_factor(&self) -> f64 {
-        self.kink.map_or(self.unknowns.way, |_| 1.0)
+        self.kink.map_or(self.unknowns.increment, |_| 1.0)
     }
 
     /// Contact forces on the control points of the master in the window of the path [force].
     pub fn master_forces(&self) -> impl Iterator<Item = Vec2> + '_ {
         let ContactUnknowns { force, couple, .. } = self.unknowns;
         let share = self.couple_factor();
-        let weights = self.passage.mean().iter().zip(self.passage.difference());
+        let weights = self.path.mean().iter().zip(self.path.difference());
         weights.map(move |(mean, difference)| force * *mean - couple * (share * difference))
     }
 
@@ -192,8 +196,8 @@ impl Contact<'_> {
     pub fn master_force_slopes(&self) -> impl Iterator<Item = (f64, f64, Vec2)> + '_ {
         let ContactUnknowns { force, couple, .. } = self.unknowns;
         let share = self.couple_factor();
-        let weights = self.passage.mean().iter().zip(self.passage.difference());
-        let slopes = self.passage.slope().iter().zip(self.passage.change());
+        let weights = self.path.mean().iter().zip(self.path.difference());
+        let slopes = self.path.slope().iter().zip(self.path.change());
         weights.zip(slopes).map(move |((mean, difference), (slope, change))| {
             let by_way = match self.kink {
                 None => (force * 0.5 - couple) * *slope,
@@ -205,19 +209,19 @@ impl Contact<'_> {
 
     /// Weights `B_i(ξ1)`, `B̄_i` and `D_i` of the control points of the master in the window of the path [-].
     pub fn weights(&self) -> impl Iterator<Item = (f64, f64, f64)> + '_ {
-        let mean_and_difference = self.passage.mean().iter().zip(self.passage.difference());
-        let weights = self.passage.end().iter().zip(mean_and_difference);
+        let mean_and_difference = self.path.mean().iter().zip(self.path.difference());
+        let weights = self.path.end().iter().zip(mean_and_difference);
         weights.map(|(end, (mean, difference))| (*end, *mean, *difference))
     }
 
     /// Equations of a closed gap at the end of the step: `x_s1 = Σ B_i(ξ1) x_i1` (Sibileau & Muñoz, equation 15).
     pub(super) fn closed(&self) -> [Equation; 2] {
         let point = self.end_point();
-        let gap = self.slave_moved - point.value;
+        let gap = self.slave_movement - point.value;
         AXES.map(|axis| Equation {
             by_slave: axis,
             by_end: -axis,
-            by_unknowns: ContactUnknowns { way: -point.by_way.dot(&axis), ..NONE },
+            by_unknowns: ContactUnknowns { increment: -point.by_end.dot(&axis), ..NONE },
             ..Equation::new(gap.dot(&axis), Unit::Length)
         })
     }
@@ -231,7 +235,7 @@ impl Contact<'_> {
             for (equation, axis) in equations.iter_mut().zip(AXES) {
                 equation.value -= kink.along.end * offset.dot(&axis);
                 equation.by_unknowns.force -= axis * (factor * kink.compliance * kink.along.end);
-                equation.by_unknowns.way -= kink.along.slope * offset.dot(&axis);
+                equation.by_unknowns.increment -= kink.along.slope * offset.dot(&axis);
             }
         }
         equations
@@ -256,17 +260,17 @@ impl Contact<'_> {
     /// Equation `Δξ = 0`, scaled by the length `ℓ`.
     pub(super) fn no_increment(&self) -> Equation {
         Equation {
-            by_unknowns: ContactUnknowns { way: self.length, ..NONE },
-            ..Equation::new(self.length * self.unknowns.way, Unit::Length)
+            by_unknowns: ContactUnknowns { increment: self.length, ..NONE },
+            ..Equation::new(self.length * self.unknowns.increment, Unit::Length)
         }
     }
 
     /// Equation `λ·direction/ℓ = 0` of a frictionless contact, for a direction independent of the master.
     pub(super) fn frictionless(&self, direction: PathVector) -> Equation {
         let (force, scale) = (self.unknowns.force, 1.0 / self.length);
-        let way = force.dot(&direction.by_way) * scale;
+        let way = force.dot(&direction.by_end) * scale;
         Equation {
-            by_unknowns: ContactUnknowns { force: direction.value * scale, way, ..NONE },
+            by_unknowns: ContactUnknowns { force: direction.value * scale, increment: way, ..NONE },
             ..Equation::new(force.dot(&direction.value) * scale, Unit::Force)
         }
     }

@@ -40,28 +40,28 @@ pub(super) struct ContactDuals<const SLOPES: usize> {
     /// Mean tangent `τ` [length].
     pub tangent: DualVector<SLOPES>,
     /// Swing `d` [length].
-    pub swing: DualVector<SLOPES>,
+    pub tangent_change: DualVector<SLOPES>,
     /// Contact force `λ` on the master [force].
     pub force: DualVector<SLOPES>,
     /// Couple of the contact [force].
     pub couple: DualVector<SLOPES>,
     /// Sliding increment `Δξ` [-].
-    pub way: Dual<SLOPES>,
+    pub increment: Dual<SLOPES>,
 }
 
 impl<const SLOPES: usize> ContactDuals<SLOPES> {
     pub fn of(contact: &Contact<'_>) -> Self {
-        let ContactUnknowns { force, couple, way } = contact.unknowns;
+        let ContactUnknowns { force, couple, increment: way } = contact.unknowns;
         let end = contact.end_point();
-        let offset = PathVector { value: contact.slave_moved - end.value, by_way: -end.by_way };
-        let constant = |value: Vec2| PathVector { value, by_way: Vec2::zeros() };
+        let offset = PathVector { value: contact.slave_movement - end.value, by_end: -end.by_end };
+        let constant = |value: Vec2| PathVector { value, by_end: Vec2::zeros() };
         Self {
             offset: DualVector::variable(offset, OFFSET),
             tangent: DualVector::variable(contact.tangent(), TANGENT),
-            swing: DualVector::variable(contact.tangent_change(), SWING),
+            tangent_change: DualVector::variable(contact.tangent_change(), SWING),
             force: DualVector::variable(constant(force), FORCE),
             couple: DualVector::variable(constant(couple), COUPLE),
-            way: Dual::path_dual(way, 1.0),
+            increment: Dual::path_dual(way, 1.0),
         }
     }
 }
@@ -100,7 +100,7 @@ impl Dual<ALL_SLOPES> {
             by_unknowns: ContactUnknowns {
                 force: pair(FORCE),
                 couple: pair(COUPLE),
-                way: self.slopes[WAY],
+                increment: self.slopes[WAY],
             },
             ..Equation::new(self.value, unit)
         }
@@ -161,8 +161,8 @@ impl<const SLOPES: usize> DualVector<SLOPES> {
             jet
         };
         Self {
-            x: component(vector.value.x, vector.by_way.x, first),
-            y: component(vector.value.y, vector.by_way.y, first + 1),
+            x: component(vector.value.x, vector.by_end.x, first),
+            y: component(vector.value.y, vector.by_end.y, first + 1),
         }
     }
 

@@ -22,8 +22,8 @@ impl SlidingLaw for Frozen {
         let Some(kink) = &contact.kink else { return Conserving.equations(contact) };
         let jets = ContactDuals::of(contact);
         let step = FrozenInStep::of(&jets, kink);
-        let balance = (jets.force - step.inertia).dot(&step.direction) - step.rise;
-        vanish(step.on_way.imbalances((contact, kink), &jets, step.jump, balance))
+        let balance = (jets.force - step.inertia).dot(&step.direction) - step.energy_slope;
+        vanish(step.on_path.imbalances((contact, kink), &jets, step.jump, balance))
     }
 
     fn kink_at_end(&self, contact: &Contact<'_>) -> KinkState {
@@ -35,7 +35,7 @@ impl SlidingLaw for Frozen {
 
 /// Fixed kink in an iterate of a step.
 struct FrozenInStep<const SLOPES: usize> {
-    on_way: KinkOnPath<SLOPES>,
+    on_path: KinkOnPath<SLOPES>,
     /// Direction `w` of the path [length].
     direction: DualVector<SLOPES>,
     /// Speed `v1` of the kink along the master at the end of the step [length/time].
@@ -45,17 +45,17 @@ struct FrozenInStep<const SLOPES: usize> {
     /// Inertia force of the kink, `(Δπ/Δt) e` [force].
     inertia: DualVector<SLOPES>,
     /// Growth of the kink energy per unit of path [force·length].
-    rise: Dual<SLOPES>,
+    energy_slope: Dual<SLOPES>,
 }
 
 impl<const SLOPES: usize> FrozenInStep<SLOPES> {
     fn of(jets: &ContactDuals<SLOPES>, kink: &Kink) -> Self {
-        let &ContactDuals { tangent, swing, way, .. } = jets;
+        let &ContactDuals { tangent, tangent_change: swing, increment: way, .. } = jets;
         let (along, motion, before) =
             (&kink.along, &kink.motion, DualVector::constant(kink.before));
         let one = Dual::constant(1.0);
-        let on_way = KinkOnPath::of(jets, kink);
-        let &KinkOnPath { length, difference, stretch, over_square, .. } = &on_way;
+        let on_path = KinkOnPath::of(jets, kink);
+        let &KinkOnPath { length, difference, stretch, over_square, .. } = &on_path;
 
         let turn = tangent.turned().dot(&swing) * over_square * 2.0;
         let jump = (before * (one - turn * turn) + before.turned() * (turn * 2.0))
@@ -68,9 +68,9 @@ impl<const SLOPES: usize> FrozenInStep<SLOPES> {
             unit.dot(&direction) * way * (2.0 / motion.duration) - Dual::constant(motion.speed);
         let energy = kink.before.norm_squared() * kink.compliance;
         let change = (length * speed - Dual::constant(along.start * motion.speed))
-            * (energy * motion.slowness / motion.duration);
-        let softening = one - speed * (motion.speed * motion.slowness);
-        let rise = softening * difference * (0.5 * energy);
-        Self { on_way, direction, speed, jump, inertia: unit * change, rise }
+            * (energy * motion.inverse_square_speed / motion.duration);
+        let softening = one - speed * (motion.speed * motion.inverse_square_speed);
+        let energy_slope = softening * difference * (0.5 * energy);
+        Self { on_path, direction, speed, jump, inertia: unit * change, energy_slope }
     }
 }

@@ -41,7 +41,7 @@ impl<const SLOPES: usize> KinkOnPath<SLOPES> {
             stretch: Dual::path_dual(arc.difference, arc.change),
             over_square: jets.tangent.dot(&jets.tangent).inverse(),
             offset_before,
-            arm: jets.swing * jets.way + (offset_before + jets.offset) * 0.5,
+            arm: jets.tangent_change * jets.increment + (offset_before + jets.offset) * 0.5,
         }
     }
 

@@ -45,13 +45,13 @@ fn imbalances<const SLOPES: usize>(
 ) -> [Dual<SLOPES>; CONTACT_UNKNOWNS] {
     let jets = ContactDuals::of(contact);
     let step = KinkInStep::of(&jets, kink);
-    let set_in_motion = step.inertia * step.on_way.stretch;
+    let set_in_motion = step.inertia * step.on_path.stretch;
     let balance = (jets.force - step.mean_force).dot(&jets.tangent) - set_in_motion;
-    step.on_way.imbalances((contact, kink), &jets, step.jump, balance)
+    step.on_path.imbalances((contact, kink), &jets, step.jump, balance)
 }
 
 struct KinkInStep<const SLOPES: usize> {
-    on_way: KinkOnPath<SLOPES>,
+    on_path: KinkOnPath<SLOPES>,
     /// Speed `v1` of the kink along the master at the end of the step [length/time].
     speed: Dual<SLOPES>,
     /// Force `p1 = GA a1` of the jump of the tangent at the end of the step [force].
@@ -64,17 +64,18 @@ struct KinkInStep<const SLOPES: usize> {
 
 impl<const SLOPES: usize> KinkInStep<SLOPES> {
     fn of(jets: &ContactDuals<SLOPES>, kink: &Kink) -> Self {
-        let &ContactDuals { offset, tangent, swing, force, way, .. } = jets;
+        let &ContactDuals { offset, tangent, tangent_change: swing, force, increment: way, .. } =
+            jets;
         let (along, motion, before) =
             (&kink.along, &kink.motion, DualVector::constant(kink.before));
-        let on_way = KinkOnPath::of(jets, kink);
-        let &KinkOnPath { length, difference, stretch, over_square, offset_before, arm } = &on_way;
+        let on_path = KinkOnPath::of(jets, kink);
+        let &KinkOnPath { length, difference, stretch, over_square, offset_before, arm } = &on_path;
 
         let swung = tangent.turned().dot(&swing) * over_square * 4.0;
         let moved = tangent * way + offset - offset_before - arm.turned() * swung;
         let speed = stretch * over_square * tangent.dot(&moved) * (2.0 / motion.duration)
             - Dual::constant(motion.speed);
-        let softening = Dual::constant(1.0) - speed * (motion.speed * motion.slowness);
+        let softening = Dual::constant(1.0) - speed * (motion.speed * motion.inverse_square_speed);
 
         let normal = tangent.turned();
         let across = force.dot(&normal) * softening.inverse() * 2.0 - before.dot(&normal);
@@ -87,8 +88,8 @@ impl<const SLOPES: usize> KinkInStep<SLOPES> {
         let mass = jump.dot(&jump) * length;
         let mass_before = along.start * kink.before.norm_squared();
         let change = mass * speed - Dual::constant(mass_before * motion.speed);
-        let inertia = change * (motion.slowness * kink.compliance / motion.duration);
+        let inertia = change * (motion.inverse_square_speed * kink.compliance / motion.duration);
         let mean_force = (before + jump) * softening * 0.5;
-        Self { on_way, speed, jump, mean_force, inertia }
+        Self { on_path, speed, jump, mean_force, inertia }
     }
 }

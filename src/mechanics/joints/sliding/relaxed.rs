@@ -28,12 +28,12 @@ impl SlidingLaw for Relaxed {
 /// `½ (x_s0 + x_s1) = Σ B̄_i x̄_i`
 fn closed_mean(contact: &Contact<'_>) -> [Equation; 2] {
     let point = contact.mean_point();
-    let gap = contact.slave_moved * 0.5 - point.value;
+    let gap = contact.slave_movement * 0.5 - point.value;
     AXES.map(|axis| {
         let mut equation = Equation::new(gap.dot(&axis), Unit::Length);
         equation.by_slave = axis * 0.5;
         equation.by_mean = axis * -0.5;
-        equation.by_unknowns.way = -point.by_way.dot(&axis);
+        equation.by_unknowns.increment = -point.by_end.dot(&axis);
         equation
     })
 }
@@ -42,9 +42,9 @@ fn closed_mean(contact: &Contact<'_>) -> [Equation; 2] {
 fn sliding(contact: &Contact<'_>) -> Equation {
     let (mut direction, gap) = (contact.start_tangent(), contact.start_gap());
     if gap.norm() > ROUNDING * contact.length {
-        let tilt = gap * (2.0 / contact.unknowns.way);
+        let tilt = gap * (2.0 / contact.unknowns.increment);
         direction.value += tilt;
-        direction.by_way -= tilt / contact.unknowns.way;
+        direction.by_end -= tilt / contact.unknowns.increment;
     }
     contact.frictionless(direction)
 }

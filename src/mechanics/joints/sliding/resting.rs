@@ -19,7 +19,7 @@ pub struct Resting;
 #[derive(Debug, Clone, Copy)]
 pub struct AtStop {
     /// Sliding increment `Δξ` to the end [-].
-    pub way: f64,
+    pub increment: f64,
 }
 
 impl SlidingLaw for Resting {
@@ -35,7 +35,7 @@ impl SlidingLaw for AtStop {
         let [gap_x, gap_y] = contact.closed_on_kink(contact.unknowns.force, 1.0);
         let [couple_x, couple_y] = contact.no_couple();
         let mut arrived = contact.no_increment();
-        arrived.value -= contact.length * self.way;
+        arrived.value -= contact.length * self.increment;
         [gap_x, gap_y, couple_x, couple_y, arrived]
     }
 }
@@ -43,16 +43,16 @@ impl SlidingLaw for AtStop {
 /// `(λ·x'(ξ) + ½ g'(ξ) |λ|²/GA)/ℓ = 0`: no work in displacements of the slave along the master.
 fn not_driven(contact: &Contact<'_>) -> Equation {
     let (force, scale) = (contact.unknowns.force, 1.0 / contact.length);
-    let tangent = contact.end_point().by_way;
+    let tangent = contact.end_point().by_end;
     let mut equation = contact
-        .frictionless(super::PathVector { value: tangent, by_way: contact.end_bend() * 2.0 });
+        .frictionless(super::PathVector { value: tangent, by_end: contact.end_bend() * 2.0 });
     equation.by_difference = force * scale;
     if let Some(kink) = contact.kink {
         let half = 0.5 * kink.compliance * scale;
         equation.value += half * kink.along.slope * force.norm_squared();
         equation.by_unknowns.force += force * (2.0 * half * kink.along.slope);
         // For a path of length zero, the change of the slope is half the second derivative.
-        equation.by_unknowns.way += 2.0 * half * kink.along.change * force.norm_squared();
+        equation.by_unknowns.increment += 2.0 * half * kink.along.change * force.norm_squared();
     }
     equation
 }
@@ -60,14 +60,14 @@ fn not_driven(contact: &Contact<'_>) -> Equation {
 impl Contact<'_> {
     /// Contact forces `B_i(ξ) λ` on the control points of the master at rest [force].
     pub fn master_forces_at_rest(&self) -> impl Iterator<Item = Vec2> + '_ {
-        self.passage.end().iter().map(|value| self.unknowns.force * *value)
+        self.path.end().iter().map(|value| self.unknowns.force * *value)
     }
 
     /// Derivatives of the contact forces `B_i(ξ) λ` on the control points of the master at rest: factors with respect to `λ` and `η`, and a force
     /// with respect to `Δξ`.
     pub fn master_force_slopes_at_rest(&self) -> impl Iterator<Item = (f64, f64, Vec2)> + '_ {
         let force = self.unknowns.force;
-        let weights = self.passage.end().iter().zip(self.passage.slope());
+        let weights = self.path.end().iter().zip(self.path.slope());
         weights.map(move |(value, slope)| (*value, 0.0, force * *slope))
     }
 }

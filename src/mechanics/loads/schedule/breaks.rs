@@ -7,9 +7,10 @@ impl Schedule {
     /// Times of jumps and kinks, at which steps should end.
     pub fn breaks(&self) -> Vec<f64> {
         match self {
-            Self::Constant(_) | Self::Sine { .. } | Self::Sampled(_) | Self::Clocked { .. } => {
-                Vec::new()
-            }
+            Self::Constant(_)
+            | Self::Sine { .. }
+            | Self::Sampled(_)
+            | Self::DigitalController { .. } => Vec::new(),
             Self::Table(rows) => rows.iter().map(|(time, _)| *time).collect(),
             Self::SmoothPulse { duration } => vec![0.0, *duration],
             Self::Function { breaks, .. } => breaks.clone(),
@@ -20,14 +21,14 @@ impl Schedule {
     /// Clock of a digital controller, if the schedule is one. Steps should end at its samples and actions. Controllers are never combined with other
     /// schedules.
     pub fn sample_clock(&self) -> Option<SampleClock> {
-        if let Self::Clocked { beat, .. } = self { Some(*beat) } else { None }
+        if let Self::DigitalController { clock, .. } = self { Some(*clock) } else { None }
     }
 
     /// Returns true if a time is a declared break.
     pub fn is_break(&self, time: f64) -> bool {
         match self {
             Self::Constant(_) | Self::Sine { .. } | Self::Sampled(_) => false,
-            Self::Clocked { beat, .. } => beat.is_active_at(time),
+            Self::DigitalController { clock, .. } => clock.is_active_at(time),
             Self::Table(rows) => rows.iter().any(|(bend, _)| *bend == time),
             Self::SmoothPulse { duration } => time == 0.0 || time == *duration,
             Self::Function { breaks, .. } => breaks.contains(&time),
@@ -41,7 +42,7 @@ impl Schedule {
             Self::Constant(_) | Self::Sine { .. } | Self::SmoothPulse { .. } | Self::Sampled(_) => {
                 false
             }
-            Self::Clocked { beat, .. } => beat.is_active_at(time),
+            Self::DigitalController { clock, .. } => clock.is_active_at(time),
             Self::Table(rows) => rows.windows(2).any(|pair| pair[0].0 == time && pair[1].0 == time),
             Self::Function { breaks, .. } => breaks.contains(&time),
             Self::Combined { parts, .. } => parts.0.may_jump_at(time) || parts.1.may_jump_at(time),

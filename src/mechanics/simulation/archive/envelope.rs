@@ -66,17 +66,24 @@ pub fn unwrap(file: &[u8]) -> Result<&[u8], ArchiveError> {
     let [length] = reader.array()?;
     let program = String::from_utf8_lossy(reader.take(usize::from(length))?).into_owned();
     if format > FORMAT {
-        return Err(ArchiveError::Newer { program, format, own_program: PROGRAM, own: FORMAT });
+        return Err(ArchiveError::Newer {
+            program,
+            format,
+            this_program: PROGRAM,
+            supported: FORMAT,
+        });
     }
     if format < FORMAT {
-        return Err(ArchiveError::Older { program, format, own: FORMAT });
+        return Err(ArchiveError::Older { program, format, supported: FORMAT });
     }
     let length = u64::from_le_bytes(reader.array()?);
     let whole = length.saturating_add((reader.at + CHECKSUM) as u64);
     let found = file.len();
     match whole.cmp(&(found as u64)) {
         std::cmp::Ordering::Greater => Err(ArchiveError::Truncated { found, needed: whole }),
-        std::cmp::Ordering::Less => Err(ArchiveError::Longer { more: found as u64 - whole }),
+        std::cmp::Ordering::Less => {
+            Err(ArchiveError::TrailingBytes { trailing_bytes: found as u64 - whole })
+        }
         std::cmp::Ordering::Equal => {
             let content = reader.take(found - reader.at - CHECKSUM)?;
             let right = crc32fast::hash(&file[..reader.at]);
@@ -110,7 +117,7 @@ mod tests {
             assert_eq!(unwrap(foreign), Err(ArchiveError::Foreign));
         }
         let longer = [&file[..], b"more"].concat();
-        assert_eq!(unwrap(&longer), Err(ArchiveError::Longer { more: 4 }));
+        assert_eq!(unwrap(&longer), Err(ArchiveError::TrailingBytes { trailing_bytes: 4 }));
         let mut newer = file.clone();
         newer[8] += 1;
         let message = unwrap(&newer).unwrap_err().to_string();

@@ -40,7 +40,7 @@ pub enum ArchiveError {
     },
     /// File written by a later program.
     #[error(
-        "it was written by withy {program} in format {format}, but this is withy {own_program}, which reads format {own}; install a newer withy"
+        "it was written by withy {program} in format {format}, but this is withy {this_program}, which reads format {supported}; install a newer withy"
     )]
     Newer {
         /// Program and version that wrote the file.
@@ -48,13 +48,13 @@ pub enum ArchiveError {
         /// Format of the file.
         format: u16,
         /// This program and its version.
-        own_program: &'static str,
+        this_program: &'static str,
         /// Supported format.
-        own: u16,
+        supported: u16,
     },
     /// File in a format that is no longer supported.
     #[error(
-        "it was written by withy {program} in format {format}, but this withy reads only format {own}; load it with withy {program}"
+        "it was written by withy {program} in format {format}, but this withy reads only format {supported}; load it with withy {program}"
     )]
     Older {
         /// Program and version that wrote the file.
@@ -62,7 +62,7 @@ pub enum ArchiveError {
         /// Format of the file.
         format: u16,
         /// Supported format.
-        own: u16,
+        supported: u16,
     },
     /// File with a wrong checksum.
     #[error(
@@ -75,10 +75,10 @@ pub enum ArchiveError {
         right: u32,
     },
     /// File with trailing bytes.
-    #[error("the file is damaged: {more} bytes follow its end; use another copy")]
-    Longer {
+    #[error("the file is damaged: {trailing_bytes} bytes follow its end; use another copy")]
+    TrailingBytes {
         /// Number of trailing bytes.
-        more: u64,
+        trailing_bytes: u64,
     },
     /// Intact file with invalid content.
     #[error("its content is not a valid simulation: {reason}")]

@@ -20,7 +20,7 @@ impl Simulation {
     pub fn next_stop(&self, limit: f64) -> f64 {
         let now = self.time();
         let stop = self.clock.grid.next(now, limit);
-        let planned = self.adaptive.as_ref().zip(self.clock.pace);
+        let planned = self.adaptive.as_ref().zip(self.clock.step_size);
         planned.map_or(stop, |(adaptive, pace)| adaptive.plan(&pace, now, stop).interval.end)
     }
 
@@ -32,11 +32,11 @@ impl Simulation {
         monitor: &mut dyn Monitor,
     ) -> Result<(), SimulationError> {
         let Adaptive { controller, .. } = *adaptive;
-        if let Some(halving) = self.clock.under_way.filter(|halving| halving.end() <= limit) {
+        if let Some(halving) = self.clock.retry.filter(|halving| halving.end() <= limit) {
             return self.cover_uncompared(halving, controller.first, monitor);
         }
-        self.clock.under_way = None;
-        let mut pace = self.clock.pace.unwrap_or_else(|| controller.start());
+        self.clock.retry = None;
+        let mut pace = self.clock.step_size.unwrap_or_else(|| controller.start());
         if pace.tries == 0 && self.model.loads_may_jump() {
             controller.restart(&mut pace);
         }
@@ -48,9 +48,9 @@ impl Simulation {
                     let plan = adaptive.plan(&pace, now, self.clock.grid.next(now, limit));
                     let tried = self.try_step(adaptive, &plan);
                     match (tried, &mut adaptive.resampling) {
-                        (Ok(doubled), Some(resampling)) if doubled.trial.error <= 1.0 => {
+                        (Ok(doubled), Some(resampling)) if doubled.tried_step.error <= 1.0 => {
                             resampling.pause_at_middle(&mut self.model, plan, doubled);
-                            self.clock.pace = Some(pace);
+                            self.clock.step_size = Some(pace);
                             self.query_monitor(monitor)?;
                             continue;
                         }
@@ -61,18 +61,18 @@ impl Simulation {
             let StepPlan { interval, is_cut, is_least } = plan;
             let dt = interval.duration();
             match tried {
-                Ok(DoubledStep { report, trial, .. }) if trial.error <= 1.0 => {
+                Ok(DoubledStep { report, tried_step: trial, .. }) if trial.error <= 1.0 => {
                     let tries = pace.tries;
                     match is_cut {
                         true => controller.accept_cut(&mut pace, trial),
                         false => controller.accept(&mut pace, trial),
                     }
-                    self.clock.pace = Some(pace);
+                    self.clock.step_size = Some(pace);
                     self.count_step(interval, report, tries);
                     self.store_present();
                     return self.query_monitor(monitor);
                 }
-                Ok(DoubledStep { report, trial, .. }) => {
+                Ok(DoubledStep { report, tried_step: trial, .. }) => {
                     adaptive.doubling.restore_start(&mut self.model);
                     self.progress.count_rejection(report.iterations);
                     controller.reject(&mut pace, trial);
@@ -89,7 +89,7 @@ impl Simulation {
                 Err(FailedStep { source: StepError::Overshoot { iterations, .. }, before }) => {
                     self.progress.count_try(before + iterations);
                     // There is no comparison beyond an end, and the motion after an arrival differs from that before.
-                    self.clock.pace = Some(StepSizeState { error: None, tries: 0, ..pace });
+                    self.clock.step_size = Some(StepSizeState { error: None, tries: 0, ..pace });
                     let start = interval.start;
                     let half = StepRetry::new(Interval::between(start, start + 0.5 * dt));
                     return self.cover_uncompared(half, controller.first, monitor);
@@ -108,12 +108,12 @@ impl Simulation {
                             dt,
                             smallest,
                             source,
-                            plight,
+                            conditions: plight,
                         });
                     }
                 }
             }
-            self.clock.pace = Some(pace);
+            self.clock.step_size = Some(pace);
             self.query_monitor(monitor)?;
         }
     }
@@ -156,7 +156,7 @@ impl Simulation {
     }
 
     /// Returns true if a step is paused in its middle to sample controllers. A stopped run may continue or [restore the start of the
-    /// step](Self::go_back_to_start_of_step).
+    /// step](Self::restore_step_start).
     pub fn is_paused_in_step(&self) -> bool {
         let adaptive = self.adaptive.as_ref();
         adaptive

@@ -35,7 +35,7 @@ impl Simulation {
         let taken = self.progress.counts.steps;
         match taken.checked_sub(steps) {
             Some(rest) => self.restore_step(rest),
-            None => Err(SimulationError::FewerSteps { steps, taken }),
+            None => Err(SimulationError::TooFewSteps { steps, steps_taken: taken }),
         }
     }
 
@@ -49,7 +49,7 @@ impl Simulation {
         // Zero denotes the start, which may be later.
         let time = if time.abs() <= slack { begun } else { time };
         if time.is_nan() || time < begun - slack || time > now + slack {
-            return Err(SimulationError::NotBehind { time, begun, now });
+            return Err(SimulationError::OutsideRun { time, start: begun, now });
         }
         if time >= now - slack {
             return Ok(());
@@ -122,15 +122,15 @@ impl Simulation {
     /// Fails if the scene cannot be built, which succeeded before.
     pub(super) fn restore_snapshot(&mut self, snapshot: &Snapshot) -> Result<(), SimulationError> {
         self.end_derivatives("going back");
-        self.restore_releases(&snapshot.let_go)?;
+        self.restore_releases(&snapshot.releases)?;
         self.model.restore(&snapshot.state);
         self.clock.grid.restore(snapshot.passed);
         self.progress.last_step = snapshot.last_step;
         self.record.truncate(snapshot.rows);
         self.progress.arrivals.truncate(snapshot.arrivals);
         self.progress.counts = WorkCounts { wall: self.progress.counts.wall, ..snapshot.counts };
-        self.clock.under_way = snapshot.under_way;
-        self.clock.pace = snapshot.pace;
+        self.clock.retry = snapshot.retry;
+        self.clock.step_size = snapshot.step_size;
         Ok(())
     }
 
@@ -143,7 +143,7 @@ impl Simulation {
             Some((first, _)) if steps < first.steps() => {
                 SimulationError::BeforeFirst { target, first: first.time }
             }
-            Some((first, from)) => SimulationError::Forgotten {
+            Some((first, from)) => SimulationError::NoSnapshot {
                 target,
                 steps: now - from,
                 oldest: time(from),
@@ -167,14 +167,14 @@ impl Simulation {
         Snapshot {
             state,
             time: self.time(),
-            rows: self.record.rows_kept,
+            rows: self.record.permanent_rows,
             last_step: self.progress.last_step,
             arrivals: self.progress.arrivals.len(),
-            let_go: Rc::clone(&self.progress.let_go),
+            releases: Rc::clone(&self.progress.releases),
             counts: self.progress.counts,
             passed: self.clock.grid.passed(),
-            under_way: self.clock.under_way,
-            pace: self.clock.pace,
+            retry: self.clock.retry,
+            step_size: self.clock.step_size,
         }
     }
 
@@ -194,7 +194,7 @@ impl Simulation {
     /// Fails if the scene cannot be built, which succeeded before.
     pub(super) fn fork_without_snapshots(&self) -> Result<Self, SimulationError> {
         let mut fork = Self::start(self.scene.clone(), self.settings)?;
-        fork.restore_releases(&self.progress.let_go)?;
+        fork.restore_releases(&self.progress.releases)?;
         fork.model.restore(&self.model.state());
         fork.clock = StepClock { goal: f64::INFINITY, ..self.clock.clone() };
         fork.progress = self.progress.clone();

@@ -29,19 +29,19 @@ struct Content<'a> {
     state: SystemState,
     recording: Recording,
     samples: Cow<'a, [Sample]>,
-    rows_kept: usize,
+    permanent_rows: usize,
     extra: Cow<'a, [f64]>,
     /// Number of configurations offered to the trajectory per stored one.
     every: usize,
     times: Cow<'a, [f64]>,
     numbers: Cow<'a, [f64]>,
     arrivals: Cow<'a, [Arrival]>,
-    let_go: Cow<'a, [ReleaseEvent]>,
+    releases: Cow<'a, [ReleaseEvent]>,
     counts: WorkCounts,
     cuts: Cow<'a, [f64]>,
     /// Parts of a [`StepRetry`].
-    under_way: Option<((f64, f64), u64, u32, usize)>,
-    pace: Option<StepSizeState>,
+    retry: Option<((f64, f64), u64, u32, usize)>,
+    step_size: Option<StepSizeState>,
 }
 
 fn refused(reason: &str) -> ArchiveError {
@@ -64,7 +64,7 @@ impl Simulation {
         }
         let waiting = (0..self.scene.releases.len()).find(|at| self.waits_for_release(*at));
         if let Some(release) = waiting {
-            let name = self.scene.releasable_name(self.scene.releases[release].hold);
+            let name = self.scene.releasable_name(self.scene.releases[release].object);
             return Err(ArchiveError::Release { name });
         }
         let content = Content {
@@ -74,17 +74,17 @@ impl Simulation {
             state: self.model.state(),
             recording: self.record.recording,
             samples: self.record.history.samples().into(),
-            rows_kept: self.record.rows_kept,
+            permanent_rows: self.record.permanent_rows,
             extra: self.record.history.extra_values().into(),
             every: self.record.trajectory.every(),
             times: self.record.trajectory.times().into(),
             numbers: self.record.trajectory.numbers().into(),
             arrivals: self.progress.arrivals.as_slice().into(),
-            let_go: self.releases().into(),
+            releases: self.releases().into(),
             counts: self.progress.counts,
             cuts: self.clock.grid.cuts().into(),
-            under_way: self.clock.under_way.map(StepRetry::to_parts),
-            pace: self.clock.pace,
+            retry: self.clock.retry.map(StepRetry::to_parts),
+            step_size: self.clock.step_size,
         };
         let bytes = postcard::to_stdvec(&content).map_err(|error| refused(&error.to_string()))?;
         Ok(wrap(&bytes))
@@ -127,7 +127,8 @@ impl Content<'_> {
         ];
         let is_counted = numbers.iter().all(|number| *number < MOST_COUNTED);
         let rows = self.samples.len();
-        let has_rows = self.rows_kept >= 1 && (self.rows_kept..=self.rows_kept + 1).contains(&rows);
+        let has_rows = self.permanent_rows >= 1
+            && (self.permanent_rows..=self.permanent_rows + 1).contains(&rows);
         if !is_counted || !has_rows || rows > counts.steps + 1 {
             return Err(refused("the number of steps does not match the number of history rows"));
         }
@@ -147,12 +148,12 @@ impl Content<'_> {
             return Err(refused("an arrival refers to a slider that does not exist"));
         }
         let is_release = |(at, gone): (usize, &ReleaseEvent)| {
-            let earlier = &self.let_go[..at];
+            let earlier = &self.releases[..at];
             gone.release < self.scene.releases.len()
                 && gone.time.is_finite()
                 && earlier.iter().all(|other| other.release != gone.release)
         };
-        if !self.let_go.iter().enumerate().all(is_release) {
+        if !self.releases.iter().enumerate().all(is_release) {
             return Err(refused("a release refers to an object that does not exist"));
         }
         Ok(())
@@ -160,7 +161,7 @@ impl Content<'_> {
 
     fn into_simulation(self) -> Result<(String, Simulation), ArchiveError> {
         let mut simulation = Simulation::start(self.scene.into_owned(), self.settings)?;
-        simulation.restore_releases(&Rc::from(&*self.let_go))?;
+        simulation.restore_releases(&Rc::from(&*self.releases))?;
         let restored = simulation.model.restore_checked(&self.state);
         restored.map_err(|error| refused(&error.to_string()))?;
         let now = simulation.time();
@@ -179,7 +180,7 @@ impl Content<'_> {
             simulation.record.trajectory.with_configurations(rows, self.every, times, numbers);
         simulation.record.trajectory =
             kept.ok_or_else(|| refused("its trajectory is incomplete"))?;
-        simulation.clock.under_way = match self.under_way {
+        simulation.clock.retry = match self.retry {
             None => None,
             Some(parts) => {
                 let halving = StepRetry::from_parts(now, parts);
@@ -190,17 +191,17 @@ impl Content<'_> {
             }
         };
         let bounds = simulation.adaptive.as_ref().map(|adaptive| adaptive.controller);
-        if self.pace.is_some() != bounds.is_some()
-            || bounds.zip(self.pace).is_some_and(|(bounds, pace)| !bounds.allows(&pace))
+        if self.step_size.is_some() != bounds.is_some()
+            || bounds.zip(self.step_size).is_some_and(|(bounds, pace)| !bounds.allows(&pace))
         {
             return Err(refused("the size of its next step is invalid"));
         }
-        simulation.clock.pace = self.pace;
+        simulation.clock.step_size = self.step_size;
         simulation.clock.grid.lay(&self.cuts, now);
         simulation.progress.arrivals = self.arrivals.into_owned();
         simulation.progress.counts = self.counts;
-        (simulation.record.recording, simulation.record.rows_kept) =
-            (self.recording, self.rows_kept);
+        (simulation.record.recording, simulation.record.permanent_rows) =
+            (self.recording, self.permanent_rows);
         Ok((self.name.into_owned(), simulation))
     }
 }

@@ -111,7 +111,7 @@ impl Simulation {
 
     pub(super) fn end_derivatives(&mut self, way: &'static str) {
         if let Some(sensitivities) = &mut self.stepper.sensitivities {
-            sensitivities.disable(DerivativeError::Way { way });
+            sensitivities.disable(DerivativeError::NotSupported { change: way });
         }
     }
 }

@@ -35,17 +35,17 @@ pub(super) struct EventStep {
 
 /// Event that ends a step early, or prevents it.
 enum Event {
-    Reaches(MasterLimit),
+    Arrival(MasterLimit),
     /// A slider would jump past a limit, so the step ends just before it.
     JustBefore,
     /// Sliders leave stops because of tensile stop forces.
-    Leaves,
+    StopRelease,
 }
 
 enum ArrivalEstimate {
     Between(TimeBracket),
     /// A step that ends with it was taken, or none is needed.
-    Landed(EventStep),
+    Located(EventStep),
 }
 
 /// Durations of steps that end before and after an arrival, with the distances beyond the limit.
@@ -113,12 +113,12 @@ impl Simulation {
         loop {
             let limit = MasterLimit::of(overshoot.limit);
             if let SliderState::Held(_) = self.model.slider_state(limit.slider) {
-                return Ok(EventStep { step: None, event: Event::Leaves });
+                return Ok(EventStep { step: None, event: Event::StopRelease });
             }
             self.model.set_target_limit(Some(limit));
             let mut bracket = match self.bracket_arrival(cut, limit, overshoot.distance)? {
                 ArrivalEstimate::Between(bracket) => bracket,
-                ArrivalEstimate::Landed(landing) => return Ok(landing),
+                ArrivalEstimate::Located(landing) => return Ok(landing),
             };
             loop {
                 if bracket.is_converged() {
@@ -134,7 +134,7 @@ impl Simulation {
                 cut = Interval::lasting(interval.start, duration);
                 overshoot = match self.attempt(cut)? {
                     Ok(report) => {
-                        let event = Event::Reaches(limit);
+                        let event = Event::Arrival(limit);
                         return Ok(EventStep { step: Some((cut, report)), event });
                     }
                     Err(overshoot) => overshoot,
@@ -156,10 +156,10 @@ impl Simulation {
     ) -> Result<ArrivalEstimate, StepError> {
         let mut after = (interval.duration(), distance);
         let left = self.model.distance_to(limit);
-        let at_once = EventStep { step: None, event: Event::Reaches(limit) };
+        let at_once = EventStep { step: None, event: Event::Arrival(limit) };
         let is_near = self.model.leads_beyond(limit) && left <= NEAR;
         if is_near && (!self.model.is_at(limit) || self.has_impact(limit)) {
-            return Ok(ArrivalEstimate::Landed(at_once));
+            return Ok(ArrivalEstimate::Located(at_once));
         }
         if !self.model.is_at(limit) {
             return Ok(ArrivalEstimate::Between(TimeBracket::new((0.0, -left), after)));
@@ -173,8 +173,8 @@ impl Simulation {
             let cut = Interval::lasting(interval.start, duration);
             match self.attempt(cut)? {
                 Ok(report) => {
-                    let event = Event::Reaches(limit);
-                    return Ok(ArrivalEstimate::Landed(EventStep {
+                    let event = Event::Arrival(limit);
+                    return Ok(ArrivalEstimate::Located(EventStep {
                         step: Some((cut, report)),
                         event,
                     }));
@@ -189,7 +189,7 @@ impl Simulation {
                 Err(Overshoot { distance, .. }) => after = (duration, distance),
             }
         }
-        Ok(ArrivalEstimate::Landed(at_once))
+        Ok(ArrivalEstimate::Located(at_once))
     }
 
     /// Tries a step. A step that misses its target is counted but not taken.
@@ -215,9 +215,9 @@ impl Simulation {
     /// Executes the events of all simultaneous arrivals: the run stops, or sliders bounce, are held, or are released.
     pub(super) fn execute_arrivals(&mut self, landing: &EventStep) -> Result<(), SimulationError> {
         let limit = match landing.event {
-            Event::Reaches(limit) => limit,
+            Event::Arrival(limit) => limit,
             Event::JustBefore => return Ok(()),
-            Event::Leaves => return Ok(self.model.leave_tensile_stops()?),
+            Event::StopRelease => return Ok(self.model.leave_tensile_stops()?),
         };
         let dt = self.dt();
         let mut arriving = Arriving::default();
@@ -231,8 +231,8 @@ impl Simulation {
                         continue;
                     }
                     let (group, kind) = match self.is_held_at_seam(limit, landing, dt) {
-                        true => (&mut arriving.lean, ArrivalKind::Rested),
-                        false => (&mut arriving.pass, ArrivalKind::Passed),
+                        true => (&mut arriving.held, ArrivalKind::Held),
+                        false => (&mut arriving.crossing, ArrivalKind::Passed),
                     };
                     group.push(limit);
                     kind
@@ -245,12 +245,12 @@ impl Simulation {
                 // The slider only touched the stop, or its velocity reversed just there.
                 _ if landing.step.is_some() && !strikes => ArrivalKind::Bounced,
                 _ if self.stays_held(limit, landing, dt)? => {
-                    arriving.lean.push(limit);
-                    ArrivalKind::Rested
+                    arriving.held.push(limit);
+                    ArrivalKind::Held
                 }
                 _ if self.model.restitution(limit.slider) == 0.0 => {
-                    arriving.stay.push(limit);
-                    ArrivalKind::Rested
+                    arriving.plastic.push(limit);
+                    ArrivalKind::Held
                 }
                 EndAction::Bounce | EndAction::Contact => {
                     arriving.strike.push(limit);

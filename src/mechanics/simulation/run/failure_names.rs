@@ -10,7 +10,7 @@ const MOVEMENTS: [&str; 3] = ["x", "y", "the angle"];
 
 impl Simulation {
     pub(super) fn with_name(&self, mut error: StepError) -> StepError {
-        if let StepError::Newton { culprit, .. } = &mut error {
+        if let StepError::Newton { failure_source: culprit, .. } = &mut error {
             let name = culprit.take().and_then(|culprit| match *culprit {
                 FailureSource::Unknown(unknown) => self.name_of_unknown(unknown),
                 FailureSource::Named(name) => Some(name),

@@ -37,6 +37,6 @@ impl Simulation {
     /// # Errors
     /// Fails if an axis has a point without a tangent.
     pub fn outlines(&self) -> Result<&[Outline], SystemError> {
-        self.drawn.outlines(|| Outline::of_scene(&self.scene, self.model.meshes()))
+        self.initial_geometry.outlines(|| Outline::of_scene(&self.scene, self.model.meshes()))
     }
 }

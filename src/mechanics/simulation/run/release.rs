@@ -12,7 +12,7 @@ use crate::simulation::{ReleaseEvent, SimulationError};
 impl Simulation {
     /// Releases so far, in their order.
     pub fn releases(&self) -> &[ReleaseEvent] {
-        &self.progress.let_go
+        &self.progress.releases
     }
 
     /// Returns true if a release waits to be triggered by the caller.
@@ -31,19 +31,19 @@ impl Simulation {
     /// # Errors
     /// Fails if the scene cannot be built, which succeeded before.
     pub fn release(&mut self, release: usize) -> Result<(), SimulationError> {
-        let Some(Release { hold, .. }) = self.scene.releases.get(release).copied() else {
+        let Some(Release { object: hold, .. }) = self.scene.releases.get(release).copied() else {
             return Ok(());
         };
         if self.is_released(release) {
             return Ok(());
         }
         self.disable_derivatives("a joint, spring or support is released");
-        let before = self.released_objects(&self.progress.let_go);
+        let before = self.released_objects(&self.progress.releases);
         self.model.release(&self.scene, &before, hold)?;
         let gone = ReleaseEvent { release, time: self.time() };
-        self.progress.let_go = self.releases().iter().copied().chain([gone]).collect();
+        self.progress.releases = self.releases().iter().copied().chain([gone]).collect();
         self.adapt_to_model()?;
-        if let (Some(adaptive), Some(pace)) = (&self.adaptive, &mut self.clock.pace) {
+        if let (Some(adaptive), Some(pace)) = (&self.adaptive, &mut self.clock.step_size) {
             adaptive.controller.restart(pace);
         }
         Ok(())
@@ -66,16 +66,16 @@ impl Simulation {
         &mut self,
         let_go: &Rc<[ReleaseEvent]>,
     ) -> Result<(), SimulationError> {
-        if self.progress.let_go == *let_go {
+        if self.progress.releases == *let_go {
             return Ok(());
         }
         self.model.restore_releases(&self.scene, &self.released_objects(let_go))?;
-        self.progress.let_go = Rc::clone(let_go);
+        self.progress.releases = Rc::clone(let_go);
         self.adapt_to_model()
     }
 
     fn released_objects(&self, let_go: &[ReleaseEvent]) -> Vec<Releasable> {
-        let_go.iter().map(|gone| self.scene.releases[gone.release].hold).collect()
+        let_go.iter().map(|gone| self.scene.releases[gone.release].object).collect()
     }
 
     /// Adapts the work space of the method and the sensors to the renumbered model.

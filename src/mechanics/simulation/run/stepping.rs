@@ -38,7 +38,7 @@ impl Simulation {
             || format!("a slider is about to reach an end of its beam after t = {}", self.time()),
             |last| self.describe(last),
         );
-        SimulationError::Rattles { arrival, most: MOST_ARRIVALS }
+        SimulationError::TooManyArrivals { arrival, most: MOST_ARRIVALS }
     }
 
     pub(super) fn cover(
@@ -55,7 +55,7 @@ impl Simulation {
                 match self.locate_arrival(interval, overshoot) {
                     Ok(landing) => {
                         self.model.unfreeze_kinks();
-                        self.clock.under_way = None;
+                        self.clock.retry = None;
                         if let Some((interval, report)) = landing.step {
                             self.count_step(interval, report, halving.retries);
                             self.keep_row();
@@ -77,7 +77,7 @@ impl Simulation {
                 Ok(report) => {
                     self.count_step(interval, report, halving.retries);
                     halving.succeed();
-                    self.clock.under_way = halving.remaining();
+                    self.clock.retry = halving.remaining();
                     self.store_present();
                 }
                 Err(source) if !source.is_step_size_dependent() => {
@@ -89,7 +89,7 @@ impl Simulation {
                     if !halving.fail() {
                         return Err(self.no_step(halving.whole.duration(), divisions, source));
                     }
-                    self.clock.under_way = halving.remaining();
+                    self.clock.retry = halving.remaining();
                 }
             }
             self.query_monitor(monitor)?;
@@ -147,9 +147,16 @@ impl Simulation {
             let limit = MasterLimit::of(overshoot.limit);
             let slider = self.scene.sliders[limit.slider].name.clone();
             let end = limit.end.name();
-            return SimulationError::Landing { slider, end, time, dt, divisions, plight };
+            return SimulationError::EventLocation {
+                slider,
+                end,
+                time,
+                dt,
+                divisions,
+                conditions: plight,
+            };
         }
         let source = Box::new(self.with_name(source));
-        SimulationError::Step { time, dt, divisions, source, plight }
+        SimulationError::Step { time, dt, divisions, source, conditions: plight }
     }
 }

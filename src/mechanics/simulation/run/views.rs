@@ -80,7 +80,7 @@ impl Simulation {
                 && arrival.kind == ArrivalKind::Released
         };
         let left = self.arrivals().iter().find(is_release).map(|arrival| arrival.time);
-        let is_it = |gone: &&ReleaseEvent| self.scene.releases[gone.release].hold == hold;
+        let is_it = |gone: &&ReleaseEvent| self.scene.releases[gone.release].object == hold;
         left.or_else(|| self.releases().iter().find(is_it).map(|gone| gone.time))
     }
 

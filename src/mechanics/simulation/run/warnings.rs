@@ -62,7 +62,14 @@ impl Simulation {
             let period = TAU / resolution.angular_frequency();
             let (lowest, suspects) = (self.lowest_period(), self.possible_causes());
             let damping = self.damping_method();
-            notes.push(Warning::Motion { dt, share, period, lowest, suspects, damping });
+            notes.push(Warning::Motion {
+                dt,
+                unresolved_fraction: share,
+                period,
+                lowest,
+                causes: suspects,
+                damping,
+            });
         }
         if notes.is_empty() {
             notes.extend(self.unresolved_beams(dt));
@@ -75,19 +82,19 @@ impl Simulation {
         for (index, slider) in self.model.slider_names().enumerate() {
             let (slider, spans) = (slider.to_owned(), self.model.most_spans(index));
             if spans > MOST_SPANS {
-                notes.push(Warning::Way { slider: slider.clone(), dt, spans });
+                notes.push(Warning::SpansPerStep { slider: slider.clone(), dt, spans });
             }
             if let Some(limit) = self.model.kink_speed_limit(index) {
                 let speeds = self.history().column(&format!("{slider}.speed"));
                 let fastest = |speeds: Vec<f64>| speeds.into_iter().map(f64::abs).fold(0.0, larger);
                 let speed = speeds.map_or(0.0, fastest);
                 if speed > limit {
-                    notes.push(Warning::Fast { slider: slider.clone(), speed, limit });
+                    notes.push(Warning::WaveSpeed { slider: slider.clone(), speed, limit });
                 }
             }
             let blows = self.model.steps_per_impact(index);
             if blows > RESOLVED_BLOW {
-                notes.push(Warning::Bounce { slider, dt, blows });
+                notes.push(Warning::Bounce { slider, dt, steps_per_impact: blows });
             }
         }
         if let Some(drift) = self.excess_energy_drift() {
@@ -97,7 +104,9 @@ impl Simulation {
         }
         notes.extend(self.energy_gain());
         let bends = self.model.bends();
-        notes.extend(bends.map(|(drive, bend)| Warning::Bend { drive: drive.to_owned(), bend }));
+        notes.extend(
+            bends.map(|(drive, bend)| Warning::Bend { drive: drive.to_owned(), curvature: bend }),
+        );
         let bounces = self.model.short_bounces();
         let tolerance = self.adaptive.as_ref().map(|adaptive| adaptive.tolerance);
         let told = |(spring, bounce): (&str, _)| Warning::Contact {
@@ -123,7 +132,7 @@ impl Simulation {
         shaken.map(move |(beam, own)| Warning::Beam {
             beam: self.scene.beams[beam].name.clone(),
             dt,
-            share: own.unresolved_share(),
+            unresolved_fraction: own.unresolved_share(),
             period: TAU / own.angular_frequency(),
         })
     }
@@ -158,7 +167,7 @@ impl Simulation {
 
     /// Energy drift that contradicts the claims of the method and exceeds rounding. Sliders are excluded, because their rules make their own claims.
     fn excess_energy_drift(&self) -> Option<f64> {
-        let keeps = self.settings.method.entry().claims.energy == EnergyClaim::Kept;
+        let keeps = self.settings.method.entry().claims.energy == EnergyClaim::Conserved;
         let rows = self.history().samples();
         let (first, last) = (rows.first()?.measures, rows.last()?.measures);
         if !keeps || !self.scene.sliders.is_empty() {
@@ -177,7 +186,7 @@ impl Simulation {
     /// Name of the method with numerical damping; `None` if it is in use. It damps strains: beams, and springs with a linear law.
     fn damping_method(&self) -> Option<&'static str> {
         let entries = INTEGRATORS.iter();
-        let damping = entries.filter(|entry| entry.claims.energy == EnergyClaim::Decays);
+        let damping = entries.filter(|entry| entry.claims.energy == EnergyClaim::NonIncreasing);
         let is_line = |law: &SpringLaw| matches!(law, SpringLaw::Linear { .. });
         let mut springs = self.scene.springs().filter_map(|spring| spring.law.as_ref());
         let strains = !self.scene.beams.is_empty() || springs.any(is_line);
@@ -201,7 +210,7 @@ impl Simulation {
         });
         let (beyond, energy, row) = given.max_by(|(a, ..), (b, ..)| a.total_cmp(b))?;
         let (time, dt) = (row.measures.time, row.dt);
-        (beyond > 0.0).then_some(Warning::Fed { time, dt, energy })
+        (beyond > 0.0).then_some(Warning::EnergyGain { time, dt, energy })
     }
 
     /// Possible causes of a large change of kinetic energy within a step: the strongest damping, and controllers.
@@ -223,7 +232,7 @@ impl Simulation {
 
     /// Lowest period of the scene as drawn; `None` with sliders, without vibration, or for large scenes [time].
     fn lowest_period(&self) -> Option<f64> {
-        self.drawn.lowest_period(|| {
+        self.initial_geometry.lowest_period(|| {
             let slides = self.model.slider_names().next().is_some();
             if slides || self.model.unknowns() > MOST_UNKNOWNS {
                 return None;

@@ -22,7 +22,7 @@ pub enum DerivativeError {
     #[error(
         "'{name}' has a controller, whose output has no derivatives with respect to parameters"
     )]
-    Steered {
+    Controlled {
         /// Name of the controlled load or drive.
         name: String,
     },
@@ -64,11 +64,11 @@ pub enum DerivativeError {
     },
     /// Run that was changed other than by steps.
     #[error(
-        "there are no derivatives after {way}: they are computed during the steps of an uninterrupted run"
+        "there are no derivatives after {change}: they are computed during the steps of an uninterrupted run"
     )]
-    Way {
+    NotSupported {
         /// Description of the change.
-        way: &'static str,
+        change: &'static str,
     },
     /// Perturbed step that was not solved.
     #[error(

@@ -32,7 +32,7 @@ impl System {
             };
             let turns_something = of_points().any(is_point_met) || is_turned(scene, index);
             if !is_met(turned) && !turns_something {
-                return Err(SystemError::Inertialess { body: body.name.clone() });
+                return Err(SystemError::NoInertia { body: body.name.clone() });
             }
             let is_moved =
                 is_met(x) && is_met(y) || (0..own.len()).any(|at| is_touched(scene, index, at));
@@ -47,7 +47,7 @@ impl System {
 /// Returns true if a spring, a damper, drag or a slider acts at a point of a rigid body.
 fn is_touched(scene: &Scene, body: usize, point: usize) -> bool {
     let is_there = |station: &Station| station.body == BodyIndex::Rigid(body, point);
-    let springs = scene.springs().filter(|spring| matches!(spring.kind, SpringKind::Way(_)));
+    let springs = scene.springs().filter(|spring| matches!(spring.kind, SpringKind::Length(_)));
     let is_dragged = |element: &Element| matches!(element, Element::Drag(drag) if matches!(&drag.on, Dragged::Point { station, .. } if is_there(station)));
     springs.into_iter().any(|spring| spring.stations().any(is_there))
         || scene.sliders.iter().any(|slider| is_there(&slider.slave))

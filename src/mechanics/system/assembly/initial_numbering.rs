@@ -17,7 +17,7 @@ pub struct InitialNumbering {
     /// Force unknowns of each rigid link, numbered before its point.
     pub forces: Vec<[usize; 2]>,
     /// Force unknown of each inclined roller, numbered before its point; `None` after a release.
-    pub across: Vec<Option<usize>>,
+    pub roller_forces: Vec<Option<usize>>,
 }
 
 impl InitialNumbering {
@@ -57,7 +57,7 @@ impl InitialNumbering {
             0 if scene.drives.is_empty() => {
                 Err(SystemError::NothingMoves { scene: scene.name.clone() })
             }
-            _ => Ok(Self { unknowns, number, forces, across }),
+            _ => Ok(Self { unknowns, number, forces, roller_forces: across }),
         }
     }
 
@@ -88,7 +88,7 @@ impl InitialNumbering {
                 }
             }
         }
-        for (force, node) in self.across.iter().zip(&tied.rollers) {
+        for (force, node) in self.roller_forces.iter().zip(&tied.rollers) {
             let (Some(force), Some(node)) = (*force, *node) else { continue };
             for component in [Component::X, Component::Y] {
                 let at = tied.component(node, component);

@@ -48,7 +48,7 @@ impl System {
             (_, Some((force, joint))) if is_undetermined(force) => {
                 let joint = &scene.joints[joint];
                 let (place, how) = (scene.describe(&joint.station), "held".to_owned());
-                Err(SystemError::AlreadyTied { joint: joint.name.clone(), place, how })
+                Err(SystemError::AlreadyTied { joint: joint.name.clone(), place, existing: how })
             }
             (Some(worst), _) if is_undetermined(of(worst.unknowns)) => {
                 let first = scene.first_rigid_body();

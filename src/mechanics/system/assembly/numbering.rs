@@ -53,7 +53,7 @@ impl Numbering {
             LinkPlace { body, point, force: force.map(|at| ordering.position[at]) }
         });
         let links = links.collect();
-        let rollers = initial.across.iter().zip(&tied.rollers);
+        let rollers = initial.roller_forces.iter().zip(&tied.rollers);
         let rollers = rollers.map(|(force, node)| Some((ordering.position[(*force)?], (*node)?)));
         let rollers = rollers.collect();
         let prescribed = tied.prescribed.len();

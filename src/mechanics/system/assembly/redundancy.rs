@@ -23,7 +23,7 @@ impl System {
             let own = response[slider];
             if own * self.total_mass() <= NO_RESPONSE {
                 let parts = scene.parts(&scene.sliders[slider]);
-                return Err(SliderError::HeldBesides(parts).into());
+                return Err(SliderError::OverConstrained(parts).into());
             }
             let mut row: Vec<f64> = Vec::with_capacity(slider + 1);
             for (other, before) in rows.iter().enumerate() {

@@ -33,7 +33,7 @@ impl Assembly<'_> {
             let of_master = |beam: &usize| &numbering.degrees_of_freedom[*beam];
             let is_unknown = x < numbering.unknowns;
             if is_unknown && masters.iter().flat_map(of_master).any(|degrees| degrees[0] == x) {
-                return Err(SliderError::Tied(self.scene.parts(slider)).into());
+                return Err(SliderError::AlreadyJoined(self.scene.parts(slider)).into());
             }
             let is_twice = |other: &SliderContact| {
                 let Connection { index, slave: (body, point), .. } = other.connection;
@@ -42,7 +42,7 @@ impl Assembly<'_> {
                 is_on && numbering.degrees_of_freedom[body][point][0] == x
             };
             if is_unknown && sliders.iter().any(is_twice) {
-                return Err(SliderError::Twice(self.scene.parts(slider)).into());
+                return Err(SliderError::Duplicate(self.scene.parts(slider)).into());
             }
             let connection = Connection { master: slider.master, slave, index };
             let beam = &self.scene.beams[slider.master];
@@ -54,7 +54,7 @@ impl Assembly<'_> {
             let mut new =
                 SliderContact::new(slider, connection, passage, parameter, rail, bars, axis);
             if let Some(track) = slider.track {
-                let Track { legs, course, .. } = &self.scene.tracks[track];
+                let Track { beams: legs, end: course, .. } = &self.scene.tracks[track];
                 let route = &mut routes[track];
                 let route =
                     route.get_or_insert_with(|| self.track_path(legs, &mut passages)).clone();

@@ -25,7 +25,7 @@ fn given_rate_text(rate: f64) -> String {
 /// Rate of each unknown with the body that has set it, and the requested rates of single nodes.
 struct SharedRates<'a> {
     rates: Vec<Option<(usize, f64)>>,
-    asked: Vec<Option<RequestedRate<'a>>>,
+    requested: Vec<Option<RequestedRate<'a>>>,
 }
 
 /// Requested rate of a node [length/time, 1/time].
@@ -97,7 +97,7 @@ impl Assembly<'_> {
         let begun =
             InitialDriveRates { unknowns: numbering.unknowns, rates: prescribed, constraints };
         let asked = self.requested_rates(numbering)?;
-        let mut shared = SharedRates { rates: vec![None; numbering.unknowns], asked };
+        let mut shared = SharedRates { rates: vec![None; numbering.unknowns], requested: asked };
         for (index, beam) in self.scene.beams.iter().enumerate() {
             let degrees = &numbering.degrees_of_freedom[index];
             let length = beam.axis.length();
@@ -150,7 +150,7 @@ impl Assembly<'_> {
         begun: InitialDriveRates<'_>,
     ) -> Result<(), SystemError> {
         let body = self.body(index);
-        let about = motion.about.unwrap_or_else(|| match index < self.scene.beams.len() {
+        let about = motion.centre.unwrap_or_else(|| match index < self.scene.beams.len() {
             true => centre(body),
             false => body.control_points()[0],
         });
@@ -174,7 +174,7 @@ impl Assembly<'_> {
                     }
                     continue;
                 }
-                if let Some(asked) = shared.asked.get(at).copied().flatten() {
+                if let Some(asked) = shared.requested.get(at).copied().flatten() {
                     // A node of a beam may have its own velocity. A rigid body cannot, nor can a moving beam joined to a particle that moves
                     // differently.
                     let is_rigid = degrees_of_freedom.len() > 1 && index >= self.scene.beams.len();

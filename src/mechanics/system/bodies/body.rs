@@ -22,9 +22,9 @@ pub struct Body {
     unknowns: usize,
     /// First control point and first row of each concurrent part except the first.
     parts: Vec<(usize, usize)>,
-    moved: Vec<Movement>,
+    movements: Vec<Movement>,
     forces: Vec<Movement>,
-    met: ForceSummary,
+    summary: ForceSummary,
 }
 
 impl Body {
@@ -41,9 +41,9 @@ impl Body {
             in_order: Vec::new(),
             unknowns,
             parts: Vec::new(),
-            moved: zeros.clone(),
+            movements: zeros.clone(),
             forces: zeros,
-            met: ForceSummary::default(),
+            summary: ForceSummary::default(),
         };
         body.renumber(degrees_of_freedom, unknowns);
         body
@@ -114,8 +114,8 @@ impl Body {
 
     /// Gathers values of the unknowns by control point; zero for supported movements.
     pub fn gather(&mut self, values: &[f64]) -> &[Movement] {
-        self.degrees_of_freedom.gather(values, &mut self.moved);
-        &self.moved
+        self.degrees_of_freedom.gather(values, &mut self.movements);
+        &self.movements
     }
 
     /// Values of the unknowns by control point; zero for supported movements.
@@ -147,17 +147,17 @@ impl Body {
     }
 
     pub fn moved(&self) -> &[Movement] {
-        &self.moved
+        &self.movements
     }
 
     pub fn advance(&mut self, rotations: RotationIncrement) {
-        self.dynamics.advance(&self.moved, rotations);
+        self.dynamics.advance(&self.movements, rotations);
     }
 
     /// Adds the accumulated forces to `out`, clears them, and returns their summary.
     pub fn scatter(&mut self, out: &mut [f64]) -> ForceSummary {
         self.degrees_of_freedom.scatter(&mut self.forces, out);
-        std::mem::take(&mut self.met)
+        std::mem::take(&mut self.summary)
     }
 
     pub fn clear_forces(&mut self) {
@@ -166,7 +166,7 @@ impl Body {
 
     pub fn add_section_forces(&mut self, at: Collocation, increments: &[f64], weight: f64) {
         self.gather(increments);
-        self.met = self.dynamics.add_forces(at, &self.moved, weight, &mut self.forces);
+        self.summary = self.dynamics.add_forces(at, &self.movements, weight, &mut self.forces);
     }
 
     /// Accumulates the condensed internal forces, and adds their derivatives to the given rows of the tangent.
@@ -179,7 +179,14 @@ impl Body {
     ) {
         self.gather(increments);
         let Self {
-            dynamics, degrees_of_freedom, consecutive, moved, forces, parts, unknowns, ..
+            dynamics,
+            degrees_of_freedom,
+            consecutive,
+            movements: moved,
+            forces,
+            parts,
+            unknowns,
+            ..
         } = self;
         let (order, unknowns) = (dynamics.order(), *unknowns);
         let places = Places { degrees_of_freedom, consecutive, order, unknowns };
@@ -206,13 +213,13 @@ impl Body {
 
     pub fn correct_section_forces(&mut self, correction: &[f64]) {
         self.gather(correction);
-        self.dynamics.correct_section_forces(&self.moved);
+        self.dynamics.correct_section_forces(&self.movements);
     }
 
     /// Accumulates `factor · M · rates`.
     pub fn add_inertia_forces(&mut self, factor: f64, rates: &[f64]) {
         self.gather(rates);
-        self.dynamics.add_inertia(factor, &self.moved, &mut self.forces);
+        self.dynamics.add_inertia(factor, &self.movements, &mut self.forces);
     }
 
     /// Passes the entries of `factor · M` to `add` as row, column and value. Entries of the same place add up.
@@ -295,10 +302,10 @@ impl Body {
 
     pub fn momenta(&mut self, rates: &[f64]) -> Momenta {
         self.gather(rates);
-        self.dynamics.add_inertia(1.0, &self.moved, &mut self.forces);
+        self.dynamics.add_inertia(1.0, &self.movements, &mut self.forces);
         let mut sum = Momenta::default();
         let points = self.dynamics.control_points();
-        for ((part, rate), point) in self.forces.iter_mut().zip(&self.moved).zip(points) {
+        for ((part, rate), point) in self.forces.iter_mut().zip(&self.movements).zip(points) {
             let [px, py, spin] = std::mem::take(part);
             let linear = Vec2::new(px, py);
             let twice_kinetic = px * rate[0] + py * rate[1] + spin * rate[2];

@@ -19,7 +19,7 @@ pub struct Elements {
     /// Internal forces, in the order of the scene.
     resistances: Vec<Box<dyn InternalForce>>,
     /// Largest relative force mismatch in the last iterate, and the index of its internal force.
-    farthest: (f64, usize),
+    largest_mismatch: (f64, usize),
 }
 
 impl Elements {
@@ -28,13 +28,13 @@ impl Elements {
         let (mut masses, mut forces, mut resistances) = (Vec::new(), Vec::new(), Vec::new());
         for part in parts {
             match part {
-                BuiltElement::Mass(mass) => masses.push(mass),
+                BuiltElement::PointMass(mass) => masses.push(mass),
                 BuiltElement::Force(force) => forces.push(force),
                 BuiltElement::Resistance(resistance) => resistances.push(resistance),
             }
         }
         weight.iter_mut().for_each(|weight| masses.iter().for_each(|mass| weight.add(mass)));
-        Self { masses, weight, forces, resistances, farthest: (0.0, 0) }
+        Self { masses, weight, forces, resistances, largest_mismatch: (0.0, 0) }
     }
 
     /// Total mass of all point masses [mass].
@@ -167,11 +167,11 @@ impl Elements {
         out: &mut [f64],
         summary: &mut ForceSummary,
     ) {
-        self.farthest = (0.0, 0);
+        self.largest_mismatch = (0.0, 0);
         for (index, resistance) in self.resistances.iter_mut().enumerate() {
             let own = resistance.add_forces(at, out);
-            if own.strain_mismatch.is_nan() || own.strain_mismatch > self.farthest.0 {
-                self.farthest = (own.strain_mismatch, index);
+            if own.strain_mismatch.is_nan() || own.strain_mismatch > self.largest_mismatch.0 {
+                self.largest_mismatch = (own.strain_mismatch, index);
             }
             summary.join(&own);
         }
@@ -179,7 +179,7 @@ impl Elements {
 
     /// Name and relative mismatch of the internal force farthest from its target in the last iterate; `None` if all match.
     pub fn farthest(&self) -> Option<(&str, f64)> {
-        let (missing, index) = self.farthest;
+        let (missing, index) = self.largest_mismatch;
         let resistance = self.resistances.get(index)?;
         (missing != 0.0).then(|| (resistance.name(), missing))
     }

@@ -37,7 +37,7 @@ pub enum NegativeDamping {
     /// At a rate inside the law [length/time, rad/time], with a force [force, force·length].
     At { rate: f64, force: f64 },
     /// Beyond an end of the law, where its linear extrapolation changes sign.
-    Beyond { end: f64, from: f64 },
+    Extrapolated { end: f64, from: f64 },
 }
 
 impl fmt::Display for NegativeDamping {
@@ -47,7 +47,7 @@ impl fmt::Display for NegativeDamping {
                 f,
                 "at the rate {rate} its damping force is {force} and adds energy; give a force with the sign of the rate, and 0 at rest"
             ),
-            Self::Beyond { end, from } => write!(
+            Self::Extrapolated { end, from } => write!(
                 f,
                 "its damping law is extrapolated linearly beyond its last rate {end}, where it decreases, and adds energy from the rate {from} on; end the table with two points of equal force, or give the function over a range of rates at whose ends it does not decrease"
             ),
@@ -110,7 +110,7 @@ impl DampingLaw {
         let beyond = [(first, first.0 - reach(first.0)), (last, last.0 + reach(last.0))];
         let (end, rate) = beyond.into_iter().find(|(_, rate)| feeds((*rate, self.force(*rate))))?;
         let slope = (self.force(rate) - end.1) / (rate - end.0);
-        Some(NegativeDamping::Beyond { end: end.0, from: end.0 - end.1 / slope })
+        Some(NegativeDamping::Extrapolated { end: end.0, from: end.0 - end.1 / slope })
     }
 
     /// Returns the law with a corner at rest where its force is exactly zero.
@@ -201,7 +201,10 @@ mod tests {
         assert_eq!(table(&[(-1.0, 1.0), (0.0, 0.0), (1.0, 1.0)]).active_range(), at(-1.0, 1.0));
         assert_eq!(table(&[(-1.0, -1.0), (1.0, 3.0)]).active_range(), at(0.0, 1.0));
         let falling = table(&[(-1.0, -1.0), (0.0, 0.0), (1.0, 1.0), (2.0, 0.5)]);
-        assert_eq!(falling.active_range(), Some(NegativeDamping::Beyond { end: 2.0, from: 3.0 }));
+        assert_eq!(
+            falling.active_range(),
+            Some(NegativeDamping::Extrapolated { end: 2.0, from: 3.0 })
+        );
     }
 
     #[test]

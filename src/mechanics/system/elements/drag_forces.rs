@@ -22,9 +22,9 @@ use crate::system::bodies::Body;
 
 pub struct DragForces {
     name: String,
-    surroundings: Medium,
+    medium: Medium,
     points: Vec<DragPoint>,
-    pace: RateHistory,
+    rate_history: RateHistory,
     dissipated: f64,
     /// Work of the wind [energy].
     wind_work: f64,
@@ -34,17 +34,17 @@ impl DragForces {
     pub fn new(name: String, law: DragLaw, points: Vec<DragPoint>, wind: Vec2) -> Self {
         Self {
             name,
-            surroundings: Medium { law, wind },
+            medium: Medium { law, wind },
             points,
-            pace: RateHistory::default(),
+            rate_history: RateHistory::default(),
             dissipated: 0.0,
             wind_work: 0.0,
         }
     }
 
     fn rates(&self, at: TrialState<'_>) -> Option<RateCollocation> {
-        let is_timed = self.pace.duration().is_finite();
-        self.pace.at(at.stage, at.weight).filter(|_| is_timed)
+        let is_timed = self.rate_history.duration().is_finite();
+        self.rate_history.at(at.stage, at.weight).filter(|_| is_timed)
     }
 
     /// Work of the wind and dissipated energy of one point, in the step whose movements its body gathered last [energy].
@@ -54,14 +54,14 @@ impl DragForces {
         if !self.has_wind() {
             return [0.0, taken];
         }
-        let duration = self.pace.duration();
+        let duration = self.rate_history.duration();
         let besides = force.dot(&point.besides(movement, duration));
-        let lost = point.power(&self.surroundings.law) * duration + besides;
+        let lost = point.power(&self.medium.law) * duration + besides;
         [lost - taken, lost]
     }
 
     fn has_wind(&self) -> bool {
-        self.surroundings.wind != Vec2::zeros()
+        self.medium.wind != Vec2::zeros()
     }
 }
 
@@ -71,12 +71,12 @@ impl InternalForce for DragForces {
     }
 
     fn begin_step(&mut self, interval: Interval, bodies: &[Body], rates: &[f64]) {
-        self.pace.begin(interval.duration());
+        self.rate_history.begin(interval.duration());
         self.points.iter_mut().for_each(|point| point.begin_step(&bodies[point.body], rates));
     }
 
     fn begin_movement(&mut self) {
-        self.pace.begin(f64::INFINITY);
+        self.rate_history.begin(f64::INFINITY);
         self.points.iter_mut().for_each(DragPoint::reset_at_rest);
     }
 
@@ -85,7 +85,7 @@ impl InternalForce for DragForces {
         let mut summary = ForceSummary::default();
         for point in &mut self.points {
             let body = &at.bodies[point.body];
-            let missing = point.compare(&self.surroundings, body, at.increments, rates);
+            let missing = point.compare(&self.medium, body, at.increments, rates);
             let force = point.applied_force();
             summary.strain_mismatch = larger(summary.strain_mismatch, missing);
             summary.force = larger(summary.force, larger(force.x.abs(), force.y.abs()));
@@ -104,7 +104,7 @@ impl InternalForce for DragForces {
         let Some(rates) = self.rates(at) else { return };
         for point in &mut self.points {
             let body = &at.bodies[point.body];
-            let asked = point.linearise(&self.surroundings, body, at.increments, rates);
+            let asked = point.linearise(&self.medium, body, at.increments, rates);
             point.scatter(body, asked, out);
             point.each_derivative(|to, from, by| {
                 let row = body.degrees_of_freedom[to.0][to.1];
@@ -140,7 +140,7 @@ impl InternalForce for DragForces {
     }
 
     fn advance(&mut self, bodies: &[Body]) {
-        let duration = self.pace.duration();
+        let duration = self.rate_history.duration();
         let is_timed = duration.is_finite();
         if is_timed {
             for point in &self.points {
@@ -153,7 +153,7 @@ impl InternalForce for DragForces {
             let movement = point.movement(&bodies[point.body]);
             point.advance(movement / duration);
         }
-        self.pace.end();
+        self.rate_history.end();
     }
 
     fn dissipated(&self) -> f64 {
@@ -168,13 +168,13 @@ impl InternalForce for DragForces {
         for point in &self.points {
             let rate = |at: usize| Vec2::new(rates[point.body][at][0], rates[point.body][at][1]);
             let body = &bodies[point.body];
-            point.scatter(body, point.force_at_start(&self.surroundings, body, rate), out);
+            point.scatter(body, point.force_at_start(&self.medium, body, rate), out);
         }
     }
 
     /// Small vibrations are damped by the linear part only.
     fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
-        let damping = self.surroundings.law.linear();
+        let damping = self.medium.law.linear();
         for point in &self.points {
             let body = &bodies[point.body];
             let components = point.across_and_along(body, |at| body.vector_at(at, rates));
@@ -187,14 +187,14 @@ impl InternalForce for DragForces {
     }
 
     fn save(&self, state: &mut Vec<f64>) {
-        self.pace.save(state);
+        self.rate_history.save(state);
         self.points.iter().for_each(|point| point.save(state));
         state.push(self.dissipated);
         state.extend(self.wind_work());
     }
 
     fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
-        self.pace.restore(next);
+        self.rate_history.restore(next);
         self.points.iter_mut().for_each(|point| point.restore(next));
         self.dissipated = next();
         if self.has_wind() {
@@ -204,7 +204,7 @@ impl InternalForce for DragForces {
 
     fn explain(&self) -> String {
         let points = crate::system::errors::plural(self.points.len(), "point");
-        let Medium { law, wind } = &self.surroundings;
+        let Medium { law, wind } = &self.medium;
         let blowing = match self.has_wind() {
             true => format!(", wind ({}, {})", wind.x, wind.y),
             false => String::new(),

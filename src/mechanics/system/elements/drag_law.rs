@@ -51,7 +51,7 @@ pub struct DragResponse {
     pub force: Vec2,
     pub by_velocity: [Vec2; 2],
     /// Derivatives of the components with respect to the angle of the line.
-    pub by_turn: Vec2,
+    pub by_angle: Vec2,
 }
 
 /// Vector in space of components across and along a line with unit tangent `t`.
@@ -73,7 +73,7 @@ impl DragLaw {
                 DragResponse {
                     force: Vec2::new(across, along) * factor,
                     by_velocity: [n * factor + bend * across, t * factor + bend * along],
-                    by_turn: Vec2::new(-along, across) * factor,
+                    by_angle: Vec2::new(-along, across) * factor,
                 }
             }
             Self::Line { normal, tangent } => {
@@ -81,7 +81,7 @@ impl DragLaw {
                 DragResponse {
                     force: Vec2::new(normal.force(across), tangent.force(along)),
                     by_velocity: [n * slope_n, t * slope_t],
-                    by_turn: Vec2::new(-slope_n * along, slope_t * across),
+                    by_angle: Vec2::new(-slope_n * along, slope_t * across),
                 }
             }
         }
@@ -154,7 +154,7 @@ mod tests {
                 }
                 let turned = force(velocity, angle + h) - force(velocity, angle - h);
                 // Derivative of the components plus that of the rotating line.
-                let by = found.by_turn + Vec2::new(found.force.y, -found.force.x);
+                let by = found.by_angle + Vec2::new(found.force.y, -found.force.x);
                 assert!((in_space(t, by) - turned / (2.0 * h)).norm() < 1e-8, "{law:?}");
             }
         }

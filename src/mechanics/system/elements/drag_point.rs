@@ -33,7 +33,7 @@ pub struct DragPoint {
     last_force: Vec2,
     mismatch: Vec2,
     /// Force in space that was applied last, times the quadrature weight [force].
-    given: Vec2,
+    applied_force: Vec2,
     linearised: DragTrial,
     rates: Option<RateCollocation>,
 }
@@ -41,24 +41,24 @@ pub struct DragPoint {
 #[derive(Debug, Clone, Copy)]
 struct DragTrial {
     tangent: Vec2,
-    resisted: DragResponse,
+    response: DragResponse,
     /// Derivative of the line angle with respect to the gradient `g` [1/length].
-    turn_by_gradient: Vec2,
+    angle_by_gradient: Vec2,
     rates: (f64, f64),
 }
 
 impl DragTrial {
     fn zero() -> Self {
         let none = Vec2::zeros();
-        let resisted = DragResponse::default();
-        Self { tangent: Vec2::x(), resisted, turn_by_gradient: none, rates: (0.0, 0.0) }
+        let response = DragResponse::default();
+        Self { tangent: Vec2::x(), response, angle_by_gradient: none, rates: (0.0, 0.0) }
     }
 
     /// Drag at a velocity, for a line with a tangent of any length.
     fn new(law: &DragLaw, velocity: Vec2, gradient: Vec2, rates: (f64, f64)) -> Self {
         let (tangent, inverse) = unit_tangent(gradient);
-        let resisted = law.force(velocity, tangent);
-        Self { tangent, resisted, turn_by_gradient: perpendicular(tangent) * inverse, rates }
+        let response = law.force(velocity, tangent);
+        Self { tangent, response, angle_by_gradient: perpendicular(tangent) * inverse, rates }
     }
 }
 
@@ -90,7 +90,7 @@ impl DragPoint {
             force: none,
             last_force: none,
             mismatch: none,
-            given: none,
+            applied_force: none,
             linearised: DragTrial::zero(),
             rates: None,
         }
@@ -155,7 +155,8 @@ impl DragPoint {
     }
 
     pub fn reset_at_rest(&mut self) {
-        (self.force, self.mismatch, self.given) = (Vec2::zeros(), Vec2::zeros(), Vec2::zeros());
+        (self.force, self.mismatch, self.applied_force) =
+            (Vec2::zeros(), Vec2::zeros(), Vec2::zeros());
         self.linearised = DragTrial::zero();
     }
 
@@ -169,8 +170,8 @@ impl DragPoint {
         let moved = |control: usize| body.vector_at(control, increments);
         let (change, by) = (self.combine(&self.shape, moved), self.combine(&self.slope, moved));
         let velocity = change * rates.by_change - self.last_velocity * rates.by_last - around.wind;
-        let gradient = self.gradient(body) + by * rates.share;
-        DragTrial::new(&around.law, velocity, gradient, (rates.by_change, rates.share))
+        let gradient = self.gradient(body) + by * rates.fraction;
+        DragTrial::new(&around.law, velocity, gradient, (rates.by_change, rates.fraction))
     }
 
     /// Compares the force with the target of an iterate. Returns the mismatch relative to the scale of the velocities.
@@ -181,10 +182,11 @@ impl DragPoint {
         increments: &[f64],
         rates: RateCollocation,
     ) -> f64 {
-        let DragTrial { tangent, resisted, .. } = self.evaluate(around, body, increments, rates);
+        let DragTrial { tangent, response: resisted, .. } =
+            self.evaluate(around, body, increments, rates);
         self.mismatch = resisted.force - self.force;
         self.rates = Some(rates);
-        self.given = in_space(tangent, self.force) * self.weight;
+        self.applied_force = in_space(tangent, self.force) * self.weight;
         let moved = self.size(|at| body.vector_at(at, increments)) * rates.by_change.abs();
         let before = self.last_velocity.norm() * rates.by_last.abs();
         let scale = around.law.scale(self.speed + moved + before + around.wind.norm());
@@ -203,7 +205,7 @@ impl DragPoint {
         rates: RateCollocation,
     ) -> Vec2 {
         self.linearised = self.evaluate(around, body, increments, rates);
-        let DragTrial { tangent, resisted, .. } = self.linearised;
+        let DragTrial { tangent, response: resisted, .. } = self.linearised;
         self.mismatch = resisted.force - self.force;
         in_space(tangent, resisted.force) * self.weight
     }
@@ -211,9 +213,13 @@ impl DragPoint {
     /// Passes the derivatives of the nodal forces with respect to nodal movements to `give`, including the rotation of the line with the current
     /// force.
     pub fn each_derivative(&self, mut give: impl FnMut((usize, usize), (usize, usize), f64)) {
-        let DragTrial { tangent, resisted, turn_by_gradient, rates: (by_change, share) } =
-            self.linearised;
-        let turned = in_space(tangent, resisted.by_turn + Vec2::new(self.force.y, -self.force.x));
+        let DragTrial {
+            tangent,
+            response: resisted,
+            angle_by_gradient: turn_by_gradient,
+            rates: (by_change, share),
+        } = self.linearised;
+        let turned = in_space(tangent, resisted.by_angle + Vec2::new(self.force.y, -self.force.x));
         let [across, along] = resisted.by_velocity;
         for (column, (shape, slope)) in self.shape.iter().zip(&self.slope).enumerate() {
             for axis in 0..2 {
@@ -231,18 +237,22 @@ impl DragPoint {
     }
 
     pub fn correct(&mut self, body: &Body, correction: &[f64]) {
-        let DragTrial { resisted, turn_by_gradient, rates: (by_change, share), .. } =
-            self.linearised;
+        let DragTrial {
+            response: resisted,
+            angle_by_gradient: turn_by_gradient,
+            rates: (by_change, share),
+            ..
+        } = self.linearised;
         let moved = |control: usize| body.vector_at(control, correction);
         let velocity = self.combine(&self.shape, moved) * by_change;
         let turn = turn_by_gradient.dot(&self.combine(&self.slope, moved)) * share;
         let [across, along] = resisted.by_velocity.map(|by| by.dot(&velocity));
-        self.force += self.mismatch + Vec2::new(across, along) + resisted.by_turn * turn;
+        self.force += self.mismatch + Vec2::new(across, along) + resisted.by_angle * turn;
     }
 
     /// Applied force of the last iterate in space [force].
     pub fn applied_force(&self) -> Vec2 {
-        self.given
+        self.applied_force
     }
 
     /// Dissipated power at the force of the last iterate, free of the rounding of velocities [power].
@@ -270,7 +280,7 @@ impl DragPoint {
         rate: impl Fn(usize) -> Vec2,
     ) -> Vec2 {
         let velocity = self.velocity(rate) - around.wind;
-        let DragTrial { tangent, resisted, .. } =
+        let DragTrial { tangent, response: resisted, .. } =
             DragTrial::new(&around.law, velocity, self.gradient(body), (0.0, 0.0));
         in_space(tangent, resisted.force) * self.weight
     }

@@ -92,7 +92,7 @@ pub trait ElementDef {
 
 /// Built form of an element in a model.
 pub enum BuiltElement {
-    Mass(NodalMass),
+    PointMass(NodalMass),
     Force(Box<dyn ExternalForce>),
     Resistance(Box<dyn InternalForce>),
 }

@@ -51,7 +51,7 @@ impl ElongationEnd {
 #[derive(Debug, Clone)]
 enum Measure {
     /// Length of the path with the differences `d₀` between consecutive terminals [length].
-    Way(Vec<Vec2>),
+    Length(Vec<Vec2>),
     Angle,
     /// One component of the vector between two terminals, x (0) or y (1).
     Component(usize),
@@ -67,10 +67,10 @@ pub struct Elongation {
     /// Shares of the degrees of freedom in the coordinates, as located last.
     shares: Vec<CoordinateShare>,
     /// Value in the scene as built [length, rad].
-    drawn: f64,
+    initial: f64,
     /// Growth since then, up to the start of the step [length, rad].
-    grown: Coordinate,
-    moved: Vec<f64>,
+    growth: Coordinate,
+    movements: Vec<f64>,
     corrected: Vec<f64>,
     /// Change `Δq` in the step [length, rad].
     pub change: f64,
@@ -82,11 +82,11 @@ pub struct Elongation {
     /// Derivative `∂Δq/∂u` with respect to the movements [-].
     pub slope: Vec<f64>,
     /// Derivative `∂g/∂u` of the secant, row by row, at the place where it was found last [1/length, 1/rad].
-    pub bend: Vec<f64>,
+    pub secant_slope: Vec<f64>,
     /// Difference between the direction at the time of the step taken last by [`balance`](Self::balance) and the secant [-].
     pub lag: Vec<f64>,
     /// Derivative of the lag with respect to the movements, row by row [1/length].
-    pub lag_bend: Vec<f64>,
+    pub lag_slope: Vec<f64>,
 }
 
 impl Elongation {
@@ -94,7 +94,7 @@ impl Elongation {
     pub fn path_length(terminals: Vec<ElongationEnd>, at: &[Vec2]) -> Self {
         let parts: Vec<Vec2> = at.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let length = parts.iter().map(Vec2::norm).sum();
-        Self::new(Measure::Way(parts), length, terminals, 2)
+        Self::new(Measure::Length(parts), length, terminals, 2)
     }
 
     /// Creates one component, x or y, of the vector between two terminals at the given initial places.
@@ -112,23 +112,28 @@ impl Elongation {
         Self::new(Measure::Angle, angle, terminals.into(), 1)
     }
 
-    fn new(measure: Measure, drawn: f64, terminals: Vec<ElongationEnd>, components: usize) -> Self {
+    fn new(
+        measure: Measure,
+        initial: f64,
+        terminals: Vec<ElongationEnd>,
+        components: usize,
+    ) -> Self {
         let coordinates = components * terminals.len();
         Self {
             measure,
             shares: Vec::with_capacity(terminals.iter().map(|of| components * of.order()).sum()),
             terminals,
-            drawn,
-            grown: Coordinate::default(),
-            moved: vec![0.0; coordinates],
+            initial,
+            growth: Coordinate::default(),
+            movements: vec![0.0; coordinates],
             corrected: vec![0.0; coordinates],
             change: 0.0,
             settled: (0.0, 0.0),
             secant: vec![0.0; coordinates],
             slope: vec![0.0; coordinates],
-            bend: vec![0.0; coordinates * coordinates],
+            secant_slope: vec![0.0; coordinates * coordinates],
             lag: vec![0.0; coordinates],
-            lag_bend: vec![0.0; coordinates * coordinates],
+            lag_slope: vec![0.0; coordinates * coordinates],
         }
     }
 
@@ -138,33 +143,35 @@ impl Elongation {
 
     /// Value of `q` at the start of the step [length, rad].
     pub fn value(&self) -> f64 {
-        self.drawn + self.grown.value
+        self.initial + self.growth.value
     }
 
     /// Value of `q` in the scene as built [length, rad].
     pub fn drawn(&self) -> f64 {
-        self.drawn
+        self.initial
     }
 
     /// Growth of `q` since the scene was built, with compensated rounding [length, rad].
     pub fn grown(&self) -> Coordinate {
-        self.grown
+        self.growth
     }
 
     /// Scale of its rounding in an iterate: the largest length or angle that enters [length, rad].
     pub fn extent(&self) -> f64 {
         let after = (self.value() + self.change).abs();
         match self.measure {
-            Measure::Way(_) => after,
+            Measure::Length(_) => after,
             Measure::Angle => larger(1.0, after),
             // It is advanced by movements that may be much larger.
-            Measure::Component(..) => self.moved.iter().fold(after, |size, by| size.max(by.abs())),
+            Measure::Component(..) => {
+                self.movements.iter().fold(after, |size, by| size.max(by.abs()))
+            }
         }
     }
 
     /// Bound of the rounding error of the change [length, rad].
     fn rounding(&self) -> f64 {
-        let moved = self.moved.iter().fold(0.0, |most, by| larger(most, by.abs()));
+        let moved = self.movements.iter().fold(0.0, |most, by| larger(most, by.abs()));
         MOST_ROUNDING * f64::EPSILON * moved
     }
 
@@ -181,7 +188,7 @@ impl Elongation {
 
     pub fn components(&self) -> Range<usize> {
         match self.measure {
-            Measure::Way(_) | Measure::Component(..) => 0..2,
+            Measure::Length(_) | Measure::Component(..) => 0..2,
             Measure::Angle => 2..3,
         }
     }
@@ -205,9 +212,9 @@ impl Elongation {
     /// Evaluates the lag in the last iterate: the direction at a share of the step minus the secant. The lag is zero without a share, and for angles,
     /// whose directions are constant.
     pub fn balance(&mut self, share: Option<f64>) {
-        let Self { measure, moved, lag, lag_bend, .. } = self;
+        let Self { measure, movements: moved, lag, lag_slope: lag_bend, .. } = self;
         [&mut *lag, lag_bend].into_iter().for_each(|all| all.fill(0.0));
-        let (Measure::Way(parts), Some(share)) = (measure, share) else { return };
+        let (Measure::Length(parts), Some(share)) = (measure, share) else { return };
         let width = moved.len();
         for (part, start) in parts.iter().enumerate() {
             let ends = [2 * part, 2 * part + 2];
@@ -257,9 +264,10 @@ impl Elongation {
     }
 
     fn compare(&mut self, rotations: RotationIncrement) {
-        let Self { measure, moved, change, secant, slope, bend, .. } = self;
+        let Self { measure, movements: moved, change, secant, slope, secant_slope: bend, .. } =
+            self;
         match measure {
-            Measure::Way(parts) => {
+            Measure::Length(parts) => {
                 *change = 0.0;
                 [&mut *secant, slope].into_iter().for_each(|all| all.fill(0.0));
                 let (secants, _) = secant.as_chunks_mut::<2>();
@@ -298,8 +306,8 @@ impl Elongation {
 
     /// Evaluates the derivative of the secant in the last iterate.
     pub fn find_bend(&mut self, rotations: RotationIncrement) {
-        let Self { measure, moved, bend, .. } = self;
-        let Measure::Way(parts) = measure else { return };
+        let Self { measure, movements: moved, secant_slope: bend, .. } = self;
+        let Measure::Length(parts) = measure else { return };
         let width = moved.len();
         bend.fill(0.0);
         let ways = moved.as_chunks().0.windows(2).map(path_length);
@@ -320,7 +328,7 @@ impl Elongation {
 
     pub fn advance(&mut self, bodies: &[Body], rotations: RotationIncrement) {
         let components = self.components();
-        let terminals = self.moved.chunks_exact_mut(components.len()).zip(&self.terminals);
+        let terminals = self.movements.chunks_exact_mut(components.len()).zip(&self.terminals);
         for (own, terminal) in terminals {
             own.fill(0.0);
             let ElongationEnd::Moving(place) = terminal else { continue };
@@ -332,12 +340,12 @@ impl Elongation {
         self.compare(rotations);
         let (change, missing) = self.settled;
         let is_settled = (change - self.change).abs() <= self.rounding();
-        self.grown = match is_settled {
-            true => self.grown.after(change).after(missing),
-            false => self.grown.after(self.change),
+        self.growth = match is_settled {
+            true => self.growth.after(change).after(missing),
+            false => self.growth.after(self.change),
         };
-        if let Measure::Way(parts) = &mut self.measure {
-            for (part, ends) in parts.iter_mut().zip(self.moved.windows(4).step_by(2)) {
+        if let Measure::Length(parts) = &mut self.measure {
+            for (part, ends) in parts.iter_mut().zip(self.movements.windows(4).step_by(2)) {
                 *part += Vec2::new(ends[2] - ends[0], ends[3] - ends[1]);
             }
         }
@@ -345,11 +353,11 @@ impl Elongation {
 
     /// Length and derivative at rest of each segment of a path. Their force is rotated by movements of the segment.
     pub fn turned(&self) -> Vec<(f64, Vec<f64>)> {
-        let Measure::Way(parts) = &self.measure else { return Vec::new() };
+        let Measure::Length(parts) = &self.measure else { return Vec::new() };
         let of_part = |(index, part): (usize, &Vec2)| {
             let length = part.norm();
             let normal = Vec2::new(-part.y, part.x) / length;
-            let mut row = vec![0.0; self.moved.len()];
+            let mut row = vec![0.0; self.movements.len()];
             row[2 * index..2 * index + 4]
                 .copy_from_slice(&[-normal.x, -normal.y, normal.x, normal.y]);
             (length, row)
@@ -360,20 +368,20 @@ impl Elongation {
     /// Evaluates everything at the start of the step.
     pub fn evaluate_at_start(&mut self, bodies: &[Body]) {
         self.locate(bodies);
-        self.moved.fill(0.0);
+        self.movements.fill(0.0);
         self.compare(RotationIncrement::Angle);
     }
 
     pub fn save(&self, state: &mut Vec<f64>) {
-        state.extend([self.grown.value, self.grown.rest]);
-        if let Measure::Way(parts) = &self.measure {
+        state.extend([self.growth.value, self.growth.rest]);
+        if let Measure::Length(parts) = &self.measure {
             state.extend(parts.iter().flat_map(|part| [part.x, part.y]));
         }
     }
 
     pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
-        self.grown = Coordinate { value: next(), rest: next() };
-        if let Measure::Way(parts) = &mut self.measure {
+        self.growth = Coordinate { value: next(), rest: next() };
+        if let Measure::Length(parts) = &mut self.measure {
             parts.iter_mut().for_each(|part| *part = Vec2::new(next(), next()));
         }
     }

@@ -13,14 +13,14 @@ pub struct Follower {
     tracker: Tracker,
     force: Vec2,
     /// Contributions of the start of the step and of the iterate.
-    carried: Vec2,
+    force_parts: Vec2,
     current: Vec2,
 }
 
 impl Follower {
     pub fn new(place: BodyPoint, force: Vec2) -> Self {
         let tracker = Tracker::new(place);
-        Self { tracker, force, carried: Vec2::zeros(), current: Vec2::zeros() }
+        Self { tracker, force, force_parts: Vec2::zeros(), current: Vec2::zeros() }
     }
 
     fn body<'b>(&self, bodies: &'b [Body]) -> &'b Body {
@@ -36,14 +36,14 @@ impl Follower {
     }
 
     pub fn begin_step(&mut self) {
-        (self.carried, self.current) = (Vec2::zeros(), Vec2::zeros());
+        (self.force_parts, self.current) = (Vec2::zeros(), Vec2::zeros());
     }
 
     /// Subtracts `factor` times the follower force in an iterate from `out`.
     pub fn subtract_from(&mut self, at: TrialState<'_>, factor: f64, out: &mut [f64]) {
         let (rotation, ..) = self.rotations(at);
         let force = rotation.to_space(self.force) * factor;
-        *(if at.stage == Stage::Start { &mut self.carried } else { &mut self.current }) = force;
+        *(if at.stage == Stage::Start { &mut self.force_parts } else { &mut self.current }) = force;
         let body = self.body(at.bodies);
         for (point, share) in self.tracker.place.weights() {
             let [x, y, _] = body.degrees_of_freedom[point];
@@ -87,7 +87,7 @@ impl Follower {
     /// Adds the work and impulse of the follower force in the step whose movements the bodies gathered last.
     pub fn add_exchange(&self, bodies: &[Body], duration: f64, sum: &mut WorkAndImpulse) {
         let body = self.body(bodies);
-        let force = self.carried + self.current;
+        let force = self.force_parts + self.current;
         for (point, share) in self.tracker.place.weights() {
             let [x, y, _] = body.moved()[point];
             let moved = Vec2::new(x, y) * share;

@@ -81,7 +81,7 @@ impl ElementDef for Load {
             schedule: self.schedule.clone(),
             action,
             factors: StageFactors::default(),
-            carried: 0.0,
+            weighted_factors: 0.0,
             current: 0.0,
             account: self.title.as_ref().map(|_| LoadAccount::default()),
             size: self.kind.measure().2,
@@ -120,7 +120,7 @@ struct AppliedLoad {
     action: Action,
     factors: StageFactors,
     /// Weighted schedule factors of the start of the step, and of the iterate.
-    carried: f64,
+    weighted_factors: f64,
     current: f64,
     account: Option<LoadAccount>,
     /// Magnitude at a schedule factor of 1.
@@ -201,7 +201,7 @@ impl ExternalForce for AppliedLoad {
                 }
             }
         }
-        (self.carried, self.current) = (0.0, 0.0);
+        (self.weighted_factors, self.current) = (0.0, 0.0);
         self.followers_mut().iter_mut().for_each(Follower::begin_step);
         Ok(())
     }
@@ -221,8 +221,11 @@ impl ExternalForce for AppliedLoad {
         let factor = at.weight * value;
         match &mut self.action {
             Action::Dead(pattern) => {
-                let used =
-                    if at.stage == Stage::Start { &mut self.carried } else { &mut self.current };
+                let used = if at.stage == Stage::Start {
+                    &mut self.weighted_factors
+                } else {
+                    &mut self.current
+                };
                 *used = factor;
                 pattern.subtract_from(at, factor, out);
                 pattern.largest(value)
@@ -245,7 +248,7 @@ impl ExternalForce for AppliedLoad {
     fn exchange(&self, bodies: &[Body], duration: f64) -> WorkAndImpulse {
         match &self.action {
             Action::Dead(pattern) => {
-                pattern.exchange(bodies, self.carried + self.current, duration)
+                pattern.exchange(bodies, self.weighted_factors + self.current, duration)
             }
             Action::Follower(followers) => {
                 let mut sum = WorkAndImpulse::default();

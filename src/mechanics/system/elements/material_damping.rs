@@ -47,9 +47,9 @@ impl ElementDef for MaterialDamping {
             name: format!("damping of beam '{}'", self.name),
             beam: self.beam,
             relaxation,
-            moved: vec![[0.0; 3]; points.len()],
+            movements: vec![[0.0; 3]; points.len()],
             dashpots,
-            pace: RateHistory::default(),
+            rate_history: RateHistory::default(),
             rotations: RotationIncrement::TangentScaled,
             dissipated: 0.0,
         })))
@@ -62,8 +62,8 @@ struct DampedMaterial {
     beam: usize,
     relaxation: Relaxation,
     dashpots: Dashpots,
-    moved: Vec<Movement>,
-    pace: RateHistory,
+    movements: Vec<Movement>,
+    rate_history: RateHistory,
     rotations: RotationIncrement,
     dissipated: f64,
 }
@@ -71,7 +71,7 @@ struct DampedMaterial {
 impl DampedMaterial {
     fn gather(&mut self, bodies: &[Body], values: &[f64]) {
         let movements = bodies[self.beam].by_control_point(values);
-        self.moved.iter_mut().zip(movements).for_each(|(to, from)| *to = from);
+        self.movements.iter_mut().zip(movements).for_each(|(to, from)| *to = from);
     }
 }
 
@@ -87,13 +87,13 @@ impl InternalForce for DampedMaterial {
     }
 
     fn begin_step(&mut self, interval: Interval, bodies: &[Body], rates: &[f64]) {
-        self.pace.begin(interval.duration());
+        self.rate_history.begin(interval.duration());
         self.gather(bodies, rates);
-        self.dashpots.begin_step(&self.moved);
+        self.dashpots.begin_step(&self.movements);
     }
 
     fn begin_movement(&mut self) {
-        self.pace.begin(f64::INFINITY);
+        self.rate_history.begin(f64::INFINITY);
         self.dashpots.rest_without_damping();
     }
 
@@ -102,11 +102,13 @@ impl InternalForce for DampedMaterial {
     }
 
     fn add_forces(&mut self, at: TrialState<'_>, out: &mut [f64]) -> ForceSummary {
-        let Some(rates) = self.pace.at(at.stage, at.weight) else { return ForceSummary::default() };
+        let Some(rates) = self.rate_history.at(at.stage, at.weight) else {
+            return ForceSummary::default();
+        };
         self.gather(at.bodies, at.increments);
         self.rotations = collocation(at.stage).rotations;
         let degrees = &at.bodies[self.beam].degrees_of_freedom;
-        self.dashpots.add_forces(rates, &self.moved, &mut scatter(degrees, out))
+        self.dashpots.add_forces(rates, &self.movements, &mut scatter(degrees, out))
     }
 
     fn add_linearised_forces(
@@ -116,7 +118,7 @@ impl InternalForce for DampedMaterial {
         unknowns: usize,
         tangent: &mut BandedMatrix,
     ) {
-        let Some(rates) = self.pace.at(at.stage, at.weight) else { return };
+        let Some(rates) = self.rate_history.at(at.stage, at.weight) else { return };
         self.gather(at.bodies, at.increments);
         let degrees = &at.bodies[self.beam].degrees_of_freedom;
         let order = self.dashpots.order();
@@ -131,7 +133,7 @@ impl InternalForce for DampedMaterial {
             }
         };
         let give = &mut scatter(degrees, out);
-        self.dashpots.add_linearised_forces(rates, &self.moved, give, &mut add);
+        self.dashpots.add_linearised_forces(rates, &self.movements, give, &mut add);
     }
 
     /// Dashpots are evaluated once per step, whatever the weight.
@@ -142,7 +144,7 @@ impl InternalForce for DampedMaterial {
 
     fn correct(&mut self, bodies: &[Body], correction: &[f64]) {
         self.gather(bodies, correction);
-        self.dashpots.correct(&self.moved);
+        self.dashpots.correct(&self.movements);
     }
 
     fn exchange(&self, _bodies: &[Body], _duration: f64) -> WorkAndImpulse {
@@ -151,8 +153,9 @@ impl InternalForce for DampedMaterial {
 
     fn advance(&mut self, bodies: &[Body]) {
         let moved = bodies[self.beam].moved();
-        self.dissipated += self.dashpots.advance(moved, self.rotations, self.pace.duration());
-        self.pace.end();
+        self.dissipated +=
+            self.dashpots.advance(moved, self.rotations, self.rate_history.duration());
+        self.rate_history.end();
     }
 
     fn dissipated(&self) -> f64 {
@@ -186,13 +189,13 @@ impl InternalForce for DampedMaterial {
     }
 
     fn save(&self, state: &mut Vec<f64>) {
-        self.pace.save(state);
+        self.rate_history.save(state);
         self.dashpots.save(state);
         state.push(self.dissipated);
     }
 
     fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
-        self.pace.restore(next);
+        self.rate_history.restore(next);
         self.dashpots.restore(next);
         self.dissipated = next();
     }

@@ -10,7 +10,7 @@ pub struct MixedForce {
     /// Derivative of the target with respect to `Δq`, from the last linearisation.
     pub stiffness: f64,
     /// Derivative of the target at the last comparison.
-    asked: f64,
+    target_slope: f64,
     search: IterationState,
 }
 
@@ -35,7 +35,7 @@ impl MixedForce {
     /// Compares the force with its target. Returns the mismatch relative to a length or angle `extent`.
     pub fn compare(&mut self, target: ForceTarget, extent: f64) -> f64 {
         self.mismatch = target.force - self.force;
-        self.asked = target.stiffness;
+        self.target_slope = target.stiffness;
         let size =
             larger(target.stiffness.abs() * extent, larger(target.force.abs(), self.force.abs()));
         if self.mismatch == 0.0 { 0.0 } else { self.mismatch.abs() / size }
@@ -45,7 +45,7 @@ impl MixedForce {
     pub fn missing_change(&self) -> f64 {
         match self.mismatch == 0.0 {
             true => 0.0,
-            false if self.asked > 0.0 => -self.mismatch / self.asked,
+            false if self.target_slope > 0.0 => -self.mismatch / self.target_slope,
             false => f64::INFINITY,
         }
     }

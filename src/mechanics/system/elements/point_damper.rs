@@ -28,17 +28,17 @@ pub struct PointDamper {
     /// Places of terminals on the ground [length].
     grounds: [Option<Vec2>; 2],
     /// Vector `d₀` from the first to the second terminal [length].
-    way: Vec2,
+    distance: Vec2,
     law: DampingLaw,
     released: Option<DampingLaw>,
-    pace: RateHistory,
+    rate_history: RateHistory,
     /// `Δd/Δt` in the previous step [length/time].
     last_velocity: Vec2,
     /// Largest speed of which the rate may be a difference, at the start of the step [length/time].
     speed: f64,
     force: MixedForce,
     /// Force on the second terminal, as applied last [force].
-    given: Vec2,
+    applied_force: Vec2,
     linearised: DamperTrial,
     dissipated: f64,
 }
@@ -53,14 +53,14 @@ struct DamperTrial {
     /// Derivative of the rate with respect to `Δd` [1/time].
     rate_by_movement: Vec2,
     /// Factor in `∂e/∂Δd = (1 - e⊗e) · turn` [1/length].
-    turn: f64,
+    direction_slope: f64,
 }
 
 impl Default for DamperTrial {
     fn default() -> Self {
         let none = Vec2::zeros();
         let target = ForceTarget::default();
-        Self { direction: none, rate: 0.0, target, rate_by_movement: none, turn: 0.0 }
+        Self { direction: none, rate: 0.0, target, rate_by_movement: none, direction_slope: 0.0 }
     }
 }
 
@@ -76,22 +76,22 @@ impl PointDamper {
             name,
             terminals,
             grounds: [0, 1].map(|at: usize| grounds[at]),
-            way: to - from,
+            distance: to - from,
             law,
             released: None,
-            pace: RateHistory::default(),
+            rate_history: RateHistory::default(),
             last_velocity: Vec2::zeros(),
             speed: 0.0,
             force: MixedForce::default(),
-            given: Vec2::zeros(),
+            applied_force: Vec2::zeros(),
             linearised: DamperTrial::default(),
             dissipated: 0.0,
         }
     }
 
     fn rates(&self, at: TrialState<'_>) -> Option<RateCollocation> {
-        let acts = self.pace.duration().is_finite() && self.law.is_active();
-        self.pace.at(at.stage, at.weight).filter(|_| acts)
+        let acts = self.rate_history.duration().is_finite() && self.law.is_active();
+        self.rate_history.at(at.stage, at.weight).filter(|_| acts)
     }
 
     fn difference(&self, of_place: impl Fn(&ElongationEnd) -> Vec2) -> Vec2 {
@@ -116,19 +116,19 @@ impl PointDamper {
     fn evaluate(&self, at: TrialState<'_>, rates: RateCollocation) -> DamperTrial {
         let moved = self.relative_velocity_of(at.bodies, at.increments);
         let (way, velocity) = (
-            self.way + moved * rates.share,
+            self.distance + moved * rates.fraction,
             moved * rates.by_change - self.last_velocity * rates.by_last,
         );
         let length = way.norm();
         let direction = direction(way, moved);
         let rate = direction.dot(&velocity);
-        let turn = if length > 0.0 { rates.share / length } else { 0.0 };
+        let turn = if length > 0.0 { rates.fraction / length } else { 0.0 };
         DamperTrial {
             direction,
             rate,
             target: ForceTarget { force: self.law.force(rate), stiffness: self.law.slope(rate) },
             rate_by_movement: direction * rates.by_change + (velocity - direction * rate) * turn,
-            turn,
+            direction_slope: turn,
         }
     }
 
@@ -146,7 +146,7 @@ impl PointDamper {
 
     /// Damping force for a relative velocity at the start of the step.
     fn force_at_start(&self, velocity: Vec2) -> Vec2 {
-        let direction = direction(self.way, velocity);
+        let direction = direction(self.distance, velocity);
         direction * self.law.force(direction.dot(&velocity))
     }
 }
@@ -167,16 +167,16 @@ impl InternalForce for PointDamper {
     }
 
     fn begin_step(&mut self, interval: Interval, bodies: &[Body], rates: &[f64]) {
-        self.pace.begin(interval.duration());
+        self.rate_history.begin(interval.duration());
         self.force.begin_step();
         self.speed = self.size(bodies, rates);
-        self.given = Vec2::zeros();
+        self.applied_force = Vec2::zeros();
     }
 
     fn begin_movement(&mut self) {
-        self.pace.begin(f64::INFINITY);
+        self.rate_history.begin(f64::INFINITY);
         (self.force.force, self.force.mismatch) = (0.0, 0.0);
-        (self.given, self.linearised) = (Vec2::zeros(), DamperTrial::default());
+        (self.applied_force, self.linearised) = (Vec2::zeros(), DamperTrial::default());
     }
 
     fn add_forces(&mut self, at: TrialState<'_>, out: &mut [f64]) -> ForceSummary {
@@ -185,8 +185,8 @@ impl InternalForce for PointDamper {
         let moved = self.size(at.bodies, at.increments) * rates.by_change.abs();
         let speed = self.speed + moved + self.last_velocity.norm() * rates.by_last.abs();
         let mismatch = self.force.compare(target, speed);
-        self.given = direction * self.force.force;
-        self.scatter(at.bodies, self.given, out);
+        self.applied_force = direction * self.force.force;
+        self.scatter(at.bodies, self.applied_force, out);
         let force = self.force.force.abs();
         ForceSummary { strain_mismatch: mismatch, force, ..ForceSummary::default() }
     }
@@ -205,7 +205,7 @@ impl InternalForce for PointDamper {
         let target = ForceTarget { force, stiffness };
         self.linearised = met;
         self.force.linearise(target);
-        let DamperTrial { direction, rate_by_movement, turn, .. } = met;
+        let DamperTrial { direction, rate_by_movement, direction_slope: turn, .. } = met;
         self.scatter(at.bodies, direction * target.force, out);
         // The line rotates with the force of the iterate.
         let turning = self.force.force * turn;
@@ -252,7 +252,7 @@ impl InternalForce for PointDamper {
         let mut sum = WorkAndImpulse::default();
         for (ground, sign) in self.grounds.iter().zip([-1.0, 1.0]) {
             if let Some(ground) = ground {
-                let impulse = self.given * (sign * duration);
+                let impulse = self.applied_force * (sign * duration);
                 sum += WorkAndImpulse::of(0.0, impulse, cross(*ground, impulse));
             }
         }
@@ -260,12 +260,12 @@ impl InternalForce for PointDamper {
     }
 
     fn advance(&mut self, bodies: &[Body]) {
-        let (movement, duration) = (self.movement(bodies), self.pace.duration());
-        self.dissipated += self.given.dot(&movement);
-        self.way += movement;
+        let (movement, duration) = (self.movement(bodies), self.rate_history.duration());
+        self.dissipated += self.applied_force.dot(&movement);
+        self.distance += movement;
         self.last_velocity = movement / duration;
         self.force.last = self.force.force;
-        self.pace.end();
+        self.rate_history.end();
     }
 
     fn dissipated(&self) -> f64 {
@@ -273,7 +273,7 @@ impl InternalForce for PointDamper {
     }
 
     fn stretched(&self) -> Option<SpringTrialState> {
-        let elongation = self.way.norm();
+        let elongation = self.distance.norm();
         Some(SpringTrialState { elongation, force: self.force.last, stiffness: 0.0 })
     }
 
@@ -290,9 +290,9 @@ impl InternalForce for PointDamper {
         }
         let (velocity, damping) =
             (self.relative_velocity_of(bodies, rates), self.law.slope_at_rest());
-        match self.way == Vec2::zeros() {
+        match self.distance == Vec2::zeros() {
             true => velocity.iter().for_each(|rate| take(damping, *rate)),
-            false => take(damping, direction(self.way, velocity).dot(&velocity)),
+            false => take(damping, direction(self.distance, velocity).dot(&velocity)),
         }
     }
 
@@ -303,7 +303,7 @@ impl InternalForce for PointDamper {
     fn detach(&mut self) {
         if self.released.is_none() {
             self.released = Some(std::mem::take(&mut self.law));
-            (self.force, self.given) = (MixedForce::default(), Vec2::zeros());
+            (self.force, self.applied_force) = (MixedForce::default(), Vec2::zeros());
         }
     }
 
@@ -314,14 +314,14 @@ impl InternalForce for PointDamper {
     }
 
     fn save(&self, state: &mut Vec<f64>) {
-        self.pace.save(state);
-        let Self { way, last_velocity: v, .. } = self;
+        self.rate_history.save(state);
+        let Self { distance: way, last_velocity: v, .. } = self;
         state.extend([way.x, way.y, v.x, v.y, self.force.last, self.dissipated]);
     }
 
     fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
-        self.pace.restore(next);
-        self.way = Vec2::new(next(), next());
+        self.rate_history.restore(next);
+        self.distance = Vec2::new(next(), next());
         self.last_velocity = Vec2::new(next(), next());
         self.force.last = next();
         self.dissipated = next();

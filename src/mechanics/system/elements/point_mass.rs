@@ -49,7 +49,7 @@ impl ElementDef for PointMass {
 
     fn build(&self, site: &dyn AssemblyContext) -> Result<BuiltElement, SystemError> {
         let Self { mass, rotary_inertia, .. } = *self;
-        Ok(BuiltElement::Mass(NodalMass {
+        Ok(BuiltElement::PointMass(NodalMass {
             place: site.place(&self.station)?,
             mass,
             rotary_inertia,

@@ -40,12 +40,12 @@ struct PresentMotion {
     /// At the end of the last step [length/time², 1/time²].
     acceleration: f64,
     /// Sharpest kink so far, and the kink of the current step.
-    bend: MotionCurvature,
-    bend_in_step: MotionCurvature,
+    curvature: MotionCurvature,
+    step_curvature: MotionCurvature,
     /// Reaction, averaged over the last step; moments are conjugate to the angle [force, force·length].
     reaction: f64,
     /// `M Δv` of the step being accepted [force·time, force·length·time].
-    struck: f64,
+    impact_momentum: f64,
     /// Position or angle at rest under the full load [length, rad].
     goal: f64,
     /// Movement towards it so far [length, rad].
@@ -85,8 +85,8 @@ pub struct PrescribedMovements {
     constraints: usize,
     prescribed: PrescribedKinematics,
     /// Largest rotation of the step [rad].
-    turn: f64,
-    room: Vec<f64>,
+    largest_rotation: f64,
+    scratch: Vec<f64>,
 }
 
 impl PrescribedMovements {
@@ -110,8 +110,16 @@ impl PrescribedMovements {
         let present = vec![PresentMotion::default(); movements.len()];
         let room = vec![0.0; if movements.is_empty() { 0 } else { unknowns + prescribed.width() }];
         let first = unknowns + constraints;
-        let mut all =
-            Self { movements, present, drives, first, constraints, prescribed, turn: 0.0, room };
+        let mut all = Self {
+            movements,
+            present,
+            drives,
+            first,
+            constraints,
+            prescribed,
+            largest_rotation: 0.0,
+            scratch: room,
+        };
         all.begin_at(0.0)?;
         let rates = all.prescribed.rates.clone();
         Ok((all, rates))
@@ -147,7 +155,7 @@ impl PrescribedMovements {
         let prescribed = PrescribedKinematics::new(self.constraints, movements.len());
         let room = vec![0.0; if movements.is_empty() { 0 } else { unknowns + prescribed.width() }];
         let first = unknowns + self.constraints;
-        Self { movements, present, first, prescribed, room, ..self }
+        Self { movements, present, first, prescribed, scratch: room, ..self }
     }
 
     pub fn count(&self) -> usize {
@@ -172,7 +180,7 @@ impl PrescribedMovements {
 
     /// Largest prescribed rotation in the current step [rad].
     pub fn largest_rotation(&self) -> f64 {
-        self.turn
+        self.largest_rotation
     }
 
     /// States of the drives, in the order of the scene.
@@ -193,8 +201,10 @@ impl PrescribedMovements {
     /// Drives whose motion has a kink within a step, with the sharpest kink of each.
     pub fn bends(&self) -> impl Iterator<Item = (&str, MotionCurvature)> {
         let all = self.movements.iter().zip(&self.present);
-        let bent = all.filter(|(_, present)| present.bend.size() > 0.0);
-        bent.map(|(movement, present)| (self.drives[movement.drive].name.as_str(), present.bend))
+        let bent = all.filter(|(_, present)| present.curvature.size() > 0.0);
+        bent.map(|(movement, present)| {
+            (self.drives[movement.drive].name.as_str(), present.curvature)
+        })
     }
 
     /// Evaluates prescribed movements in a step, including the rates at its start.
@@ -208,7 +218,7 @@ impl PrescribedMovements {
         rates: &[f64],
     ) -> Result<(), (String, LoadError)> {
         let duration = interval.duration();
-        self.turn = 0.0;
+        self.largest_rotation = 0.0;
         for (at, movement) in self.movements.iter().enumerate() {
             let step = movement
                 .motion
@@ -217,13 +227,13 @@ impl PrescribedMovements {
             let entry = self.constraints + at;
             let turns = movement.support.component == Component::Rotation;
             self.prescribed.increments[entry] =
-                if turns { rotations.of_angle(step.moved) } else { step.moved };
+                if turns { rotations.of_angle(step.increment) } else { step.increment };
             if turns {
-                self.turn = larger(self.turn, step.moved.abs());
+                self.largest_rotation = larger(self.largest_rotation, step.increment.abs());
             }
             let before = rates[self.first + at];
             self.prescribed.rates[entry] = step.rate;
-            self.present[at].bend_in_step =
+            self.present[at].step_curvature =
                 MotionCurvature::of(&movement.motion, interval, before, &step);
             self.prescribed.mean_accelerations[entry] = (step.rate - before) / duration;
             let [start, end] = &mut self.prescribed.accelerations;
@@ -251,10 +261,10 @@ impl PrescribedMovements {
     }
 
     pub fn fill(&mut self, rate: impl FnMut(usize) -> f64) -> &[f64] {
-        self.room.clear();
+        self.scratch.clear();
         let width = if self.movements.is_empty() { 0 } else { self.first + self.movements.len() };
-        self.room.extend((0..width).map(rate));
-        &self.room
+        self.scratch.extend((0..width).map(rate));
+        &self.scratch
     }
 
     /// Prescribed accelerations at the start of the step, by degree of freedom; zero for unknowns.
@@ -267,7 +277,7 @@ impl PrescribedMovements {
     /// Stores the prescribed part of `M Δv` of a step.
     pub fn store_impact_momentum(&mut self, struck: &[f64]) {
         for (present, struck) in self.present.iter_mut().zip(&struck[self.first..]) {
-            present.struck = *struck;
+            present.impact_momentum = *struck;
         }
     }
 
@@ -297,7 +307,7 @@ impl PrescribedMovements {
             let [x, y, turned] = bodies[body].moved()[point];
             let moved = [x, y, turned][component as usize];
             let missed = moved - duration * mean(self.first + at);
-            let work = reaction * moved - missed * present.struck / duration;
+            let work = reaction * moved - missed * present.impact_momentum / duration;
             let middle = bodies[body].dynamics.control_points()[point] + 0.5 * Vec2::new(x, y);
             let (force, moment) = movement.support.reaction(reaction);
             let (aside, _) = match component {
@@ -310,13 +320,13 @@ impl PrescribedMovements {
             self.drives[movement.drive].work += work;
             present.reaction = match component {
                 Component::Rotation => {
-                    let inertia = present.struck / duration;
+                    let inertia = present.impact_momentum / duration;
                     (reaction - inertia) * per_angle(moved, rotations) + inertia
                 }
                 _ => reaction,
             };
-            if present.bend_in_step.size() > present.bend.size() {
-                present.bend = present.bend_in_step;
+            if present.step_curvature.size() > present.curvature.size() {
+                present.curvature = present.step_curvature;
             }
             present.acceleration = self.prescribed.accelerations[1][self.constraints + at];
         }
@@ -347,7 +357,7 @@ impl PrescribedMovements {
         state.extend(
             self.present.iter().flat_map(|now| [now.acceleration, now.reaction, now.placed]),
         );
-        let bends = self.present.iter().map(|now| now.bend);
+        let bends = self.present.iter().map(|now| now.curvature);
         state.extend(bends.flat_map(|MotionCurvature { time, rates }| [time, rates[0], rates[1]]));
         state.extend(self.drives.iter().map(|drive| drive.work));
     }
@@ -358,7 +368,7 @@ impl PrescribedMovements {
             present.placed = next();
         }
         for present in &mut self.present {
-            present.bend = MotionCurvature { time: next(), rates: [next(), next()] };
+            present.curvature = MotionCurvature { time: next(), rates: [next(), next()] };
         }
         self.drives.iter_mut().for_each(|drive| drive.work = next());
     }

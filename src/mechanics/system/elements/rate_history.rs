@@ -38,17 +38,17 @@ impl RateHistory {
     pub fn at(&self, stage: Stage, weight: f64) -> Option<RateCollocation> {
         let by_change = 1.0 / self.duration;
         let rotations = collocation(stage).rotations;
-        let middle = RateCollocation { share: 0.5, by_change, by_last: 0.0, rotations };
+        let middle = RateCollocation { fraction: 0.5, by_change, by_last: 0.0, rotations };
         match stage {
             Stage::Start => None,
             Stage::Midpoint | Stage::DampedMidpoint(_) => Some(middle),
             Stage::End if self.duration.is_infinite() => {
-                Some(RateCollocation { share: 1.0, ..middle })
+                Some(RateCollocation { fraction: 1.0, ..middle })
             }
             Stage::End => {
                 let late = 2.0 * (weight - 0.5) * self.duration / (self.duration + self.before);
                 let by_change = (1.0 + late) * by_change;
-                Some(RateCollocation { share: weight, by_change, by_last: late, rotations })
+                Some(RateCollocation { fraction: weight, by_change, by_last: late, rotations })
             }
         }
     }

@@ -26,7 +26,7 @@ pub enum Anchor {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum SpringKind {
     /// Length of the path over these places: two for a spring or damper, more for a tendon, which slides over intermediate places without friction.
-    Way(Vec<Anchor>),
+    Length(Vec<Anchor>),
     /// Angle of the section of the second place minus that of the first. The ground does not rotate.
     Torsion([Anchor; 2]),
 }
@@ -59,7 +59,7 @@ impl Spring {
     /// Attachments, in their order.
     pub fn anchors(&self) -> &[Anchor] {
         match &self.kind {
-            SpringKind::Way(anchors) => anchors,
+            SpringKind::Length(anchors) => anchors,
             SpringKind::Torsion(anchors) => anchors,
         }
     }
@@ -102,7 +102,7 @@ impl ElementDef for Spring {
         }
         if let Some(feeding) = self.damping.active_range() {
             let (damper, feeding) = (self.object(), feeding.to_string());
-            return Err(SystemError::FeedingDamper { damper, feeding });
+            return Err(SystemError::ActiveDamper { damper, active_range: feeding });
         }
         match &self.law {
             Some(SpringLaw::Linear { stiffness, natural }) => {
@@ -161,7 +161,7 @@ impl ElementDef for Spring {
         }
         if let (Some(SpringLaw::Linear { stiffness, natural: 0.0 }), Origin::Zero, [from, to]) =
             (&self.law, self.origin, terminals.as_slice())
-            && matches!(self.kind, SpringKind::Way(_))
+            && matches!(self.kind, SpringKind::Length(_))
         {
             return Ok(BuiltElement::Resistance(Box::new(ZeroLengthSpring::new(
                 &self.name,
@@ -172,7 +172,7 @@ impl ElementDef for Spring {
                 self.damping.with_corner_at_rest(),
             ))));
         }
-        if let (None, SpringKind::Way(_), [from, to]) = (&self.law, &self.kind, &terminals[..]) {
+        if let (None, SpringKind::Length(_), [from, to]) = (&self.law, &self.kind, &terminals[..]) {
             return Ok(BuiltElement::Resistance(Box::new(PointDamper::new(
                 self.name.clone(),
                 [from.clone(), to.clone()],
@@ -181,7 +181,8 @@ impl ElementDef for Spring {
                 self.damping.with_corner_at_rest(),
             ))));
         }
-        if let (Some(law), SpringKind::Way(_), [from, to]) = (&self.law, &self.kind, &terminals[..])
+        if let (Some(law), SpringKind::Length(_), [from, to]) =
+            (&self.law, &self.kind, &terminals[..])
             && self.damping.is_active()
         {
             let (from_to, places) = ([from.clone(), to.clone()], [at[0], at[1]]);
@@ -255,7 +256,7 @@ impl Spring {
                 Anchor::Station(station) => setting.describe(station),
                 Anchor::Ground(at) => format!("the ground at [{}, {}]", at.x, at.y),
             });
-            Err(SystemError::IdleSpring { spring: self.object(), from, to, why })
+            Err(SystemError::ImmovableSpring { spring: self.object(), from, to, reason: why })
         };
         if self.stations().next().is_none()
             && let [from, .., to] = self.anchors()
@@ -290,7 +291,9 @@ impl Spring {
         match (&self.kind, &self.law) {
             (_, None) => format!("damper '{}'", self.name),
             (SpringKind::Torsion(_), _) => format!("torsion spring '{}'", self.name),
-            (SpringKind::Way(anchors), _) if anchors.len() > 2 => format!("tendon '{}'", self.name),
+            (SpringKind::Length(anchors), _) if anchors.len() > 2 => {
+                format!("tendon '{}'", self.name)
+            }
             _ => format!("spring '{}'", self.name),
         }
     }

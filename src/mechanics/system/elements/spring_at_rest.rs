@@ -41,7 +41,7 @@ pub fn static_law(
         let normal = dense(&row);
         rows.twists.extend(normal.iter().map(|n| 0.5 * force / length * n));
         rows.twists.extend(normal);
-        rows.doubts.push(0.0);
+        rows.rounding_fractions.push(0.0);
     }
     (degrees, rows)
 }

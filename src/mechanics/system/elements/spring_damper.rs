@@ -42,7 +42,7 @@ pub struct SpringDamper {
     /// Growths at which the stiffness jumps [length, rad].
     corners: Vec<f64>,
     /// Description of the law in terms of the elongations of the scene.
-    words: Option<String>,
+    law_text: Option<String>,
     /// `d(q̇)`.
     damping: DampingLaw,
     released: Option<(Option<SpringLaw>, DampingLaw)>,
@@ -54,7 +54,7 @@ pub struct SpringDamper {
     last: (f64, f64),
     rotations: RotationIncrement,
     /// Coordinates of its forces at the start of the step, and in the iterate.
-    carried: Vec<f64>,
+    force_coordinates: Vec<f64>,
     current: Vec<f64>,
     dissipated: f64,
     /// Monitor of contact phases, for laws that can be slack.
@@ -86,7 +86,7 @@ impl SpringDamper {
             law,
             rises,
             corners,
-            words,
+            law_text: words,
             damping,
             released: None,
             spring: MixedForce::default(),
@@ -94,7 +94,7 @@ impl SpringDamper {
             duration: f64::INFINITY,
             last: (0.0, 0.0),
             rotations: RotationIncrement::TangentScaled,
-            carried: vec![0.0; coordinates],
+            force_coordinates: vec![0.0; coordinates],
             current: vec![0.0; coordinates],
             dissipated: 0.0,
             contact: ContactWatch::new(stiffness, extent),
@@ -121,7 +121,12 @@ impl SpringDamper {
 
     /// Records a force along the secant, and that of the damper along the lag.
     fn record_force(&mut self, stage: Stage, force: f64, damper: f64) {
-        let Self { elongation: Elongation { secant, lag, .. }, carried, current, .. } = self;
+        let Self {
+            elongation: Elongation { secant, lag, .. },
+            force_coordinates: carried,
+            current,
+            ..
+        } = self;
         let noted = if stage == Stage::Start { carried } else { current };
         let directions = secant.iter().zip(lag);
         noted
@@ -146,7 +151,7 @@ impl InternalForce for SpringDamper {
         self.duration = interval.duration();
         self.spring.begin_step();
         self.damper.begin_step();
-        [&mut self.carried, &mut self.current].into_iter().for_each(|all| all.fill(0.0));
+        [&mut self.force_coordinates, &mut self.current].into_iter().for_each(|all| all.fill(0.0));
     }
 
     fn begin_movement(&mut self) {
@@ -207,7 +212,8 @@ impl InternalForce for SpringDamper {
         // Geometric terms use the force of the iterate.
         let stiffness = self.weighted(at, restoring.stiffness, damping.stiffness);
         let force = self.weighted(at, self.spring.force, self.damper.force);
-        let Elongation { secant, slope, bend, lag, lag_bend, .. } = &self.elongation;
+        let Elongation { secant, slope, secant_slope: bend, lag, lag_slope: lag_bend, .. } =
+            &self.elongation;
         let rows = self.tangent.chunks_exact_mut(slope.len());
         let bends = bend.chunks_exact(slope.len());
         for ((row, secant), bend) in rows.zip(secant).zip(bends) {
@@ -244,7 +250,7 @@ impl InternalForce for SpringDamper {
 
     /// The ground does not move, so it does no work.
     fn exchange(&self, _bodies: &[Body], duration: f64) -> WorkAndImpulse {
-        let given = |at: usize| (self.carried[at] + self.current[at]) * duration;
+        let given = |at: usize| (self.force_coordinates[at] + self.current[at]) * duration;
         let mut sum = WorkAndImpulse::default();
         for (terminal, ground) in self.grounds.iter().enumerate() {
             let Some(ground) = ground else { continue };
@@ -372,7 +378,7 @@ impl InternalForce for SpringDamper {
         if self.released.is_some() {
             return "released: no force".to_owned();
         }
-        let law = self.words.clone();
+        let law = self.law_text.clone();
         let parts: Vec<String> = law.into_iter().chain(self.damping.describe()).collect();
         format!("{}; its force is eliminated from the matrix", parts.join(", "))
     }

@@ -15,14 +15,14 @@ pub enum SystemError {
         scene: String,
     },
     /// Name that is empty or cannot be read or typed.
-    #[error("{name:?} cannot be the name of a {kind}: {why}; use letters, digits and spaces")]
+    #[error("{name:?} cannot be the name of a {kind}: {reason}; use letters, digits and spaces")]
     Unnamed {
         /// Kind of the object.
         kind: &'static str,
         /// Rejected name.
         name: String,
         /// Reason.
-        why: &'static str,
+        reason: &'static str,
     },
     /// Name used by two objects.
     #[error("the scene already has a {kind} '{name}'; give this {new} another name")]
@@ -45,12 +45,12 @@ pub enum SystemError {
         length: f64,
     },
     /// Outline of a rigid body that cannot be drawn.
-    #[error("the outline of body '{body}' cannot be drawn: {why}")]
+    #[error("the outline of body '{body}' cannot be drawn: {reason}")]
     Outline {
         /// Name of the rigid body.
         body: String,
         /// Reason.
-        why: &'static str,
+        reason: &'static str,
     },
     /// Unknown point of a rigid body.
     #[error("body '{body}' has no point '{point}'; it has {}", if known.is_empty() { "only its centre" } else { known })]
@@ -74,7 +74,7 @@ pub enum SystemError {
     #[error(
         "body '{body}' has no rotary inertia, and no joint or force outside its centre determines its rotation"
     )]
-    Inertialess {
+    NoInertia {
         /// Name of the body.
         body: String,
     },
@@ -107,12 +107,12 @@ pub enum SystemError {
         reason: String,
     },
     /// Unknown quantity.
-    #[error("there is no quantity '{name}' to record: {why}")]
+    #[error("there is no quantity '{name}' to record: {reason}")]
     NoSensor {
         /// Requested name.
         name: String,
         /// Reason.
-        why: String,
+        reason: String,
     },
     /// Quantity that is recorded already.
     #[error("the history already has a column '{name}'; give this one another name")]
@@ -130,9 +130,9 @@ pub enum SystemError {
     },
     /// Spring without effect.
     #[error(
-        "{spring}: it acts from {from} to {to}, {why}, so that it has no effect; move one of its ends"
+        "{spring}: it acts from {from} to {to}, {reason}, so that it has no effect; move one of its ends"
     )]
-    IdleSpring {
+    ImmovableSpring {
         /// Description of the spring.
         spring: String,
         /// Description of its start.
@@ -140,7 +140,7 @@ pub enum SystemError {
         /// Description of its end.
         to: String,
         /// Reason.
-        why: &'static str,
+        reason: &'static str,
     },
     /// Table of a spring whose elongations do not increase.
     #[error(
@@ -171,22 +171,22 @@ pub enum SystemError {
         gap: f64,
     },
     /// Joint at a place that is joined or supported in the same way already.
-    #[error("{joint}: {place} is already {how}; remove one of the two joints")]
+    #[error("{joint}: {place} is already {existing}; remove one of the two joints")]
     AlreadyTied {
         /// Name of the joint.
         joint: String,
         /// Description of the place.
         place: String,
         /// Existing joint or support of the place.
-        how: String,
+        existing: String,
     },
     /// Damping law that adds energy at some rate, or has a force at rest.
-    #[error("{damper}: {feeding}")]
-    FeedingDamper {
+    #[error("{damper}: {active_range}")]
+    ActiveDamper {
         /// Description of the damper.
         damper: String,
         /// Range of rates in which the law adds energy, and advice for correcting it.
-        feeding: String,
+        active_range: String,
     },
     /// Support of a component that a drive prescribes.
     #[error(
@@ -202,7 +202,7 @@ pub enum SystemError {
     },
     /// Prescribed motion of a component that is supported or prescribed already.
     #[error(
-        "{drive}: the {component} of {place} is already {how}; prescribe or fix each component once"
+        "{drive}: the {component} of {place} is already {existing}; prescribe or fix each component once"
     )]
     AlreadyDriven {
         /// Name of the rejected drive.
@@ -212,7 +212,7 @@ pub enum SystemError {
         /// Description of the place.
         place: String,
         /// The word `fixed` or `prescribed`, or another reason.
-        how: &'static str,
+        existing: &'static str,
     },
     /// Prescribed motion that does not start at its station.
     #[error(

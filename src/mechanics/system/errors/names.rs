@@ -82,7 +82,7 @@ pub fn refusal(name: &str) -> Option<&'static str> {
 /// Fails if the name has invisible characters or characters that cannot be typed.
 pub fn check_name(kind: &'static str, name: &str) -> Result<(), SystemError> {
     match refusal(name) {
-        Some(why) => Err(SystemError::Unnamed { kind, name: name.to_owned(), why }),
+        Some(why) => Err(SystemError::Unnamed { kind, name: name.to_owned(), reason: why }),
         None => Ok(()),
     }
 }

@@ -26,7 +26,7 @@ pub enum Approach {
         guide: &'static str,
     },
     /// The point does not lie on it.
-    Apart {
+    Distant {
         /// Relative position of the nearest place along the master [-].
         place: f64,
         /// The word `beam` or `track`.
@@ -42,7 +42,7 @@ impl fmt::Display for Approach {
             Self::On { place, guide } => {
                 write!(f, "it lies on that {guide} at {} of its length", rounded(*place))
             }
-            Self::Apart { place, guide, distance } => {
+            Self::Distant { place, guide, distance } => {
                 write!(
                     f,
                     "the nearest point of the {guide} is {distance:.3e} away, at {} of its length",
@@ -61,7 +61,7 @@ pub enum SliderError {
         "slider '{}': {} is a part of the {}; a beam cannot slide on itself, choose another beam",
         _0.slider, _0.slave, _0.guide
     )]
-    OnItself(SliderParts),
+    SlaveOnMaster(SliderParts),
     /// Slave that is not on its master.
     #[error(
         "slider '{}': {} is at {from}, {gap:.3e} from its place {to} on the {}; {nearest}",
@@ -84,22 +84,22 @@ pub enum SliderError {
         "slider '{}': {} already slides on the {}; remove one of the two sliders",
         _0.slider, _0.slave, _0.guide
     )]
-    Twice(SliderParts),
+    Duplicate(SliderParts),
     /// Slave that is also joined to its master.
     #[error(
         "slider '{}': {} is also joined to the {} and cannot slide on it; remove the joint or the slider",
         _0.slider, _0.slave, _0.guide
     )]
-    Tied(SliderParts),
+    AlreadyJoined(SliderParts),
     /// Slider on a track with a rule for single beams.
-    #[error("slider '{}': the {rule} rule is available for single beams only: at the seams of the {} {why}", parts.slider, parts.guide)]
+    #[error("slider '{}': the {rule} rule is available for single beams only: at the seams of the {} {behaviour}", parts.slider, parts.guide)]
     RuleOfOneBeam {
         /// Description of the slider.
         parts: SliderParts,
         /// Name of the rule.
         rule: &'static str,
         /// Behaviour at seams under that rule.
-        why: &'static str,
+        behaviour: &'static str,
     },
     /// Coefficient of restitution outside its range.
     #[error("slider '{slider}': restitution is {restitution}, but must be from 0 to 1")]
@@ -124,7 +124,7 @@ pub enum SliderError {
         "slider '{}': {} and its place on the {} are both fixed, so that the contact force is undetermined; remove the slider or a support",
         _0.slider, _0.slave, _0.guide
     )]
-    HeldBesides(SliderParts),
+    OverConstrained(SliderParts),
     /// Sliders with undetermined contact forces.
     #[error(
         "the sliders '{sliders}' restrain the same movement: their contact forces are undetermined; remove one of them, or a support"

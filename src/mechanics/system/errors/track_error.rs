@@ -11,7 +11,7 @@ pub enum TrackError {
     },
     /// Track that contains a beam twice.
     #[error("track '{track}': beam '{beam}' occurs twice; list each beam once")]
-    Again {
+    RepeatedBeam {
         /// Name of the track.
         track: String,
         /// Name of the beam.
@@ -19,9 +19,9 @@ pub enum TrackError {
     },
     /// Track with a gap between consecutive beams.
     #[error(
-        "track '{track}': beam '{before}' ends at {here}, but the next beam '{next}' has its ends at {start} and {end}; consecutive beams must meet"
+        "track '{track}': beam '{before}' ends at {place}, but the next beam '{next}' has its ends at {start} and {end}; consecutive beams must meet"
     )]
-    Apart {
+    Gap {
         /// Name of the track.
         track: String,
         /// Name of the beam before the gap.
@@ -29,7 +29,7 @@ pub enum TrackError {
         /// Name of the beam after the gap.
         next: String,
         /// End of the beam before the gap.
-        here: String,
+        place: String,
         /// Start of the next beam.
         start: String,
         /// End of the next beam.
@@ -37,28 +37,28 @@ pub enum TrackError {
     },
     /// Closed track with a gap between its last and first beams.
     #[error(
-        "track '{track}' is declared closed, but it ends at {here}, {gap:.3e} from its start {start}"
+        "track '{track}' is declared closed, but it ends at {place}, {gap:.3e} from its start {start}"
     )]
     Open {
         /// Name of the track.
         track: String,
         /// End of the last beam.
-        here: String,
+        place: String,
         /// Start of the first beam.
         start: String,
         /// Distance between both [length].
         gap: f64,
     },
     /// Consecutive beams of a track that touch but are not joined.
-    #[error("track '{track}': {one} and {other} are both at {here}, but are not joined")]
-    Loose {
+    #[error("track '{track}': {first_end} and {other} are both at {place}, but are not joined")]
+    NotJoined {
         /// Name of the track.
         track: String,
         /// End of the first beam.
-        one: String,
+        first_end: String,
         /// End of the second beam.
         other: String,
         /// Place of both.
-        here: String,
+        place: String,
     },
 }

@@ -11,12 +11,12 @@ use crate::system::bodies::Bodies;
 pub struct Links {
     rigid: Vec<RigidLink>,
     rollers: Vec<InclinedRoller>,
-    acting: ForceUnknowns,
+    force_unknowns: ForceUnknowns,
 }
 
 impl Links {
     pub fn new(rigid: Vec<RigidLink>, rollers: Vec<InclinedRoller>) -> Self {
-        Self { rigid, rollers, acting: ForceUnknowns::AtRest }
+        Self { rigid, rollers, force_unknowns: ForceUnknowns::AtRest }
     }
 
     /// Renumbers the force unknowns of all links and rollers; `None` for a released roller.
@@ -70,11 +70,11 @@ impl Links {
 
     /// Prepares a step of a duration [time].
     pub fn begin_step(&mut self, duration: f64) {
-        self.acting = ForceUnknowns::Step(duration);
+        self.force_unknowns = ForceUnknowns::Step(duration);
     }
 
     pub fn begin_movement(&mut self) {
-        self.acting = ForceUnknowns::AtRest;
+        self.force_unknowns = ForceUnknowns::AtRest;
     }
 
     pub fn add(
@@ -86,10 +86,10 @@ impl Links {
         summary: &mut ForceSummary,
     ) {
         for link in &mut self.rigid {
-            summary.join(&link.add(bodies, self.acting, arms, values, out));
+            summary.join(&link.add(bodies, self.force_unknowns, arms, values, out));
         }
         for roller in &mut self.rollers {
-            summary.join(&roller.add(bodies, self.acting, values, out));
+            summary.join(&roller.add(bodies, self.force_unknowns, values, out));
         }
     }
 
@@ -103,10 +103,10 @@ impl Links {
         tangent: &mut BandedMatrix,
     ) {
         for link in &self.rigid {
-            link.add_tangent(bodies, self.acting, arms, values, unknowns, tangent);
+            link.add_tangent(bodies, self.force_unknowns, arms, values, unknowns, tangent);
         }
         for roller in &self.rollers {
-            roller.add_tangent(bodies, self.acting, unknowns, tangent);
+            roller.add_tangent(bodies, self.force_unknowns, unknowns, tangent);
         }
     }
 
@@ -187,9 +187,9 @@ impl Links {
 
     pub fn advance(&mut self, bodies: &Bodies, arms: ArmRule, values: &[f64]) {
         for link in &mut self.rigid {
-            link.advance(bodies, self.acting, arms, values);
+            link.advance(bodies, self.force_unknowns, arms, values);
         }
-        self.rollers.iter_mut().for_each(|roller| roller.advance(self.acting, values));
+        self.rollers.iter_mut().for_each(|roller| roller.advance(self.force_unknowns, values));
     }
 
     /// Passes the stiffness of all constraints at rest to the callback, for a penalty stiffness [force/length].

@@ -23,12 +23,12 @@ pub struct InclinedRoller {
     /// Force unknown; `None` after a release.
     pub unknown: Option<usize>,
     /// Unit normal `n` [-].
-    across: Vec2,
+    normal: Vec2,
     /// Place of the point as drawn, on the line [length].
-    on_line: Vec2,
+    origin: Vec2,
     /// Scale of the violation: the size of the scene plus the movements of the iterate [length].
     size: f64,
-    moved: f64,
+    movement: f64,
     /// Multiplier `λ` of the last step, or at rest [force].
     force: f64,
 }
@@ -39,11 +39,11 @@ impl InclinedRoller {
         joint: usize,
         node: (usize, usize),
         unknown: Option<usize>,
-        across: Vec2,
-        on_line: Vec2,
+        normal: Vec2,
+        origin: Vec2,
         size: f64,
     ) -> Self {
-        Self { joint, node, unknown, across, on_line, size, moved: 0.0, force: 0.0 }
+        Self { joint, node, unknown, normal, origin, size, movement: 0.0, force: 0.0 }
     }
 
     pub fn degrees(&self, bodies: &Bodies) -> [usize; 2] {
@@ -54,7 +54,7 @@ impl InclinedRoller {
 
     /// Force on the point for a value of the multiplier [force].
     pub fn force_of(&self, unknown: f64) -> Vec2 {
-        self.across * -unknown
+        self.normal * -unknown
     }
 
     /// Force on the point in the last step or at rest; zero after a release [force].
@@ -84,8 +84,8 @@ impl InclinedRoller {
         let force = acting.force(self.force, values[unknown]);
         self.transmit(bodies, force, out);
         let moved = self.values_at(bodies, values);
-        out[unknown] += self.across.dot(&moved);
-        self.moved = larger(moved.x.abs(), moved.y.abs());
+        out[unknown] += self.normal.dot(&moved);
+        self.movement = larger(moved.x.abs(), moved.y.abs());
         ForceSummary { force: force.abs(), ..ForceSummary::default() }
     }
 
@@ -106,7 +106,7 @@ impl InclinedRoller {
 
     fn couple(&self, bodies: &Bodies, share: f64, movements: usize, matrix: &mut BandedMatrix) {
         let Some(unknown) = self.unknown else { return };
-        for (at, across) in self.degrees(bodies).into_iter().zip([self.across.x, self.across.y]) {
+        for (at, across) in self.degrees(bodies).into_iter().zip([self.normal.x, self.normal.y]) {
             if at < movements {
                 matrix.add(at, unknown, share * across);
                 matrix.add(unknown, at, across);
@@ -117,20 +117,20 @@ impl InclinedRoller {
     /// Adds the force of multiplier `λ` to a residual.
     pub fn transmit(&self, bodies: &Bodies, force: f64, out: &mut [f64]) {
         let [x, y] = self.degrees(bodies);
-        out[x] += force * self.across.x;
-        out[y] += force * self.across.y;
+        out[x] += force * self.normal.x;
+        out[y] += force * self.normal.y;
     }
 
     /// Constraint violation in a residual, relative to the scene and the movements [-].
     pub fn violation(&self, residual: &[f64]) -> f64 {
         let off = self.unknown.map_or(0.0, |at| residual[at].abs());
-        if off == 0.0 { 0.0 } else { off / (self.size + self.moved) }
+        if off == 0.0 { 0.0 } else { off / (self.size + self.movement) }
     }
 
     /// Distance of the point from its line [length].
     pub fn gap(&self, bodies: &Bodies) -> f64 {
         match self.unknown {
-            Some(_) => self.across.dot(&(self.place(bodies) - self.on_line)).abs(),
+            Some(_) => self.normal.dot(&(self.place(bodies) - self.origin)).abs(),
             None => 0.0,
         }
     }
@@ -150,7 +150,7 @@ impl InclinedRoller {
 
     /// Velocity of the point across its line [length/time].
     pub fn velocity_violation(&self, bodies: &Bodies, rates: &[f64]) -> f64 {
-        self.across.dot(&self.values_at(bodies, rates))
+        self.normal.dot(&self.values_at(bodies, rates))
     }
 
     pub fn advance(&mut self, acting: ForceUnknowns, values: &[f64]) {
@@ -169,7 +169,7 @@ impl InclinedRoller {
     ) {
         let Some(unknown) = self.unknown else { return };
         span.begin(0);
-        span.strains.extend([self.across.x, self.across.y]);
+        span.strains.extend([self.normal.x, self.normal.y]);
         span.stiffness.push(stiffness);
         take(&self.degrees(bodies), span);
         // The force itself is not needed.

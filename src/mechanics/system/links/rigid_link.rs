@@ -50,7 +50,7 @@ impl ForceUnknowns {
 pub struct ArmRule {
     pub rotations: RotationIncrement,
     /// Fraction `τ` of the step at which the arm of the force is taken [-].
-    pub share: f64,
+    pub fraction: f64,
 }
 
 /// Point of a rigid body off its centre of mass.
@@ -79,7 +79,7 @@ struct Iterated {
     /// Force `λ` [force].
     force: Vec2,
     /// Derivative of the force with respect to its unknown.
-    share: f64,
+    fraction: f64,
     /// `dΔθ/dΔω` [-].
     rate: f64,
     increment: f64,
@@ -117,7 +117,7 @@ impl RigidLink {
         &self,
         bodies: &Bodies,
         unknown: ForceUnknowns,
-        ArmRule { rotations, share: at }: ArmRule,
+        ArmRule { rotations, fraction: at }: ArmRule,
         values: &[f64],
     ) -> Iterated {
         let ([.., rotation], _) = self.degrees(bodies);
@@ -132,7 +132,7 @@ impl RigidLink {
             end,
             force_arm: start + (end - start) * at,
             force,
-            share,
+            fraction: share,
             rate,
             increment,
         }
@@ -177,12 +177,12 @@ impl RigidLink {
         tangent: &mut BandedMatrix,
     ) {
         let now = self.iterated(bodies, unknown, arms, values);
-        let turned_arm = perpendicular(now.force_arm) * now.share;
+        let turned_arm = perpendicular(now.force_arm) * now.fraction;
         let place_arm = perpendicular(now.end) * now.rate;
-        self.couple(bodies, now.share, turned_arm, place_arm, movements, tangent);
+        self.couple(bodies, now.fraction, turned_arm, place_arm, movements, tangent);
         let ([.., rotation], _) = self.degrees(bodies);
         if rotation < movements {
-            tangent.add(rotation, rotation, arms.share * now.rate * now.end.dot(&now.force));
+            tangent.add(rotation, rotation, arms.fraction * now.rate * now.end.dot(&now.force));
         }
     }
 
@@ -286,8 +286,8 @@ impl RigidLink {
         let pull = 0.5 * self.force.dot(&self.arm());
         span.twists.clear();
         span.twists.extend([0.0, 0.0, 0.0, 0.0, pull, 0.0, 0.0, 0.0, 0.0, 1.0]);
-        span.doubts.clear();
-        span.doubts.push(0.0);
+        span.rounding_fractions.clear();
+        span.rounding_fractions.push(0.0);
         take(&[point_x, point_y, x, y, rotation], span);
         // The force itself is not needed.
         let own = SpanStiffness {

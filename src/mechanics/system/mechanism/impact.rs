@@ -30,15 +30,20 @@ pub(super) struct ImpulseResponse {
     /// Nonzero entries of `Gᵀ`.
     touched: Vec<usize>,
     /// Impulses of section forces, if any strain is rigid.
-    passed_on: Vec<f64>,
+    transmitted: Vec<f64>,
 }
 
 impl ImpulseResponse {
-    fn of(inertia: &BandedLu<'_>, unknowns: usize, forces: Vec<f64>, passed_on: Vec<f64>) -> Self {
+    fn of(
+        inertia: &BandedLu<'_>,
+        unknowns: usize,
+        forces: Vec<f64>,
+        transmitted: Vec<f64>,
+    ) -> Self {
         let mut rates = forces[..unknowns].to_vec();
         inertia.solve(&mut rates);
         let touched = (0..forces.len()).filter(|&at| forces[at] != 0.0).collect();
-        Self { forces, rates, touched, passed_on }
+        Self { forces, rates, touched, transmitted }
     }
 
     /// Velocity `G v` of rates in the direction of the impulse.
@@ -54,30 +59,30 @@ pub(super) enum ImpactLaw {
     /// `w⁺ = 0`, with an impulse of either sign.
     Ends,
     /// `w⁺ = -w⁻`, with an impulse of either sign and without work.
-    Reverses,
+    Elastic,
     /// `0 ≤ P ⟂ w⁺ + e w⁻ ≥ 0` with the coefficient of restitution `e`: a stop with compressive impulses only (Moreau 1988).
-    Strikes(f64),
+    Restitution(f64),
     /// `0 ≤ P ⟂ w⁺ ≥ 0`: a slider held at a stop.
-    Leans,
+    Held,
     /// `0 ≤ P ⟂ w⁺ - c ≥ 0`: a stop that returns its stored energy with a speed `c` [length/time].
-    Leaves(f64),
+    StoredEnergy(f64),
 }
 
 impl ImpactLaw {
     pub(super) fn pairing(self) -> Pairing {
         match self {
-            Self::Ends | Self::Reverses => Pairing::Tied,
-            Self::Strikes(_) | Self::Leans | Self::Leaves(_) => Pairing::Pushing,
+            Self::Ends | Self::Elastic => Pairing::Equality,
+            Self::Restitution(_) | Self::Held | Self::StoredEnergy(_) => Pairing::Complementary,
         }
     }
 
     /// Deficit of the velocity after the impact without an impulse [length/time].
     fn deficit(self, w: f64) -> f64 {
         match self {
-            Self::Ends | Self::Leans => w,
-            Self::Reverses => 2.0 * w,
-            Self::Strikes(restitution) => w + restitution * w.min(0.0),
-            Self::Leaves(speed) => w - speed,
+            Self::Ends | Self::Held => w,
+            Self::Elastic => 2.0 * w,
+            Self::Restitution(restitution) => w + restitution * w.min(0.0),
+            Self::StoredEnergy(speed) => w - speed,
         }
     }
 }
@@ -85,7 +90,7 @@ impl ImpactLaw {
 /// Contacts of one impact with their directions and the velocity responses to their impulses.
 pub(super) struct ImpactProblem {
     directions: Vec<ImpactDirection>,
-    answers: Vec<ImpulseResponse>,
+    responses: Vec<ImpulseResponse>,
     /// `G M⁻¹ Gᵀ` [1/mass].
     pub(super) response: Vec<Vec<f64>>,
     /// `w⁻` [length/time].
@@ -107,7 +112,7 @@ pub(super) struct ImpactImpulses {
 impl ImpactProblem {
     /// Velocity change in a direction without contact impulses [length/time].
     fn by_links(&self, at: usize) -> f64 {
-        self.answers[at].velocity(&self.change)
+        self.responses[at].velocity(&self.change)
     }
 
     /// Velocity in a direction before the impact, and its change by the given impulses [length/time].
@@ -202,7 +207,7 @@ impl System {
         let prescribed = self.supports.prescribed();
         let Ok(Some(jumps)) = prescribed.jumps(interval, &self.motion.rates) else { return false };
         let directions = self.sliders.directions(&self.bodies);
-        let laws = vec![ImpactLaw::Reverses; directions.len()];
+        let laws = vec![ImpactLaw::Elastic; directions.len()];
         // So are singular matrices.
         let Ok(encounter) =
             self.impact_problem_with_jumps(&[(&directions, Deformation::All)], -2.0, jumps)
@@ -325,13 +330,13 @@ impl System {
         }
         let response = response(&answers);
         let before = answers.iter().map(|answer| answer.velocity(&rates)).collect();
-        Ok(ImpactProblem { directions, answers, response, before, change, jumps })
+        Ok(ImpactProblem { directions, responses: answers, response, before, change, jumps })
     }
 
     /// Changes the velocities by the impulses of an impact.
     pub(super) fn apply(&mut self, encounter: ImpactProblem, impulses: &[f64]) {
-        let ImpactProblem { directions, answers, mut change, jumps, .. } = encounter;
-        let most_passed_on = answers.iter().map(|answer| answer.passed_on.len()).max();
+        let ImpactProblem { directions, responses: answers, mut change, jumps, .. } = encounter;
+        let most_passed_on = answers.iter().map(|answer| answer.transmitted.len()).max();
         let mut passed_on = vec![0.0; most_passed_on.unwrap_or(0)];
         let mut residual = vec![0.0; self.degrees_of_freedom()];
         for (impulse, ImpulseResponse { forces, rates, .. }) in impulses.iter().zip(&answers) {
@@ -339,7 +344,7 @@ impl System {
             residual.iter_mut().zip(forces).for_each(|(out, force)| *out -= impulse * force);
         }
         for (impulse, answer) in impulses.iter().zip(&answers) {
-            let own = passed_on.iter_mut().zip(&answer.passed_on);
+            let own = passed_on.iter_mut().zip(&answer.transmitted);
             own.for_each(|(sum, passed)| *sum += impulse * passed);
         }
         change.extend(jumps.iter().skip(change.len()));

@@ -36,7 +36,7 @@ pub struct Impulses {
     rollers: Vec<Option<usize>>,
     values: Vec<f64>,
     /// Residual of the balance, with additional space for contact equations.
-    left: Vec<f64>,
+    residual: Vec<f64>,
     /// Impulses since the end of the last step by control point, followed by the multipliers of inclined rollers [force·time, force·length·time].
     present: Vec<f64>,
     last: Vec<f64>,
@@ -49,7 +49,7 @@ impl Impulses {
     fn sum_up(&mut self, factor: f64, rollers: &[InclinedRoller], unknowns: &[f64]) {
         let movements = self.present.len() - rollers.len();
         let (present, across) = self.present.split_at_mut(movements);
-        present.iter_mut().zip(&self.left).for_each(|(sum, left)| *sum += factor * left);
+        present.iter_mut().zip(&self.residual).for_each(|(sum, left)| *sum += factor * left);
         for (sum, roller) in across.iter_mut().zip(rollers) {
             *sum += roller.unknown.map_or(0.0, |at| unknowns[at]);
         }
@@ -94,7 +94,7 @@ impl System {
             rollers: vec![None; self.links.all_rollers().len()],
             numbers,
             values: vec![0.0; all],
-            left: vec![0.0; all + self.sliders.border().width],
+            residual: vec![0.0; all + self.sliders.border().width],
             present: vec![0.0; movements + self.links.all_rollers().len()],
             last: vec![0.0; movements + self.links.all_rollers().len()],
             duration: 0.0,
@@ -124,23 +124,23 @@ impl System {
         let Some(mut impulses) = self.exchanged.impulses.take() else { return };
         let Solution { increments, constraints, rates, balanced, .. } = *solution;
         let duration = self.step.interval.duration();
-        impulses.left.fill(0.0);
+        impulses.residual.fill(0.0);
         let before = std::mem::take(&mut self.motion.rates);
         self.separate_values(&mut impulses, |at| (rates[at] - before[at]) / duration, rates.len());
         self.motion.rates = before;
         self.exchange_numbers(&mut impulses);
-        self.add_inertia(1.0, &impulses.values, &mut impulses.left);
+        self.add_inertia(1.0, &impulses.values, &mut impulses.residual);
         self.exchange_numbers(&mut impulses);
         self.separate_values(&mut impulses, |at| increments[at], increments.len());
         self.exchange_numbers(&mut impulses);
         for (stage, share) in balanced {
             let moved = if *stage == Stage::Start { &[] } else { &*impulses.values };
-            self.add_internal_forces(*stage, moved, *share, &mut impulses.left);
-            self.subtract_loads(*stage, moved, *share, &mut impulses.left);
+            self.add_internal_forces(*stage, moved, *share, &mut impulses.residual);
+            self.subtract_loads(*stage, moved, *share, &mut impulses.residual);
         }
-        let (moved, left) = (&impulses.values, &mut impulses.left);
+        let (moved, left) = (&impulses.values, &mut impulses.residual);
         self.sliders.add::<InStep>(&self.bodies, moved.len(), moved, constraints, left);
-        let Impulses { left, rollers, .. } = &mut *impulses;
+        let Impulses { residual: left, rollers, .. } = &mut *impulses;
         for (roller, unknown) in self.links.all_rollers().iter().zip(rollers) {
             let impulse = unknown.map_or(0.0, |at| increments[at]);
             roller.transmit(&self.bodies, impulse / duration, left);
@@ -158,14 +158,14 @@ impl System {
         on_slaves: impl Iterator<Item = (usize, Vec2)>,
     ) {
         let Some(mut impulses) = self.exchanged.impulses.take() else { return };
-        impulses.left.fill(0.0);
+        impulses.residual.fill(0.0);
         self.separate_values(&mut impulses, |at| change[at], change.len());
         self.bodies.exchange_numbers(&mut impulses.numbers);
-        self.add_inertia(1.0, &impulses.values, &mut impulses.left);
-        self.links.transmit(&self.bodies, change, &mut impulses.left);
-        add_transmitted_impulses(self, passed_on, &mut impulses.left);
+        self.add_inertia(1.0, &impulses.values, &mut impulses.residual);
+        self.links.transmit(&self.bodies, change, &mut impulses.residual);
+        add_transmitted_impulses(self, passed_on, &mut impulses.residual);
         for (slider, impulse) in on_slaves {
-            self.sliders[slider].transmit(&self.bodies, -impulse, &mut impulses.left);
+            self.sliders[slider].transmit(&self.bodies, -impulse, &mut impulses.residual);
         }
         self.bodies.exchange_numbers(&mut impulses.numbers);
         impulses.sum_up(1.0, self.links.all_rollers(), change);

@@ -22,7 +22,7 @@ use crate::system::{SliderState, SystemError};
 pub struct Instant {
     /// Accelerations of the unknown movements [length/time², 1/time²], with forces of rigid links at their unknowns.
     accelerations: Vec<f64>,
-    given: Reactions,
+    reactions: Reactions,
     /// Contact force of each slave on its master [force].
     contacts: Vec<Vec2>,
 }
@@ -35,7 +35,7 @@ impl Instant {
 
     /// Forces of joints and supports.
     pub fn reactions(&self) -> &Reactions {
-        &self.given
+        &self.reactions
     }
 
     /// Force of a slider on its master [force].
@@ -101,7 +101,7 @@ impl System {
             |roller: &InclinedRoller| roller.unknown.map_or(0.0, |at| accelerations[at]);
         let across: Vec<f64> = self.links.all_rollers().iter().map(multiplier).collect();
         Ok(Instant {
-            given: self.reactions_from_residuals(&apart, &across),
+            reactions: self.reactions_from_residuals(&apart, &across),
             accelerations,
             contacts,
         })

@@ -13,7 +13,7 @@ pub struct Reactions {
     /// Forces of joints and supports on each control point of each body [force, force·length].
     nodes: Vec<Vec<Movement>>,
     /// Forces of inclined rollers, which are not included in the others [force].
-    across: Vec<Vec2>,
+    roller_forces: Vec<Vec2>,
 }
 
 impl Reactions {
@@ -24,7 +24,7 @@ impl Reactions {
 
     /// Force of an inclined roller [force].
     pub fn by_roller(&self, roller: usize) -> Vec2 {
-        self.across[roller]
+        self.roller_forces[roller]
     }
 }
 
@@ -44,7 +44,7 @@ impl System {
         let nodes = nodes.collect();
         let rollers = self.links.all_rollers().iter().zip(across);
         let across = rollers.map(|(roller, multiplier)| roller.force_of(*multiplier)).collect();
-        Reactions { residual, nodes, across }
+        Reactions { residual, nodes, roller_forces: across }
     }
 
     pub(super) fn rigid_bodies_of(&self, nodes: &[(usize, usize)]) -> Vec<usize> {
@@ -54,7 +54,7 @@ impl System {
 
     /// Force of supports at a place: force [force] and moment [force·length]; `None` without a support there.
     pub fn reaction(&self, given: &Reactions, place: &BodyPoint) -> Option<(Vec2, f64)> {
-        self.held_by(place, &given.residual, |roller| given.across[roller])
+        self.held_by(place, &given.residual, |roller| given.roller_forces[roller])
     }
 
     /// Force of supports and inclined rollers at a place, from the residual of all degrees of freedom and the force of each roller; `None` without a

@@ -112,7 +112,7 @@ impl System {
         let (movements, contacts) = unknowns.split_at(self.unknowns.count());
         let movements = self.supports.prescribed().at_rest(movements, load_factor);
         self.bodies.gather(&movements);
-        let arms = ArmRule { rotations: RotationIncrement::Angle, share: 1.0 };
+        let arms = ArmRule { rotations: RotationIncrement::Angle, fraction: 1.0 };
         self.links.advance(&self.bodies, arms, &movements);
         self.supports.prescribed_mut().accept_positions(load_factor);
         self.elements.advance(&self.bodies, RotationIncrement::Angle);

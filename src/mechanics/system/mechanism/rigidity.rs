@@ -35,7 +35,7 @@ pub(super) enum Deformation {
     /// All deformations: only inertia resists the impulse.
     All,
     /// Deformations that steps of a length resolve [time].
-    Slow(f64),
+    Resolved(f64),
     /// Deformations that steps of a length resolve [time], without axial strain.
     Inextensible(f64),
 }
@@ -64,7 +64,7 @@ impl Rigidity {
     pub(super) fn of(model: &System, deformation: Deformation) -> Self {
         let (length, rigid) = match deformation {
             Deformation::All => (0.0, None),
-            Deformation::Slow(length) => (length, None),
+            Deformation::Resolved(length) => (length, None),
             Deformation::Inextensible(length) => (length, Some(StrainKind::Axial)),
         };
         let mut resistances = Vec::new();

@@ -39,8 +39,8 @@ const SLOPES: std::ops::Range<f64> = 0.2..5.0;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SeamCorner {
     pub(super) slider: usize,
-    comes: Vec2,
-    goes: Vec2,
+    incoming: Vec2,
+    outgoing: Vec2,
 }
 
 impl SeamCorner {
@@ -50,21 +50,22 @@ impl SeamCorner {
     }
 
     fn is_straight(&self) -> bool {
-        cross(self.comes, self.goes).abs() <= STRAIGHT && self.comes.dot(&self.goes) > 0.0
+        cross(self.incoming, self.outgoing).abs() <= STRAIGHT
+            && self.incoming.dot(&self.outgoing) > 0.0
     }
 }
 
 /// Sliders that pass seams at the same time.
 pub(super) struct SeamCrossings {
     passing: Vec<(usize, MasterEnd, Seam)>,
-    of_sections: Vec<SeamCorner>,
-    of_shear: Vec<SeamCorner>,
+    sections: Vec<SeamCorner>,
+    shear: Vec<SeamCorner>,
 }
 
 impl SeamCrossings {
     /// Corners of the sections; empty if all are straight.
     pub(super) fn corners_of_sections(&self) -> &[SeamCorner] {
-        if self.of_sections.iter().all(SeamCorner::is_straight) { &[] } else { &self.of_sections }
+        if self.sections.iter().all(SeamCorner::is_straight) { &[] } else { &self.sections }
     }
 }
 
@@ -117,15 +118,16 @@ impl System {
         let corners = passing.iter().filter_map(|(slider, end, seam)| {
             let [comes, goes] = self.sliders[*slider].corner(&self.bodies, *end, *seam)?;
             let with_sections = turned(comes, self.sections_at(*slider, *end, *seam)?);
-            let corner = |comes, goes| SeamCorner { slider: *slider, comes, goes };
+            let corner =
+                |comes, goes| SeamCorner { slider: *slider, incoming: comes, outgoing: goes };
             Some((corner(comes, with_sections), corner(with_sections, goes)))
         });
         let (of_sections, of_shear) = corners.unzip();
-        SeamCrossings { passing, of_sections, of_shear }
+        SeamCrossings { passing, sections: of_sections, shear: of_shear }
     }
 
     pub(super) fn pass_seams(&mut self, passages: &SeamCrossings) -> Result<(), LinearError> {
-        self.deflect(&passages.of_shear, Deformation::All)?;
+        self.deflect(&passages.shear, Deformation::All)?;
         let time = self.motion.time;
         for (slider, _, seam) in &passages.passing {
             self.sliders[*slider].cross_seam(*seam);
@@ -141,7 +143,7 @@ impl System {
         let rates = &self.motion.rates;
         let corner = |&MasterLimit { slider, end }: &MasterLimit| {
             let [comes, goes] = self.sliders[slider].off_kink(&self.bodies, rates, end)?;
-            Some(SeamCorner { slider, comes, goes })
+            Some(SeamCorner { slider, incoming: comes, outgoing: goes })
         };
         let corners: Vec<SeamCorner> = limits.iter().filter_map(corner).collect();
         self.deflect(&corners, Deformation::All)?;
@@ -177,7 +179,7 @@ impl System {
         let met = [(&turned[..], deformation), (&others, deformation)];
         let encounter = self.impact_problem(&met, -2.0)?;
         if let Some(impulses) =
-            deflect_at_corners(&encounter, corners, &vec![ImpactLaw::Reverses; others.len()])?
+            deflect_at_corners(&encounter, corners, &vec![ImpactLaw::Elastic; others.len()])?
         {
             self.apply(encounter, &impulses.values);
         }
@@ -207,10 +209,10 @@ pub(super) fn deflect_at_corners(
     let own = own_responses(encounter, corners, laws)?;
     let half_way = encounter.mean_velocity();
     let lacks = [vec![0.0; 2 * corners.len()], encounter.lacks(laws)].concat();
-    let tied = corners.iter().flat_map(|_| [Pairing::Tied; 2]);
+    let tied = corners.iter().flat_map(|_| [Pairing::Equality; 2]);
     let pairings: Vec<Pairing> = tied.chain(laws.iter().map(|law| law.pairing())).collect();
     let mut bends: Vec<TurnSearch> = corners.iter().zip(&own).map(TurnSearch::new).collect();
-    let strikes = pairings.contains(&Pairing::Pushing);
+    let strikes = pairings.contains(&Pairing::Complementary);
     let mut last = None;
     for _ in 0..CORRECTIONS {
         let (mut matrix, mut missing) = (encounter.response.clone(), lacks.clone());
@@ -247,7 +249,7 @@ fn own_responses(
     laws: &[ImpactLaw],
 ) -> Result<Vec<Response>, LinearError> {
     let (response, first) = (&encounter.response, 2 * corners.len());
-    let is_tied = |at: &usize| laws[at - first].pairing() == Pairing::Tied;
+    let is_tied = |at: &usize| laws[at - first].pairing() == Pairing::Equality;
     let tied: Vec<usize> = (first..response.len()).filter(is_tied).collect();
     let entries = |row: usize| -> Vec<f64> { tied.iter().map(|at| response[row][*at]).collect() };
     let among: Vec<Vec<f64>> = tied.iter().map(|row| entries(*row)).collect();
@@ -272,7 +274,7 @@ fn own_responses(
 struct TurnSearch {
     own: Response,
     /// Required angle [rad].
-    wanted: f64,
+    required_angle: f64,
     /// Parameter angle of `γ` [rad], and the error of the previous one.
     angle: f64,
     before: Option<(f64, f64)>,
@@ -280,8 +282,8 @@ struct TurnSearch {
 
 impl TurnSearch {
     fn new((corner, own): (&SeamCorner, &Response)) -> Self {
-        let wanted = own.angle(corner.comes, corner.goes);
-        Self { own: *own, wanted, angle: wanted, before: None }
+        let required_angle = own.angle(corner.incoming, corner.outgoing);
+        Self { own: *own, required_angle, angle: required_angle, before: None }
     }
 
     /// Factors of `P` and `J W P` in the equations of the corner.
@@ -298,7 +300,7 @@ impl TurnSearch {
         if self.own.is_one_way() || before == Vec2::zeros() {
             return true;
         }
-        let off = self.own.angle(before, after) - self.wanted;
+        let off = self.own.angle(before, after) - self.required_angle;
         let slope = self.before.map(|(angle, other)| (off - other) / (self.angle - angle));
         // Secant method, if the slope is plausible.
         let slope = slope.filter(|slope| SLOPES.contains(slope)).unwrap_or(1.0);

@@ -12,7 +12,7 @@ use crate::system::state::Trend;
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct SystemState {
     numbers: Vec<f64>,
-    trend: Trend,
+    prediction: Trend,
     knows_accelerations: bool,
     sliders: Vec<SliderState>,
 }
@@ -34,10 +34,10 @@ impl SystemState {
 
     /// Sets the state to another one plus `amount` times a change of its values.
     pub fn displace(&mut self, from: &Self, change: &[f64], amount: f64) {
-        let Self { numbers, trend, knows_accelerations, sliders } = self;
+        let Self { numbers, prediction: trend, knows_accelerations, sliders } = self;
         numbers.clear();
         numbers.extend(from.numbers.iter().zip(change).map(|(own, by)| own + amount * by));
-        (*trend, *knows_accelerations) = (from.trend, from.knows_accelerations);
+        (*trend, *knows_accelerations) = (from.prediction, from.knows_accelerations);
         sliders.clear();
         sliders.extend_from_slice(&from.sliders);
     }
@@ -70,7 +70,7 @@ impl System {
 
     /// Writes the [`state`](Self::state) to a buffer. Nothing is allocated if it holds a state of this model.
     pub fn write_state(&self, state: &mut SystemState) {
-        let SystemState { numbers, trend, knows_accelerations, sliders } = state;
+        let SystemState { numbers, prediction: trend, knows_accelerations, sliders } = state;
         numbers.clear();
         self.exchanged.save(numbers);
         self.motion.save(numbers);
@@ -94,7 +94,7 @@ impl System {
         let mut numbers = state.numbers.iter().copied();
         let next = &mut || numbers.next().expect("the state is one of this model");
         self.exchanged.restore(next);
-        self.motion.restore(state.trend, next);
+        self.motion.restore(state.prediction, next);
         self.bodies.restore(next);
         self.elements.restore(next);
         self.links.restore(next);
@@ -130,14 +130,14 @@ impl System {
 
 impl Checkpoint for System {
     fn save_state(&mut self) {
-        let mut kept = std::mem::take(&mut self.kept);
+        let mut kept = std::mem::take(&mut self.saved_state);
         self.write_state(&mut kept);
-        self.kept = kept;
+        self.saved_state = kept;
     }
 
     fn restore_state(&mut self) {
-        let kept = std::mem::take(&mut self.kept);
+        let kept = std::mem::take(&mut self.saved_state);
         self.restore(&kept);
-        self.kept = kept;
+        self.saved_state = kept;
     }
 }

@@ -17,7 +17,7 @@ use crate::system::sliders::InStep;
 fn arm_rule(stage: Stage, weight: f64) -> ArmRule {
     let Collocation { rotations, configuration, .. } = collocation(stage);
     let share = if stage == Stage::End { weight } else { configuration };
-    ArmRule { rotations, share }
+    ArmRule { rotations, fraction: share }
 }
 
 impl System {
@@ -278,7 +278,7 @@ impl Mechanism for System {
         self.sliders.evaluate_end(&self.bodies, increments, constraints);
         self.elements.advance(&self.bodies, self.step.rotations);
         self.bodies.advance(self.step.rotations);
-        let arms = ArmRule { rotations: self.step.rotations, share: 0.5 };
+        let arms = ArmRule { rotations: self.step.rotations, fraction: 0.5 };
         self.links.advance(&self.bodies, arms, increments);
         self.sliders.advance(constraints, self.step.interval.ending());
         self.motion.advance(&self.step, increments, rates);

@@ -39,28 +39,28 @@ pub struct Arriving {
     /// Limits at which sliders bounce.
     pub strike: Vec<MasterLimit>,
     /// Limits that sliders strike without leaving: the stop has zero restitution, and the impact is not resolved.
-    pub stay: Vec<MasterLimit>,
+    pub plastic: Vec<MasterLimit>,
     /// Limits at which sliders become held.
-    pub lean: Vec<MasterLimit>,
+    pub held: Vec<MasterLimit>,
     /// Limits that sliders pass along their tracks.
-    pub pass: Vec<MasterLimit>,
+    pub crossing: Vec<MasterLimit>,
 }
 
 impl Arriving {
     /// Returns true if no slider arrives.
     pub fn is_empty(&self) -> bool {
-        !self.has_impact_or_is_held() && self.pass.is_empty()
+        !self.has_impact_or_is_held() && self.crossing.is_empty()
     }
 
     fn has_impact_or_is_held(&self) -> bool {
-        [&self.strike, &self.stay, &self.lean].into_iter().any(|limits| !limits.is_empty())
+        [&self.strike, &self.plastic, &self.held].into_iter().any(|limits| !limits.is_empty())
     }
 
     fn law(&self, model: &System, limit: MasterLimit) -> Option<ImpactLaw> {
         let restitution = model.sliders[limit.slider].restitution;
-        let strikes = self.strike.contains(&limit) || self.stay.contains(&limit);
-        let strikes = strikes.then_some(ImpactLaw::Strikes(restitution));
-        strikes.or(self.lean.contains(&limit).then_some(ImpactLaw::Ends))
+        let strikes = self.strike.contains(&limit) || self.plastic.contains(&limit);
+        let strikes = strikes.then_some(ImpactLaw::Restitution(restitution));
+        strikes.or(self.held.contains(&limit).then_some(ImpactLaw::Ends))
     }
 }
 
@@ -125,7 +125,7 @@ impl System {
             let lasts = Some(self.impact_duration(*limit)?).filter(|lasts| lasts.is_finite());
             longest = Some(larger(longest.unwrap_or(dt), lasts.unwrap_or(dt)));
         }
-        Ok(longest.map_or(Deformation::Slow(RIGID * dt), |longest| {
+        Ok(longest.map_or(Deformation::Resolved(RIGID * dt), |longest| {
             Deformation::Inextensible(RIGID * longest)
         }))
     }
@@ -168,26 +168,26 @@ impl System {
         arriving: &Arriving,
         dt: f64,
     ) -> Result<(), LinearError> {
-        self.straighten_kinks(&[&arriving.strike[..], &arriving.stay, &arriving.lean].concat())?;
-        let passages = self.passages(&arriving.pass);
+        self.straighten_kinks(&[&arriving.strike[..], &arriving.plastic, &arriving.held].concat())?;
+        let passages = self.passages(&arriving.crossing);
         let corners = passages.corners_of_sections();
         if arriving.has_impact_or_is_held() || !corners.is_empty() {
-            let struck = [&arriving.strike[..], &arriving.stay].concat();
-            let at_stops = match struck.is_empty() && !arriving.lean.is_empty() {
+            let struck = [&arriving.strike[..], &arriving.plastic].concat();
+            let at_stops = match struck.is_empty() && !arriving.held.is_empty() {
                 true => Deformation::All,
                 false => self.deformation_at(&struck, dt)?,
             };
             let hits = self.impulse_directions(|model, limit| arriving.law(model, limit));
-            self.apply_impulses(&hits, corners, [Deformation::Slow(RIGID * dt), at_stops])?;
+            self.apply_impulses(&hits, corners, [Deformation::Resolved(RIGID * dt), at_stops])?;
         }
-        if !arriving.stay.is_empty() {
+        if !arriving.plastic.is_empty() {
             // The impact is that of a rigid body, which includes more than its end. The rest is rounding and must be removed.
             let hits = self.impulse_directions(|_, limit| {
-                arriving.stay.contains(&limit).then_some(ImpactLaw::Ends)
+                arriving.plastic.contains(&limit).then_some(ImpactLaw::Ends)
             });
             self.apply_impulses(&hits, &[], [Deformation::All; 2])?;
         }
-        arriving.stay.iter().chain(&arriving.lean).for_each(|limit| self.hold_at_stop(*limit));
+        arriving.plastic.iter().chain(&arriving.held).for_each(|limit| self.hold_at_stop(*limit));
         self.pass_seams(&passages)
     }
 
@@ -220,11 +220,11 @@ impl System {
         let of_others = impulses.values.iter().zip(&impulses.works).skip(turned.len());
         for ((direction, law), (impulse, work)) in directions.iter().zip(&laws).zip(of_others) {
             let (slave, master) = self.speeds(*direction, &self.motion.rates);
-            let leaves = *law == ImpactLaw::Leans && *impulse == 0.0 && slave - master > tolerance;
+            let leaves = *law == ImpactLaw::Held && *impulse == 0.0 && slave - master > tolerance;
             let slider = &mut self.sliders[direction.0];
             slider.book_impact_work(*work);
             slider.is_pulled = leaves && !slider.stop_may_pull;
-            slider.leaves_beyond = false;
+            slider.crosses_seam = false;
         }
         Ok(())
     }
@@ -247,7 +247,7 @@ impl System {
         for slider in &leaving {
             self.sliders[*slider].change_sides(&self.bodies);
         }
-        if leaving.iter().any(|slider| self.sliders[*slider].stored > 0.0) {
+        if leaving.iter().any(|slider| self.sliders[*slider].stop_energy > 0.0) {
             self.return_stop_energy().map_err(|_| self.sliders.overdetermined())?;
         }
         let time = self.motion.time;
@@ -265,13 +265,13 @@ impl System {
         let hits = self.impulse_directions(|model, limit| {
             let slider = &model.sliders[limit.slider];
             let leaves = slider.is_pulled && slider.state == SliderState::Held(limit.end);
-            leaves.then_some(ImpactLaw::Leaves(1.0))
+            leaves.then_some(ImpactLaw::StoredEnergy(1.0))
         });
         let directions: Vec<ImpactDirection> = hits.iter().map(|hit| hit.direction).collect();
         let stored: Vec<f64> = hits
             .iter()
             .map(|hit| match hit.law {
-                ImpactLaw::Leaves(_) => self.sliders[hit.direction.0].stored.max(0.0),
+                ImpactLaw::StoredEnergy(_) => self.sliders[hit.direction.0].stop_energy.max(0.0),
                 _ => 0.0,
             })
             .collect();
@@ -280,7 +280,7 @@ impl System {
             let speed = |at: usize| scale * (2.0 * stored[at] * encounter.response[at][at]).sqrt();
             let own = hits.iter().enumerate();
             own.map(|(at, hit)| match hit.law {
-                ImpactLaw::Leaves(_) => ImpactLaw::Leaves(speed(at)),
+                ImpactLaw::StoredEnergy(_) => ImpactLaw::StoredEnergy(speed(at)),
                 law => law,
             })
             .collect()
@@ -318,12 +318,12 @@ impl System {
                 SliderState::Released => continue,
                 SliderState::Sliding => own,
                 SliderState::Held(end) => {
-                    own.or(Some((MasterLimit { slider: at, end }, ImpactLaw::Leans)))
+                    own.or(Some((MasterLimit { slider: at, end }, ImpactLaw::Held)))
                 }
             };
             if stop.is_some() || !slider.is_compliant() {
                 let across = perpendicular(slider.along_contact(&self.bodies));
-                hits.push(ImpactContact { direction: (at, across), law: ImpactLaw::Reverses });
+                hits.push(ImpactContact { direction: (at, across), law: ImpactLaw::Elastic });
             }
             if let Some((limit, law)) = stop {
                 hits.push(ImpactContact { direction: (at, self.stop_direction(limit)), law });

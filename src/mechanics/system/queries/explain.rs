@@ -26,7 +26,7 @@ pub enum Usage {
     /// The part is used; the text says how.
     Used(String),
     /// The part is omitted; the text says what is saved.
-    LeftOut(String),
+    Omitted(String),
 }
 
 impl SystemFeature {
@@ -46,7 +46,7 @@ impl SystemFeature {
 
     /// Returns an omitted feature.
     pub fn omitted(name: impl Into<String>, saved: impl Into<String>) -> Self {
-        Self { name: name.into(), usage: Usage::LeftOut(saved.into()) }
+        Self { name: name.into(), usage: Usage::Omitted(saved.into()) }
     }
 }
 
@@ -321,7 +321,7 @@ fn explain_drive(scene: &Scene, drive: &Drive) -> SystemFeature {
 
 fn explain_releases(scene: &Scene) -> Option<SystemFeature> {
     let told = scene.releases.iter().map(|release| {
-        let name = scene.releasable_name(release.hold);
+        let name = scene.releasable_name(release.object);
         match release.trigger {
             Trigger::Time(time) => format!("'{name}' at t = {time}"),
             Trigger::Outside => {

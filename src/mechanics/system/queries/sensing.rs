@@ -24,9 +24,9 @@ enum SensorReading {
     Section(CrossSection, Value),
     Body(usize, Value),
     Joint(Transmission, Value),
-    JointInStep(Transmission, Value),
+    MeanJointForce(Transmission, Value),
     Contact(usize, Value),
-    Outside,
+    External,
 }
 
 impl SensorReader {
@@ -50,12 +50,12 @@ impl SensorReader {
             Probe::Joint(joint, quantity) => {
                 let transmission = model.transmission(scene, *joint)?;
                 Ok(match quantity.value.is_of_step() {
-                    true => SensorReading::JointInStep(transmission, quantity.value),
+                    true => SensorReading::MeanJointForce(transmission, quantity.value),
                     false => SensorReading::Joint(transmission, quantity.value),
                 })
             }
             Probe::Slider(slider, quantity) => Ok(SensorReading::Contact(*slider, quantity.value)),
-            Probe::Outside => Ok(SensorReading::Outside),
+            Probe::External => Ok(SensorReading::External),
         });
         let readings = readings.collect::<Result<Vec<_>, SystemError>>()?;
         let needs_instant = readings.iter().any(|reading| {
@@ -67,7 +67,8 @@ impl SensorReader {
                 _ => false,
             }
         });
-        let of_step = |reading: &SensorReading| matches!(reading, SensorReading::JointInStep(..));
+        let of_step =
+            |reading: &SensorReading| matches!(reading, SensorReading::MeanJointForce(..));
         let needs_mean = readings.iter().any(of_step);
         let values = Vec::with_capacity(readings.len());
         Ok(Self { values, readings, needs_instant, needs_mean })
@@ -83,7 +84,7 @@ impl SensorReader {
         self.values.clear();
         let now = if self.needs_instant { model.instant().ok() } else { None };
         let mean = if self.needs_mean { model.mean_reactions() } else { None };
-        let at = SensorContext { now: now.as_ref(), mean: mean.as_ref() };
+        let at = SensorContext { instant: now.as_ref(), mean: mean.as_ref() };
         for reading in &self.readings {
             self.values.push(value(reading, model, at).unwrap_or(f64::NAN));
         }
@@ -106,7 +107,7 @@ fn at_station(
         | Value::Curvature => SensorReading::Section(model.cross_section(scene, station)?, value),
         Value::Angle => match model.tracked_section(scene, station) {
             Some(section) => SensorReading::Angle(section),
-            None => SensorReading::Outside,
+            None => SensorReading::External,
         },
         _ => SensorReading::Place(scene.place(station, model.meshes())?, value),
     })
@@ -115,13 +116,13 @@ fn at_station(
 /// Precomputed data for the sensors, as far as needed.
 #[derive(Clone, Copy)]
 struct SensorContext<'a> {
-    now: Option<&'a Instant>,
+    instant: Option<&'a Instant>,
     mean: Option<&'a Reactions>,
 }
 
 fn value(reading: &SensorReading, model: &mut System, at: SensorContext<'_>) -> Option<f64> {
     match reading {
-        SensorReading::Place(place, value) => at_place(place, *value, model, at.now),
+        SensorReading::Place(place, value) => at_place(place, *value, model, at.instant),
         SensorReading::Angle(section) => model.section_angle(*section),
         SensorReading::Section(section, value) => {
             let forces = model.section_forces(section);
@@ -136,13 +137,13 @@ fn value(reading: &SensorReading, model: &mut System, at: SensorContext<'_>) -> 
         }
         SensorReading::Body(body, value) => Some(of_energy(&model.energy_of(*body), *value)),
         SensorReading::Joint(joint, value) => {
-            Some(of_force(joint.read(at.now?.reactions()), *value))
+            Some(of_force(joint.read(at.instant?.reactions()), *value))
         }
         SensorReading::Contact(slider, value) => {
-            Some(of_force((at.now?.contact(*slider), 0.0), *value))
+            Some(of_force((at.instant?.contact(*slider), 0.0), *value))
         }
-        SensorReading::JointInStep(joint, value) => Some(of_force(joint.read(at.mean?), *value)),
-        SensorReading::Outside => None,
+        SensorReading::MeanJointForce(joint, value) => Some(of_force(joint.read(at.mean?), *value)),
+        SensorReading::External => None,
     }
 }
 

@@ -34,7 +34,7 @@ impl System {
 
     /// Largest ratio of step length to impact duration at a bounce of a slider; zero for rigid impacts [-].
     pub fn steps_per_impact(&self, slider: usize) -> f64 {
-        self.slider(slider).blows_in_a_step
+        self.slider(slider).steps_per_impact
     }
 
     /// Largest speed along the master at which the kink under a slider follows the contact force, for the kinked rule [length/time].

@@ -76,6 +76,6 @@ impl System {
     pub fn dissipations(&self) -> impl Iterator<Item = f64> {
         let others = self.elements().resistances().filter(|other| other.stretched().is_none());
         let losing = self.sliders().iter().filter(|slider| slider.restitution < 1.0);
-        others.map(InternalForce::dissipated).chain(losing.map(|slider| slider.lost))
+        others.map(InternalForce::dissipated).chain(losing.map(|slider| slider.lost_energy))
     }
 }

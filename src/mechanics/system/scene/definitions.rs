@@ -8,17 +8,17 @@ use crate::geometry::{Curve, Vec2};
 /// Rigid motion of a body at the start of the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct StartMotion {
-    /// Velocity of the point `about` [length/time].
+    /// Velocity of the point `centre` [length/time].
     pub velocity: Vec2,
     /// Angular velocity [1/time].
     pub spin: f64,
     /// Centre of rotation; the centre of mass if not given [length].
-    pub about: Option<Vec2>,
+    pub centre: Option<Vec2>,
 }
 
 impl Default for StartMotion {
     fn default() -> Self {
-        Self { velocity: Vec2::zeros(), spin: 0.0, about: None }
+        Self { velocity: Vec2::zeros(), spin: 0.0, centre: None }
     }
 }
 

@@ -45,7 +45,7 @@ impl Scene {
         let schedule = motion.schedule();
         let value = schedule.value(0.0, LimitSide::After).map_err(refused)?;
         motion.check_start().map_err(refused)?;
-        let PrescribedMotion::Place(_) = motion else { return Ok(()) };
+        let PrescribedMotion::Position(_) = motion else { return Ok(()) };
         let size = match component {
             Component::Rotation => 1.0,
             Component::X | Component::Y => self.length_at(&drive.station),

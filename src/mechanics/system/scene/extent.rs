@@ -15,7 +15,7 @@ const ROUNDED: f64 = 1e-9;
 struct Group {
     points: Vec<Vec2>,
     /// Longest natural length of its springs [length].
-    at_ease: f64,
+    natural_length: f64,
 }
 
 impl Group {
@@ -27,7 +27,7 @@ impl Group {
             |from: Vec2| self.points.iter().map(|at| (at - from).norm()).fold(0.0, larger);
         let extent = 2.0 * farthest(centre);
         let is_rounding = extent <= ROUNDED * farthest(Vec2::zeros());
-        if is_rounding { self.at_ease } else { larger(self.at_ease, extent) }
+        if is_rounding { self.natural_length } else { larger(self.natural_length, extent) }
     }
 }
 
@@ -45,7 +45,7 @@ impl Scene {
         for spring in self.springs() {
             let Some(member) = spring.stations().find_map(|at| self.member(at)) else { continue };
             let group = groups.of(member);
-            group.at_ease = larger(group.at_ease, natural_length(spring));
+            group.natural_length = larger(group.natural_length, natural_length(spring));
             group.points.extend(spring.anchors().iter().filter_map(|anchor| match anchor {
                 Anchor::Ground(at) => Some(*at),
                 Anchor::Station(_) => None,
@@ -84,7 +84,7 @@ impl Scene {
 
     /// Force of a spring as drawn [force].
     fn held_by(&self, spring: &Spring) -> Option<f64> {
-        let SpringKind::Way(anchors) = &spring.kind else { return None };
+        let SpringKind::Length(anchors) = &spring.kind else { return None };
         let places = anchors.iter().map(|anchor| match anchor {
             Anchor::Ground(at) => Ok(*at),
             Anchor::Station(station) => self.drawn_at(station),

@@ -10,7 +10,7 @@ impl Scene {
     /// # Errors
     /// Fails if the object does not exist, is released already, or the time is not positive and finite.
     pub fn add_release(&mut self, release: Release) -> Result<(), SystemError> {
-        let (kind, index, count) = match release.hold {
+        let (kind, index, count) = match release.object {
             Releasable::Joint(index) => ("joint", index, self.joints.len()),
             Releasable::Slider(index) => ("slider", index, self.sliders.len()),
             Releasable::Spring(index) => ("spring", index, self.springs().count()),
@@ -19,8 +19,8 @@ impl Scene {
         if index >= count {
             return Err(SystemError::Missing { object: "a release", kind, index, count });
         }
-        let name = self.releasable_name(release.hold);
-        if self.releases.iter().any(|other| other.hold == release.hold) {
+        let name = self.releasable_name(release.object);
+        if self.releases.iter().any(|other| other.object == release.object) {
             return Err(SystemError::ReleasedTwice { name });
         }
         if let Trigger::Time(time) = release.trigger

@@ -50,15 +50,15 @@ impl Scene {
             finite(&object, "corner of the outline", corner.as_slice())?;
         }
         if let Some(why) = body.outline_refused() {
-            return Err(SystemError::Outline { body: body.name.clone(), why });
+            return Err(SystemError::Outline { body: body.name.clone(), reason: why });
         }
-        finite(&object, "about", body.motion.about.as_ref().map_or(&[], |at| at.as_slice()))?;
+        finite(&object, "about", body.motion.centre.as_ref().map_or(&[], |at| at.as_slice()))?;
         for (at, (name, place)) in body.points.iter().enumerate() {
             finite(&object, "point", place.as_slice())?;
             check_name("point", name)?;
             if name == CENTRE && *place != Vec2::zeros() {
                 let (kind, why) = ("point", "this is the name of the centre of mass");
-                return Err(SystemError::Unnamed { kind, name: name.clone(), why });
+                return Err(SystemError::Unnamed { kind, name: name.clone(), reason: why });
             }
             if body.points[..at].iter().any(|(other, _)| other == name) {
                 let name = name.clone();

@@ -34,7 +34,7 @@ pub enum Probe {
     /// Quantity of the contact of a slider.
     Slider(usize, Quantity),
     /// Value that the caller provides after every row.
-    Outside,
+    External,
 }
 
 /// Quantity with name, dimension and value.
@@ -156,7 +156,7 @@ impl Sensor {
             | Probe::Body(_, quantity)
             | Probe::Joint(_, quantity)
             | Probe::Slider(_, quantity) => quantity.dimension,
-            Probe::Outside => "-",
+            Probe::External => "-",
         }
     }
 
@@ -167,7 +167,7 @@ impl Sensor {
 
     /// Returns true if the sensor can be stored, that is, if its name defines it.
     pub fn can_be_stored(&self) -> bool {
-        self.probe != Probe::Outside
+        self.probe != Probe::External
     }
 }
 
@@ -205,14 +205,14 @@ impl Scene {
     pub fn record_outside(&mut self, name: &str) -> Result<(), SystemError> {
         check_name(COLUMN, name)?;
         self.check_column(name)?;
-        self.sensors.push(Sensor { name: name.to_owned(), probe: Probe::Outside });
+        self.sensors.push(Sensor { name: name.to_owned(), probe: Probe::External });
         Ok(())
     }
 
     fn check_column(&self, name: &str) -> Result<(), SystemError> {
         if name.contains([',', '"']) {
             let why = "it has a comma or a quotation mark";
-            return Err(SystemError::Unnamed { kind: COLUMN, name: name.to_owned(), why });
+            return Err(SystemError::Unnamed { kind: COLUMN, name: name.to_owned(), reason: why });
         }
         match self.sensors.iter().any(|sensor| sensor.name == name) {
             true => Err(SystemError::DuplicateSensor { name: name.to_owned() }),
@@ -268,7 +268,7 @@ impl Scene {
     }
 
     fn find_sensor(&self, name: &str) -> Result<Probe, SystemError> {
-        let refused = |why: String| SystemError::NoSensor { name: name.to_owned(), why };
+        let refused = |why: String| SystemError::NoSensor { name: name.to_owned(), reason: why };
         let of = |known: &str| {
             let rest = name.strip_prefix(known)?;
             (rest.starts_with('.') || rest.starts_with('[')).then_some((known.len(), rest))

@@ -58,11 +58,11 @@ impl Scene {
         let parts = self.parts(slider);
         let masters = self.masters(slider);
         if slider.slave.beam().is_some_and(|beam| masters.contains(&beam)) {
-            return Err(SliderError::OnItself(parts).into());
+            return Err(SliderError::SlaveOnMaster(parts).into());
         }
         if let (Some(_), Some(why)) = (slider.track, at_seams(slider.rule)) {
             let rule = slider.rule.entry().name;
-            return Err(SliderError::RuleOfOneBeam { parts, rule, why }.into());
+            return Err(SliderError::RuleOfOneBeam { parts, rule, behaviour: why }.into());
         }
         if !(0.0..=1.0).contains(&slider.restitution) {
             let (slider, restitution) = (slider.name.clone(), slider.restitution);
@@ -73,7 +73,7 @@ impl Scene {
             is_on && same_place(&other.slave, &slider.slave, self)
         };
         if self.sliders.iter().any(is_same) {
-            return Err(SliderError::Twice(parts).into());
+            return Err(SliderError::Duplicate(parts).into());
         }
         let on_master = Station::on_beam(slider.master, slider.arc_length);
         let (from, to) = (self.drawn_at(&slider.slave)?, self.drawn_at(&on_master)?);
@@ -93,7 +93,7 @@ impl Scene {
         };
         let nearest = match distance <= tolerance {
             true => Approach::On { place, guide },
-            false => Approach::Apart { place, guide, distance },
+            false => Approach::Distant { place, guide, distance },
         };
         Err(SliderError::Open { parts, from: written(from), to: written(to), gap, nearest }.into())
     }

@@ -50,7 +50,7 @@ impl TryFrom<StoredScene> for Scene {
             let motion = beam.motion;
             finite("start motion", "velocity", motion.velocity.as_slice())?;
             finite("start motion", "spin", &[motion.spin])?;
-            finite("start motion", "centre", motion.about.as_ref().map_or(&[], Vec2::as_slice))?;
+            finite("start motion", "centre", motion.centre.as_ref().map_or(&[], Vec2::as_slice))?;
             beam.section
                 .clone()
                 .validated()

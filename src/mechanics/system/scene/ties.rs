@@ -98,7 +98,7 @@ pub fn check_ties(scene: &Scene) -> Result<(), SystemError> {
                 return Err(SystemError::AlreadyTied {
                     joint: joint.name.clone(),
                     place,
-                    how: how.to_owned(),
+                    existing: how.to_owned(),
                 });
             }
         }
@@ -123,7 +123,7 @@ pub fn check_ties(scene: &Scene) -> Result<(), SystemError> {
                     drive: drive.name.clone(),
                     component: component.name(),
                     place: scene.describe(&drive.station),
-                    how,
+                    existing: how,
                 });
             }
             given.push(root);
@@ -157,7 +157,7 @@ fn check_rollers(
         };
         if let Some(how) = how {
             let (joint, place) = (joint.name.clone(), scene.describe(&joint.station));
-            return Err(SystemError::AlreadyTied { joint, place, how: how.to_owned() });
+            return Err(SystemError::AlreadyTied { joint, place, existing: how.to_owned() });
         }
         others.push((roots, along));
     }

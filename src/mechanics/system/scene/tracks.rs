@@ -22,7 +22,7 @@ impl Scene {
     ) -> Result<usize, SystemError> {
         self.check_name("track", &name)?;
         let legs = self.segments(&name, beams, course)?;
-        self.tracks.push(Track { name, legs, course });
+        self.tracks.push(Track { name, beams: legs, end: course });
         Ok(self.tracks.len() - 1)
     }
 
@@ -34,7 +34,7 @@ impl Scene {
     /// Place of a track at an arc length along it: beam and arc length along the beam [length].
     pub fn place_on_track(&self, track: usize, arc_length: f64) -> (usize, f64) {
         let mut left = arc_length;
-        let (last, before) = self.tracks[track].legs.split_last().expect("a track has beams");
+        let (last, before) = self.tracks[track].beams.split_last().expect("a track has beams");
         for leg in before {
             let length = self.beams[leg.beam].axis.length();
             if left < length {
@@ -60,7 +60,7 @@ impl Scene {
 
     /// Distance along a track of a place on one of its beams [length].
     pub fn length_along_track(&self, track: usize, beam: usize, arc_length: f64) -> f64 {
-        let legs = &self.tracks[track].legs;
+        let legs = &self.tracks[track].beams;
         let length = |leg: &TrackBeam| self.beams[leg.beam].axis.length();
         let before = legs.iter().take_while(|leg| leg.beam != beam);
         let own = legs.iter().find(|leg| leg.beam == beam);
@@ -71,7 +71,7 @@ impl Scene {
     /// Returns true if a slider is on a closed track.
     pub fn is_on_closed_track(&self, slider: usize) -> bool {
         let track = self.sliders[slider].track.map(|track| &self.tracks[track]);
-        track.is_some_and(|track| track.course == TrackEnd::Closed)
+        track.is_some_and(|track| track.end == TrackEnd::Closed)
     }
 
     pub(in crate::system) fn masters(&self, slider: &Slider) -> Vec<usize> {
@@ -94,7 +94,7 @@ impl Scene {
             return Err(SystemError::Missing { object: "a track", kind: "beam", index, count });
         }
         let beams: Vec<usize> = track.beams().collect();
-        self.add_track(track.name, &beams, track.course).map(|_| ())
+        self.add_track(track.name, &beams, track.end).map(|_| ())
     }
 
     pub(super) fn check_stored_track(&self, slider: &Slider) -> Result<(), SystemError> {
@@ -106,7 +106,7 @@ impl Scene {
         match track.beams().any(|beam| beam == slider.master) {
             true => Ok(()),
             false => {
-                let (index, count) = (slider.master, track.legs.len());
+                let (index, count) = (slider.master, track.beams.len());
                 Err(SystemError::Missing { object, kind: "beam of its track", index, count })
             }
         }
@@ -121,7 +121,9 @@ impl Scene {
         let name = |beam: usize| self.beams[beam].name.clone();
         for (at, &beam) in beams.iter().enumerate() {
             if beams[..at].contains(&beam) {
-                return Err(TrackError::Again { track: track.to_owned(), beam: name(beam) }.into());
+                return Err(
+                    TrackError::RepeatedBeam { track: track.to_owned(), beam: name(beam) }.into()
+                );
             }
         }
         let Some((&first, rest)) = beams.split_first() else {
@@ -138,11 +140,11 @@ impl Scene {
             let before = legs[legs.len() - 1];
             let Some(next) = self.next_segment(before, beam) else {
                 let [start, end] = headings.map(|heading| self.begin(leg(beam, heading)));
-                return Err(TrackError::Apart {
+                return Err(TrackError::Gap {
                     track: track.to_owned(),
                     before: name(before.beam),
                     next: name(beam),
-                    here: written(self.drawn_end(before)),
+                    place: written(self.drawn_end(before)),
                     start: written(start.1),
                     end: written(end.1),
                 }
@@ -154,7 +156,9 @@ impl Scene {
             let (here, (_, start)) = (self.drawn_end(legs[legs.len() - 1]), self.begin(legs[0]));
             if !self.touches(legs[legs.len() - 1], legs[0]) {
                 let (here, gap, start) = (written(here), (here - start).norm(), written(start));
-                return Err(TrackError::Open { track: track.to_owned(), here, start, gap }.into());
+                return Err(
+                    TrackError::Open { track: track.to_owned(), place: here, start, gap }.into()
+                );
             }
         }
         let closing = (course == TrackEnd::Closed).then(|| (legs[legs.len() - 1], legs[0]));
@@ -162,11 +166,11 @@ impl Scene {
         for (before, next) in seams {
             let (one, other) = (self.end(before).0, self.begin(next).0);
             if !self.moves_with(&one, &other) {
-                return Err(TrackError::Loose {
+                return Err(TrackError::NotJoined {
                     track: track.to_owned(),
-                    one: self.describe(&one),
+                    first_end: self.describe(&one),
                     other: self.describe(&other),
-                    here: written(self.drawn_end(before)),
+                    place: written(self.drawn_end(before)),
                 }
                 .into());
             }

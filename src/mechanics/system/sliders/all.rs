@@ -18,7 +18,7 @@ pub struct Sliders {
     all: Vec<SliderContact>,
     blocks: Option<BlockLayout>,
     /// Limit at which the next step has to end.
-    aim: Option<MasterLimit>,
+    target_limit: Option<MasterLimit>,
 }
 
 impl Deref for Sliders {
@@ -37,7 +37,7 @@ impl DerefMut for Sliders {
 
 impl Sliders {
     pub fn new(all: Vec<SliderContact>, blocks: Option<BlockLayout>) -> Self {
-        Self { all, blocks, aim: None }
+        Self { all, blocks, target_limit: None }
     }
 
     pub fn renumber(&mut self, blocks: Option<BlockLayout>) {
@@ -50,7 +50,7 @@ impl Sliders {
 
     /// Makes steps end at a limit; `None` for regular steps.
     pub fn set_target_limit(&mut self, limit: Option<MasterLimit>) {
-        self.aim = limit;
+        self.target_limit = limit;
     }
 
     /// Number of contact unknowns, and the largest number of entries of their equations.
@@ -182,7 +182,7 @@ impl Sliders {
     /// latter are recorded.
     pub fn check(&mut self, unknowns: &[f64], ending: IntervalEnd) -> Result<(), Overshoot> {
         let mut furthest: Option<Overshoot> = None;
-        let aim = self.aim.filter(|_| ending == IntervalEnd::OfStep);
+        let aim = self.target_limit.filter(|_| ending == IntervalEnd::Step);
         let limits = (0..self.len()).flat_map(MasterLimit::both);
         for limit in limits.filter(|limit| self[limit.slider].is_sliding()) {
             let distance = self[limit.slider].overshoot(unknowns, limit.end);
@@ -253,7 +253,7 @@ impl Sliders {
 
     /// Energy lost in impacts of sliders at stops so far [energy].
     pub fn lost_energy(&self) -> f64 {
-        self.iter().map(|slider| slider.lost).fold(0.0, |sum, lost| sum + lost)
+        self.iter().map(|slider| slider.lost_energy).fold(0.0, |sum, lost| sum + lost)
     }
 
     pub fn states(&self) -> impl Iterator<Item = SliderState> {

@@ -39,7 +39,7 @@ pub struct KinkedAxis {
     /// `1/GA` of the master [1/force].
     compliance: f64,
     /// `μ ρA/GA` of the master [time²/length²].
-    slowness: f64,
+    inverse_square_speed: f64,
     /// Speed up to which the kink follows its force [length/time].
     fastest: f64,
     /// Kink length that counts as zero [length].
@@ -47,9 +47,9 @@ pub struct KinkedAxis {
     /// Smallest kink length with a kink that follows its force [length].
     least: f64,
     /// True if the kink is fixed in the present step for lack of another solution.
-    is_kept: bool,
+    is_frozen: bool,
     /// `g`, its first and second derivative with respect to `ξ` at the slider [length].
-    here: [f64; 3],
+    compliance_derivatives: [f64; 3],
     /// Length of the master per unit of ξ at the slider [length].
     stretch: f64,
     /// Duration of the step [time].
@@ -66,14 +66,14 @@ impl KinkedAxis {
         Self {
             arc: kink.arc,
             compliance,
-            slowness: kink.inertia * section.mass_per_length * compliance,
+            inverse_square_speed: kink.inertia * section.mass_per_length * compliance,
             fastest: FASTEST.min(FASTEST_ON_MESH / kink.inertia.sqrt())
                 / (section.mass_per_length * compliance).sqrt(),
             none: RIGID * length,
             least: BESIDE_END * kink.length.largest_in_middle(),
-            is_kept: false,
+            is_frozen: false,
             length: kink.length,
-            here: [0.0; 3],
+            compliance_derivatives: [0.0; 3],
             stretch: 0.0,
             duration: f64::INFINITY,
             jump: Vec2::zeros(),
@@ -96,18 +96,20 @@ impl KinkedAxis {
 
     /// Returns true if the kink is fixed: near an end, close to the speed of shear waves, or on request.
     pub fn is_frozen(&self) -> bool {
-        self.is_kept || self.here[0] < self.least || self.speed.abs() > self.fastest
+        self.is_frozen
+            || self.compliance_derivatives[0] < self.least
+            || self.speed.abs() > self.fastest
     }
 
     /// Fixes the kink for the following steps. Returns true if this changes the law of the next step.
     pub fn freeze(&mut self) -> bool {
         let changes = !self.is_frozen();
-        self.is_kept = true;
+        self.is_frozen = true;
         changes
     }
 
     pub fn unfreeze(&mut self) {
-        self.is_kept = false;
+        self.is_frozen = false;
     }
 
     fn is_heavy(&self) -> bool {
@@ -119,7 +121,7 @@ impl KinkedAxis {
         let motion = KinkMotion {
             arc: passage.along(&self.arc),
             speed: self.speed,
-            slowness: self.slowness,
+            inverse_square_speed: self.inverse_square_speed,
             duration: self.duration,
         };
         let along = passage.along(&self.length);
@@ -127,12 +129,12 @@ impl KinkedAxis {
     }
 
     pub fn accept_end(&mut self, passage: &ContactPath) {
-        self.here = passage.at_end(&self.length);
+        self.compliance_derivatives = passage.at_end(&self.length);
         self.stretch = passage.at_end(&self.arc)[1];
     }
 
     /// Accepts jump, as a force [force], and speed [length/time] at the end of a step with a mean contact force `λ` [force], after
-    /// [arrive](Self::arrive). On a rigid axis the force is the mean of the step.
+    /// [`accept_end`](Self::accept_end). On a rigid axis the force is the mean of the step.
     pub fn advance(&mut self, mean: Vec2, KinkState { jump, speed }: KinkState) {
         self.jump = if self.is_compliant() { jump } else { mean };
         self.speed = speed;
@@ -163,7 +165,7 @@ impl KinkedAxis {
 
     /// Contact force `λ = (GA - ρA v²) a` on the master [force].
     pub fn force(&self) -> Vec2 {
-        self.jump * (1.0 - self.slowness * self.speed * self.speed)
+        self.jump * (1.0 - self.inverse_square_speed * self.speed * self.speed)
     }
 
     /// Removes the part of a stop from the contact force, along the tangent `x'` of the axis [length]. The remaining force satisfies
@@ -176,23 +178,23 @@ impl KinkedAxis {
         }
         let along = |force: Vec2| tangent * (force.dot(&tangent) / tangent.norm_squared());
         let across = self.jump - along(self.jump);
-        let pull = 0.5 * self.here[1] * self.compliance * across.norm_squared();
+        let pull = 0.5 * self.compliance_derivatives[1] * self.compliance * across.norm_squared();
         self.jump = across - tangent * (pull / tangent.norm_squared());
     }
 
     /// Returns true if a contact force displaces the axis at the slider.
     pub fn is_compliant(&self) -> bool {
-        self.here[0] > self.none
+        self.compliance_derivatives[0] > self.none
     }
 
     /// Displacement of the axis, `g p/GA` [length].
     pub fn offset(&self) -> Vec2 {
-        self.jump * (self.here[0] * self.compliance)
+        self.jump * (self.compliance_derivatives[0] * self.compliance)
     }
 
     /// Derivative of [`offset`](Self::offset) with respect to `ξ`, and half its second derivative along itself, `½ g g'' |p|²/GA²`.
     pub fn slopes(&self) -> (Vec2, f64) {
-        let [length, slope, bend] = self.here;
+        let [length, slope, bend] = self.compliance_derivatives;
         let force = self.jump * self.compliance;
         (force * slope, 0.5 * length * bend * force.norm_squared())
     }
@@ -200,7 +202,7 @@ impl KinkedAxis {
     /// Compliance `g/GA` [length/force], derivative of [`offset`](Self::offset) with respect to `ξ` [length], and second derivative of the energy for
     /// a given force, `½ g'' |p|²/GA` [energy].
     pub fn static_compliance(&self) -> (f64, Vec2, f64) {
-        let [length, slope, bend] = self.here;
+        let [length, slope, bend] = self.compliance_derivatives;
         let force = self.jump * self.compliance;
         let compliance = if self.is_compliant() { length * self.compliance } else { 0.0 };
         (compliance, force * slope, 0.5 * bend * force.dot(&self.jump))
@@ -213,6 +215,6 @@ impl KinkedAxis {
 
     /// Kinetic energy of the moving kink, `½ ρA g |a|² v²` [energy].
     pub fn kinetic_energy(&self) -> f64 {
-        self.slowness * self.speed * self.speed * self.energy()
+        self.inverse_square_speed * self.speed * self.speed * self.energy()
     }
 }

@@ -30,13 +30,13 @@ pub struct SliderContact {
     pub restitution: f64,
     pub state: SliderState,
     /// Energy stored in the stop that holds the slider [energy].
-    pub stored: f64,
+    pub stop_energy: f64,
     /// Energy lost in impacts at stops so far [energy].
-    pub lost: f64,
+    pub lost_energy: f64,
     /// Impulse on the master in the last impact [mass·length/time].
     pub impulse: Vec2,
     /// Time at which the slider last left a stop; [`NEVER`] if it has not [time].
-    pub left_at: f64,
+    pub stop_left_at: f64,
     /// True if the stop force may be tensile in the next step: the slider has just left the stop, and every step leads back.
     pub stop_may_pull: bool,
     /// True if the stop force was tensile in the last tried step.
@@ -48,10 +48,10 @@ pub struct SliderContact {
     /// Largest number of spans of its master passed in a step [-].
     pub most_spans: f64,
     /// Largest ratio of step length to impact duration at a bounce [-].
-    pub blows_in_a_step: f64,
-    rail: MasterCurve,
+    pub steps_per_impact: f64,
+    master: MasterCurve,
     /// Path along the track, for a slider on one.
-    route: Option<Box<TrackPath>>,
+    track: Option<Box<TrackPath>>,
     /// Master and slave as bars with impact waves; `None` if the slave is not a beam.
     bars: (ImpactBar, Option<ImpactBar>),
     /// Kinked axis of the master, for rules with a kink.
@@ -60,11 +60,11 @@ pub struct SliderContact {
     /// Length of the master per unit of parameter [length].
     length: f64,
     /// Path of length zero at the start of the step.
-    here: ContactPath,
-    passage: ContactPath,
+    start_path: ContactPath,
+    path: ContactPath,
     /// Control points of the master in the window of the path, relative to the slave.
     before: Vec<Vec2>,
-    moved: Vec<Vec2>,
+    movements: Vec<Vec2>,
     units: [Unit; CONTACT_UNKNOWNS],
     /// Length of the master plus path of the slave in the iterate, the scale of rounding [length].
     size: f64,
@@ -72,12 +72,12 @@ pub struct SliderContact {
     chord: f64,
     /// Compressive stop force in the iterate times the tangent, for a held slider [force·length].
     push: f64,
-    /// Value of `push` for the beam beyond the seam at which the slider is held [force·length].
+    /// Value of `outward_push` for the beam beyond the seam at which the slider is held [force·length].
     push_beyond: f64,
     /// True if the slider is pulled onto the other beam.
-    pub leaves_beyond: bool,
+    pub crosses_seam: bool,
     /// Contact force in the iterate [force].
-    pressing: f64,
+    contact_force: f64,
 }
 
 /// Time of a stop departure that has not happened: later than any, but finite, because it is saved [time].
@@ -111,33 +111,33 @@ impl SliderContact {
             ends: slider.ends,
             restitution: slider.restitution,
             state: SliderState::Sliding,
-            stored: 0.0,
-            lost: 0.0,
+            stop_energy: 0.0,
+            lost_energy: 0.0,
             impulse: Vec2::zeros(),
-            left_at: NEVER,
+            stop_left_at: NEVER,
             stop_may_pull: false,
             is_pulled: false,
             parameter,
             unknowns: ContactUnknowns::zeros(),
             most_spans: 0.0,
-            blows_in_a_step: 0.0,
+            steps_per_impact: 0.0,
             length: rail.length() / (last - first),
             size: rail.length(),
-            rail,
-            route: None,
+            master: rail,
+            track: None,
             bars,
             kinked_axis,
             kink_at_end: KinkState::default(),
-            here: passage.clone(),
-            passage,
+            start_path: passage.clone(),
+            path: passage,
             before: Vec::with_capacity(functions),
-            moved: Vec::with_capacity(functions),
+            movements: Vec::with_capacity(functions),
             units: [Unit::Force; CONTACT_UNKNOWNS],
             chord: 1.0,
             push: 0.0,
             push_beyond: 0.0,
-            leaves_beyond: false,
-            pressing: 0.0,
+            crosses_seam: false,
+            contact_force: 0.0,
         };
         new.set_parameter(parameter);
         new
@@ -156,8 +156,8 @@ impl SliderContact {
     /// Moves the slider to a parameter of its master.
     fn set_parameter(&mut self, parameter: f64) {
         self.parameter = parameter;
-        self.here.set_interval(parameter, parameter);
-        self.kinked_axis.iter_mut().for_each(|axis| axis.accept_end(&self.here));
+        self.start_path.set_interval(parameter, parameter);
+        self.kinked_axis.iter_mut().for_each(|axis| axis.accept_end(&self.start_path));
     }
 
     fn law(&self) -> &'static dyn SlidingLaw {
@@ -175,7 +175,7 @@ impl SliderContact {
 
     pub fn release(&mut self) {
         self.state = SliderState::Released;
-        self.lost += std::mem::take(&mut self.stored);
+        self.lost_energy += std::mem::take(&mut self.stop_energy);
         self.unknowns = ContactUnknowns::zeros();
         // At an end of the master the kink has no energy.
         self.kinked_axis.iter_mut().for_each(KinkedAxis::straighten);
@@ -213,7 +213,7 @@ impl SliderContact {
 
     /// Energy of the kink, and of the stop that holds the slider [energy].
     pub fn strain_energy(&self) -> f64 {
-        self.kinked_axis.as_ref().map_or(0.0, KinkedAxis::energy) + self.stored
+        self.kinked_axis.as_ref().map_or(0.0, KinkedAxis::energy) + self.stop_energy
     }
 
     /// Kinetic energy of the moving kink [energy].
@@ -241,17 +241,17 @@ impl SliderContact {
         interval: Interval,
         unknowns: &mut [f64],
     ) {
-        let (start, end) = self.rail.domain();
+        let (start, end) = self.master.domain();
         let ahead = self.parameter + interval.duration() * self.rate(bodies, rates);
         let way = ahead.clamp(start, end) - self.parameter;
         let force = if self.is_compliant() { self.contact_force() } else { self.unknowns.force };
-        let guess = ContactUnknowns { force, way, ..self.unknowns };
+        let guess = ContactUnknowns { force, increment: way, ..self.unknowns };
         unknowns[self.connection.places()].copy_from_slice(&guess.to_array());
     }
 
     fn evaluate(&mut self, bodies: &[Body], increments: &[f64], unknowns: &[f64]) -> Contact<'_> {
         let unknowns = self.read(unknowns);
-        self.passage.set_interval(self.parameter, self.parameter + unknowns.way);
+        self.path.set_interval(self.parameter, self.parameter + unknowns.increment);
         self.contact(bodies, increments, unknowns)
     }
 
@@ -264,19 +264,26 @@ impl SliderContact {
         let Connection { master, slave: (body, point), .. } = self.connection;
         let (slave, master) = (&bodies[body], &bodies[master]);
         let (origin, cut_off) = slave.precise_point(point);
-        let window = self.passage.first()..self.passage.first() + self.passage.end().len();
+        let window = self.path.first()..self.path.first() + self.path.end().len();
         self.before.clear();
         let positions = &master.dynamics.control_points()[window.clone()];
         let precise = positions.iter().zip(&master.dynamics.remainders()[window.clone()]);
         self.before.extend(
             precise.map(|(position, remainder)| (position - origin) + (remainder - cut_off)),
         );
-        self.moved.clear();
-        self.moved.extend(window.map(|at| master.vector_at(at, increments)));
+        self.movements.clear();
+        self.movements.extend(window.map(|at| master.vector_at(at, increments)));
         let slave_moved = slave.vector_at(point, increments);
-        let Self { passage, before, moved, length, kinked_axis, .. } = self;
+        let Self { path: passage, before, movements: moved, length, kinked_axis, .. } = self;
         let kink = kinked_axis.as_ref().map(|axis| axis.along(passage));
-        Contact { passage, master: (before, moved), slave_moved, unknowns, kink, length: *length }
+        Contact {
+            path: passage,
+            master: (before, moved),
+            slave_movement: slave_moved,
+            unknowns,
+            kink,
+            length: *length,
+        }
     }
 
     /// Adds the forces on slave and master to a residual, followed by the contact equations. Returns the contact force [force].
@@ -301,9 +308,9 @@ impl SliderContact {
             SliderState::Held(end) => contact.outward_push(end.outward()),
             SliderState::Sliding | SliderState::Released => 0.0,
         };
-        (self.size, self.chord) = (contact.length + contact.slave_moved.norm(), chord);
+        (self.size, self.chord) = (contact.length + contact.slave_movement.norm(), chord);
         self.units = equations.map(|(_, unit)| unit);
-        (self.push, self.pressing) = (push, force);
+        (self.push, self.contact_force) = (push, force);
         self.push_beyond = self.seam_push(bodies, increments, pressing);
         force
     }
@@ -342,7 +349,7 @@ impl SliderContact {
 
     /// Distance beyond an end of the master for given contact unknowns, relative to the parameter range [-].
     pub fn overshoot(&self, unknowns: &[f64], end: MasterEnd) -> f64 {
-        self.rail.overshoot(self.parameter + self.read(unknowns).way, end)
+        self.master.overshoot(self.parameter + self.read(unknowns).increment, end)
     }
 
     /// Evaluates the contact at the end of an accepted step, before the bodies are moved.
@@ -357,16 +364,16 @@ impl SliderContact {
     pub fn advance(&mut self, unknowns: &[f64], ending: IntervalEnd) {
         self.unknowns = self.read(unknowns);
         let before = self.parameter;
-        let passed = self.passage.spans_between(before, before + self.unknowns.way);
+        let passed = self.path.spans_between(before, before + self.unknowns.increment);
         self.most_spans = self.most_spans.max(passed);
         let is_frozen = self.is_frozen();
-        self.set_parameter(before + self.unknowns.way);
+        self.set_parameter(before + self.unknowns.increment);
         let (mean, kink) = (self.unknowns.force, self.kink_at_end);
         self.kinked_axis.iter_mut().for_each(|axis| match is_frozen {
             true => axis.accept_frozen_jump(kink),
             false => axis.advance(mean, kink),
         });
-        if ending == IntervalEnd::OfStep {
+        if ending == IntervalEnd::Step {
             self.stop_may_pull = false;
         }
     }

@@ -15,8 +15,8 @@ const SAME: f64 = 1e-9;
 pub struct TrackPathSegment {
     pub beam: usize,
     pub heading: TrackDirection,
-    pub rail: MasterCurve,
-    pub passage: ContactPath,
+    pub master: MasterCurve,
+    pub path: ContactPath,
     pub bar: ImpactBar,
     slopes: [(usize, Vec<f64>); 2],
 }
@@ -24,60 +24,67 @@ pub struct TrackPathSegment {
 /// Path of a slider along the beams of its track.
 #[derive(Debug, Clone)]
 pub struct TrackPath {
-    legs: Arc<[TrackPathSegment]>,
-    course: TrackEnd,
+    segments: Arc<[TrackPathSegment]>,
+    end: TrackEnd,
     /// Lengths of the track before each of its beams, and in total, as drawn [length].
     lengths: Arc<[f64]>,
     /// Index of the present beam in the track.
-    leg: usize,
+    segment: usize,
     /// Number of passages from the last beam of a closed track to the first, minus those back.
     turns: f64,
     /// Time of the last passage of a seam; [`NEVER`](super::slider_contact::NEVER) before the first [time].
-    pub passed_at: f64,
+    pub crossed_at: f64,
 }
 
 /// Continuation of a track beyond an end of one of its beams.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Seam {
     /// Index of the next beam in the track.
-    pub leg: usize,
+    pub segment: usize,
     pub end: MasterEnd,
     turns: f64,
 }
 
 impl TrackPath {
-    pub fn new(legs: Arc<[TrackPathSegment]>, course: TrackEnd, leg: usize) -> Self {
-        let ends = legs.iter().scan(0.0, |sum, leg| {
-            *sum += leg.rail.length();
+    pub fn new(segments: Arc<[TrackPathSegment]>, end: TrackEnd, segment: usize) -> Self {
+        let ends = segments.iter().scan(0.0, |sum, leg| {
+            *sum += leg.master.length();
             Some(*sum)
         });
         let lengths = std::iter::once(0.0).chain(ends).collect();
-        Self { legs, course, lengths, leg, turns: 0.0, passed_at: super::slider_contact::NEVER }
+        Self {
+            segments,
+            end,
+            lengths,
+            segment,
+            turns: 0.0,
+            crossed_at: super::slider_contact::NEVER,
+        }
     }
 
     pub fn present(&self) -> &TrackPathSegment {
-        &self.legs[self.leg]
+        &self.segments[self.segment]
     }
 
     pub fn segment(&self, leg: usize) -> &TrackPathSegment {
-        &self.legs[leg]
+        &self.segments[leg]
     }
 
     /// Length of the track as drawn [length].
     pub fn length(&self) -> f64 {
-        self.lengths[self.legs.len()]
+        self.lengths[self.segments.len()]
     }
 
     /// Distance along the track, given the fraction of the present beam behind the slider in beam direction; unwrapped on closed tracks [length].
     pub fn arc_length(&self, part: f64) -> f64 {
         let leg = self.present();
-        let along = leg.heading.along(leg.rail.length(), part * leg.rail.length());
-        self.turns * self.length() + (self.lengths[self.leg] + along)
+        let along = leg.heading.along(leg.master.length(), part * leg.master.length());
+        self.turns * self.length() + (self.lengths[self.segment] + along)
     }
 
     /// Bases of the beams in the order of the track.
     pub fn bases(&self) -> impl Iterator<Item = &Basis> {
-        self.legs.iter().map(|leg| leg.passage.basis())
+        self.segments.iter().map(|leg| leg.path.basis())
     }
 
     /// Seam beyond an end of the present beam, if the track continues and the beams meet there.
@@ -91,44 +98,48 @@ impl TrackPath {
     }
 
     fn seam_at(&self, end: MasterEnd) -> Option<Seam> {
-        let last = self.legs.len() - 1;
+        let last = self.segments.len() - 1;
         let leads_on = end == self.present().exit_end();
-        let (leg, turns) = match (leads_on, self.leg) {
+        let (leg, turns) = match (leads_on, self.segment) {
             (true, leg) if leg < last => (leg + 1, 0.0),
             (false, leg) if leg > 0 => (leg - 1, 0.0),
-            _ if self.course == TrackEnd::Open => return None,
+            _ if self.end == TrackEnd::Open => return None,
             (true, _) => (0, 1.0),
             (false, _) => (last, -1.0),
         };
-        let leaves_at = self.legs[leg].exit_end();
-        Some(Seam { leg, end: if leads_on { leaves_at.opposite() } else { leaves_at }, turns })
+        let leaves_at = self.segments[leg].exit_end();
+        Some(Seam {
+            segment: leg,
+            end: if leads_on { leaves_at.opposite() } else { leaves_at },
+            turns,
+        })
     }
 
     fn evaluate_seam(&self, bodies: &[Body], end: MasterEnd, seam: Seam) -> bool {
-        let next = &self.legs[seam.leg];
+        let next = &self.segments[seam.segment];
         let (here, there) =
             (self.present().end_point(bodies, end), next.end_point(bodies, seam.end));
-        (there - here).norm() <= SAME * (next.rail.length() + here.norm())
+        (there - here).norm() <= SAME * (next.master.length() + here.norm())
     }
 
     /// Moves to the other side of a seam.
     pub fn cross_seam(&mut self, seam: Seam) {
-        self.leg = seam.leg;
+        self.segment = seam.segment;
         self.turns += seam.turns;
     }
 
     pub fn numbers(&self) -> [f64; 3] {
-        [self.leg as f64, self.turns, self.passed_at]
+        [self.segment as f64, self.turns, self.crossed_at]
     }
 
     pub fn restore(&mut self, [leg, turns, passed_at]: [f64; 3]) {
-        (self.leg, self.turns, self.passed_at) = (leg as usize, turns, passed_at);
+        (self.segment, self.turns, self.crossed_at) = (leg as usize, turns, passed_at);
     }
 
     pub fn stored_segment(&self, [leg, turns, _]: [f64; 3]) -> Option<&TrackPathSegment> {
         let is_whole = leg >= 0.0 && leg.fract() == 0.0 && turns.fract() == 0.0;
-        let may_turn = turns == 0.0 || self.course == TrackEnd::Closed;
-        let leg = self.legs.get(leg as usize);
+        let may_turn = turns == 0.0 || self.end == TrackEnd::Closed;
+        let leg = self.segments.get(leg as usize);
         leg.filter(|_| is_whole && may_turn)
     }
 }
@@ -137,15 +148,15 @@ impl TrackPathSegment {
     pub fn new(
         beam: usize,
         heading: TrackDirection,
-        rail: MasterCurve,
-        mut passage: ContactPath,
+        master: MasterCurve,
+        mut path: ContactPath,
         bar: ImpactBar,
     ) -> Self {
         let slopes = [MasterEnd::Start, MasterEnd::End].map(|end| {
-            passage.set_interval(rail.end(end), rail.end(end));
-            (passage.first(), passage.slope().to_vec())
+            path.set_interval(master.end(end), master.end(end));
+            (path.first(), path.slope().to_vec())
         });
-        Self { beam, heading, rail, passage, bar, slopes }
+        Self { beam, heading, master, path, bar, slopes }
     }
 
     fn exit_end(&self) -> MasterEnd {
@@ -175,7 +186,7 @@ impl TrackPathSegment {
 
     /// Length of the beam per unit of parameter [length].
     pub fn length_of_parameter(&self) -> f64 {
-        let (first, last) = self.rail.domain();
-        self.rail.length() / (last - first)
+        let (first, last) = self.master.domain();
+        self.master.length() / (last - first)
     }
 }

@@ -13,7 +13,7 @@ pub enum Trend {
     /// Prediction from the rates at the start of the step.
     Smooth,
     /// Prediction from the mean rates of the last step, because the rates at its end alternate from step to step.
-    Rough,
+    FromMeanRates,
 }
 
 /// Ratio of squared errors below which the mean rates are selected.
@@ -23,20 +23,20 @@ const CLEARLY_LESS: f64 = 0.8;
 #[derive(Debug, Clone)]
 pub struct Forecast {
     mean_rates: Vec<f64>,
-    trend: Trend,
+    prediction: Trend,
     inertia: Vec<f64>,
 }
 
 impl Forecast {
     pub fn new(rates: &[f64], inertia: Vec<f64>) -> Self {
-        Self { mean_rates: rates.to_vec(), trend: Trend::Unknown, inertia }
+        Self { mean_rates: rates.to_vec(), prediction: Trend::Unknown, inertia }
     }
 
     /// Rates that predict the next step, given those at its start [length/time, 1/time].
     pub fn rates<'a>(&'a self, at_start: &'a [f64]) -> &'a [f64] {
-        match self.trend {
+        match self.prediction {
             Trend::Unknown | Trend::Smooth => at_start,
-            Trend::Rough => &self.mean_rates,
+            Trend::FromMeanRates => &self.mean_rates,
         }
     }
 
@@ -51,10 +51,10 @@ impl Forecast {
             missed.add(*inertia, found, [*rate, *mean]);
             *mean = found;
         }
-        self.trend = match self.trend {
+        self.prediction = match self.prediction {
             // Start velocities may be those of single nodes, so the mean rates of the first step predict better.
-            Trend::Unknown => Trend::Rough,
-            _ if missed.by_mean < CLEARLY_LESS * missed.by_start => Trend::Rough,
+            Trend::Unknown => Trend::FromMeanRates,
+            _ if missed.by_mean < CLEARLY_LESS * missed.by_start => Trend::FromMeanRates,
             _ => Trend::Smooth,
         };
         missed
@@ -83,7 +83,7 @@ impl Forecast {
     }
 
     pub fn trend(&self) -> Trend {
-        self.trend
+        self.prediction
     }
 
     pub fn save(&self, numbers: &mut Vec<f64>) {
@@ -91,7 +91,7 @@ impl Forecast {
     }
 
     pub fn restore(&mut self, trend: Trend, next: &mut dyn FnMut() -> f64) {
-        self.trend = trend;
+        self.prediction = trend;
         self.mean_rates.iter_mut().for_each(|rate| *rate = next());
     }
 }

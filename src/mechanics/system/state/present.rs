@@ -14,7 +14,7 @@ pub struct MotionState {
     forecast: Forecast,
     resolution: Resolution,
     /// Bodies with separate resolution measures; empty if there is only one body.
-    watched: Vec<MonitoredBody>,
+    monitored: Vec<MonitoredBody>,
 }
 
 impl MotionState {
@@ -26,7 +26,7 @@ impl MotionState {
             rates,
             accelerations: Accelerations::default(),
             resolution: Resolution::above(noise),
-            watched: Vec::new(),
+            monitored: Vec::new(),
         }
     }
 
@@ -38,11 +38,11 @@ impl MotionState {
     /// Measures the resolution of the given bodies separately, by index and degrees of freedom.
     pub fn measure_resolution_of(&mut self, bodies: impl Iterator<Item = (usize, Vec<usize>)>) {
         let noise = self.resolution.noise();
-        self.watched = bodies.map(|(body, at)| MonitoredBody::new(body, at, noise)).collect();
+        self.monitored = bodies.map(|(body, at)| MonitoredBody::new(body, at, noise)).collect();
     }
 
     pub fn watched(&self) -> &[MonitoredBody] {
-        &self.watched
+        &self.monitored
     }
 
     /// Continues the motion with rates of renumbered unknowns and their diagonal inertia. Only accelerations become unknown. `degrees` returns the
@@ -53,7 +53,7 @@ impl MotionState {
         inertia: Vec<f64>,
         mut movements: impl FnMut(usize) -> Vec<usize>,
     ) {
-        for one in &mut self.watched {
+        for one in &mut self.monitored {
             one.renumber(movements(one.body));
         }
         self.accelerations.resize(inertia.len());
@@ -72,7 +72,7 @@ impl MotionState {
 
     pub fn advance(&mut self, step: &StepMeasures, increments: &[f64], rates: &[f64]) {
         let duration = step.interval.duration();
-        for one in &mut self.watched {
+        for one in &mut self.monitored {
             one.add(&self.forecast, &self.rates, increments, duration);
         }
         let missed = self.forecast.update(&self.rates, increments, duration);
@@ -98,7 +98,7 @@ impl MotionState {
         numbers.extend(&self.rates);
         self.forecast.save(numbers);
         self.resolution.save(numbers);
-        self.watched.iter().for_each(|one| one.save(numbers));
+        self.monitored.iter().for_each(|one| one.save(numbers));
     }
 
     pub fn restore(&mut self, trend: Trend, next: &mut dyn FnMut() -> f64) {
@@ -106,6 +106,6 @@ impl MotionState {
         self.rates.iter_mut().for_each(|rate| *rate = next());
         self.forecast.restore(trend, next);
         self.resolution.restore(next);
-        self.watched.iter_mut().for_each(|one| one.restore(next));
+        self.monitored.iter_mut().for_each(|one| one.restore(next));
     }
 }

@@ -11,14 +11,14 @@ pub struct GuessErrors {
     /// Error `Σ m (v̄ - v̄₋)²` of the mean rates `v̄₋` of the previous step [energy].
     pub by_mean: f64,
     /// Motion `Σ m v̄²` of the step itself [energy].
-    pub moved: f64,
+    pub motion: f64,
 }
 
 impl GuessErrors {
     pub fn add(&mut self, inertia: f64, found: f64, [at_start, mean]: [f64; 2]) {
         self.by_start += inertia * square(found - at_start);
         self.by_mean += inertia * square(found - mean);
-        self.moved += inertia * square(found);
+        self.motion += inertia * square(found);
     }
 }
 
@@ -43,7 +43,7 @@ pub struct Resolution {
     /// Largest rotation of a section in a step [rad].
     rotation: f64,
     /// Length of the step, or substep, with this rotation; negative for a backward substep [time].
-    turned_in: f64,
+    duration: f64,
     /// Energy below which motions are rounding [energy].
     noise: f64,
 }
@@ -56,7 +56,7 @@ impl Resolution {
             bent: 0.0,
             last: 0.0,
             rotation: 0.0,
-            turned_in: 0.0,
+            duration: 0.0,
             noise,
         }
     }
@@ -78,12 +78,12 @@ impl Resolution {
         if increment > self.rotation {
             let angle = rotations.angle(increment);
             if angle > self.rotation {
-                (self.rotation, self.turned_in) = (angle, duration);
+                (self.rotation, self.duration) = (angle, duration);
             }
         }
         let is_as_long = (duration - self.last).abs() <= EQUALLY_LONG * duration.abs();
         self.last = duration;
-        let kinetic = missed.moved + missed.by_start;
+        let kinetic = missed.motion + missed.by_start;
         if is_as_long && kinetic > self.noise {
             self.kinetic += kinetic;
             self.unresolved += missed.by_start - 0.25 * missed.by_mean;
@@ -114,11 +114,11 @@ impl Resolution {
 
     /// Length of the step or substep with the largest rotation; negative for a backward substep [time].
     pub fn turned_in(&self) -> f64 {
-        self.turned_in
+        self.duration
     }
 
     pub(super) fn save(&self, state: &mut Vec<f64>) {
-        let turned = [self.rotation, self.turned_in];
+        let turned = [self.rotation, self.duration];
         state.extend(
             [self.kinetic, self.unresolved, self.bent, self.last].into_iter().chain(turned),
         );
@@ -131,7 +131,7 @@ impl Resolution {
             &mut self.bent,
             &mut self.last,
             &mut self.rotation,
-            &mut self.turned_in,
+            &mut self.duration,
         ] {
             *number = next();
         }
@@ -157,7 +157,7 @@ mod tests {
                 let before = mean.as_ref().map_or(start, |mean| mean[at]);
                 missed.by_start += vibration.0 * (now - start).powi(2);
                 missed.by_mean += vibration.0 * (now - before).powi(2);
-                missed.moved += vibration.0 * now.powi(2);
+                missed.motion += vibration.0 * now.powi(2);
                 now
             });
             mean = Some(means.collect());
@@ -194,7 +194,7 @@ mod tests {
             let (now, before) = (f64::from(step) + 0.5, f64::from(step) - 0.5);
             let by_mean = if step == 0 { now } else { now - before };
             let missed =
-                GuessErrors { by_start: 0.25, by_mean: by_mean.powi(2), moved: now.powi(2) };
+                GuessErrors { by_start: 0.25, by_mean: by_mean.powi(2), motion: now.powi(2) };
             resolution.add(&missed, 1.0, 0.0, RotationIncrement::Angle);
             assert_eq!(resolution.unresolved_share(), 0.0);
         }

@@ -157,7 +157,7 @@ fn every_form_of_a_function_has_the_same_name() {
 #[test]
 fn related_names_have_help() {
     let names = lookup::names(&language());
-    let related = built_ins().map(|known| (known.name(), known.see));
+    let related = built_ins().map(|known| (known.name(), known.related));
     for (name, see) in related.chain(TOPICS.iter().map(|topic| (topic.name, topic.see))) {
         for other in see {
             assert!(names.contains(other), "{name}: see {other}");

@@ -182,7 +182,7 @@ impl ScriptError {
 }
 
 fn is_about_derivatives(row: &FunctionBinding) -> bool {
-    row.parameters.first().is_some_and(|of| matches!(of.kind, Kind::Anything))
+    row.parameters.first().is_some_and(|of| matches!(of.kind, Kind::Any))
 }
 
 fn families(

@@ -29,9 +29,9 @@ pub struct Sides<'s> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoDerivative {
     /// A corner or jump lies between the variants.
-    Broken,
+    Discontinuous,
     /// A point of infinite slope is too near.
-    Steep,
+    InfiniteSlope,
 }
 
 /// Test for a missing derivative between the arguments of the variants.
@@ -51,11 +51,11 @@ pub fn corner_of(
         let [plus, minus] = [1, 2].map(|beside| in_variant(beside + 2 * number));
         let rough = corner(&Sides { at: &at, plus: &plus, minus: &minus })?;
         Some(match rough {
-            NoDerivative::Broken => format!(
+            NoDerivative::Discontinuous => format!(
                 "'{name}' has a kink or a jump at this value, and no derivative by \
                 '{parameter}'"
             ),
-            NoDerivative::Steep => format!(
+            NoDerivative::InfiniteSlope => format!(
                 "'{name}' is too close to a point where its slope is infinite or undefined, and \
                 has no derivative by '{parameter}'"
             ),
@@ -72,21 +72,21 @@ impl Sides<'_> {
     /// Tests if a quantity of the arguments changes its sign between the sides.
     fn passes_zero(&self, what: impl Fn(&[Dynamic]) -> f64) -> Option<NoDerivative> {
         let [_, plus, minus] = self.each(what);
-        (plus * minus < 0.0).then_some(NoDerivative::Broken)
+        (plus * minus < 0.0).then_some(NoDerivative::Discontinuous)
     }
 
     /// Tests if a quantity of the arguments varies, and is zero or near it.
     fn nears_zero(&self, what: impl Fn(&[Dynamic]) -> f64) -> Option<NoDerivative> {
         let [at, plus, minus] = self.each(what);
         let change = (plus - at).abs().max((minus - at).abs());
-        (change > 0.0 && at.abs() <= NEAR * change).then_some(NoDerivative::Steep)
+        (change > 0.0 && at.abs() <= NEAR * change).then_some(NoDerivative::InfiniteSlope)
     }
 
     /// Tests if a vector made from the arguments varies, and is zero or near it.
     fn nears_origin(&self, what: impl Fn(&[Dynamic]) -> Option<Vec2>) -> Option<NoDerivative> {
         let (at, plus, minus) = (what(self.at)?, what(self.plus)?, what(self.minus)?);
         let change = (plus - at).norm().max((minus - at).norm());
-        (change > 0.0 && at.norm() <= NEAR * change).then_some(NoDerivative::Steep)
+        (change > 0.0 && at.norm() <= NEAR * change).then_some(NoDerivative::InfiniteSlope)
     }
 }
 
@@ -157,7 +157,7 @@ pub fn at_coinciding_points(sides: &Sides) -> Option<NoDerivative> {
 /// At integers, as for `fraction`.
 pub fn at_integers(sides: &Sides) -> Option<NoDerivative> {
     let [_, plus, minus] = sides.each(|given| number(given, 0).trunc());
-    (plus != minus).then_some(NoDerivative::Broken)
+    (plus != minus).then_some(NoDerivative::Discontinuous)
 }
 
 /// At changes of digits, as for `round_to`.
@@ -166,13 +166,13 @@ pub fn at_digit_changes(sides: &Sides) -> Option<NoDerivative> {
         let digits = number(given, 1);
         (number(given, 0) * crate::elementary::power(10.0, digits)).round()
     });
-    (plus != minus).then_some(NoDerivative::Broken)
+    (plus != minus).then_some(NoDerivative::Discontinuous)
 }
 
 /// At multiples of the divisor, for a remainder.
 pub fn at_multiples(sides: &Sides) -> Option<NoDerivative> {
     let [at, plus, minus] = sides.each(|given| (number(given, 0) / number(given, 1)).trunc());
-    (plus != at || minus != at).then_some(NoDerivative::Broken)
+    (plus != at || minus != at).then_some(NoDerivative::Discontinuous)
 }
 
 /// Near zero of the divisor.
@@ -209,7 +209,7 @@ fn selection_changes(sides: &Sides, wins: fn(f64, f64) -> bool) -> Option<NoDeri
     let (one, other) = (chosen(&plus)?, chosen(&minus)?);
     let changes =
         plus.len() == minus.len() && wins(plus[one], plus[other]) && wins(minus[other], minus[one]);
-    changes.then_some(NoDerivative::Broken)
+    changes.then_some(NoDerivative::Discontinuous)
 }
 
 fn number(given: &[Dynamic], at: usize) -> f64 {
@@ -248,14 +248,14 @@ mod tests {
 
     #[test]
     fn corners_lie_where_a_sign_changes() {
-        assert_eq!(about(at_zero, &[0.0], 1e-5), Some(NoDerivative::Broken));
+        assert_eq!(about(at_zero, &[0.0], 1e-5), Some(NoDerivative::Discontinuous));
         assert_eq!(about(at_zero, &[2e-5], 1e-5), None);
-        assert_eq!(about(at_equality, &[2.0, 2.0], 0.1), Some(NoDerivative::Broken));
+        assert_eq!(about(at_equality, &[2.0, 2.0], 0.1), Some(NoDerivative::Discontinuous));
         assert_eq!(about(at_equality, &[2.15, 2.0], 0.1), None);
-        assert_eq!(about(at_integers, &[2.0], 0.1), Some(NoDerivative::Broken));
-        assert_eq!(about(at_multiples, &[4.0, 2.0], 0.1), Some(NoDerivative::Broken));
-        assert_eq!(about(at_digit_changes, &[0.125, 2.0], 1e-6), Some(NoDerivative::Broken));
-        assert_eq!(about(at_branch_cut, &[0.0, -1.0], 1e-5), Some(NoDerivative::Broken));
+        assert_eq!(about(at_integers, &[2.0], 0.1), Some(NoDerivative::Discontinuous));
+        assert_eq!(about(at_multiples, &[4.0, 2.0], 0.1), Some(NoDerivative::Discontinuous));
+        assert_eq!(about(at_digit_changes, &[0.125, 2.0], 1e-6), Some(NoDerivative::Discontinuous));
+        assert_eq!(about(at_branch_cut, &[0.0, -1.0], 1e-5), Some(NoDerivative::Discontinuous));
         assert_eq!(about(at_branch_cut, &[0.0, 1.0], 1e-5), None);
     }
 
@@ -272,25 +272,25 @@ mod tests {
             (near_ends_of_logarithm, vec![0.0, 10.0]),
         ] {
             let beside = |by: f64| [&[at[0] + by], &at[1..]].concat();
-            assert_eq!(about(corner, &at, 1e-5), Some(NoDerivative::Steep));
-            assert_eq!(about(corner, &beside(2e-3), 1e-5), Some(NoDerivative::Steep));
+            assert_eq!(about(corner, &at, 1e-5), Some(NoDerivative::InfiniteSlope));
+            assert_eq!(about(corner, &beside(2e-3), 1e-5), Some(NoDerivative::InfiniteSlope));
             assert_eq!(about(corner, &beside(0.1), 1e-5), None, "{at:?}");
             assert_eq!(about(corner, &at, 0.0), None, "what does not change has a derivative");
         }
         assert_eq!(about(near_zero_base, &[0.0, 2.0], 1e-5), None);
         let sides = [of(&[1.0, 0.0]), of(&[1.0, 1e-5]), of(&[1.0, -1e-5])];
-        assert_eq!(asked(near_zero_divisor, sides), Some(NoDerivative::Steep));
+        assert_eq!(asked(near_zero_divisor, sides), Some(NoDerivative::InfiniteSlope));
     }
 
     #[test]
     fn the_largest_of_an_array_changes_where_another_overtakes() {
         let sides = |one: &[f64], other: &[f64]| [array(one), array(one), array(other)];
         let overtaken = sides(&[1.0, 2.1, 2.0], &[1.0, 1.9, 2.0]);
-        assert_eq!(asked(at_largest_change, overtaken), Some(NoDerivative::Broken));
+        assert_eq!(asked(at_largest_change, overtaken), Some(NoDerivative::Discontinuous));
         let together = sides(&[1.0, 2.1, 2.1], &[1.0, 1.9, 1.9]);
         assert_eq!(asked(at_largest_change, together), None);
         let fallen = sides(&[1.1, 1.0], &[0.9, 1.0]);
-        assert_eq!(asked(at_smallest_change, fallen), Some(NoDerivative::Broken));
+        assert_eq!(asked(at_smallest_change, fallen), Some(NoDerivative::Discontinuous));
         assert_eq!(asked(at_smallest_change, sides(&[], &[])), None);
     }
 }

@@ -209,7 +209,7 @@ impl SimulationHandle {
 
     fn role_of(&self, controller: &Controller) -> String {
         let simulation = self.simulation();
-        let is_own = |schedule: &Schedule| matches!(schedule, Schedule::Sampled(value) | Schedule::Clocked { value, .. } if Rc::ptr_eq(value, &controller.value));
+        let is_own = |schedule: &Schedule| matches!(schedule, Schedule::Sampled(value) | Schedule::DigitalController { value, .. } if Rc::ptr_eq(value, &controller.value));
         let scene = simulation.scene();
         let told = scene.schedules().find(|(_, schedule)| is_own(schedule));
         match told {

@@ -15,7 +15,7 @@ pub enum Visited {
     All,
     /// The repeated run differs, first at this time, because a script function changed the simulation during the run or its initial state
     /// differs from the scene.
-    Another(f64),
+    Diverged(f64),
 }
 
 impl SimulationHandle {
@@ -69,7 +69,7 @@ impl SimulationHandle {
             for (index, time) in times.iter().enumerate() {
                 let row = rows.partition_point(|row| row <= time).saturating_sub(1);
                 if !revisit.run_again(row, context)? {
-                    return Ok(Visited::Another(*time));
+                    return Ok(Visited::Diverged(*time));
                 }
                 look(index, &self.simulation())?;
             }

@@ -90,10 +90,10 @@ fn optional_arguments_are_declared_in_turn() {
 #[test]
 fn what_is_given_back_has_a_type() {
     for (kind, of) in [
-        (ValueKind::Whole, "whole_number"),
+        (ValueKind::Integer, "whole_number"),
         (ValueKind::Array(&ValueKind::Number), "array"),
         (ValueKind::OneOf(&[ValueKind::Character, ValueKind::Nothing]), "?"),
-        (ValueKind::Truth, "truth_value"),
+        (ValueKind::Boolean, "truth_value"),
         (ValueKind::Nothing, "()"),
     ] {
         assert_eq!(for_value(&kind), of);

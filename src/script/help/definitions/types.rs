@@ -39,7 +39,7 @@ pub fn identifier(words: &str) -> String {
 pub fn for_kind(kind: &Kind) -> String {
     match kind {
         Kind::Number(_) | Kind::Numeric => "number".into(),
-        Kind::Whole(_) => "whole_number".into(),
+        Kind::Integer(_) => "whole_number".into(),
         Kind::Text | Kind::Name | Kind::Choice(_) => "text".into(),
         Kind::Boolean => "truth_value".into(),
         Kind::Point => "point".into(),
@@ -52,7 +52,7 @@ pub fn for_kind(kind: &Kind) -> String {
             types.dedup();
             types.join(" | ")
         }
-        Kind::Anything => "?".into(),
+        Kind::Any => "?".into(),
     }
 }
 

@@ -49,7 +49,7 @@ pub enum HelpStyle {
     /// Heading or name: bold.
     Name,
     /// Dimension or remark: dim.
-    Aside,
+    Remark,
 }
 
 impl StyledText {
@@ -65,7 +65,7 @@ impl StyledText {
 
     /// Dimension or remark.
     pub fn remark(text: impl Into<String>) -> Self {
-        Self { style: HelpStyle::Aside, text: text.into() }
+        Self { style: HelpStyle::Remark, text: text.into() }
     }
 }
 
@@ -107,7 +107,7 @@ impl HelpPage {
         self.draw(width, |style, word| match style {
             HelpStyle::Plain => word.to_owned(),
             HelpStyle::Name => format!("\u{1b}[1m{word}\u{1b}[0m"),
-            HelpStyle::Aside => format!("\u{1b}[2m{word}\u{1b}[0m"),
+            HelpStyle::Remark => format!("\u{1b}[2m{word}\u{1b}[0m"),
         })
     }
 

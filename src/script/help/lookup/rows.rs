@@ -39,7 +39,7 @@ pub fn built_in(page: &mut HelpPage, built_in: &BuiltIn) {
         page.paragraph(built_in.doc);
     }
     example(page, "", built_in.example);
-    see(page, built_in.see);
+    see(page, built_in.related);
 }
 
 pub fn example(page: &mut HelpPage, setup: &str, script: &str) {
@@ -88,7 +88,7 @@ pub fn presence(presence: Presence) -> String {
         Presence::Required => String::new(),
         Presence::Optional => "; optional".to_owned(),
         Presence::Number(default) => format!("; default: {default}"),
-        Presence::Whole(default) => format!("; default: {default}"),
+        Presence::Integer(default) => format!("; default: {default}"),
         Presence::Text(default) => format!("; default: \"{default}\""),
         Presence::Boolean(default) => format!("; default: {default}"),
     }

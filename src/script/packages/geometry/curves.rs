@@ -105,7 +105,7 @@ pub const TABLE: BindingTable = BindingTable {
             .summary("Returns the point at ξ.")
             .example("check(line([0, 8], [6, 0]).at(0.5) == [3, 4]);")
             .with_related(&["derivative", "parameter"]),
-        method(CURVE, "derivative", &[XI, ORDER.or(Presence::Whole(1))], derivative)
+        method(CURVE, "derivative", &[XI, ORDER.or(Presence::Integer(1))], derivative)
             .returns(Returns::object(VECTOR))
             .summary("Returns the derivative by ξ of first or given order; at knots from the right.")
             .example("let c = line([0, 8], [6, 0]);\ncheck(c.derivative(0.5) == [6, -8]);\ncheck(c.derivative(0.5, 2) == [0, 0]);")

@@ -77,7 +77,7 @@ pub const TABLE: BindingTable = BindingTable {
             .doc("A straight line with control points at these places has uniform speed; they \
                 are suitable interpolation points.")
             .example("check(knots(#{ spans: 2, degree: 2 }).greville == [0, 0.25, 0.75, 1]);"),
-        method(KNOTS, "basis", &[XI, ORDER.or(Presence::Whole(0))], |call| all_functions(&basis(call)?, call))
+        method(KNOTS, "basis", &[XI, ORDER.or(Presence::Integer(0))], |call| all_functions(&basis(call)?, call))
             .returns(Returns::NUMBERS.with_remark(", one for each function"))
             .summary("Returns the values of all basis functions at ξ, or their derivatives of the \
                 given order.")
@@ -121,11 +121,11 @@ const DEGREE: Parameter =
 const VALUES: Parameter = parameter::numbers("values")
     .doc("knots in ascending order, the first and the last degree + 1 times");
 const SPANS: NumberRange = NumberRange::Between(1.0, MAX_SPANS as f64);
-const UNIFORM: Parameter =
-    either("spans", &[Kind::Whole(SPANS), Kind::Options(KEYS)]).doc("number of spans, or options");
+const UNIFORM: Parameter = either("spans", &[Kind::Integer(SPANS), Kind::Options(KEYS)])
+    .doc("number of spans, or options");
 const KEYS: &[Parameter] = &[
     integer("spans").between(1.0, MAX_SPANS as f64).doc("number of equal spans"),
-    DEGREE.or(Presence::Whole(3)),
+    DEGREE.or(Presence::Integer(3)),
     integer("continuity")
         .non_negative()
         .doc("continuous derivatives at interior knots; default: degree - 1")

@@ -134,9 +134,9 @@ fn inside(call: &Call, options: &Options) -> Result<SectionForceProfile, ScriptE
         inside.title = title.to_string();
     }
     Ok(match symbols(options) {
-        Visibility::No => inside.hide_symbols(),
+        Visibility::None => inside.hide_symbols(),
         Visibility::Yes => inside,
-        Visibility::WhereThereIsRoom => inside.with_uncrowded_symbols(),
+        Visibility::IfFew => inside.with_uncrowded_symbols(),
     })
 }
 

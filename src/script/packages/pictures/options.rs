@@ -68,9 +68,9 @@ impl OptionError {
 /// Value of the option for symbols.
 pub fn symbols(options: &Options) -> Visibility {
     match options.boolean("symbols") {
-        Ok(false) => Visibility::No,
+        Ok(false) => Visibility::None,
         Ok(true) => Visibility::Yes,
-        Err(_) => Visibility::WhereThereIsRoom,
+        Err(_) => Visibility::IfFew,
     }
 }
 
@@ -123,7 +123,7 @@ pub fn with_options(options: &Options, mut chart: LineChart) -> Result<LineChart
 /// Applies the marker options to a curve.
 pub fn marked(options: &Options, index: usize, series: Series) -> Series {
     match options.text("markers").as_deref() {
-        Ok("alone") => series.stroke(Stroke::Unjoined).marker(Marker::of_index(index)),
+        Ok("alone") => series.stroke(Stroke::MarkersOnly).marker(Marker::of_index(index)),
         Ok(_) => series.stroke(Stroke::Marked).marker(Marker::of_index(index)),
         Err(_) => series,
     }

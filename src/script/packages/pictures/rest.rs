@@ -57,7 +57,7 @@ pub const TABLE: BindingTable = BindingTable {
 const REST: Parameter = object("equilibrium", EQUILIBRIUM);
 const STATIONS: Parameter = array("stations").doc("stations, such as [rod.end]");
 const SHAPES: &[Parameter] = &[
-    integer("shapes").positive().or(Presence::Whole(20)).doc("largest number of configurations"),
+    integer("shapes").positive().or(Presence::Integer(20)).doc("largest number of configurations"),
     array("trace").doc("stations whose paths are plotted").optional(),
     text("title").doc("title; default: the name of the scene").optional(),
 ];
@@ -66,7 +66,7 @@ const MODE_SHAPES: &[Parameter] = &[
         .positive()
         .or(Presence::Number(0.1))
         .doc("largest displacement, relative to the size of the scene"),
-    integer("columns").positive().or(Presence::Whole(2)).doc("number of columns of pictures"),
+    integer("columns").positive().or(Presence::Integer(2)).doc("number of columns of pictures"),
 ];
 
 fn plot_equilibrium(call: &mut Call) -> Result<Dynamic, ScriptError> {

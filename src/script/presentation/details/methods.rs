@@ -16,7 +16,8 @@ pub fn of_integrator(method: &Method) -> Details {
     let order = line("order", claims.order.to_string());
     let kept = claims.conserved_quantities().collect::<Vec<_>>().join(", ");
     let keeps = Some(kept).filter(|kept| !kept.is_empty());
-    let damps = (claims.energy == EnergyClaim::Decays).then(|| line("energy", "never grows"));
+    let damps =
+        (claims.energy == EnergyClaim::NonIncreasing).then(|| line("energy", "never grows"));
     let parameter = entry.parameter.zip(method.parameter()).map(|(of, value)| {
         line(of.name, format!("{} ({}): {}", number(value), of.range(), of.meaning))
     });

@@ -143,13 +143,13 @@ pub fn of_track(scene: &Scene, index: usize) -> Details {
             TrackDirection::Backward => format!("{name} (from its end to its start)"),
         }
     };
-    let behind = match track.course {
+    let behind = match track.end {
         TrackEnd::Open => "the track ends",
         TrackEnd::Closed => "continues on the first beam",
     };
     vec![
         line("length", number(scene.track_length(index))),
-        line("along", listed(track.legs.iter().map(leg))),
+        line("along", listed(track.beams.iter().map(leg))),
         line("behind the last beam", behind),
     ]
 }

@@ -14,7 +14,7 @@ struct FieldKind {
 
 enum FieldSource {
     /// Configurations before and after a frame: speed of the axis [length/time].
-    Neighbours,
+    AdjacentFrames,
     /// Configuration of a frame: a function of the axis, and its dimension.
     Axis(fn(&AxisStation, &[Vec2]) -> f64, &'static str),
     State,
@@ -26,7 +26,7 @@ const fn kind(name: &'static str, source: FieldSource) -> FieldKind {
 
 /// All fields, in the order of [`FIELDS`]. Stretch: relative elongation of the axis [-]. Curvature: change since undeformed [1/length].
 const KINDS: [FieldKind; 7] = [
-    kind("speed", FieldSource::Neighbours),
+    kind("speed", FieldSource::AdjacentFrames),
     kind("M", FieldSource::State),
     kind("strain_energy", FieldSource::State),
     kind("N", FieldSource::State),
@@ -105,7 +105,7 @@ pub(super) fn fields(
         let (unit, values) = match kind.source {
             FieldSource::State => return inside.next(),
             FieldSource::Axis(value, unit) => (unit, along_axes(shown, &stations, value)),
-            FieldSource::Neighbours => {
+            FieldSource::AdjacentFrames => {
                 let speeds = |&index: &usize| speeds(simulation, &stations, index);
                 ("length/time", shown.indices.iter().map(speeds).collect())
             }

@@ -12,7 +12,7 @@ const LONGEST_REASON: usize = 300;
 /// Result of a call.
 pub enum CallOutcome {
     /// Return value.
-    Given(Dynamic),
+    Returned(Dynamic),
     /// The function threw, took too long, or a check failed; with the reason.
     Failed(String),
     /// The script seems to be wrong; with the reason.
@@ -44,7 +44,7 @@ pub fn call<R>(
         context.with_checks(|checks| checks.failed().get(failed).map(|of| of.message.clone()));
     let called = match (told, called) {
         _ if worker.is_stopped() => CallOutcome::Failed(format!("it took more than {wall}")),
-        (Some(told), CallOutcome::Given(_)) => {
+        (Some(told), CallOutcome::Returned(_)) => {
             CallOutcome::Failed(shortened(&format!("a check failed: {told}")))
         }
         (_, called) => called,
@@ -67,7 +67,7 @@ fn called(
     match worker.call(&function.name, arguments) {
         Ok(given) => match function.changed(&captured) {
             Some(name) => CallOutcome::Wrong(changes(name)),
-            None => CallOutcome::Given(given),
+            None => CallOutcome::Returned(given),
         },
         Err(error) => match thrown(&error) {
             Some(reason) => CallOutcome::Failed(shortened(&reason)),

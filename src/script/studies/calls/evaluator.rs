@@ -122,7 +122,7 @@ impl FunctionQuery<'_> {
 
     fn record_result(&self, point: &QueryPoint, called: CallOutcome) -> FunctionResult {
         match called {
-            CallOutcome::Given(given) => self.read(point, &given),
+            CallOutcome::Returned(given) => self.read(point, &given),
             CallOutcome::Failed(reason) => FunctionResult::Failed(reason),
             CallOutcome::Wrong(reason) => FunctionResult::Wrong(reason),
         }
@@ -225,8 +225,8 @@ impl<'w> Evaluator<'w> {
                     context.meter().allows_a_step();
                     answers[number] = Some(result);
                 }
-                WorkerEvent::Nothing => (),
-                WorkerEvent::Nobody => return Err(ScriptError::new("no worker has begun")),
+                WorkerEvent::Timeout => (),
+                WorkerEvent::NoWorkers => return Err(ScriptError::new("no worker has begun")),
             }
             context.proceed()?;
         }

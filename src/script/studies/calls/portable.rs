@@ -19,9 +19,9 @@ pub enum Portable {
     /// Unit, `()`.
     Nothing,
     /// A boolean.
-    Truth(bool),
+    Boolean(bool),
     /// An integer.
-    Whole(INT),
+    Integer(INT),
     /// A number.
     Number(f64),
     /// A character.
@@ -84,10 +84,10 @@ impl Portable {
             return Ok(Self::Nothing);
         }
         if let Ok(truth) = value.as_bool() {
-            return Ok(Self::Truth(truth));
+            return Ok(Self::Boolean(truth));
         }
         if let Ok(whole) = value.as_int() {
-            return Ok(Self::Whole(whole));
+            return Ok(Self::Integer(whole));
         }
         if let Ok(number) = value.as_float() {
             return Ok(Self::Number(number));
@@ -128,8 +128,8 @@ impl Portable {
         };
         Some(match self {
             Self::Nothing => Dynamic::UNIT,
-            Self::Truth(truth) => (*truth).into(),
-            Self::Whole(whole) => (*whole).into(),
+            Self::Boolean(truth) => (*truth).into(),
+            Self::Integer(whole) => (*whole).into(),
             Self::Number(number) => (*number).into(),
             Self::Character(letter) => (*letter).into(),
             Self::Text(text) => ImmutableString::from(text).into(),
@@ -155,8 +155,8 @@ impl Portable {
         let value = value.flatten_clone();
         match self {
             Self::Nothing => value.is_unit(),
-            Self::Truth(truth) => value.as_bool() == Ok(*truth),
-            Self::Whole(whole) => value.as_int() == Ok(*whole),
+            Self::Boolean(truth) => value.as_bool() == Ok(*truth),
+            Self::Integer(whole) => value.as_int() == Ok(*whole),
             Self::Number(number) => value.as_float().is_ok_and(|x| x.to_bits() == number.to_bits()),
             Self::Character(letter) => value.as_char() == Ok(*letter),
             Self::Text(text) => value.as_immutable_string_ref().is_ok_and(|held| *held == **text),
@@ -182,8 +182,8 @@ impl Portable {
     /// Number of the value; booleans count as 0 and 1.
     pub fn number(&self) -> Option<f64> {
         match self {
-            Self::Truth(truth) => Some(f64::from(u8::from(*truth))),
-            Self::Whole(whole) => Some(*whole as f64),
+            Self::Boolean(truth) => Some(f64::from(u8::from(*truth))),
+            Self::Integer(whole) => Some(*whole as f64),
             Self::Number(number) => Some(*number),
             _ => None,
         }

@@ -292,7 +292,8 @@ impl DesignRequest<'_> {
             is_settled: found.is_settled,
             runaway: found.runaway,
             runs: found.runs,
-            derivatives: match (self.derivatives, found.without, found.gradient_runs) {
+            derivatives: match (self.derivatives, found.derivative_free_reason, found.gradient_runs)
+            {
                 (Derivatives::Unknown, ..) => "none".into(),
                 (_, None, _) => "those of the runs".into(),
                 (_, Some(reason), 0) => format!("none: {reason}"),

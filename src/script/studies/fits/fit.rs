@@ -278,7 +278,7 @@ impl Fit {
     pub fn outcome(&self) -> &'static str {
         match self.fitted.settling {
             TerminationReason::Settled => "settled",
-            TerminationReason::Stuck => {
+            TerminationReason::Stalled => {
                 "no step improves the fit, although the derivatives predict it"
             }
             TerminationReason::Unfinished => "not settled after the most steps",
@@ -339,7 +339,7 @@ impl Fit {
         let over = |values: &[f64]| places.iter().copied().zip(values.iter().copied()).collect();
         let residuals = LineChart::new("").y_label("residual").series(
             Series::new("", over(&self.residuals))
-                .stroke(Stroke::Unjoined)
+                .stroke(Stroke::MarkersOnly)
                 .marker(Marker::Ring)
                 .thin(),
         );
@@ -351,7 +351,7 @@ impl Fit {
                     measured.iter().zip(&self.residuals).map(|(m, r)| m + r).collect();
                 let chart = LineChart::new("").series(Series::new("fitted", over(&fitted))).series(
                     Series::new("measured", over(measured))
-                        .stroke(Stroke::Unjoined)
+                        .stroke(Stroke::MarkersOnly)
                         .marker(Marker::Ring)
                         .thin(),
                 );

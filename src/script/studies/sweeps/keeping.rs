@@ -34,8 +34,8 @@ impl SweepRequest<'_> {
             return Ok(None);
         }
         let (file, lasting) = match wishes.part {
-            Some(part) => (part.file(&self.name), JournalLifetime::Longer),
-            None => (format!("{}.journal", self.name), JournalLifetime::UntilTheEnd),
+            Some(part) => (part.file(&self.name), JournalLifetime::Persistent),
+            None => (format!("{}.journal", self.name), JournalLifetime::Run),
         };
         let path = context.output().path_of(&file)?;
         let about = about(wishes.part.unwrap_or(StudyPart::WHOLE));

@@ -113,7 +113,7 @@ impl Picture<'_> {
                 let told =
                     format!("{} of {} points, selected at random", shown.len(), points.len());
                 let series =
-                    Series::new("", shown).stroke(Stroke::Unjoined).marker(Marker::Ring).thin();
+                    Series::new("", shown).stroke(Stroke::MarkersOnly).marker(Marker::Ring).thin();
                 let chart = empty.series(series);
                 if points.len() > MOST_POINTS { chart.caption(told) } else { chart }
             }
@@ -246,7 +246,7 @@ impl Picture<'_> {
         let columns = self.column(x_name).zip(self.column(y_name));
         let points =
             rows.iter().filter_map(|row| columns.map(|(x, y)| (x.number(*row), y.number(*row))));
-        let series = Series::new("", points.collect()).stroke(Stroke::Unjoined).thin();
+        let series = Series::new("", points.collect()).stroke(Stroke::MarkersOnly).thin();
         LineChart::new("").x_label(x_name).y_label(y_name).series(series)
     }
 

@@ -11,7 +11,7 @@ use crate::script::studies::calls::calling::CallOutcome;
 #[derive(Clone, Debug)]
 pub enum RowOutcome {
     /// Names and numbers of the returned map.
-    Found(Arc<[String]>, Vec<f64>),
+    Computed(Arc<[String]>, Vec<f64>),
     /// The function threw, or returned something that is not a number; with the reason.
     Failed(String),
     /// The script seems to be wrong; with the reason.
@@ -22,7 +22,7 @@ impl RowOutcome {
     /// Converts the result of a call.
     pub fn of(called: CallOutcome) -> Self {
         match called {
-            CallOutcome::Given(given) => found(&given),
+            CallOutcome::Returned(given) => found(&given),
             CallOutcome::Failed(reason) => Self::Failed(reason),
             CallOutcome::Wrong(reason) => Self::Wrong(reason),
         }
@@ -55,5 +55,5 @@ pub fn found(given: &Dynamic) -> RowOutcome {
             }
         }
     }
-    RowOutcome::Found(map.keys().map(ToString::to_string).collect(), numbers)
+    RowOutcome::Computed(map.keys().map(ToString::to_string).collect(), numbers)
 }

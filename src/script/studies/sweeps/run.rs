@@ -129,7 +129,7 @@ impl SweepRequest<'_> {
             }
             let of = match context.without_output_or_files(NO_FILES, || self.invoked(call, row)) {
                 Ok(given) => found(&given),
-                Err(error @ (ScriptError::Stopped(_) | ScriptError::Bug(_))) => {
+                Err(error @ (ScriptError::Stopped(_) | ScriptError::Internal(_))) => {
                     return Err(SweepError::Other(error));
                 }
                 Err(ScriptError::Engine(error)) if context.is_stopped() => {
@@ -220,8 +220,8 @@ fn drive(
                 }
                 rows.by_ref().take(1).for_each(|row| crew.submit(row, row));
             }
-            WorkerEvent::Nothing => sync_periodically(keeper).map_err(SweepError::Other)?,
-            WorkerEvent::Nobody => break,
+            WorkerEvent::Timeout => sync_periodically(keeper).map_err(SweepError::Other)?,
+            WorkerEvent::NoWorkers => break,
         }
         let has_steps = ledger.done == ledger.rows || context.meter().allows_a_step();
         if !has_steps || context.stopped_by().is_some() {

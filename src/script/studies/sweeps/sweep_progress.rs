@@ -76,7 +76,7 @@ impl SweepProgress {
                     self.results.begin(names, self.rows);
                 }
             }
-            RowEntry::Found(row, values) => {
+            RowEntry::Computed(row, values) => {
                 let fits = values.len() == self.results.names.len();
                 if let Some(row) = usize::try_from(row).ok().filter(|_| fits)
                     && self.restore_row(row)
@@ -103,7 +103,7 @@ impl SweepProgress {
     ) -> Result<Vec<RowEntry>, SweepError> {
         let number = at as u64;
         match row {
-            RowOutcome::Found(names, values) => {
+            RowOutcome::Computed(names, values) => {
                 let mut entries = Vec::new();
                 if self.model.is_none() {
                     self.model = Some(at);
@@ -115,7 +115,7 @@ impl SweepProgress {
                 }
                 self.restore_row(at);
                 self.results.find(at, &values);
-                entries.push(RowEntry::Found(number, values));
+                entries.push(RowEntry::Computed(number, values));
                 Ok(entries)
             }
             // Before the first completed row, the function may be wrong for all rows.

@@ -35,7 +35,7 @@ impl Elongation {
 
     /// Gathers the movements of the terminals from values of the unknowns. Supported degrees of freedom do not move.
     pub(super) fn gather(&mut self, values: &[f64]) {
-        combine(&self.shares, values, &mut self.moved);
+        combine(&self.shares, values, &mut self.movements);
     }
 
     /// Product of a slope and a correction of the increments: a first-order change of `q` [length, rad].

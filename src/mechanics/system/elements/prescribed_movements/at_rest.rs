@@ -16,7 +16,7 @@ impl PrescribedMovements {
     /// Name of the drive whose function has no finite value, and the reason.
     pub fn evaluate_after(&mut self, time: f64) -> Result<(), (String, LoadError)> {
         for (movement, present) in self.movements.iter().zip(&mut self.present) {
-            if let PrescribedMotion::Place(schedule) = &movement.motion {
+            if let PrescribedMotion::Position(schedule) = &movement.motion {
                 present.goal = schedule
                     .value(time, LimitSide::After)
                     .map_err(|error| (self.drives[movement.drive].name.clone(), error))?;
@@ -28,7 +28,7 @@ impl PrescribedMovements {
     /// First drive whose position under a fraction of the load differs from its function just after a time: its name and both positions.
     pub fn first_displaced_drive(&self, load_factor: f64, time: f64) -> Option<(&str, [f64; 2])> {
         self.movements.iter().zip(&self.present).find_map(|(movement, present)| {
-            let PrescribedMotion::Place(schedule) = &movement.motion else { return None };
+            let PrescribedMotion::Position(schedule) = &movement.motion else { return None };
             // Functions without a value are rejected earlier, while the scene is built or the position is applied.
             let (rests, wanted) =
                 (load_factor * present.goal, schedule.value(time, LimitSide::After).ok()?);

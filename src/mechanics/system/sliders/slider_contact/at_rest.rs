@@ -52,14 +52,14 @@ impl SliderContact {
         unknowns: &[f64],
     ) -> Contact<'_> {
         let unknowns = self.read(unknowns);
-        let place = self.parameter + unknowns.way;
-        self.passage.set_interval(place, place);
+        let place = self.parameter + unknowns.increment;
+        self.path.set_interval(place, place);
         self.contact(bodies, movements, unknowns)
     }
 
     fn distance_to_stop(&self) -> Option<f64> {
         match self.state {
-            SliderState::Held(end) => Some(self.rail.end(end) - self.parameter),
+            SliderState::Held(end) => Some(self.master.end(end) - self.parameter),
             SliderState::Sliding | SliderState::Released => None,
         }
     }
@@ -72,7 +72,7 @@ impl SliderContact {
     ) -> [Equation; CONTACT_UNKNOWNS] {
         match (state, way) {
             (SliderState::Released, _) => Released.equations(contact),
-            (_, Some(way)) => AtStop { way }.equations(contact),
+            (_, Some(way)) => AtStop { increment: way }.equations(contact),
             (_, None) => Resting.equations(contact),
         }
     }
@@ -89,16 +89,16 @@ impl SliderContact {
         let contact = self.evaluate_static(bodies, movements, unknowns);
         let (push, force) = (contact.outward_push(end.outward()), contact.unknowns.force);
         let push_beyond = self.seam_push(bodies, movements, force);
-        self.leaves_beyond = self.is_pulled_across([push, push_beyond], force.norm());
-        self.leaves_beyond || is_tensile(push, force.norm(), self.length)
+        self.crosses_seam = self.is_pulled_across([push, push_beyond], force.norm());
+        self.crosses_seam || is_tensile(push, force.norm(), self.length)
     }
 
     /// Accepts the position after a movement between two equilibria. The bodies have been moved already.
     pub fn accept_static_position(&mut self, unknowns: &[f64]) {
         let found = self.read(unknowns);
-        let place = self.distance_to_stop().map_or(found.way, |way| way);
+        let place = self.distance_to_stop().map_or(found.increment, |way| way);
         self.set_parameter(self.parameter + place);
-        self.unknowns = ContactUnknowns { way: 0.0, ..found };
+        self.unknowns = ContactUnknowns { increment: 0.0, ..found };
         self.kinked_axis.iter_mut().for_each(|axis| axis.set_static_kink(found.force));
     }
 
@@ -114,7 +114,7 @@ impl SliderContact {
     pub fn static_coupling(&self, bodies: &[Body], own: usize) -> Vec<usize> {
         let (body, point) = self.connection.slave;
         let [x, y, _] = bodies[body].degrees_of_freedom[point];
-        let window = self.here.first()..self.here.first() + self.here.end().len();
+        let window = self.start_path.first()..self.start_path.first() + self.start_path.end().len();
         let of_master = &bodies[self.connection.master].degrees_of_freedom[window];
         let of_master = of_master.iter().flat_map(|[x, y, _]| [*x, *y]);
         [x, y].into_iter().chain(of_master).chain([own]).collect()
@@ -161,12 +161,12 @@ impl SliderContact {
             [row_x, row_y].into_iter().zip([(0, tangent.x), (1, tangent.y)])
         {
             row[axis] = 1.0;
-            for (at, value) in self.here.end().iter().enumerate() {
+            for (at, value) in self.start_path.end().iter().enumerate() {
                 row[2 + 2 * at + axis] = -value;
             }
             row[last] = -component;
         }
-        for (at, slope) in self.here.slope().iter().enumerate() {
+        for (at, slope) in self.start_path.slope().iter().enumerate() {
             (twist[2 + 2 * at], twist[3 + 2 * at]) = (-slope * force.x, -slope * force.y);
         }
         twist[last] = -0.5 * (force.dot(&self.bend(bodies)) + bend);
@@ -178,7 +178,7 @@ impl SliderContact {
             stiffness: vec![stiffness; 2],
             kinds: Vec::new(),
             twists: twist,
-            doubts: vec![0.0],
+            rounding_fractions: vec![0.0],
         };
         take(&degrees, &span);
     }

@@ -8,23 +8,23 @@ use crate::system::sliders::{Connection, KinkedAxis, MasterEnd, SliderState};
 impl SliderContact {
     /// Control points of the master with their basis functions at the slider.
     fn weights(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
-        (self.here.first()..).zip(self.here.end().iter().copied())
+        (self.start_path.first()..).zip(self.start_path.end().iter().copied())
     }
 
     /// Derivative of the place on the master with respect to the parameter, `Σ B_i'(ξ) x_i` [length].
     pub(super) fn tangent(&self, bodies: &[Body]) -> Vec2 {
-        slope_of(self.here.slope(), self.window(bodies))
+        slope_of(self.start_path.slope(), self.window(bodies))
     }
 
     /// Second derivative of the place on the master with respect to the parameter, `Σ B_i''(ξ) x_i` [length].
     pub(super) fn bend(&self, bodies: &[Body]) -> Vec2 {
         // For a path of length zero, the derivative of divided differences is half the second derivative.
-        slope_of(self.here.change(), self.window(bodies)) * 2.0
+        slope_of(self.start_path.change(), self.window(bodies)) * 2.0
     }
 
     /// Control points of the master from the first nonzero basis function at the slider.
     fn window<'a>(&self, bodies: &'a [Body]) -> &'a [Vec2] {
-        &bodies[self.connection.master].dynamics.control_points()[self.here.first()..]
+        &bodies[self.connection.master].dynamics.control_points()[self.start_path.first()..]
     }
 
     /// Unit tangent of the master at the slider [-].
@@ -61,8 +61,8 @@ impl SliderContact {
 
     /// Adds `Gᵀ P` for an impulse `P`, or a force, of the contact to `out`: on the slave, and its opposite on the master.
     pub fn transmit(&self, bodies: &[Body], impulse: Vec2, out: &mut [f64]) {
-        let on_master = self.here.end().iter().map(|weight| impulse * -*weight);
-        self.connection.add_forces(bodies, impulse, self.here.first(), on_master, out);
+        let on_master = self.start_path.end().iter().map(|weight| impulse * -*weight);
+        self.connection.add_forces(bodies, impulse, self.start_path.first(), on_master, out);
     }
 
     /// Vector from the slave to its place on the master [length].
@@ -96,7 +96,9 @@ impl SliderContact {
         let rate = self.rate(bodies, rates);
         let master = &bodies[self.connection.master];
         let points = master.dynamics.control_points();
-        let Ok(values) = self.here.basis().evaluate(self.parameter) else { return Vec2::zeros() };
+        let Ok(values) = self.start_path.basis().evaluate(self.parameter) else {
+            return Vec2::zeros();
+        };
         let turning = values.slopes().iter().zip(values.first..);
         let turning: Vec2 = turning.map(|(by, at)| master.vector_at(at, rates) * *by).sum();
         turning * (2.0 * rate) + values.combine(2, points) * (rate * rate)
@@ -119,12 +121,12 @@ impl SliderContact {
     fn rate_on_kinked_axis(&self, axis: &KinkedAxis, bodies: &[Body], rates: &[f64]) -> f64 {
         let (offset, (slope, bend)) = (axis.offset(), axis.slopes());
         let (points, master) = (self.window(bodies), &bodies[self.connection.master]);
-        let values = self.here.basis().evaluate(self.parameter);
+        let values = self.start_path.basis().evaluate(self.parameter);
         let bent = values
             .map_or(Vec2::zeros(), |values| values.combine(2, master.dynamics.control_points()));
-        let turning = self.here.slope().iter().zip(self.here.first()..);
+        let turning = self.start_path.slope().iter().zip(self.start_path.first()..);
         let turning: Vec2 = turning.map(|(by, at)| master.vector_at(at, rates) * *by).sum();
-        let tangent = slope_of(self.here.slope(), points);
+        let tangent = slope_of(self.start_path.slope(), points);
         let moved = self.relative_velocity(bodies, rates);
         let stretch = tangent.norm_squared() - offset.dot(&bent) - bend;
         (moved.dot(&(tangent + slope)) + offset.dot(&turning)) / stretch

@@ -9,7 +9,7 @@ use crate::system::sliders::{MasterEnd, SliderState, TrackPath};
 impl SliderContact {
     /// Distance of the slider from an end of its master, relative to the parameter range [-].
     pub fn distance_to(&self, end: MasterEnd) -> f64 {
-        self.rail.distance(self.parameter, end)
+        self.master.distance(self.parameter, end)
     }
 
     pub fn is_at(&self, end: MasterEnd) -> bool {
@@ -19,13 +19,13 @@ impl SliderContact {
     /// Position along the master or track as drawn, from 0 at the start to 1 at the end; unwrapped on closed tracks [-].
     pub fn position(&self) -> f64 {
         let part = self.part_of_master();
-        self.route.as_ref().map_or(part, |route| route.arc_length(part) / route.length())
+        self.track.as_ref().map_or(part, |route| route.arc_length(part) / route.length())
     }
 
     /// Distance from the start of the master or track as drawn; unwrapped on closed tracks [length].
     pub fn arc_length(&self) -> f64 {
         let part = self.part_of_master();
-        self.route.as_ref().map_or(part * self.rail.length(), |route| route.arc_length(part))
+        self.track.as_ref().map_or(part * self.master.length(), |route| route.arc_length(part))
     }
 
     fn part_of_master(&self) -> f64 {
@@ -36,12 +36,12 @@ impl SliderContact {
         if self.is_at(MasterEnd::End) {
             return 1.0;
         }
-        self.rail.part_before(self.parameter)
+        self.master.part_before(self.parameter)
     }
 
     /// Speed along the master or track as drawn, positive towards the end [length/time].
     pub fn speed(&self, bodies: &[Body], rates: &[f64]) -> f64 {
-        let along = self.rail.stretch(self.parameter) * self.rate(bodies, rates);
+        let along = self.master.stretch(self.parameter) * self.rate(bodies, rates);
         self.heading().map_or(along, |heading| along * heading.sign())
     }
 
@@ -60,6 +60,6 @@ impl SliderContact {
 
     /// Direction of the track along the master, for a slider on one.
     fn heading(&self) -> Option<TrackDirection> {
-        self.route.as_deref().map(TrackPath::present).map(|leg| leg.heading)
+        self.track.as_deref().map(TrackPath::present).map(|leg| leg.heading)
     }
 }

@@ -14,39 +14,39 @@ impl SliderContact {
     }
 
     pub fn is_valid(&self, numbers: &[f64]) -> bool {
-        let (parameter, rail) = (numbers[0], &self.rail);
-        match (&self.route, numbers.last_chunk::<ROUTE>()) {
+        let (parameter, rail) = (numbers[0], &self.master);
+        match (&self.track, numbers.last_chunk::<ROUTE>()) {
             (Some(route), Some(own)) => {
-                route.stored_segment(*own).is_some_and(|leg| leg.rail.has(parameter))
+                route.stored_segment(*own).is_some_and(|leg| leg.master.has(parameter))
             }
             _ => rail.has(parameter),
         }
     }
 
     pub fn save(&self, numbers: &mut Vec<f64>) {
-        numbers.extend([self.parameter, self.most_spans, self.blows_in_a_step]);
+        numbers.extend([self.parameter, self.most_spans, self.steps_per_impact]);
         numbers.extend(self.unknowns.to_array());
         let kink = self.kinked_axis.as_ref().map_or([0.0; 3], KinkedAxis::numbers);
         numbers.extend(kink);
         numbers.extend([
-            self.stored,
-            self.lost,
-            self.left_at,
+            self.stop_energy,
+            self.lost_energy,
+            self.stop_left_at,
             f64::from(u8::from(self.stop_may_pull)),
         ]);
-        numbers.extend(self.route.iter().flat_map(|route| route.numbers()));
+        numbers.extend(self.track.iter().flat_map(|route| route.numbers()));
     }
 
     pub fn restore(&mut self, state: SliderState, next: &mut dyn FnMut() -> f64) {
         self.state = state;
         let parameter = next();
-        (self.most_spans, self.blows_in_a_step) = (next(), next());
+        (self.most_spans, self.steps_per_impact) = (next(), next());
         self.unknowns = ContactUnknowns::of(std::array::from_fn(|_| next()));
         let kink = std::array::from_fn(|_| next());
         self.kinked_axis.iter_mut().for_each(|axis| axis.restore(kink));
-        (self.stored, self.lost, self.left_at) = (next(), next(), next());
+        (self.stop_energy, self.lost_energy, self.stop_left_at) = (next(), next(), next());
         self.stop_may_pull = next() != 0.0;
-        if let Some(route) = &mut self.route {
+        if let Some(route) = &mut self.track {
             route.restore(std::array::from_fn(|_| next()));
             self.set_master();
         }

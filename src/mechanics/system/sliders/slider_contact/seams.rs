@@ -8,60 +8,61 @@ use crate::system::sliders::{MasterEnd, Seam, SliderState, TrackPath};
 
 impl SliderContact {
     pub fn set_track(&mut self, route: TrackPath) {
-        self.route = Some(Box::new(route));
+        self.track = Some(Box::new(route));
         let functions = self.most_of_masters(Basis::functions);
         self.before.reserve(functions);
-        self.moved.reserve(functions);
+        self.movements.reserve(functions);
     }
 
     pub fn is_on_track(&self) -> bool {
-        self.route.is_some()
+        self.track.is_some()
     }
 
     pub(super) fn most_of_masters(&self, of: impl Fn(&Basis) -> usize) -> usize {
-        let own = of(self.passage.basis());
-        self.route.as_ref().map_or(own, |route| route.bases().map(of).fold(own, usize::max))
+        let own = of(self.path.basis());
+        self.track.as_ref().map_or(own, |route| route.bases().map(of).fold(own, usize::max))
     }
 
     /// Seam beyond an end of the present master, for a slider on a track that continues there.
     pub fn seam(&self, bodies: &[Body], end: MasterEnd) -> Option<Seam> {
-        self.route.as_ref()?.seam(bodies, end)
+        self.track.as_ref()?.seam(bodies, end)
     }
 
     /// Returns true if the slider passed or left a seam at a time. If it is led back at once, it cannot leave.
     pub fn crossed_seam_at(&self, time: f64) -> bool {
-        self.left_at == time || self.route.as_ref().is_some_and(|route| route.passed_at == time)
+        self.stop_left_at == time
+            || self.track.as_ref().is_some_and(|route| route.crossed_at == time)
     }
 
     /// Returns true if the slider is held at a former seam that is now an open end of the track.
     pub(super) fn is_held_at_open_end(&self, bodies: &[Body]) -> bool {
         let SliderState::Held(end) = self.state else { return false };
-        !self.ends.has_stop() && self.route.as_ref().is_some_and(|route| route.is_torn(bodies, end))
+        !self.ends.has_stop() && self.track.as_ref().is_some_and(|route| route.is_torn(bodies, end))
     }
 
     /// Directions in which the slider leaves one side of a seam and enters the other [-].
     pub fn corner(&self, bodies: &[Body], end: MasterEnd, seam: Seam) -> Option<[Vec2; 2]> {
-        let leg = self.route.as_ref()?.segment(seam.leg);
+        let leg = self.track.as_ref()?.segment(seam.segment);
         let inward = -seam.end.outward();
         let beyond = leg.end_tangent(bodies, &[], seam.end).normalize() * inward;
         Some([self.along(bodies) * end.outward(), beyond])
     }
 
     pub fn record_crossing(&mut self, time: f64) {
-        self.route.iter_mut().for_each(|route| route.passed_at = time);
+        self.track.iter_mut().for_each(|route| route.crossed_at = time);
     }
 
     /// Index of the beam on the other side of a seam.
     pub fn beam_beyond(&self, seam: Seam) -> Option<usize> {
-        self.route.as_ref().map(|route| route.segment(seam.leg).beam)
+        self.track.as_ref().map(|route| route.segment(seam.segment).beam)
     }
 
     /// Moves the slider to the other side of a seam at which it is.
     pub fn cross_seam(&mut self, seam: Seam) {
-        let Some(route) = &mut self.route else { return };
+        let Some(route) = &mut self.track else { return };
         route.cross_seam(seam);
         self.set_master();
-        self.set_parameter(self.rail.end(seam.end));
+        self.set_parameter(self.master.end(seam.end));
         self.unknowns = ContactUnknowns { force: self.unknowns.force, ..ContactUnknowns::zeros() };
         if let SliderState::Held(_) = self.state {
             self.state = SliderState::Held(seam.end);
@@ -69,22 +70,22 @@ impl SliderContact {
     }
 
     pub(super) fn set_master(&mut self) {
-        let Some(leg) = self.route.as_deref().map(TrackPath::present) else { return };
+        let Some(leg) = self.track.as_deref().map(TrackPath::present) else { return };
         if leg.beam == self.connection.master {
             return;
         }
         (self.connection.master, self.bars.0) = (leg.beam, leg.bar);
-        (self.rail, self.length) = (leg.rail.clone(), leg.length_of_parameter());
-        (self.passage, self.here) = (leg.passage.clone(), leg.passage.clone());
+        (self.master, self.length) = (leg.master.clone(), leg.length_of_parameter());
+        (self.path, self.start_path) = (leg.path.clone(), leg.path.clone());
     }
 
     /// Force with which a seam keeps the slider from the beam on the other side, times the tangent there, after given increments [force·length]; zero
     /// unless the slider is held at a seam.
     pub(super) fn seam_push(&self, bodies: &[Body], increments: &[f64], force: Vec2) -> f64 {
         let SliderState::Held(end) = self.state else { return 0.0 };
-        let Some(route) = &self.route else { return 0.0 };
+        let Some(route) = &self.track else { return 0.0 };
         route.seam(bodies, end).map_or(0.0, |seam| {
-            let leg = route.segment(seam.leg);
+            let leg = route.segment(seam.segment);
             let tangent = leg.end_tangent(bodies, increments, seam.end);
             // Scaled to the length per unit of parameter of the own side, for comparison.
             let scale = self.length / leg.length_of_parameter();
@@ -101,7 +102,7 @@ impl SliderContact {
     /// Moves a slider that is held at a seam to the other side if it is pulled there.
     pub fn change_sides(&mut self, bodies: &[Body]) {
         let SliderState::Held(end) = self.state else { return };
-        if !std::mem::take(&mut self.leaves_beyond) {
+        if !std::mem::take(&mut self.crosses_seam) {
             return;
         }
         if let Some(seam) = self.seam(bodies, end) {

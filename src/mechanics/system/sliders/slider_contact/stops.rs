@@ -14,8 +14,8 @@ impl SliderContact {
     /// one.
     pub fn book_impact_work(&mut self, work: f64) {
         match self.restitution < 1.0 {
-            true => self.lost -= work,
-            false => self.stored -= work,
+            true => self.lost_energy -= work,
+            false => self.stop_energy -= work,
         }
     }
 
@@ -25,22 +25,22 @@ impl SliderContact {
 
     pub fn leave_stop(&mut self, bodies: &[Body], time: f64) {
         let tangent = self.tangent(bodies);
-        (self.state, self.is_pulled, self.left_at) = (SliderState::Sliding, false, time);
+        (self.state, self.is_pulled, self.stop_left_at) = (SliderState::Sliding, false, time);
         self.kinked_axis.iter_mut().for_each(|axis| axis.remove_stop_force(tangent));
     }
 
     /// Records a tensile stop force at the end of a step; not at the end of a substep.
     pub fn record_tension(&mut self, ending: IntervalEnd) {
         let leans = matches!(self.state, SliderState::Held(_)) && !self.stop_may_pull;
-        let is_drawn_off = self.is_pulled_across([self.push, self.push_beyond], self.pressing);
-        self.leaves_beyond = leans && is_drawn_off;
-        let pulls = is_tensile(self.push, self.pressing, self.length) || is_drawn_off;
-        self.is_pulled = leans && ending == IntervalEnd::OfStep && pulls;
+        let is_drawn_off = self.is_pulled_across([self.push, self.push_beyond], self.contact_force);
+        self.crosses_seam = leans && is_drawn_off;
+        let pulls = is_tensile(self.push, self.contact_force, self.length) || is_drawn_off;
+        self.is_pulled = leans && ending == IntervalEnd::Step && pulls;
     }
 
     /// Records the ratio of step length to impact duration for an impact at an end of the master [-].
     pub fn record_impact_ratio(&mut self, blows_in_a_step: f64) {
-        self.blows_in_a_step = self.blows_in_a_step.max(blows_in_a_step);
+        self.steps_per_impact = self.steps_per_impact.max(blows_in_a_step);
     }
 
     /// Duration of an impact at the end of the master [time].
